@@ -1,0 +1,160 @@
+//! Commands: the only way by which the outside changes a world.
+//!
+//! A command takes effect at a step boundary. The log of stamped commands is the spine of recording, replay,
+//! undo, scene editing and the network protocol.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::action::Action;
+use crate::environment::{Environment, EnvironmentError};
+use crate::geometry::{Pose, Twist};
+use crate::id::EntityId;
+use crate::intent::Intent;
+use crate::scene::{Attachment, EntityDesc, InteractionError, Scene, World, WorldError};
+use crate::value::Value;
+
+/// One change asked of a world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Command {
+    /// Puts a new entity into the world.
+    Spawn(Box<EntityDesc>),
+    /// Puts a removed entity back under its old id.
+    Respawn {
+        /// The old id.
+        id: EntityId,
+        /// What it was.
+        desc: Box<EntityDesc>,
+    },
+    /// Takes an entity out.
+    Remove {
+        /// Which.
+        id: EntityId,
+    },
+    /// Puts an entity elsewhere, at rest.
+    Move {
+        /// Which.
+        id: EntityId,
+        /// Where to.
+        pose: Pose,
+    },
+    /// Sets or, with `None`, removes an attribute.
+    SetAttribute {
+        /// Of which entity.
+        id: EntityId,
+        /// The attribute.
+        key: String,
+        /// Its new value.
+        value: Option<Value>,
+    },
+    /// Hangs an entity on a carrier or, with `None`, frees it.
+    Attach {
+        /// Which.
+        child: EntityId,
+        /// The new bond.
+        bond: Option<Attachment>,
+    },
+    /// Sets sun and weather.
+    SetEnvironment(Environment),
+    /// Tells a body to act.
+    Actuate {
+        /// Which body.
+        who: EntityId,
+        /// What to do.
+        action: Action,
+    },
+    /// Says what a mind wants.
+    Intend {
+        /// Whose mind.
+        who: EntityId,
+        /// What it wants.
+        intent: Intent,
+    },
+}
+
+/// Why a command had no effect; the world is as it was.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CommandError {
+    /// The store refused the change.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The condition is out of range.
+    #[error(transparent)]
+    Environment(#[from] EnvironmentError),
+    /// The action is impossible.
+    #[error(transparent)]
+    Interaction(#[from] InteractionError),
+}
+
+/// What a command did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Applied {
+    /// The entity it made.
+    pub spawned: Option<EntityId>,
+    /// The command that takes it back; actions and intents cannot be taken back.
+    pub undo: Option<Command>,
+}
+
+impl World {
+    /// Carries out a command.
+    ///
+    /// ```
+    /// use simworld_core::command::Command;
+    /// use simworld_core::geometry::Pose;
+    /// use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+    /// let mut world = World::new();
+    /// let car = EntityDesc::new(EntityKind::Car, Pose::identity(), Shape::cuboid(4.5, 1.8, 1.5));
+    /// let done = world.apply(&Command::Spawn(Box::new(car)))?;
+    /// assert_eq!(world.len(), 1);
+    /// world.apply(&done.undo.unwrap())?;
+    /// assert!(world.is_empty());
+    /// # Ok::<(), simworld_core::command::CommandError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The command is impossible; then nothing has changed.
+    pub fn apply(&mut self, command: &Command) -> Result<Applied, CommandError> {
+        let undo = match command {
+            Command::Spawn(desc) => {
+                let id = self.spawn((**desc).clone())?;
+                return Ok(Applied { spawned: Some(id), undo: Some(Command::Remove { id }) });
+            }
+            Command::Respawn { id, desc } => {
+                self.respawn(*id, (**desc).clone())?;
+                return Ok(Applied { spawned: Some(*id), undo: Some(Command::Remove { id: *id }) });
+            }
+            Command::Remove { id } => {
+                let desc = Box::new(self.remove(*id)?);
+                Some(Command::Respawn { id: *id, desc })
+            }
+            Command::Move { id, pose } => {
+                let old = *self.entity(*id).ok_or(WorldError::Missing { id: *id })?.pose;
+                self.set_motion(*id, *pose, Twist::ZERO)?;
+                Some(Command::Move { id: *id, pose: old })
+            }
+            Command::SetAttribute { id, key, value } => {
+                let old = self.set_attribute(*id, key, value.clone())?;
+                Some(Command::SetAttribute { id: *id, key: key.clone(), value: old })
+            }
+            Command::Attach { child, bond } => {
+                let old = self.attach(*child, *bond)?;
+                Some(Command::Attach { child: *child, bond: old })
+            }
+            Command::SetEnvironment(environment) => {
+                Some(Command::SetEnvironment(self.set_environment(*environment)?))
+            }
+            Command::Actuate { who, action } => {
+                self.actuate(*who, action.clone())?;
+                None
+            }
+            Command::Intend { who, intent } => {
+                self.intend(*who, intent.clone())?;
+                None
+            }
+        };
+        Ok(Applied { spawned: None, undo })
+    }
+}

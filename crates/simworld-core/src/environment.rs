@@ -1,0 +1,149 @@
+//! Sun, light and weather, in physical units.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::geometry::{Vector2, Vector3};
+use crate::hash::{StateHash, StateHasher};
+use crate::ops;
+
+/// A condition outside what the model covers.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{field} = {value} is out of range: give {allowed}")]
+pub struct EnvironmentError {
+    /// The field, as a path.
+    pub field: &'static str,
+    /// The refused value.
+    pub value: f64,
+    /// The allowed range, in words.
+    pub allowed: &'static str,
+}
+
+/// Where the sun stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Sun {
+    /// Angle from north, clockwise, radians.
+    pub azimuth: f64,
+    /// Angle above the horizon, radians in [-π/2, π/2]; below zero it is night.
+    pub elevation: f64,
+    /// Illuminance of a surface facing the sun, lux; 100 000 on a clear noon.
+    pub illuminance: f64,
+}
+
+impl Default for Sun {
+    /// A clear mid-morning: south-east, 45° high.
+    fn default() -> Self {
+        Self { azimuth: 2.356, elevation: 0.785, illuminance: 90_000.0 }
+    }
+}
+
+impl Sun {
+    /// The unit vector from the ground towards the sun, world frame.
+    pub fn direction(&self) -> Vector3 {
+        let (sin_az, cos_az) = ops::sin_cos(self.azimuth);
+        let (sin_el, cos_el) = ops::sin_cos(self.elevation);
+        Vector3::new(sin_az * cos_el, cos_az * cos_el, sin_el)
+    }
+}
+
+/// What the air does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Weather {
+    /// Rainfall, mm/h; 2.5 is light, 50 is violent.
+    pub rain: f64,
+    /// Snowfall as water, mm/h.
+    pub snow: f64,
+    /// Meteorological visibility, m: the distance at which contrast falls to 5 % (Koschmieder). 20 000 is clear,
+    /// below 1000 it is fog.
+    pub visibility: f64,
+    /// Share of the sky covered by cloud, in [0, 1].
+    pub cloud_cover: f64,
+    /// Wind velocity in the plane (where it blows to), m/s.
+    pub wind: Vector2,
+    /// Air temperature, °C.
+    pub temperature: f64,
+}
+
+impl Default for Weather {
+    /// Clear, calm and 15 °C.
+    fn default() -> Self {
+        Self {
+            rain: 0.0,
+            snow: 0.0,
+            visibility: 20_000.0,
+            cloud_cover: 0.1,
+            wind: Vector2::zeros(),
+            temperature: 15.0,
+        }
+    }
+}
+
+/// Sun and weather of a world.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Environment {
+    /// Where the sun stands.
+    pub sun: Sun,
+    /// What the air does.
+    pub weather: Weather,
+}
+
+impl Environment {
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    /// The first field out of range, with what is allowed; NaN is always out of range.
+    pub fn validate(&self) -> Result<(), EnvironmentError> {
+        let Self { sun, weather } = self;
+        let half_turn = std::f64::consts::FRAC_PI_2;
+        let checks = [
+            ("sun.azimuth", sun.azimuth, -10.0, 10.0, "an angle within ±10 rad"),
+            ("sun.elevation", sun.elevation, -half_turn, half_turn, "-π/2 to π/2 rad"),
+            ("sun.illuminance", sun.illuminance, 0.0, 200_000.0, "0 to 200 000 lux"),
+            ("weather.rain", weather.rain, 0.0, 500.0, "0 to 500 mm/h"),
+            ("weather.snow", weather.snow, 0.0, 100.0, "0 to 100 mm/h"),
+            ("weather.visibility", weather.visibility, 1.0, 500_000.0, "1 to 500 000 m"),
+            ("weather.cloud_cover", weather.cloud_cover, 0.0, 1.0, "0 to 1"),
+            ("weather.wind.x", weather.wind.x, -120.0, 120.0, "-120 to 120 m/s"),
+            ("weather.wind.y", weather.wind.y, -120.0, 120.0, "-120 to 120 m/s"),
+            ("weather.temperature", weather.temperature, -90.0, 60.0, "-90 to 60 °C"),
+        ];
+        for (field, value, low, high, allowed) in checks {
+            if !(low..=high).contains(&value) {
+                return Err(EnvironmentError { field, value, allowed });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl StateHash for Environment {
+    fn state_hash(&self, hasher: &mut StateHasher) {
+        let Self { sun, weather } = self;
+        hasher.f64(sun.azimuth).f64(sun.elevation).f64(sun.illuminance);
+        hasher.f64(weather.rain).f64(weather.snow).f64(weather.visibility).f64(weather.cloud_cover);
+        hasher.f64(weather.wind.x).f64(weather.wind.y).f64(weather.temperature);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_sun_stands_in_the_south_east() {
+        let towards = Sun::default().direction();
+        assert!(towards.x > 0.4 && towards.y < -0.4 && towards.z > 0.6, "{towards}");
+    }
+
+    #[test]
+    fn no_number_slips_through() {
+        let mut foggy = Environment::default();
+        foggy.weather.visibility = f64::NAN;
+        let error = foggy.validate().unwrap_err();
+        assert_eq!(error.field, "weather.visibility");
+        assert!(Environment::default().validate().is_ok());
+    }
+}

@@ -1,0 +1,183 @@
+//! The road network: one static structure that cities produce and that traffic, pedestrians, planners and
+//! maps read.
+
+use serde::{Deserialize, Serialize};
+
+use super::{SignalGroup, SignalPlan};
+use crate::geometry::Point2;
+use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId};
+
+/// The rank of a road.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RoadClass {
+    /// Serves the houses along it.
+    #[default]
+    Local,
+    /// Collects and crosses the city.
+    Arterial,
+    /// For through traffic.
+    Highway,
+}
+
+/// A road between two intersections.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Road {
+    /// Its rank.
+    pub class: RoadClass,
+    /// Where its centreline begins.
+    pub from: IntersectionId,
+    /// Where its centreline ends.
+    pub to: IntersectionId,
+    /// The centreline from junction centre to junction centre, at least two points, m.
+    pub centerline: Vec<Point2>,
+    /// Width of the carriageway, m.
+    pub width: f64,
+    /// Lanes along the centreline, from the middle outwards.
+    pub forward: Vec<LaneId>,
+    /// Lanes against the centreline, from the middle outwards.
+    pub backward: Vec<LaneId>,
+}
+
+/// A directed strip of road, for one file of vehicles. Traffic keeps right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lane {
+    /// The road it belongs to.
+    pub road: RoadId,
+    /// Its middle, from the line where it leaves an intersection to its stop line, m.
+    pub path: Vec<Point2>,
+    /// Length of the path, m.
+    pub length: f64,
+    /// Width, m.
+    pub width: f64,
+    /// Speed limit, m/s.
+    pub speed_limit: f64,
+    /// The intersection it comes from.
+    pub from: IntersectionId,
+    /// The intersection it leads to.
+    pub to: IntersectionId,
+    /// The ways on from its end; empty only where the network ends.
+    pub outgoing: Vec<ConnectionId>,
+}
+
+/// The direction a connection takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Turn {
+    /// Straight on.
+    Straight,
+    /// To the right.
+    Right,
+    /// To the left, across oncoming traffic.
+    Left,
+    /// Back where one came from; only at dead ends.
+    UTurn,
+}
+
+/// The path from one lane to another across an intersection.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Connection {
+    /// The lane it leaves.
+    pub from: LaneId,
+    /// The lane it enters.
+    pub to: LaneId,
+    /// The intersection it crosses.
+    pub intersection: IntersectionId,
+    /// The direction it takes.
+    pub turn: Turn,
+    /// Its middle, from stop line to exit, m.
+    pub path: Vec<Point2>,
+    /// Length of the path, m.
+    pub length: f64,
+    /// The signal that governs it, if any.
+    pub signal: Option<SignalGroup>,
+    /// Connections whose vehicles could touch one on this path, ascending; never itself.
+    pub conflicts: Vec<ConnectionId>,
+    /// Those of the conflicts to which this one gives way while both may go, ascending.
+    pub yields_to: Vec<ConnectionId>,
+    /// Crossings that the path passes over, ascending.
+    pub crossings: Vec<CrossingId>,
+}
+
+/// Who may go at an intersection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Control {
+    /// Signals say.
+    Signals,
+    /// The right of way says: see [`Connection::yields_to`].
+    Priority,
+    /// Nothing to say: a bend, or the end of a road.
+    None,
+}
+
+/// Where roads meet, or where one ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Intersection {
+    /// The middle, where the centrelines meet, m.
+    pub center: Point2,
+    /// The paved area, counter-clockwise, m.
+    pub outline: Vec<Point2>,
+    /// The roads that meet here, counter-clockwise from east by the direction in which they leave.
+    pub roads: Vec<RoadId>,
+    /// Who may go.
+    pub control: Control,
+    /// The paths across.
+    pub connections: Vec<ConnectionId>,
+    /// The crossings on its legs.
+    pub crossings: Vec<CrossingId>,
+}
+
+/// A raised walkway along one side of a road.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sidewalk {
+    /// The road it follows.
+    pub road: RoadId,
+    /// Its middle, in the direction of the centreline, m.
+    pub path: Vec<Point2>,
+    /// Width, m.
+    pub width: f64,
+}
+
+/// A marked strip on which pedestrians cross one leg of an intersection.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Crossing {
+    /// The intersection it belongs to.
+    pub intersection: IntersectionId,
+    /// The road it crosses.
+    pub road: RoadId,
+    /// Kerb on the left of the leg, seen from the intersection, m.
+    pub start: Point2,
+    /// Kerb on the right, m.
+    pub end: Point2,
+    /// Width of the strip, m.
+    pub width: f64,
+    /// The pedestrian signal, if any.
+    pub signal: Option<SignalGroup>,
+}
+
+/// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RoadNetwork {
+    /// Indexed by [`RoadId`].
+    pub roads: Vec<Road>,
+    /// Indexed by [`LaneId`].
+    pub lanes: Vec<Lane>,
+    /// Indexed by [`ConnectionId`].
+    pub connections: Vec<Connection>,
+    /// Indexed by [`IntersectionId`].
+    pub intersections: Vec<Intersection>,
+    /// Two a road, where it has any.
+    pub sidewalks: Vec<Sidewalk>,
+    /// Indexed by [`CrossingId`].
+    pub crossings: Vec<Crossing>,
+    /// One a signalised intersection.
+    pub signals: Vec<SignalPlan>,
+}
+
+impl RoadNetwork {
+    /// The number of signal groups, the length of [`Scene::signals`](crate::scene::Scene::signals).
+    pub fn signal_groups(&self) -> usize {
+        self.signals.iter().map(|plan| plan.groups.len()).sum()
+    }
+}

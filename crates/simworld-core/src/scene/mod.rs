@@ -1,0 +1,218 @@
+//! What is where: the [`Scene`] seam, the [`World`] store that implements it, and the entities in it.
+
+mod entity;
+mod interaction;
+mod kind;
+pub(crate) mod quadtree;
+mod ray;
+mod relation;
+mod shape;
+mod world;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, Role};
+pub use interaction::{ARM_REACH, InteractionError};
+pub use kind::{EntityKind, Place};
+pub use relation::Relation;
+pub use shape::{Shape, ShapeError};
+pub use world::{World, WorldError, WorldSnapshot};
+
+use crate::clock::Clock;
+use crate::environment::Environment;
+use crate::geometry::{Aabb, Point2, Ray, Vector3};
+use crate::id::EntityId;
+use crate::net::{Aspect, RoadNetwork};
+
+/// What is where: the seam through which observers, planners, executors and tasks read a world.
+///
+/// A reader sees the frozen state of the last finished step.
+///
+/// # Implementing it
+///
+/// Three methods are required; everything else follows from them. A scene of one's own, without a `World`:
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use simworld_core::environment::Environment;
+/// use simworld_core::geometry::{Aabb, Point2, Point3, Pose, Twist, pose_facing};
+/// use simworld_core::id::EntityId;
+/// use simworld_core::scene::{EntityDesc, EntityInfo, EntityKind, EntityRef, Scene, Shape};
+///
+/// /// A row of lamps along a street, computed instead of stored.
+/// struct LampRow { lamps: Vec<(Pose, Aabb)>, info: EntityInfo, environment: Environment }
+///
+/// impl LampRow {
+///     fn new(count: u32) -> Self {
+///         let shape = Shape::Cylinder { radius: 0.1, height: 6.0 };
+///         let stand = |i| pose_facing(Point3::new(f64::from(i) * 30.0, 0.0, 0.0), 0.0);
+///         Self {
+///             lamps: (0..count).map(|i| (stand(i), shape.aabb(&stand(i)))).collect(),
+///             info: EntityDesc::new(EntityKind::StreetLamp, Pose::identity(), shape).info,
+///             environment: Environment::default(),
+///         }
+///     }
+/// }
+///
+/// impl Scene for LampRow {
+///     fn entity(&self, id: EntityId) -> Option<EntityRef<'_>> {
+///         let (pose, bounds) = self.lamps.get(id.index())?;
+///         let kind = EntityKind::StreetLamp;
+///         Some(EntityRef { id, kind, pose, twist: &Twist::ZERO, bounds, info: &self.info, attachment: None })
+///     }
+///
+///     fn visit(
+///         &self,
+///         region: &Aabb,
+///         visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+///     ) -> ControlFlow<()> {
+///         for index in 0..self.lamps.len() {
+///             let lamp = self.entity(EntityId::new(index as u32, 0)).expect("index is in range");
+///             if lamp.bounds.intersects(region) { visitor(lamp)?; }
+///         }
+///         ControlFlow::Continue(())
+///     }
+///
+///     fn environment(&self) -> &Environment { &self.environment }
+/// }
+///
+/// let row = LampRow::new(10);
+/// simworld_core::testing::check_scene(&row);
+/// let lamp = row.nearest(Point2::new(95.0, 4.0), 50.0, &|_| true).unwrap();
+/// assert_eq!(lamp.id.index(), 3);
+/// ```
+pub trait Scene {
+    /// The entity of that id, if it lives.
+    fn entity(&self, id: EntityId) -> Option<EntityRef<'_>>;
+
+    /// Visits every entity whose bounds touch the region, each once, in an order that depends on the state alone;
+    /// breaks off when the visitor does.
+    fn visit(
+        &self,
+        region: &Aabb,
+        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()>;
+
+    /// Sun and weather.
+    fn environment(&self) -> &Environment;
+
+    /// Simulated time.
+    fn clock(&self) -> Clock {
+        Clock::default()
+    }
+
+    /// The roads, if the scene has any.
+    fn roads(&self) -> Option<&Arc<RoadNetwork>> {
+        None
+    }
+
+    /// What every signal group shows now, indexed by [`SignalGroup`](crate::net::SignalGroup); empty without
+    /// signals.
+    fn signals(&self) -> &[Aspect] {
+        &[]
+    }
+
+    /// The entity nearest to a point in the plane, by distance to its footprint, that passes the filter and lies
+    /// within `max_distance` m. Of two at the same distance the lower id is taken.
+    fn nearest(
+        &self,
+        point: Point2,
+        max_distance: f64,
+        filter: &dyn Fn(&EntityRef<'_>) -> bool,
+    ) -> Option<EntityRef<'_>> {
+        let mut radius = 16.0_f64.min(max_distance);
+        loop {
+            let mut best: Option<(f64, EntityId)> = None;
+            let _ = self.visit(&Aabb::column_around(point, radius), &mut |entity| {
+                let distance = entity.info.shape.planar_distance(entity.pose, &point);
+                let closer = best.is_none_or(|(least, id)| (distance, entity.id) < (least, id));
+                if distance <= radius && closer && filter(&entity) {
+                    best = Some((distance, entity.id));
+                }
+                ControlFlow::Continue(())
+            });
+            match best {
+                Some((_, id)) => return self.entity(id),
+                None if radius >= max_distance => return None,
+                None => radius = (radius * 2.0).min(max_distance),
+            }
+        }
+    }
+
+    /// Visits the carried, seated, riding and part entities of a carrier; by default it searches around it.
+    fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
+        let Some(carrier) = self.entity(parent) else { return };
+        let _ = self.visit(&carrier.bounds.inflated(3.0), &mut |entity| {
+            if entity.attachment.is_some_and(|bond| bond.parent == parent) {
+                visitor(entity);
+            }
+            ControlFlow::Continue(())
+        });
+    }
+
+    /// What hangs on the carrier in that role; the lowest id, should there be several.
+    fn attached(&self, parent: EntityId, role: Role) -> Option<EntityId> {
+        let mut found: Option<EntityId> = None;
+        self.visit_attached(parent, &mut |entity| {
+            if entity.attachment.is_some_and(|bond| bond.role == role)
+                && found.is_none_or(|id| entity.id < id)
+            {
+                found = Some(entity.id);
+            }
+        });
+        found
+    }
+}
+
+macro_rules! forward_scene {
+    ($($target:ty),+) => {
+        $(impl<S: Scene + ?Sized> Scene for $target {
+            fn entity(&self, id: EntityId) -> Option<EntityRef<'_>> {
+                (**self).entity(id)
+            }
+            fn visit(
+                &self,
+                region: &Aabb,
+                visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+            ) -> ControlFlow<()> {
+                (**self).visit(region, visitor)
+            }
+            fn environment(&self) -> &Environment {
+                (**self).environment()
+            }
+            fn clock(&self) -> Clock {
+                (**self).clock()
+            }
+            fn roads(&self) -> Option<&Arc<RoadNetwork>> {
+                (**self).roads()
+            }
+            fn signals(&self) -> &[Aspect] {
+                (**self).signals()
+            }
+            fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
+                (**self).visit_attached(parent, visitor);
+            }
+        })+
+    };
+}
+forward_scene!(Box<S>, &S, &mut S);
+
+/// Where a ray met something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayHit {
+    /// What it met.
+    pub entity: EntityId,
+    /// How far from the origin, m.
+    pub distance: f64,
+    /// The outward normal of the surface there, unit length.
+    pub normal: Vector3,
+}
+
+/// The capability of answering rays exactly; a scene that has colliders implements it.
+pub trait RayCast {
+    /// The first solid thing on the ray within `max_distance` m that passes the filter.
+    ///
+    /// A ray that starts inside a solid meets it at distance zero.
+    fn cast_ray(&self, ray: &Ray, max_distance: f64, filter: &dyn Fn(EntityId) -> bool) -> Option<RayHit>;
+}

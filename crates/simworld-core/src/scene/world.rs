@@ -1,0 +1,705 @@
+//! The world store: entities in parallel arrays, filed in a loose quadtree, changed only by commands and by
+//! dynamics.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::quadtree::Quadtree;
+use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Scene, Shape, ShapeError};
+use crate::action::Action;
+use crate::clock::Clock;
+use crate::environment::Environment;
+use crate::event::{Event, EventKind};
+use crate::geometry::{Aabb, Pose, Ray, Twist};
+use crate::hash::{StateDigest, StateHash, StateHasher};
+use crate::id::EntityId;
+use crate::intent::Intent;
+use crate::net::{Aspect, RoadNetwork};
+use crate::scene::{RayCast, RayHit};
+
+/// Positions farther out than this are refused, m: a third of the way round the Earth.
+const WORLD_LIMIT: f64 = 1.3e7;
+
+/// Why the store refused a change.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum WorldError {
+    /// No such entity.
+    #[error("there is no entity {id}: it was removed, or never spawned")]
+    Missing {
+        /// The unknown id.
+        id: EntityId,
+    },
+    /// The pose is not finite or beyond the limit of a world.
+    #[error("a pose at ({x}, {y}, {z}) is out of the world: give finite metres within ±1.3e7")]
+    Pose {
+        /// East, m.
+        x: f64,
+        /// North, m.
+        y: f64,
+        /// Up, m.
+        z: f64,
+    },
+    /// The velocity is not finite.
+    #[error("the velocity of {id} is not finite")]
+    Twist {
+        /// The entity.
+        id: EntityId,
+    },
+    /// The shape is no solid.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// An entity cannot hang on itself, directly or through others.
+    #[error("{child} cannot hang on {parent}: it would carry itself")]
+    Cycle {
+        /// The entity to be carried.
+        child: EntityId,
+        /// The carrier asked for.
+        parent: EntityId,
+    },
+    /// A slot that should be free is in use.
+    #[error("{id} is in use: only a removed entity can be restored")]
+    InUse {
+        /// The id asked for.
+        id: EntityId,
+    },
+    /// A snapshot that contradicts itself.
+    #[error("the snapshot is damaged: {what}")]
+    Snapshot {
+        /// What is wrong with it.
+        what: &'static str,
+    },
+}
+
+/// The state of everything: entities, environment, clock, signals.
+///
+/// ```
+/// use simworld_core::geometry::{Point2, Point3, pose_facing};
+/// use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+/// let mut world = World::new();
+/// for x in [0.0, 10.0, 25.0] {
+///     let pose = pose_facing(Point3::new(x, 0.0, 0.0), 0.0);
+///     world.spawn(EntityDesc::new(EntityKind::Bench, pose, Shape::cuboid(0.6, 1.8, 0.8)))?;
+/// }
+/// let nearest = world.nearest(Point2::new(12.0, 1.0), 100.0, &|e| e.kind == EntityKind::Bench).unwrap();
+/// assert_eq!(nearest.position().x, 10.0);
+/// # Ok::<(), simworld_core::scene::WorldError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct World {
+    // One entry a slot; `infos` is `None` in free slots.
+    generations: Vec<u32>,
+    kinds: Vec<EntityKind>,
+    poses: Vec<Pose>,
+    twists: Vec<Twist>,
+    bounds: Vec<Aabb>,
+    infos: Vec<Option<EntityInfo>>,
+    bonds: Vec<Option<Attachment>>,
+    /// Digest of each slot, brought up to date at the end of a step for the slots in `touched`.
+    digests: Vec<u64>,
+    touched: Vec<u32>,
+    is_touched: Vec<bool>,
+    /// Free slots; the last is taken first.
+    free: Vec<u32>,
+    /// Slots with a bond, ascending.
+    bonded: Vec<u32>,
+    tree: Quadtree,
+    revision: u64,
+
+    clock: Clock,
+    environment: Environment,
+    roads: Option<Arc<RoadNetwork>>,
+    signals: Vec<Aspect>,
+
+    // What this step is told and what happened in it; emptied at its end.
+    actuations: Vec<(EntityId, Action)>,
+    intents: Vec<(EntityId, Intent)>,
+    events: Vec<Event>,
+}
+
+/// A [`World`] as data: serialise it, and [restore](World::restore) goes on bit for bit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorldSnapshot {
+    clock: Clock,
+    environment: Environment,
+    signals: Vec<Aspect>,
+    roads: Option<Arc<RoadNetwork>>,
+    generations: Vec<u32>,
+    entities: Vec<Option<EntityDesc>>,
+    free: Vec<u32>,
+    tree_width: f64,
+    revision: u64,
+    actuations: Vec<(EntityId, Action)>,
+    intents: Vec<(EntityId, Intent)>,
+    events: Vec<Event>,
+}
+
+impl World {
+    /// An empty world at tick zero, in clear weather, stepping by 0.1 s.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// An empty world with that clock.
+    pub fn with_clock(clock: Clock) -> Self {
+        Self { clock, ..Self::default() }
+    }
+
+    /// Gives the world its roads; every signal group shows red until traffic says otherwise.
+    pub fn set_roads(&mut self, roads: Arc<RoadNetwork>) {
+        self.signals = vec![Aspect::Red; roads.signal_groups()];
+        self.roads = Some(roads);
+    }
+
+    // ---- entities ----
+
+    /// The number of living entities.
+    pub fn len(&self) -> usize {
+        self.infos.len() - self.free.len()
+    }
+
+    /// Whether nothing lives here.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Ids stay below this index: the length of an array beside the world.
+    pub fn slots(&self) -> usize {
+        self.infos.len()
+    }
+
+    /// Every living entity, by ascending slot.
+    pub fn iter(&self) -> impl Iterator<Item = EntityRef<'_>> {
+        (0..self.infos.len()).filter_map(|slot| self.in_slot(slot))
+    }
+
+    /// A count that changes whenever an entity is spawned, removed or changes its shape: what a cache of
+    /// static things (colliders, meshes) compares.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Puts an entity into the world.
+    ///
+    /// # Errors
+    /// A pose out of the world, a shape that is no solid, or a carrier that does not exist.
+    pub fn spawn(&mut self, desc: EntityDesc) -> Result<EntityId, WorldError> {
+        self.check(&desc)?;
+        let slot = self.free.pop().unwrap_or_else(|| self.new_slot());
+        Ok(self.fill(slot, desc))
+    }
+
+    /// Puts a removed entity back under its old id; the way an undo brings it back.
+    ///
+    /// # Errors
+    /// As [`spawn`](Self::spawn), and if the slot was taken by somebody else since.
+    pub fn respawn(&mut self, id: EntityId, desc: EntityDesc) -> Result<(), WorldError> {
+        self.check(&desc)?;
+        let index = id.index() as u32;
+        let Some(position) = self.free.iter().position(|slot| *slot == index) else {
+            return Err(WorldError::InUse { id });
+        };
+        self.free.remove(position);
+        self.generations[id.index()] = id.generation();
+        self.fill(index, desc);
+        Ok(())
+    }
+
+    /// Takes an entity out of the world and returns its recipe. What hung on it stays where it is.
+    ///
+    /// # Errors
+    /// No such entity.
+    pub fn remove(&mut self, id: EntityId) -> Result<EntityDesc, WorldError> {
+        let desc = self.entity(id).ok_or(WorldError::Missing { id })?.to_desc();
+        let slot = id.index();
+        let carried: Vec<u32> = self.bonded.clone();
+        for child in carried {
+            if self.bonds[child as usize].is_some_and(|bond| bond.parent == id) {
+                self.set_bond(child as usize, None);
+            }
+        }
+        self.set_bond(slot, None);
+        self.infos[slot] = None;
+        self.generations[slot] = self.generations[slot].wrapping_add(1);
+        self.tree.remove(slot as u32);
+        self.free.push(slot as u32);
+        self.touch(slot);
+        self.revision += 1;
+        Ok(desc)
+    }
+
+    /// Sets where an entity is and how it moves: what dynamics call for every body, every step.
+    ///
+    /// # Errors
+    /// No such entity, or numbers that are not finite.
+    pub fn set_motion(&mut self, id: EntityId, pose: Pose, twist: Twist) -> Result<(), WorldError> {
+        self.check_alive(id)?;
+        check_pose(&pose)?;
+        if !twist.linear.iter().chain(twist.angular.iter()).all(|number| number.is_finite()) {
+            return Err(WorldError::Twist { id });
+        }
+        self.twists[id.index()] = twist;
+        self.place(id, pose);
+        Ok(())
+    }
+
+    /// Sets an attribute, or removes it with `None`; returns the old value.
+    ///
+    /// # Errors
+    /// No such entity.
+    pub fn set_attribute(
+        &mut self,
+        id: EntityId,
+        key: &str,
+        value: Option<crate::value::Value>,
+    ) -> Result<Option<crate::value::Value>, WorldError> {
+        self.check_alive(id)?;
+        self.touch(id.index());
+        let info = self.infos[id.index()].as_mut().ok_or(WorldError::Missing { id })?;
+        Ok(match value {
+            Some(value) => info.attributes.insert(key.to_owned(), value),
+            None => info.attributes.remove(key),
+        })
+    }
+
+    /// Hangs an entity on a carrier, or frees it with `None`; returns the old bond.
+    ///
+    /// # Errors
+    /// No such entity or carrier, or a carrier that hangs on the entity itself.
+    pub fn attach(
+        &mut self,
+        child: EntityId,
+        bond: Option<Attachment>,
+    ) -> Result<Option<Attachment>, WorldError> {
+        self.check_alive(child)?;
+        if let Some(bond) = &bond {
+            self.check_alive(bond.parent)?;
+            let mut above = Some(bond.parent);
+            while let Some(ancestor) = above {
+                if ancestor == child {
+                    return Err(WorldError::Cycle { child, parent: bond.parent });
+                }
+                above = self.bonds[ancestor.index()].map(|bond| bond.parent);
+            }
+        }
+        let old = self.bonds[child.index()];
+        self.bond(child, bond);
+        Ok(old)
+    }
+
+    pub(super) fn bond(&mut self, child: EntityId, bond: Option<Attachment>) {
+        self.set_bond(child.index(), bond);
+        if let Some(bond) = bond {
+            let pose = self.poses[bond.parent.index()] * bond.parent_from_body;
+            self.place(child, pose);
+        }
+    }
+
+    /// Moves a living entity to a checked pose.
+    pub(super) fn place(&mut self, id: EntityId, pose: Pose) {
+        let slot = id.index();
+        let Some(info) = &self.infos[slot] else { return };
+        let bounds = info.shape.aabb(&pose);
+        self.poses[slot] = pose;
+        self.file(slot, bounds);
+        self.touch(slot);
+    }
+
+    // ---- the step ----
+
+    /// Sets the sun and the weather; returns the old ones.
+    ///
+    /// # Errors
+    /// The first field out of range.
+    pub fn set_environment(
+        &mut self,
+        environment: Environment,
+    ) -> Result<Environment, crate::environment::EnvironmentError> {
+        environment.validate()?;
+        Ok(std::mem::replace(&mut self.environment, environment))
+    }
+
+    /// What every signal group shows, for the traffic to write; indexed by
+    /// [`SignalGroup`](crate::net::SignalGroup).
+    pub fn signals_mut(&mut self) -> &mut [Aspect] {
+        &mut self.signals
+    }
+
+    /// What bodies are told this step, in the order it was said.
+    pub fn actuations(&self) -> &[(EntityId, Action)] {
+        &self.actuations
+    }
+
+    /// What minds want this step, in the order it was said.
+    pub fn intents(&self) -> &[(EntityId, Intent)] {
+        &self.intents
+    }
+
+    /// What happened since the step began, in order.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Reports that something happened.
+    pub fn emit(&mut self, kind: EventKind) {
+        self.events.push(Event { tick: self.clock.tick(), kind });
+    }
+
+    /// Tells a body to act this step: actions on objects take effect at once, all are passed on to the bodies.
+    ///
+    /// # Errors
+    /// The action is impossible, with the reason.
+    pub fn actuate(&mut self, who: EntityId, action: Action) -> Result<(), super::InteractionError> {
+        self.interact(who, &action)?;
+        self.actuations.push((who, action));
+        Ok(())
+    }
+
+    pub(crate) fn intend(&mut self, who: EntityId, intent: Intent) -> Result<(), WorldError> {
+        self.check_alive(who)?;
+        self.intents.push((who, intent));
+        Ok(())
+    }
+
+    /// Ends the step: carried things follow their carriers, digests are renewed, the clock advances.
+    pub fn finish_step(&mut self) {
+        self.follow_carriers();
+        self.renew_digests();
+        self.actuations.clear();
+        self.intents.clear();
+        self.clock.advance();
+    }
+
+    /// Forgets the events of the last step; called at the start of the next, so that readers between see them.
+    pub fn begin_step(&mut self) {
+        self.events.clear();
+    }
+
+    /// What hangs on others goes where they went; carriers come first, whatever their slots.
+    fn follow_carriers(&mut self) {
+        for index in 0..self.bonded.len() {
+            let slot = self.bonded[index] as usize;
+            let pose = self.carried_pose(slot);
+            let id = EntityId::new(slot as u32, self.generations[slot]);
+            let twist = self.bonds[slot].map_or(Twist::ZERO, |bond| self.twists[bond.parent.index()]);
+            if pose != self.poses[slot] || twist != self.twists[slot] {
+                self.twists[slot] = twist;
+                self.place(id, pose);
+            }
+        }
+    }
+
+    fn carried_pose(&self, slot: usize) -> Pose {
+        match &self.bonds[slot] {
+            Some(bond) => self.carried_pose(bond.parent.index()) * bond.parent_from_body,
+            None => self.poses[slot],
+        }
+    }
+
+    fn renew_digests(&mut self) {
+        let mut touched = std::mem::take(&mut self.touched);
+        for slot in touched.drain(..) {
+            let slot = slot as usize;
+            self.is_touched[slot] = false;
+            self.digests[slot] = self.in_slot(slot).map_or(0, |entity| {
+                let mut hasher = StateHasher::new();
+                entity.state_hash(&mut hasher);
+                hasher.finish().0
+            });
+        }
+        self.touched = touched;
+    }
+
+    // ---- snapshots ----
+
+    /// The whole state as data.
+    pub fn snapshot(&self) -> WorldSnapshot {
+        WorldSnapshot {
+            clock: self.clock,
+            environment: self.environment,
+            signals: self.signals.clone(),
+            roads: self.roads.clone(),
+            generations: self.generations.clone(),
+            entities: (0..self.infos.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
+            free: self.free.clone(),
+            tree_width: self.tree.width(),
+            revision: self.revision,
+            actuations: self.actuations.clone(),
+            intents: self.intents.clone(),
+            events: self.events.clone(),
+        }
+    }
+
+    /// The world of a snapshot; it goes on bit for bit as the one the snapshot was taken of.
+    ///
+    /// # Errors
+    /// A snapshot that contradicts itself, or holds an impossible entity.
+    pub fn restore(snapshot: WorldSnapshot) -> Result<Self, WorldError> {
+        let damaged = |what| WorldError::Snapshot { what };
+        if snapshot.generations.len() != snapshot.entities.len() {
+            return Err(damaged("generations and entities differ in number"));
+        }
+        if !(snapshot.tree_width.is_finite() && snapshot.tree_width >= 8.0) {
+            return Err(damaged("the width of its quadtree is no size"));
+        }
+        let vacant = snapshot.entities.iter().filter(|entity| entity.is_none()).count();
+        let is_vacant = |slot: &u32| snapshot.entities.get(*slot as usize).is_some_and(Option::is_none);
+        let mut distinct = snapshot.free.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        if distinct.len() != vacant || snapshot.free.len() != vacant || !distinct.iter().all(is_vacant) {
+            return Err(damaged("the list of free slots does not fit the entities"));
+        }
+        let groups = snapshot.roads.as_ref().map_or(0, |roads| roads.signal_groups());
+        if snapshot.signals.len() != groups {
+            return Err(damaged("its signals do not fit its roads"));
+        }
+        let mut world = Self {
+            clock: snapshot.clock,
+            environment: snapshot.environment,
+            roads: snapshot.roads,
+            signals: snapshot.signals,
+            actuations: snapshot.actuations,
+            intents: snapshot.intents,
+            events: snapshot.events,
+            tree: Quadtree::with_width(snapshot.tree_width),
+            ..Self::default()
+        };
+        for _ in &snapshot.entities {
+            world.new_slot();
+        }
+        world.generations = snapshot.generations;
+        world.free = snapshot.free;
+        let mut bonds = Vec::new();
+        for (slot, desc) in snapshot.entities.into_iter().enumerate() {
+            if let Some(mut desc) = desc {
+                bonds.push((slot, desc.attachment.take()));
+                world.check(&desc)?;
+                world.fill(slot as u32, desc);
+            }
+        }
+        for (slot, bond) in bonds {
+            let child = EntityId::new(slot as u32, world.generations[slot]);
+            let pose = world.poses[slot];
+            if bond.is_some() {
+                world.attach(child, bond)?;
+                world.place(child, pose);
+            }
+        }
+        world.renew_digests();
+        world.revision = snapshot.revision;
+        Ok(world)
+    }
+
+    // ---- inner workings ----
+
+    fn check(&self, desc: &EntityDesc) -> Result<(), WorldError> {
+        check_pose(&desc.pose)?;
+        desc.info.shape.validate()?;
+        if let Some(bond) = &desc.attachment {
+            self.check_alive(bond.parent)?;
+        }
+        Ok(())
+    }
+
+    fn check_alive(&self, id: EntityId) -> Result<(), WorldError> {
+        if self.is_alive(id) { Ok(()) } else { Err(WorldError::Missing { id }) }
+    }
+
+    fn is_alive(&self, id: EntityId) -> bool {
+        let slot = id.index();
+        slot < self.infos.len() && self.generations[slot] == id.generation() && self.infos[slot].is_some()
+    }
+
+    fn new_slot(&mut self) -> u32 {
+        let slot = u32::try_from(self.infos.len()).expect("a world holds fewer than 2^32 entities");
+        self.generations.push(0);
+        self.kinds.push(EntityKind::Prop);
+        self.poses.push(Pose::identity());
+        self.twists.push(Twist::ZERO);
+        self.bounds.push(Shape::Sphere { radius: 1.0 }.aabb(&Pose::identity()));
+        self.infos.push(None);
+        self.bonds.push(None);
+        self.digests.push(0);
+        self.is_touched.push(false);
+        slot
+    }
+
+    /// Fills a slot that is not in the free list with a checked recipe.
+    fn fill(&mut self, slot: u32, desc: EntityDesc) -> EntityId {
+        let index = slot as usize;
+        let bounds = desc.info.shape.aabb(&desc.pose);
+        self.kinds[index] = desc.kind;
+        self.poses[index] = desc.pose;
+        self.twists[index] = desc.twist;
+        self.infos[index] = Some(desc.info);
+        self.file(index, bounds);
+        self.set_bond(index, desc.attachment);
+        self.touch(index);
+        self.revision += 1;
+        EntityId::new(slot, self.generations[index])
+    }
+
+    fn file(&mut self, slot: usize, bounds: Aabb) {
+        self.bounds[slot] = bounds;
+        if !self.tree.holds(&bounds) {
+            self.grow_tree(&bounds);
+        }
+        self.tree.place(slot as u32, &bounds);
+    }
+
+    /// Doubles the tree until it holds the box, and files everything anew.
+    fn grow_tree(&mut self, bounds: &Aabb) {
+        let mut width = self.tree.width();
+        let mut tree = Quadtree::with_width(width);
+        while !tree.holds(bounds) {
+            width *= 2.0;
+            tree = Quadtree::with_width(width);
+        }
+        for (slot, info) in self.infos.iter().enumerate() {
+            if info.is_some() {
+                tree.place(slot as u32, &self.bounds[slot]);
+            }
+        }
+        self.tree = tree;
+    }
+
+    fn set_bond(&mut self, slot: usize, bond: Option<Attachment>) {
+        self.bonds[slot] = bond;
+        match (self.bonded.binary_search(&(slot as u32)), bond) {
+            (Err(position), Some(_)) => self.bonded.insert(position, slot as u32),
+            (Ok(position), None) => {
+                self.bonded.remove(position);
+            }
+            _ => {}
+        }
+        self.touch(slot);
+    }
+
+    fn touch(&mut self, slot: usize) {
+        if !self.is_touched[slot] {
+            self.is_touched[slot] = true;
+            self.touched.push(slot as u32);
+        }
+    }
+
+    fn in_slot(&self, slot: usize) -> Option<EntityRef<'_>> {
+        let info = self.infos[slot].as_ref()?;
+        Some(EntityRef {
+            id: EntityId::new(slot as u32, self.generations[slot]),
+            kind: self.kinds[slot],
+            pose: &self.poses[slot],
+            twist: &self.twists[slot],
+            bounds: &self.bounds[slot],
+            info,
+            attachment: self.bonds[slot].as_ref(),
+        })
+    }
+
+    /// Visits what touches the region and may be at least `min_extent` m wide: the level of detail of a distant
+    /// view, found without looking at the small things.
+    pub fn visit_coarse(
+        &self,
+        region: &Aabb,
+        min_extent: f64,
+        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.tree.visit(region, min_extent, &mut |slot| match self.in_slot(slot as usize) {
+            Some(entity) if entity.bounds.intersects(region) => visitor(entity),
+            _ => ControlFlow::Continue(()),
+        })
+    }
+}
+
+fn check_pose(pose: &Pose) -> Result<(), WorldError> {
+    let at = pose.translation.vector;
+    let sound =
+        at.iter().all(|x| x.abs() <= WORLD_LIMIT) && pose.rotation.coords.iter().all(|x| x.is_finite());
+    if sound { Ok(()) } else { Err(WorldError::Pose { x: at.x, y: at.y, z: at.z }) }
+}
+
+impl Scene for World {
+    fn entity(&self, id: EntityId) -> Option<EntityRef<'_>> {
+        if self.is_alive(id) { self.in_slot(id.index()) } else { None }
+    }
+
+    fn visit(
+        &self,
+        region: &Aabb,
+        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.visit_coarse(region, 0.0, visitor)
+    }
+
+    fn environment(&self) -> &Environment {
+        &self.environment
+    }
+
+    fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    fn roads(&self) -> Option<&Arc<RoadNetwork>> {
+        self.roads.as_ref()
+    }
+
+    fn signals(&self) -> &[Aspect] {
+        &self.signals
+    }
+
+    fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
+        for slot in &self.bonded {
+            if self.bonds[*slot as usize].is_some_and(|bond| bond.parent == parent)
+                && let Some(entity) = self.in_slot(*slot as usize)
+            {
+                visitor(entity);
+            }
+        }
+    }
+}
+
+impl RayCast for World {
+    /// Meets the oriented boxes around the solids; exact for boxes, from outside for round shapes.
+    fn cast_ray(&self, ray: &Ray, max_distance: f64, filter: &dyn Fn(EntityId) -> bool) -> Option<RayHit> {
+        let swept = Aabb::new(ray.origin, ray.at(max_distance));
+        let mut best: Option<RayHit> = None;
+        let _ = self.visit(&swept, &mut |entity| {
+            if entity.kind.is_solid() && filter(entity.id) {
+                let hit = super::ray::meet_box(ray, &entity.obb())
+                    .filter(|(distance, _)| *distance <= max_distance);
+                if let Some((distance, normal)) = hit {
+                    let hit = RayHit { entity: entity.id, distance, normal };
+                    if best.is_none_or(|b| (distance, entity.id) < (b.distance, b.entity)) {
+                        best = Some(hit);
+                    }
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        best
+    }
+}
+
+impl StateHash for World {
+    /// Covers the state as of the last finished step.
+    fn state_hash(&self, hasher: &mut StateHasher) {
+        hasher.u64(self.clock.tick().0);
+        self.environment.state_hash(hasher);
+        for aspect in &self.signals {
+            hasher.u64(*aspect as u64);
+        }
+        hasher.u64(self.digests.len() as u64);
+        for digest in &self.digests {
+            hasher.u64(*digest);
+        }
+    }
+
+    fn digest(&self) -> StateDigest {
+        let mut hasher = StateHasher::new();
+        self.state_hash(&mut hasher);
+        hasher.finish()
+    }
+}

@@ -1,0 +1,165 @@
+//! Intent to plan.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::action::Action;
+use crate::geometry::Point3;
+use crate::id::EntityId;
+use crate::intent::Intent;
+use crate::scene::Scene;
+
+/// Where a navigation ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Goal {
+    /// At a point, world frame.
+    Point(Point3),
+    /// At the access point of an entity, wherever it is by then.
+    Entity(EntityId),
+}
+
+/// One step of a plan: an action of the level above primitives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum PlanStep {
+    /// Goes somewhere.
+    Navigate {
+        /// Where to.
+        to: Goal,
+        /// Distance in the plane at which one has arrived, m.
+        within: f64,
+        /// Speed wanted, m/s; `None` leaves it to the body.
+        speed: Option<f64>,
+    },
+    /// Does one primitive action.
+    Act(Action),
+    /// Stands and waits.
+    Wait {
+        /// How long, s.
+        seconds: f64,
+    },
+}
+
+/// What is to be done, in order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// The steps.
+    pub steps: Vec<PlanStep>,
+}
+
+impl Plan {
+    /// A plan of one navigation.
+    pub fn navigate(to: Goal, within: f64) -> Self {
+        Self { steps: vec![PlanStep::Navigate { to, within, speed: None }] }
+    }
+
+    /// With another action at the end.
+    #[must_use]
+    pub fn then(mut self, action: Action) -> Self {
+        self.steps.push(PlanStep::Act(action));
+        self
+    }
+}
+
+/// Why no plan was made. Whoever asked gets this, never a silent "do nothing".
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The words are not understood.
+    #[error("cannot understand {words:?} at {fragment:?}: {hint}")]
+    NotUnderstood {
+        /// The whole sentence.
+        words: String,
+        /// Where it fails.
+        fragment: String,
+        /// What would be understood.
+        hint: String,
+    },
+    /// The words are understood, but name nothing that is there.
+    #[error("there is no {wanted} here: {near}")]
+    NotFound {
+        /// What was asked for.
+        wanted: String,
+        /// What is near instead.
+        near: String,
+    },
+    /// The call is unknown or its arguments are wrong.
+    #[error("{call}: {reason}")]
+    Call {
+        /// The call.
+        call: String,
+        /// What is wrong, and what is allowed.
+        reason: String,
+    },
+    /// The agent is not in the scene.
+    #[error("there is no entity {id} to plan for")]
+    Missing {
+        /// The unknown id.
+        id: EntityId,
+    },
+    /// The mind behind the planner failed.
+    #[error("{0}")]
+    Backend(String),
+}
+
+/// Turns what somebody wants into what is to be done.
+///
+/// # Implementing it
+///
+/// ```
+/// use simworld_core::action::Action;
+/// use simworld_core::geometry::{Point3, pose_facing};
+/// use simworld_core::id::EntityId;
+/// use simworld_core::intent::Intent;
+/// use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+/// use simworld_core::seam::{Goal, Plan, PlanError, Planner};
+///
+/// /// Understands one word.
+/// struct Sitter;
+///
+/// impl Planner for Sitter {
+///     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
+///         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
+///         match intent {
+///             Intent::Words(words) if words == "sit" => {
+///                 let seat = scene.nearest(me.planar(), 200.0, &|e| e.kind.is_seat()).ok_or_else(|| {
+///                     PlanError::NotFound { wanted: "seat".into(), near: "none within 200 m".into() }
+///                 })?;
+///                 Ok(Plan::navigate(Goal::Entity(seat.id), 1.0).then(Action::SitDown { seat: seat.id }))
+///             }
+///             other => Err(PlanError::Call { call: other.to_string(), reason: "say \"sit\"".into() }),
+///         }
+///     }
+/// }
+///
+/// let mut world = World::new();
+/// let bench = EntityDesc::new(
+///     EntityKind::Bench, pose_facing(Point3::new(9.0, 0.0, 0.0), 0.0), Shape::cuboid(0.6, 1.8, 0.8));
+/// let me = EntityDesc::new(
+///     EntityKind::Person, pose_facing(Point3::origin(), 0.0), Shape::Capsule { radius: 0.25, height: 1.8 });
+/// world.spawn(bench)?;
+/// let me = world.spawn(me)?;
+/// simworld_core::testing::check_planner(|| Box::new(Sitter), &world, me, &[Intent::Words("sit".into())]);
+/// # Ok::<(), simworld_core::scene::WorldError>(())
+/// ```
+pub trait Planner {
+    /// Plans for `who`.
+    ///
+    /// # Errors
+    /// The intent is not understood, or names nothing that is there.
+    fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError>;
+}
+
+macro_rules! forward_planner {
+    ($($target:ty),+) => {
+        $(impl<P: Planner + ?Sized> Planner for $target {
+            fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
+                (**self).plan(intent, scene, who)
+            }
+        })+
+    };
+}
+forward_planner!(Box<P>, &mut P);
