@@ -1,1 +1,9 @@
-//! Minds.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+pub mod delivery;
+pub mod episode;
+pub mod executor;
+pub mod language;
+pub mod mind;
+pub mod observer;

@@ -1,0 +1,63 @@
+//! Minds: what decides. A rule, a policy or a model; all speak in intents.
+
+use simworld_core::id::EntityId;
+use simworld_core::intent::Intent;
+use simworld_core::scene::Scene;
+use thiserror::Error;
+
+/// Why a mind could not decide; the episode ends with it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("the mind of {who} failed: {reason}")]
+pub struct MindError {
+    /// Whose mind.
+    pub who: EntityId,
+    /// Why.
+    pub reason: String,
+}
+
+/// Decides for one agent in a task `T`.
+///
+/// A mind is outside the simulation: what it wants is recorded, and a replay runs without it.
+pub trait Mind<T: ?Sized> {
+    /// Called once a step; appends what the agent wants now, usually nothing.
+    ///
+    /// # Errors
+    /// The mind failed; one that merely does not know what to do appends nothing.
+    fn decide(
+        &mut self,
+        task: &T,
+        scene: &dyn Scene,
+        who: EntityId,
+        out: &mut Vec<Intent>,
+    ) -> Result<(), MindError>;
+
+    /// The inner state as bytes for a snapshot; empty by default.
+    fn save(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    /// Takes up a saved state; false if the bytes are not this mind's.
+    fn restore(&mut self, _saved: &[u8]) -> bool {
+        true
+    }
+}
+
+impl<T: ?Sized, M: Mind<T> + ?Sized> Mind<T> for Box<M> {
+    fn decide(
+        &mut self,
+        task: &T,
+        scene: &dyn Scene,
+        who: EntityId,
+        out: &mut Vec<Intent>,
+    ) -> Result<(), MindError> {
+        (**self).decide(task, scene, who, out)
+    }
+
+    fn save(&self) -> Vec<u8> {
+        (**self).save()
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        (**self).restore(saved)
+    }
+}
