@@ -1,1 +1,8 @@
-//! .
+//! Where the crates meet: the delivery run, assembled from citygen, traffic, physics, render and agents.
+//!
+//! The crates know only simworld-core; this package is unpublished and exists so that the examples and the
+//! workspace's tests put the parts together in the same way.
+
+#![forbid(unsafe_code)]
+
+pub mod delivery;

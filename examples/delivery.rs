@@ -1,0 +1,162 @@
+//! The main job: couriers bid, carry, share, invest and tire in a generated city with traffic and physics.
+//!
+//! ```sh
+//! cargo run --release --example delivery
+//! cargo run --release --example delivery -- --replay out/delivery-1
+//! ```
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Parser;
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, replay};
+
+/// Couriers at work in a generated city: they bid for orders, walk or ride them through traffic, and tire.
+///
+/// Prints the five metrics of the paper's delivery task, mean and standard deviation over the seeds, and writes the
+/// configuration, the event log, the trail of state hashes, a map and, where there is a graphics adapter, frames.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// Settings as TOML; what it leaves out keeps its default (see config.toml of any run).
+    #[arg(long, value_name = "FILE.toml")]
+    config: Option<PathBuf>,
+    /// The first seed; the others follow it.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// How many seeds to run [default: 3].
+    #[arg(long)]
+    seeds: Option<u32>,
+    /// Number of couriers [default: 20].
+    #[arg(long)]
+    agents: Option<u32>,
+    /// Steps of 0.1 s [default: 5000].
+    #[arg(long)]
+    steps: Option<u64>,
+    /// Vehicles of the traffic [default: 40].
+    #[arg(long)]
+    vehicles: Option<u32>,
+    /// Pedestrians of the traffic [default: 80].
+    #[arg(long)]
+    pedestrians: Option<u32>,
+    /// Roads from a `roads.json` of the Python release instead of grown ones.
+    #[arg(long, value_name = "ROADS.json")]
+    roads: Option<PathBuf>,
+    /// The folder to write to; it must be new or empty [default: the first free out/delivery-N].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Frames to render a seed, 0 for none [default: 3].
+    #[arg(long)]
+    frames: Option<u32>,
+    /// Threads to use [default: one a core].
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Runs the logs of this folder again and confirms every hash; all other options are ignored.
+    #[arg(long, value_name = "DIR")]
+    replay: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    match job(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            let mut cause = error.source();
+            while let Some(inner) = cause {
+                eprintln!("  because: {inner}");
+                cause = inner.source();
+            }
+            ExitCode::FAILURE
+        }
+    }
+}
+
+type Fault = Box<dyn std::error::Error>;
+
+fn job(arguments: &Arguments) -> Result<(), Fault> {
+    if let Some(threads) = arguments.threads {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()?;
+    }
+    let bars = Bars::new()?;
+    let stop = stop_on_interrupt()?;
+    if let Some(folder) = &arguments.replay {
+        let report = replay(folder, &bars.watch(stop))?;
+        println!("{report}");
+        return Ok(());
+    }
+    let config = configure(arguments)?;
+    let folder = match &arguments.out {
+        Some(path) => OutputFolder::create(path)?,
+        None => OutputFolder::create_numbered("out/delivery")?,
+    };
+    let report = play(&config, &folder, &bars.watch(stop))?;
+    bars.clear();
+    println!("{report}");
+    println!("written to {}", folder.path().display());
+    Ok(())
+}
+
+/// The settings of the file, or the defaults, with what the command line says instead.
+fn configure(arguments: &Arguments) -> Result<RunConfig, Fault> {
+    let mut config = match &arguments.config {
+        Some(path) => RunConfig::read(path)?,
+        None => RunConfig::default(),
+    };
+    fn set<T: Clone>(place: &mut T, argument: Option<&T>) {
+        if let Some(value) = argument {
+            place.clone_from(value);
+        }
+    }
+    set(&mut config.seed, arguments.seed.as_ref());
+    set(&mut config.seeds, arguments.seeds.as_ref());
+    set(&mut config.agents, arguments.agents.as_ref());
+    set(&mut config.steps, arguments.steps.as_ref());
+    set(&mut config.vehicles, arguments.vehicles.as_ref());
+    set(&mut config.pedestrians, arguments.pedestrians.as_ref());
+    set(&mut config.frames, arguments.frames.as_ref());
+    if arguments.roads.is_some() {
+        config.roads.clone_from(&arguments.roads);
+    }
+    config.validate()?;
+    Ok(config)
+}
+
+/// Ctrl-C asks the run to stop after its step; the log is then whole.
+fn stop_on_interrupt() -> Result<Arc<AtomicBool>, ctrlc::Error> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed))?;
+    Ok(stop)
+}
+
+/// One progress bar a seed.
+struct Bars {
+    all: MultiProgress,
+    style: ProgressStyle,
+}
+
+impl Bars {
+    fn new() -> Result<Self, Fault> {
+        let style = ProgressStyle::with_template("{prefix:>8} {bar:40} {pos:>5}/{len} steps  {eta:>4} left  {msg}")?;
+        Ok(Self { all: MultiProgress::new(), style })
+    }
+
+    fn watch(&self, stop: Arc<AtomicBool>) -> Watch {
+        let (all, style) = (self.all.clone(), self.style.clone());
+        Watch::new(stop, move |name, length| {
+            let bar = all.add(ProgressBar::new(length).with_style(style.clone()).with_prefix(name.to_owned()));
+            Box::new(move |step, message: &str| {
+                bar.set_position(step);
+                bar.set_message(message.to_owned());
+            })
+        })
+    }
+
+    fn clear(&self) {
+        // A terminal that went away is no reason to lose the report.
+        let _ = self.all.clear();
+    }
+}

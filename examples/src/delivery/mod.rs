@@ -1,0 +1,27 @@
+//! The main job: couriers at work in a generated city with traffic and physics.
+//!
+//! [`RunConfig`] says what to run, [`assemble`] puts a world and an episode together, [`run`] plays it and writes
+//! the log, [`replay`] plays the log again and confirms every hash.
+
+mod assemble;
+mod config;
+mod frames;
+mod locate;
+mod log;
+mod map;
+mod output;
+mod replay;
+mod report;
+mod run;
+mod watch;
+
+pub use assemble::{AssembleError, Assembly, assemble, make_city};
+pub use config::{ConfigError, RunConfig};
+pub use frames::{FrameError, FrameTaker};
+pub use log::{LogError, LogRecord, LogWriter, read_log};
+pub use map::draw_map;
+pub use output::{OutputError, OutputFolder};
+pub use replay::{ReplayError, ReplayReport, replay};
+pub use report::{FigureOfSeeds, RunReport, SeedReport};
+pub use run::{RunError, SeedRun, play, run_seed};
+pub use watch::{Progress, Watch};

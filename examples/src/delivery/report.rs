@@ -1,0 +1,162 @@
+//! The report of a run: the five metrics over seeds, beside the paper's rows.
+
+use std::fmt;
+
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{Attribute, Cell, CellAlignment, Table};
+use serde::{Deserialize, Serialize};
+use simworld_core::hash::StateDigest;
+use simworld_core::seam::Metric;
+use simworld_core::seed::Seed;
+
+/// What one seed came to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SeedReport {
+    /// The seed.
+    pub seed: Seed,
+    /// Finished steps.
+    pub steps: u64,
+    /// The task's figures of merit.
+    pub metrics: Vec<Metric>,
+    /// The digest of the final state.
+    pub digest: StateDigest,
+}
+
+impl SeedReport {
+    /// The value of a metric; `None` if the task has none of that name.
+    pub fn metric(&self, name: &str) -> Option<f64> {
+        self.metrics.iter().find(|metric| metric.name == name).map(|metric| metric.value)
+    }
+}
+
+/// Mean and standard deviation of a metric over seeds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FigureOfSeeds {
+    /// The mean.
+    pub mean: f64,
+    /// The sample standard deviation (n - 1); zero for a single seed.
+    pub deviation: f64,
+}
+
+impl FigureOfSeeds {
+    /// Of these values; `None` of no values.
+    ///
+    /// The values 1, 2, 3 have mean 2 and deviation 1.
+    pub fn of(values: &[f64]) -> Option<Self> {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+        let deviation = if values.len() > 1 { (squares / (n - 1.0)).sqrt() } else { 0.0 };
+        (!values.is_empty()).then_some(Self { mean, deviation })
+    }
+}
+
+impl fmt::Display for FigureOfSeeds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.2} ± {:.2}", self.mean, self.deviation)
+    }
+}
+
+/// The columns of the table: heading, and the metric's name.
+const COLUMNS: [(&str, &str); 5] = [
+    ("profit $", "total_profit"),
+    ("successful orders", "successful_orders"),
+    ("energy efficiency", "energy_per_dollar"),
+    ("sharing", "sharing_count"),
+    ("investment", "investment_count"),
+];
+
+/// The paper's table: twenty agents of one model, 5000 steps, three seeds.
+const PAPER: [(&str, [&str; 5]); 9] = [
+    ("DeepSeek-V3", ["69.48 ± 16.77", "2.10 ± 0.47", "0.34 ± 0.07", "2.33 ± 0.47", "8.00 ± 3.00"]),
+    ("Claude-3.5-Sonnet", ["69.07 ± 20.69", "2.73 ± 1.10", "0.54 ± 0.20", "11.33 ± 8.39", "9.00 ± 3.46"]),
+    ("GPT-4o", ["43.91 ± 14.16", "1.63 ± 0.43", "0.30 ± 0.06", "0.67 ± 0.47", "4.67 ± 0.47"]),
+    ("Gemini-2.5-Flash", ["42.42 ± 3.10", "2.10 ± 0.17", "0.17 ± 0.04", "2.67 ± 1.25", "2.00 ± 2.00"]),
+    ("Gemini-2.0-Flash", ["28.72 ± 12.04", "1.53 ± 0.58", "0.11 ± 0.03", "0.67 ± 0.47", "0.67 ± 1.00"]),
+    ("Qwen3-32B", ["24.73 ± 7.95", "1.37 ± 0.13", "0.40 ± 0.17", "1.33 ± 0.47", "5.33 ± 2.06"]),
+    ("DeepSeek-Prover-V2", ["21.66 ± 7.18", "0.67 ± 0.14", "0.42 ± 0.03", "7.33 ± 8.39", "1.00 ± 1.00"]),
+    ("QwQ", ["17.31 ± 4.07", "0.87 ± 0.20", "0.41 ± 0.20", "0.33 ± 0.47", "3.33 ± 2.52"]),
+    ("GPT-4o-mini", ["0.00 ± 0.00", "0.00 ± 0.00", "0.00 ± 0.00", "0.00 ± 0.00", "0.00 ± 0.00"]),
+];
+
+/// What a run came to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunReport {
+    /// Who played, in words.
+    pub players: String,
+    /// One entry a seed.
+    pub seeds: Vec<SeedReport>,
+}
+
+impl RunReport {
+    /// A metric over the seeds; `None` if the task has none of that name.
+    pub fn figure(&self, name: &str) -> Option<FigureOfSeeds> {
+        let values: Option<Vec<f64>> = self.seeds.iter().map(|seed| seed.metric(name)).collect();
+        FigureOfSeeds::of(&values?)
+    }
+
+    /// The table of the five metrics, this run first, then the paper's rows.
+    pub fn table(&self) -> Table {
+        let right = |text: &str| Cell::new(text).set_alignment(CellAlignment::Right);
+        let mut table = Table::new();
+        table.load_preset(UTF8_FULL_CONDENSED);
+        table.set_header([""].into_iter().chain(COLUMNS.map(|(heading, _)| heading)));
+        let ours = COLUMNS.map(|(_, name)| self.figure(name).map_or("-".to_owned(), |figure| figure.to_string()));
+        let label = format!("simworld: {}", self.players);
+        table.add_row(
+            [Cell::new(label).add_attribute(Attribute::Bold)].into_iter().chain(ours.iter().map(|cell| right(cell))),
+        );
+        for (model, cells) in PAPER {
+            let label = Cell::new(format!("paper: {model}"));
+            table.add_row([label].into_iter().chain(cells.map(right)));
+        }
+        table
+    }
+
+    /// Every metric of the task, for each seed and over all.
+    pub fn details(&self) -> Table {
+        let mut table = Table::new();
+        table.load_preset(UTF8_FULL_CONDENSED);
+        let seeds = self.seeds.iter().map(|seed| format!("seed {}", seed.seed.0));
+        table.set_header(
+            ["metric".to_owned(), "unit".to_owned()].into_iter().chain(seeds).chain(["mean ± std".to_owned()]),
+        );
+        let Some(first) = self.seeds.first() else { return table };
+        for metric in &first.metrics {
+            let values = self.seeds.iter().map(|seed| {
+                seed.metric(&metric.name).map_or("-".to_owned(), |value| format!("{value:.2}"))
+            });
+            let over_all = self.figure(&metric.name).map_or("-".to_owned(), |figure| figure.to_string());
+            let row = [metric.name.clone(), metric.unit.clone()].into_iter().chain(values).chain([over_all]);
+            table.add_row(row.map(Cell::new).enumerate().map(|(column, cell)| {
+                if column > 1 { cell.set_alignment(CellAlignment::Right) } else { cell }
+            }));
+        }
+        table
+    }
+}
+
+impl fmt::Display for RunReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.table())?;
+        writeln!(
+            f,
+            "Profit, successful orders and energy efficiency are means per agent; sharing and investment are \
+             counts over all agents.\nEnergy efficiency is energy consumed per dollar earned, as the paper defines it; \
+             its inverse stands below.\n"
+        )?;
+        writeln!(f, "{}", self.details())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mean_and_deviation_are_those_of_a_sample() {
+        assert_eq!(FigureOfSeeds::of(&[1.0, 2.0, 3.0]), Some(FigureOfSeeds { mean: 2.0, deviation: 1.0 }));
+        assert_eq!(FigureOfSeeds::of(&[4.0]), Some(FigureOfSeeds { mean: 4.0, deviation: 0.0 }));
+        assert_eq!(FigureOfSeeds::of(&[]), None);
+    }
+}
