@@ -2,12 +2,13 @@
 
 mod derive;
 mod network;
+pub mod polyline;
 mod signal;
 mod waypoint;
 
 pub use derive::{NetworkConfig, NetworkError, Street, StreetPlan};
 pub use network::{
-    Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Sidewalk, Turn,
+    Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Turn,
 };
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use waypoint::{

@@ -126,6 +126,19 @@ pub struct Intersection {
     pub connections: Vec<ConnectionId>,
     /// The crossings on its legs.
     pub crossings: Vec<CrossingId>,
+    /// The walkways round its corners: the i-th leads from the left sidewalk of `roads[i]`, seen from here, to the
+    /// right sidewalk of the next road, ends included; empty without sidewalks.
+    pub corners: Vec<Vec<Point2>>,
+}
+
+/// A side of a road, seen along its centreline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// On the left.
+    Left,
+    /// On the right.
+    Right,
 }
 
 /// A raised walkway along one side of a road.
@@ -133,6 +146,8 @@ pub struct Intersection {
 pub struct Sidewalk {
     /// The road it follows.
     pub road: RoadId,
+    /// On which side of it.
+    pub side: Side,
     /// Its middle, in the direction of the centreline, m.
     pub path: Vec<Point2>,
     /// Width, m.
@@ -179,5 +194,18 @@ impl RoadNetwork {
     /// The number of signal groups, the length of [`Scene::signals`](crate::scene::Scene::signals).
     pub fn signal_groups(&self) -> usize {
         self.signals.iter().map(|plan| plan.groups.len()).sum()
+    }
+
+    /// The sidewalk on one side of a road, if it has one.
+    pub fn sidewalk(&self, road: RoadId, side: Side) -> Option<&Sidewalk> {
+        // Derived networks keep them in this order; a missing entry means that there are none at all.
+        self.sidewalks.get(2 * road.index() + usize::from(side == Side::Right))
+    }
+
+    /// The rectangle around all centrelines, least and greatest corner; `None` without roads.
+    pub fn bounds(&self) -> Option<(Point2, Point2)> {
+        let mut points = self.roads.iter().flat_map(|road| road.centerline.iter());
+        let first = *points.next()?;
+        Some(points.fold((first, first), |(low, high), point| (low.inf(point), high.sup(point))))
     }
 }

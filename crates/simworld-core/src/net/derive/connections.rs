@@ -1,0 +1,216 @@
+//! Connections: the ways across an intersection, which of them touch, and who gives way.
+
+use super::legs::Leg;
+use crate::geometry::{Point2, Vector2, direction};
+use crate::id::{ConnectionId, IntersectionId, LaneId};
+use crate::net::{Connection, Control, RoadClass, RoadNetwork, SignalGroup, Turn, polyline};
+use crate::ops::wrap_angle;
+
+/// Paths nearer than this touch: a vehicle's width and a margin, m.
+const TOUCHING: f64 = 2.4;
+/// A change of heading below this counts as straight on, radians.
+const STRAIGHT: f64 = 0.7;
+
+/// Adds the connections of one intersection.
+pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg]) {
+    let first = network.connections.len();
+    let vehicle_groups = network.signals.last().filter(|plan| plan.intersection == id).map(|plan| plan.groups.clone());
+    for (index, leg) in legs.iter().enumerate() {
+        let signal = vehicle_groups.as_ref().map(|groups| groups[index]);
+        for (from, to, turn) in movements(network, legs, leg) {
+            add_connection(network, id, from, to, turn, signal);
+        }
+    }
+    let own: Vec<ConnectionId> = (first..network.connections.len()).map(ConnectionId::from_index).collect();
+    set_conflicts(network, id, &own);
+    set_crossings(network, id, &own);
+    network.intersections[id.index()].connections = own;
+}
+
+/// Lanes that arrive over a leg, and lanes that leave over it, from the middle outwards.
+fn arriving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
+    let road = &network.roads[leg.street];
+    if leg.at_start { &road.backward } else { &road.forward }
+}
+
+fn leaving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
+    let road = &network.roads[leg.street];
+    if leg.at_start { &road.forward } else { &road.backward }
+}
+
+/// Which lanes of a leg lead to which lanes of the others.
+fn movements(network: &RoadNetwork, legs: &[Leg], leg: &Leg) -> Vec<(LaneId, LaneId, Turn)> {
+    let from = arriving(network, leg);
+    let mut found = Vec::new();
+    for other in legs.iter().filter(|other| other.street != leg.street) {
+        let to = leaving(network, other);
+        if from.is_empty() || to.is_empty() {
+            continue;
+        }
+        let turn = turn_between(leg, other);
+        match turn {
+            // Where only two roads meet, all lanes follow the bend.
+            _ if legs.len() == 2 => lane_to_lane(from, to, turn, &mut found),
+            Turn::Straight => lane_to_lane(from, to, turn, &mut found),
+            Turn::Right => found.push((from[from.len() - 1], to[to.len() - 1], turn)),
+            Turn::Left | Turn::UTurn => found.push((from[0], to[0], turn)),
+        }
+    }
+    if found.is_empty() {
+        let back = leaving(network, leg);
+        if !back.is_empty() {
+            lane_to_lane(from, back, Turn::UTurn, &mut found);
+        }
+    }
+    let stranded: Vec<LaneId> = from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
+    if let Some((_, to, turn)) = found.first().copied() {
+        found.extend(stranded.into_iter().map(|lane| (lane, to, turn)));
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Each lane to the one of its rank; those in excess on either side share the outermost.
+fn lane_to_lane(from: &[LaneId], to: &[LaneId], turn: Turn, found: &mut Vec<(LaneId, LaneId, Turn)>) {
+    for rank in 0..from.len().max(to.len()) {
+        found.push((from[rank.min(from.len() - 1)], to[rank.min(to.len() - 1)], turn));
+    }
+}
+
+fn turn_between(from: &Leg, to: &Leg) -> Turn {
+    let change = wrap_angle(to.heading - from.heading - std::f64::consts::PI);
+    if change.abs() <= STRAIGHT {
+        Turn::Straight
+    } else if change > 0.0 {
+        Turn::Left
+    } else {
+        Turn::Right
+    }
+}
+
+fn add_connection(
+    network: &mut RoadNetwork,
+    intersection: IntersectionId,
+    from: LaneId,
+    to: LaneId,
+    turn: Turn,
+    signal: Option<SignalGroup>,
+) {
+    let id = ConnectionId::from_index(network.connections.len());
+    let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
+    let (start, start_heading) = polyline::at(&entry.path, entry.length);
+    let (end, end_heading) = polyline::at(&exit.path, 0.0);
+    let path = curve(start, direction(start_heading), end, direction(end_heading));
+    network.connections.push(Connection {
+        from,
+        to,
+        intersection,
+        turn,
+        length: polyline::length(&path),
+        path,
+        signal,
+        conflicts: Vec::new(),
+        yields_to: Vec::new(),
+        crossings: Vec::new(),
+    });
+    network.lanes[from.index()].outgoing.push(id);
+}
+
+/// A cubic Bézier curve that leaves and arrives along the given directions, a point about every metre.
+fn curve(start: Point2, leaving: Vector2, end: Point2, arriving: Vector2) -> Vec<Point2> {
+    let apart = (end - start).norm();
+    // Longer handles where the curve turns back, so that a U-turn bulges like half a circle.
+    let turned_back = (1.0 - leaving.dot(&arriving)) * 0.5;
+    let handle = apart * (0.36 + 0.3 * turned_back * turned_back);
+    let (a, b) = (start + leaving * handle, end - arriving * handle);
+    let pieces = (apart.ceil() as usize).clamp(4, 200);
+    (0..=pieces)
+        .map(|index| {
+            let t = index as f64 / pieces as f64;
+            let s = 1.0 - t;
+            let sum = start.coords * (s * s * s)
+                + a.coords * (3.0 * s * s * t)
+                + b.coords * (3.0 * s * t * t)
+                + end.coords * (t * t * t);
+            sum.into()
+        })
+        .collect()
+}
+
+fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[ConnectionId]) {
+    for (index, a) in own.iter().enumerate() {
+        for b in &own[index + 1..] {
+            let (first, second) = (&network.connections[a.index()], &network.connections[b.index()]);
+            if first.from == second.from {
+                continue; // one file of vehicles: the follower sees its leader
+            }
+            let touch = first.to == second.to
+                || polyline::distance_between(&first.path, &second.path) < TOUCHING;
+            if !touch {
+                continue;
+            }
+            let yields = match go_together(network, id, first, second) {
+                true => Some(right_of_way(network, *a) > right_of_way(network, *b)),
+                false => None,
+            };
+            network.connections[a.index()].conflicts.push(*b);
+            network.connections[b.index()].conflicts.push(*a);
+            match yields {
+                Some(true) => network.connections[a.index()].yields_to.push(*b),
+                Some(false) => network.connections[b.index()].yields_to.push(*a),
+                None => {}
+            }
+        }
+    }
+    for connection in own {
+        let connection = &mut network.connections[connection.index()];
+        connection.conflicts.sort_unstable();
+        connection.yields_to.sort_unstable();
+    }
+}
+
+/// Whether signals ever let both go at once; always without signals.
+fn go_together(network: &RoadNetwork, id: IntersectionId, a: &Connection, b: &Connection) -> bool {
+    let (Some(first), Some(second)) = (a.signal, b.signal) else { return true };
+    let plan = network.signals.iter().rev().find(|plan| plan.intersection == id);
+    plan.is_some_and(|plan| {
+        plan.phases.iter().any(|p| p.green.contains(&first) && p.green.contains(&second))
+    })
+}
+
+/// The place in the order of right of way, lowest first: the higher road class, then straight before right before
+/// left; the index settles the rest, so that two never give way to each other.
+fn right_of_way(network: &RoadNetwork, id: ConnectionId) -> (u8, u8, ConnectionId) {
+    let connection = &network.connections[id.index()];
+    let road = network.lanes[connection.from.index()].road;
+    let controlled = network.intersections[connection.intersection.index()].control == Control::Signals;
+    let class = match network.roads[road.index()].class {
+        _ if controlled => 0,
+        RoadClass::Highway => 0,
+        RoadClass::Arterial => 1,
+        RoadClass::Local => 2,
+    };
+    let turn = match connection.turn {
+        Turn::Straight => 0,
+        Turn::Right => 1,
+        Turn::Left => 2,
+        Turn::UTurn => 3,
+    };
+    (class, turn, id)
+}
+
+fn set_crossings(network: &mut RoadNetwork, id: IntersectionId, own: &[ConnectionId]) {
+    let crossings = network.intersections[id.index()].crossings.clone();
+    for connection in own {
+        let path = &network.connections[connection.index()].path;
+        let over: Vec<_> = crossings
+            .iter()
+            .copied()
+            .filter(|crossing| {
+                let strip = &network.crossings[crossing.index()];
+                path.windows(2).any(|piece| polyline::crossing(piece[0], piece[1], strip.start, strip.end).is_some())
+            })
+            .collect();
+        network.connections[connection.index()].crossings = over;
+    }
+}

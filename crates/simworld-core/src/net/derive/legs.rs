@@ -1,0 +1,165 @@
+//! The legs of a junction: where each street leaves it, how wide it is there, and how far the junction reaches into it.
+
+use std::f64::consts::{PI, TAU};
+
+use super::{NetworkConfig, StreetPlan};
+use crate::geometry::{Point2, Vector2, direction, heading};
+use crate::net::polyline;
+
+/// Gap between the stop line and the crossing, m.
+const STOP_GAP: f64 = 1.0;
+/// How far a junction reaches into a leg where nothing asks for more, m.
+const LEAST_REACH: f64 = 2.0;
+/// Room to turn round at a dead end, m.
+const DEAD_END_REACH: f64 = 5.0;
+/// The lane that must remain of a street between its two junctions, m.
+const LEAST_LANE: f64 = 4.0;
+
+/// One street as it leaves one of its two nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Leg {
+    pub(super) street: usize,
+    /// Whether the street's centreline begins here.
+    pub(super) at_start: bool,
+    /// Direction in which it leaves.
+    pub(super) heading: f64,
+    /// Carriageway to the left of the centreline, seen leaving, m.
+    pub(super) left: f64,
+    /// Carriageway to the right, m.
+    pub(super) right: f64,
+    /// How far the paved junction reaches into the leg, m.
+    pub(super) reach: f64,
+    /// Where lanes end and begin, m from the node.
+    pub(super) stop: f64,
+    /// Where sidewalks end, m from the node; the middle of the crossing if there is one.
+    pub(super) walk: f64,
+    /// The centre of the junction.
+    pub(super) node: Point2,
+}
+
+impl Leg {
+    pub(super) fn direction(&self) -> Vector2 {
+        direction(self.heading)
+    }
+
+    /// The point `along` m out and `left` m to the left of the centreline, taken as straight near the junction.
+    pub(super) fn point(&self, along: f64, left: f64) -> Point2 {
+        let ahead = self.direction();
+        self.node + ahead * along + Vector2::new(-ahead.y, ahead.x) * left
+    }
+}
+
+/// The legs of every node, counter-clockwise by heading.
+pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>> {
+    let mut legs: Vec<Vec<Leg>> = vec![Vec::new(); plan.nodes.len()];
+    let mut lengths = Vec::with_capacity(plan.streets.len());
+    for (index, street) in plan.streets.iter().enumerate() {
+        let line = plan.centerline(street);
+        lengths.push(polyline::length(&line));
+        let forward = f64::from(street.forward_lanes) * config.lane_width;
+        let backward = f64::from(street.backward_lanes) * config.lane_width;
+        let leaving = |node: usize, towards: Point2, at_start: bool| Leg {
+            street: index,
+            at_start,
+            heading: heading(&(towards - plan.nodes[node])),
+            left: if at_start { backward } else { forward },
+            right: if at_start { forward } else { backward },
+            reach: 0.0,
+            stop: 0.0,
+            walk: 0.0,
+            node: plan.nodes[node],
+        };
+        legs[street.from].push(leaving(street.from, line[1], true));
+        legs[street.to].push(leaving(street.to, line[line.len() - 2], false));
+    }
+    for legs in &mut legs {
+        legs.sort_by(|a, b| a.heading.total_cmp(&b.heading).then(a.street.cmp(&b.street)));
+        set_reaches(legs, config);
+    }
+    fit_into_streets(&mut legs, &lengths);
+    legs
+}
+
+/// The angle by which one turns left from leg `a` to leg `b`, in (0, 2π].
+fn angle_between(a: &Leg, b: &Leg) -> f64 {
+    let angle = (b.heading - a.heading).rem_euclid(TAU);
+    if angle == 0.0 { TAU } else { angle }
+}
+
+fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
+    let count = legs.len();
+    for index in 0..count {
+        let (before, after) = (&legs[(index + count - 1) % count], &legs[(index + 1) % count]);
+        let leg = &legs[index];
+        let walk = config.sidewalk_width;
+        let on_left = edge_meeting(leg.left + walk, after.right + walk, angle_between(leg, after));
+        let on_right = edge_meeting(leg.right + walk, before.left + walk, angle_between(before, leg));
+        let reach = if count == 1 { DEAD_END_REACH } else { LEAST_REACH.max(on_left).max(on_right) };
+        let leg = &mut legs[index];
+        leg.reach = reach;
+        (leg.stop, leg.walk) = match count {
+            1 => (reach, 0.0),
+            2 => (reach, reach),
+            _ => (reach + config.crossing_width + STOP_GAP, reach + config.crossing_width * 0.5),
+        };
+    }
+}
+
+/// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
+fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
+    if angle >= PI - 0.05 {
+        return 0.0;
+    }
+    let (sin, cos) = crate::ops::sin_cos(angle);
+    ((other + own * cos) / sin).max(0.0)
+}
+
+/// Shortens the reaches at both ends of a street that is too short for them.
+fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
+    let mut wanted = vec![0.0; lengths.len()];
+    for leg in legs.iter().flatten() {
+        wanted[leg.street] += leg.stop;
+    }
+    for leg in legs.iter_mut().flatten() {
+        let room = lengths[leg.street] - LEAST_LANE;
+        let scale = (room / wanted[leg.street]).min(1.0);
+        leg.reach *= scale;
+        leg.stop *= scale;
+        leg.walk *= scale;
+    }
+}
+
+/// The paved area of a junction, counter-clockwise.
+pub(super) fn outline(center: Point2, legs: &[Leg]) -> Vec<Point2> {
+    match legs {
+        [] => vec![center],
+        [leg] => vec![
+            leg.point(0.0, leg.left),
+            leg.point(0.0, -leg.right),
+            leg.point(leg.reach, -leg.right),
+            leg.point(leg.reach, leg.left),
+        ],
+        _ => {
+            let mut outline = Vec::with_capacity(legs.len() * 3);
+            for (index, leg) in legs.iter().enumerate() {
+                outline.push(leg.point(leg.reach, -leg.right));
+                outline.push(leg.point(leg.reach, leg.left));
+                outline.extend(corner(leg, &legs[(index + 1) % legs.len()], 0.0));
+            }
+            outline
+        }
+    }
+}
+
+/// Where the left edge of `leg` meets the right edge of the next one, both moved outwards by `margin` m; `None` where
+/// the two run nearly parallel or meet far away.
+pub(super) fn corner(leg: &Leg, next: &Leg, margin: f64) -> Option<Point2> {
+    let met = polyline::meet(
+        leg.point(0.0, leg.left + margin),
+        leg.direction(),
+        next.point(0.0, -next.right - margin),
+        next.direction(),
+    )?;
+    let farthest = leg.reach.max(next.reach) + leg.left + next.right + margin;
+    ((met - leg.node).norm() <= farthest).then_some(met)
+}

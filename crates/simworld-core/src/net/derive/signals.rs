@@ -1,0 +1,81 @@
+//! Signal plans: stages of approaches that may go together, with pedestrians beside them.
+
+use super::NetworkConfig;
+use super::legs::Leg;
+use crate::geometry::Point2;
+use crate::id::IntersectionId;
+use crate::net::{Control, Phase, RoadNetwork, SignalGroup, SignalPlan};
+use crate::ops::wrap_angle;
+
+/// Walking speed for which the clearance of a crossing is laid out, m/s.
+const CLEARANCE_SPEED: f64 = 1.0;
+/// Shortest walk signal, s (MUTCD 2009, 4E.06: 4 to 7 s).
+const LEAST_WALK: f64 = 5.0;
+/// Two approaches go together if they face each other within this angle, radians.
+const OPPOSITE: f64 = 0.8;
+
+/// Adds a plan if the intersection has signals: one group for each leg's vehicles, one for each leg's crossing.
+pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg], config: &NetworkConfig) {
+    if network.intersections[id.index()].control != Control::Signals {
+        return;
+    }
+    let first = network.signal_groups() as u32;
+    let count = legs.len() as u32;
+    let vehicles = |leg: usize| SignalGroup(first + leg as u32);
+    let walkers = |leg: usize| SignalGroup(first + count + leg as u32);
+    let crossings = network.intersections[id.index()].crossings.clone();
+    for (leg, crossing) in crossings.iter().enumerate() {
+        network.crossings[crossing.index()].signal = Some(walkers(leg));
+    }
+    let mut phases = Vec::new();
+    for stage in stages(legs) {
+        // People cross the legs whose own vehicles stand; those who turn into them give way.
+        let crossed: Vec<usize> = (0..crossings.len()).filter(|leg| !stage.contains(leg)).collect();
+        let width = |leg: &usize| {
+            let crossing = &network.crossings[crossings[*leg].index()];
+            distance(crossing.start, crossing.end)
+        };
+        let clearance = crossed.iter().map(width).fold(0.0, f64::max) / CLEARANCE_SPEED;
+        let go: Vec<SignalGroup> = stage.iter().map(|leg| vehicles(*leg)).collect();
+        let walk: Vec<SignalGroup> = crossed.iter().map(|leg| walkers(*leg)).collect();
+        let both = [go.clone(), walk.clone()].concat();
+        let walking_time = (config.green - clearance).max(LEAST_WALK);
+        phases.push(Phase { duration: walking_time, green: both, yellow: Vec::new() });
+        if clearance > 0.0 {
+            phases.push(Phase { duration: clearance, green: go.clone(), yellow: walk });
+        }
+        phases.push(Phase { duration: config.yellow, green: Vec::new(), yellow: go });
+        phases.push(Phase { duration: config.all_red, green: Vec::new(), yellow: Vec::new() });
+    }
+    phases.retain(|phase| phase.duration > 0.0);
+    let cycle: f64 = phases.iter().map(|phase| phase.duration).sum();
+    // The golden ratio spreads the offsets of neighbours evenly over the cycle.
+    let offset = (f64::from(id.0) * 0.618_033_988_749_894_9).fract() * cycle;
+    let groups = (first..first + 2 * count).map(SignalGroup).collect();
+    network.signals.push(SignalPlan { intersection: id, groups, offset, phases });
+}
+
+/// The approaches that go together: opposite ones in pairs, the rest alone; legs ascending.
+fn stages(legs: &[Leg]) -> Vec<Vec<usize>> {
+    let mut left: Vec<usize> = (0..legs.len()).collect();
+    let mut stages = Vec::new();
+    while let Some(leg) = left.first().copied() {
+        left.remove(0);
+        let facing = |other: &usize| {
+            wrap_angle(legs[*other].heading - legs[leg].heading + std::f64::consts::PI).abs()
+        };
+        let partner = left.iter().copied().min_by(|a, b| facing(a).total_cmp(&facing(b)));
+        match partner.filter(|other| facing(other) <= OPPOSITE) {
+            Some(other) => {
+                left.retain(|leg| *leg != other);
+                stages.push(vec![leg, other]);
+            }
+            None => stages.push(vec![leg]),
+        }
+    }
+    stages
+}
+
+fn distance(a: Point2, b: Point2) -> f64 {
+    (b - a).norm()
+}

@@ -1,0 +1,162 @@
+//! Polylines in the plane: lengths, stations, offsets, nearest points. A station is a distance along, m.
+
+use crate::geometry::{Point2, Vector2};
+use crate::ops;
+
+/// Length, m.
+pub fn length(path: &[Point2]) -> f64 {
+    path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// The point at a station and the heading there, radians; stations outside are clamped to the ends.
+///
+/// A path of one point has heading zero; an empty one gives the origin.
+pub fn at(path: &[Point2], station: f64) -> (Point2, f64) {
+    let mut left = station.max(0.0);
+    let mut last = (path.first().copied().unwrap_or_else(Point2::origin), 0.0);
+    for pair in path.windows(2) {
+        let step = pair[1] - pair[0];
+        let span = step.norm();
+        if span == 0.0 {
+            continue;
+        }
+        let heading = ops::atan2(step.y, step.x);
+        if left <= span {
+            return (pair[0] + step * (left / span), heading);
+        }
+        left -= span;
+        last = (pair[1], heading);
+    }
+    last
+}
+
+/// The part between two stations, both clamped to the path; two equal points if nothing is left.
+pub fn slice(path: &[Point2], from: f64, to: f64) -> Vec<Point2> {
+    let (from, to) = (from.max(0.0), to.min(length(path)));
+    let mut out = vec![at(path, from).0];
+    let mut station = 0.0;
+    for pair in path.windows(2) {
+        station += (pair[1] - pair[0]).norm();
+        if station > from + 1e-9 && station < to - 1e-9 {
+            out.push(pair[1]);
+        }
+    }
+    out.push(at(path, to.max(from)).0);
+    out
+}
+
+/// The path shifted sideways, positive to the left; corners are mitred, sharp ones cut at twice the offset.
+pub fn offset(path: &[Point2], distance: f64) -> Vec<Point2> {
+    let normals: Vec<Vector2> = path
+        .windows(2)
+        .map(|pair| {
+            let step = pair[1] - pair[0];
+            Vector2::new(-step.y, step.x).try_normalize(1e-12).unwrap_or_else(Vector2::zeros)
+        })
+        .collect();
+    let shift = |index: usize| -> Vector2 {
+        let before = normals.get(index.wrapping_sub(1)).or(normals.first());
+        let after = normals.get(index).or(normals.last());
+        let (Some(before), Some(after)) = (before, after) else { return Vector2::zeros() };
+        let sum = before + after;
+        let scale = (2.0 / sum.norm_squared().max(1e-12)).min(2.0);
+        sum * scale
+    };
+    path.iter().enumerate().map(|(index, point)| point + shift(index) * distance).collect()
+}
+
+/// The same way backwards.
+pub fn reversed(path: &[Point2]) -> Vec<Point2> {
+    path.iter().rev().copied().collect()
+}
+
+/// Where on a path a point is nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// Distance along the path, m.
+    pub station: f64,
+    /// Distance from the path, m.
+    pub distance: f64,
+    /// Positive on the left of the path, negative on the right, m.
+    pub lateral: f64,
+}
+
+/// The station nearest to a point; `None` for a path of fewer than two points.
+pub fn closest(path: &[Point2], point: &Point2) -> Option<Closest> {
+    let mut best: Option<Closest> = None;
+    let mut start = 0.0;
+    for pair in path.windows(2) {
+        let step = pair[1] - pair[0];
+        let span = step.norm();
+        let to_point = point - pair[0];
+        let along = if span > 0.0 { (to_point.dot(&step) / (span * span)).clamp(0.0, 1.0) } else { 0.0 };
+        let away = to_point - step * along;
+        let distance = away.norm();
+        if best.is_none_or(|best| distance < best.distance) {
+            let side = if step.perp(&to_point) >= 0.0 { 1.0 } else { -1.0 };
+            best = Some(Closest { station: start + along * span, distance, lateral: side * distance });
+        }
+        start += span;
+    }
+    best
+}
+
+/// The least distance between two paths, m; infinite if one is empty.
+pub fn distance_between(a: &[Point2], b: &[Point2]) -> f64 {
+    let one_way = |a: &[Point2], b: &[Point2]| {
+        a.iter().filter_map(|point| closest(b, point)).map(|c| c.distance).fold(f64::INFINITY, f64::min)
+    };
+    let cross = a.windows(2).any(|p| b.windows(2).any(|q| crossing(p[0], p[1], q[0], q[1]).is_some()));
+    if cross { 0.0 } else { one_way(a, b).min(one_way(b, a)) }
+}
+
+/// Where two segments cross, as shares of their lengths; `None` if they do not or are parallel.
+pub fn crossing(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<(f64, f64)> {
+    let (r, s, between) = (b - a, d - c, c - a);
+    let det = r.perp(&s);
+    if det.abs() < 1e-12 {
+        return None;
+    }
+    let (t, u) = (between.perp(&s) / det, between.perp(&r) / det);
+    ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)).then_some((t, u))
+}
+
+/// Where two lines meet, each given by a point and a direction; `None` if they are nearly parallel.
+pub(crate) fn meet(p: Point2, along_p: Vector2, q: Point2, along_q: Vector2) -> Option<Point2> {
+    let det = along_p.perp(&along_q);
+    (det.abs() > 0.15).then(|| p + along_p * ((q - p).perp(&along_q) / det))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bend() -> Vec<Point2> {
+        vec![Point2::new(0.0, 0.0), Point2::new(10.0, 0.0), Point2::new(10.0, 5.0)]
+    }
+
+    #[test]
+    fn stations_run_round_the_bend() {
+        assert_eq!(length(&bend()), 15.0);
+        let (point, heading) = at(&bend(), 12.0);
+        assert!((point - Point2::new(10.0, 2.0)).norm() < 1e-12);
+        assert!((heading - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+        assert_eq!(at(&bend(), 99.0).0, Point2::new(10.0, 5.0));
+    }
+
+    #[test]
+    fn an_offset_to_the_left_cuts_the_inner_corner() {
+        let inner = offset(&bend(), 1.0);
+        assert!((inner[1] - Point2::new(9.0, 1.0)).norm() < 1e-12, "{}", inner[1]);
+        let outer = offset(&bend(), -1.0);
+        assert!((outer[1] - Point2::new(11.0, -1.0)).norm() < 1e-12, "{}", outer[1]);
+    }
+
+    #[test]
+    fn the_nearest_station_knows_its_side() {
+        let found = closest(&bend(), &Point2::new(4.0, 2.0)).unwrap();
+        assert_eq!((found.station, found.lateral), (4.0, 2.0));
+        assert_eq!(closest(&bend(), &Point2::new(4.0, -2.0)).unwrap().lateral, -2.0);
+        assert_eq!(slice(&bend(), 4.0, 12.0).len(), 3);
+    }
+}
