@@ -1,0 +1,204 @@
+//! Builds the levels of the waypoint graph from a road network.
+
+use super::grid::PointGrid;
+use super::{Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind};
+use crate::geometry::{Point2, Vector2};
+use crate::id::{CrossingId, IntersectionId, LaneId, RoadId, WaypointId};
+use crate::net::{RoadNetwork, Side, polyline};
+
+/// A graph under construction.
+#[derive(Default)]
+struct Builder {
+    waypoints: Vec<Waypoint>,
+    edges: Vec<(WaypointId, WaypointEdge)>,
+}
+
+impl Builder {
+    fn add(&mut self, position: Point2, kind: WaypointKind) -> WaypointId {
+        self.waypoints.push(Waypoint { position, kind });
+        WaypointId::from_index(self.waypoints.len() - 1)
+    }
+
+    fn join_one_way(&mut self, from: WaypointId, to: WaypointId, length: f64) {
+        self.edges.push((from, WaypointEdge { to, length, crossing: None }));
+    }
+
+    fn join(&mut self, a: WaypointId, b: WaypointId, crossing: Option<CrossingId>) {
+        let length = (self.waypoints[a.index()].position - self.waypoints[b.index()].position).norm();
+        self.edges.push((a, WaypointEdge { to: b, length, crossing }));
+        self.edges.push((b, WaypointEdge { to: a, length, crossing }));
+    }
+
+    /// Adds waypoints along a path, its ends and corners included, at most `step` apart; returns them in order.
+    fn along(&mut self, path: &[Point2], step: f64, kind: WaypointKind) -> Vec<WaypointId> {
+        let mut added: Vec<WaypointId> = path.first().map(|first| self.add(*first, kind)).into_iter().collect();
+        for pair in path.windows(2) {
+            let piece = pair[1] - pair[0];
+            let count = (piece.norm() / step).ceil().max(1.0);
+            for index in 1..=count as u64 {
+                added.push(self.add(pair[0] + piece * (index as f64 / count), kind));
+            }
+        }
+        added
+    }
+
+    fn finish(mut self) -> WaypointGraph {
+        self.edges.sort_by_key(|(from, edge)| (*from, edge.to));
+        let mut starts = vec![0_u32; self.waypoints.len() + 1];
+        for (from, _) in &self.edges {
+            starts[from.index() + 1] += 1;
+        }
+        for index in 1..starts.len() {
+            starts[index] += starts[index - 1];
+        }
+        let grid = PointGrid::new(&self.waypoints);
+        let edges = self.edges.into_iter().map(|(_, edge)| edge).collect();
+        WaypointGraph { waypoints: self.waypoints, starts, edges, grid }
+    }
+}
+
+pub(super) fn coarse(network: &RoadNetwork) -> WaypointGraph {
+    let mut builder = Builder::default();
+    for (index, intersection) in network.intersections.iter().enumerate() {
+        builder.add(intersection.center, WaypointKind::Intersection(IntersectionId::from_index(index)));
+    }
+    for road in &network.roads {
+        let length = polyline::length(&road.centerline);
+        let (from, to) = (WaypointId(road.from.0), WaypointId(road.to.0));
+        if !road.forward.is_empty() {
+            builder.join_one_way(from, to, length);
+        }
+        if !road.backward.is_empty() {
+            builder.join_one_way(to, from, length);
+        }
+    }
+    builder.finish()
+}
+
+/// The first and last waypoint of a sidewalk.
+type Ends = (WaypointId, WaypointId);
+
+pub(super) fn walkable(network: &RoadNetwork, config: &WaypointConfig) -> WaypointGraph {
+    let mut builder = Builder::default();
+    let mut ends: Vec<Ends> = Vec::with_capacity(network.sidewalks.len());
+    for sidewalk in &network.sidewalks {
+        let path = shifted(&sidewalk.path, sidewalk.side, config.offset);
+        let walk = builder.along(&path, config.step, WaypointKind::Sidewalk);
+        for pair in walk.windows(2) {
+            builder.join(pair[0], pair[1], None);
+        }
+        // A sidewalk has at least two points, so its walk is not empty.
+        ends.push((walk[0], walk[walk.len() - 1]));
+    }
+    for (index, _) in network.intersections.iter().enumerate() {
+        join_corners(&mut builder, network, IntersectionId::from_index(index), &ends, config.step);
+    }
+    for (index, _) in network.crossings.iter().enumerate() {
+        join_crossing(&mut builder, network, CrossingId::from_index(index), &ends);
+    }
+    builder.finish()
+}
+
+/// The path moved away from the road between its ends, which stay.
+fn shifted(path: &[Point2], side: Side, offset: f64) -> Vec<Point2> {
+    let (Some(first), Some(last)) = (path.first(), path.last()) else { return Vec::new() };
+    if offset == 0.0 {
+        return path.to_vec();
+    }
+    let outwards = if side == Side::Left { offset } else { -offset };
+    let mut moved = vec![*first];
+    moved.extend(polyline::offset(path, outwards));
+    moved.push(*last);
+    moved
+}
+
+/// The waypoint at which a road's sidewalk ends at an intersection; sides are seen from the intersection.
+fn walk_end(
+    network: &RoadNetwork,
+    at: IntersectionId,
+    road: RoadId,
+    side: Side,
+    ends: &[Ends],
+) -> Option<WaypointId> {
+    let at_start = network.roads[road.index()].from == at;
+    let on_left = (side == Side::Left) == at_start;
+    let (first, last) = ends.get(2 * road.index() + usize::from(!on_left))?;
+    Some(if at_start { *first } else { *last })
+}
+
+fn join_corners(
+    builder: &mut Builder,
+    network: &RoadNetwork,
+    at: IntersectionId,
+    ends: &[Ends],
+    step: f64,
+) {
+    let intersection = &network.intersections[at.index()];
+    for (index, corner) in intersection.corners.iter().enumerate() {
+        let (road, next) =
+            (intersection.roads[index], intersection.roads[(index + 1) % intersection.roads.len()]);
+        let from = walk_end(network, at, road, Side::Left, ends);
+        let to = walk_end(network, at, next, Side::Right, ends);
+        let (Some(from), Some(to)) = (from, to) else { continue };
+        let mut last = from;
+        let between = builder.along(corner, step, WaypointKind::Sidewalk);
+        // The ends of the walkway are the ends of the sidewalks, which are waypoints already.
+        for waypoint in between.iter().skip(1).take(between.len().saturating_sub(2)) {
+            builder.join(last, *waypoint, None);
+            last = *waypoint;
+        }
+        builder.join(last, to, None);
+    }
+}
+
+fn join_crossing(builder: &mut Builder, network: &RoadNetwork, id: CrossingId, ends: &[Ends]) {
+    let crossing = &network.crossings[id.index()];
+    let left = walk_end(network, crossing.intersection, crossing.road, Side::Left, ends);
+    let right = walk_end(network, crossing.intersection, crossing.road, Side::Right, ends);
+    let (Some(left), Some(right)) = (left, right) else { return };
+    let start = builder.add(crossing.start, WaypointKind::Kerb(id));
+    let end = builder.add(crossing.end, WaypointKind::Kerb(id));
+    builder.join(left, start, None);
+    builder.join(start, end, Some(id));
+    builder.join(end, right, None);
+}
+
+pub(super) fn drivable(network: &RoadNetwork, config: &WaypointConfig) -> WaypointGraph {
+    let mut builder = Builder::default();
+    let mut ends: Vec<Ends> = Vec::with_capacity(network.lanes.len());
+    for (index, lane) in network.lanes.iter().enumerate() {
+        let offset = polyline::offset(&lane.path, -config.offset);
+        let kind = WaypointKind::Lane(LaneId::from_index(index));
+        let way = builder.along(&offset, config.step, kind);
+        drive(&mut builder, &way);
+        // A lane has at least two points, so its way is not empty.
+        ends.push((way[0], way[way.len() - 1]));
+    }
+    for connection in &network.connections {
+        let kind = WaypointKind::Lane(connection.from);
+        let way = builder.along(&coarsened(&connection.path, config.step), config.step, kind);
+        let inner = &way[1..way.len() - 1];
+        let whole: Vec<WaypointId> = [ends[connection.from.index()].1]
+            .into_iter()
+            .chain(inner.iter().copied())
+            .chain([ends[connection.to.index()].0])
+            .collect();
+        drive(&mut builder, &whole);
+    }
+    builder.finish()
+}
+
+/// A finely sampled path with points about `step` apart, ends included.
+fn coarsened(path: &[Point2], step: f64) -> Vec<Point2> {
+    let length = polyline::length(path);
+    let count = (length / step).ceil().max(2.0);
+    (0..=count as u64).map(|index| polyline::at(path, length * index as f64 / count).0).collect()
+}
+
+fn drive(builder: &mut Builder, way: &[WaypointId]) {
+    for pair in way.windows(2) {
+        let apart: Vector2 =
+            builder.waypoints[pair[1].index()].position - builder.waypoints[pair[0].index()].position;
+        builder.join_one_way(pair[0], pair[1], apart.norm());
+    }
+}
