@@ -14,7 +14,8 @@ const STRAIGHT: f64 = 0.7;
 /// Adds the connections of one intersection.
 pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg]) {
     let first = network.connections.len();
-    let vehicle_groups = network.signals.last().filter(|plan| plan.intersection == id).map(|plan| plan.groups.clone());
+    let vehicle_groups =
+        network.signals.last().filter(|plan| plan.intersection == id).map(|plan| plan.groups.clone());
     for (index, leg) in legs.iter().enumerate() {
         let signal = vehicle_groups.as_ref().map(|groups| groups[index]);
         for (from, to, turn) in movements(network, legs, leg) {
@@ -62,7 +63,8 @@ fn movements(network: &RoadNetwork, legs: &[Leg], leg: &Leg) -> Vec<(LaneId, Lan
             lane_to_lane(from, back, Turn::UTurn, &mut found);
         }
     }
-    let stranded: Vec<LaneId> = from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
+    let stranded: Vec<LaneId> =
+        from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
     if let Some((_, to, turn)) = found.first().copied() {
         found.extend(stranded.into_iter().map(|lane| (lane, to, turn)));
     }
@@ -144,8 +146,8 @@ fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[Connectio
             if first.from == second.from {
                 continue; // one file of vehicles: the follower sees its leader
             }
-            let touch = first.to == second.to
-                || polyline::distance_between(&first.path, &second.path) < TOUCHING;
+            let touch =
+                first.to == second.to || polyline::distance_between(&first.path, &second.path) < TOUCHING;
             if !touch {
                 continue;
             }
@@ -173,9 +175,7 @@ fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[Connectio
 fn go_together(network: &RoadNetwork, id: IntersectionId, a: &Connection, b: &Connection) -> bool {
     let (Some(first), Some(second)) = (a.signal, b.signal) else { return true };
     let plan = network.signals.iter().rev().find(|plan| plan.intersection == id);
-    plan.is_some_and(|plan| {
-        plan.phases.iter().any(|p| p.green.contains(&first) && p.green.contains(&second))
-    })
+    plan.is_some_and(|plan| plan.phases.iter().any(|p| p.green.contains(&first) && p.green.contains(&second)))
 }
 
 /// The place in the order of right of way, lowest first: the higher road class, then straight before right before
@@ -208,7 +208,8 @@ fn set_crossings(network: &mut RoadNetwork, id: IntersectionId, own: &[Connectio
             .copied()
             .filter(|crossing| {
                 let strip = &network.crossings[crossing.index()];
-                path.windows(2).any(|piece| polyline::crossing(piece[0], piece[1], strip.start, strip.end).is_some())
+                path.windows(2)
+                    .any(|piece| polyline::crossing(piece[0], piece[1], strip.start, strip.end).is_some())
             })
             .collect();
         network.connections[connection.index()].crossings = over;

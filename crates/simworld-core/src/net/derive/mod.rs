@@ -189,7 +189,10 @@ impl StreetPlan {
         match pairs.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
             Some(pair) => Err(NetworkError::Street {
                 street: pair[1].2,
-                reason: format!("joins the same nodes as street {}: remove one, or put a node on it", pair[0].2),
+                reason: format!(
+                    "joins the same nodes as street {}: remove one, or put a node on it",
+                    pair[0].2
+                ),
             }),
             None => Ok(()),
         }
@@ -209,7 +212,9 @@ impl StreetPlan {
         }
         let length = polyline::length(&self.centerline(street));
         if length < SHORTEST_STREET {
-            return Err(format!("is {length:.1} m long: give at least {SHORTEST_STREET} m, or merge its nodes"));
+            return Err(format!(
+                "is {length:.1} m long: give at least {SHORTEST_STREET} m, or merge its nodes"
+            ));
         }
         Ok(())
     }
@@ -291,7 +296,8 @@ impl StreetPlan {
 
     /// A rectangular grid of `columns` x `rows` nodes, `spacing` m apart, with one lane each way.
     pub fn grid(columns: usize, rows: usize, spacing: f64) -> Self {
-        let position = |index: usize| ((index % columns) as f64 * spacing, (index / columns) as f64 * spacing);
+        let position =
+            |index: usize| ((index % columns) as f64 * spacing, (index / columns) as f64 * spacing);
         let nodes = (0..columns * rows).map(position).map(|(x, y)| Point2::new(x, y)).collect();
         let mut streets = Vec::new();
         for index in 0..columns * rows {

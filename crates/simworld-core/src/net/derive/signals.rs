@@ -61,9 +61,8 @@ fn stages(legs: &[Leg]) -> Vec<Vec<usize>> {
     let mut stages = Vec::new();
     while let Some(leg) = left.first().copied() {
         left.remove(0);
-        let facing = |other: &usize| {
-            wrap_angle(legs[*other].heading - legs[leg].heading + std::f64::consts::PI).abs()
-        };
+        let facing =
+            |other: &usize| wrap_angle(legs[*other].heading - legs[leg].heading + std::f64::consts::PI).abs();
         let partner = left.iter().copied().min_by(|a, b| facing(a).total_cmp(&facing(b)));
         match partner.filter(|other| facing(other) <= OPPOSITE) {
             Some(other) => {

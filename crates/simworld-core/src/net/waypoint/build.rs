@@ -29,17 +29,9 @@ impl Builder {
         self.edges.push((b, WaypointEdge { to: a, length, crossing }));
     }
 
-    /// Adds waypoints along a path, its ends and corners included, at most `step` apart; returns them in order.
-    fn along(&mut self, path: &[Point2], step: f64, kind: WaypointKind) -> Vec<WaypointId> {
-        let mut added: Vec<WaypointId> = path.first().map(|first| self.add(*first, kind)).into_iter().collect();
-        for pair in path.windows(2) {
-            let piece = pair[1] - pair[0];
-            let count = (piece.norm() / step).ceil().max(1.0);
-            for index in 1..=count as u64 {
-                added.push(self.add(pair[0] + piece * (index as f64 / count), kind));
-            }
-        }
-        added
+    /// Adds waypoints at these places; returns them in order.
+    fn add_all(&mut self, places: &[Point2], kind: WaypointKind) -> Vec<WaypointId> {
+        places.iter().map(|place| self.add(*place, kind)).collect()
     }
 
     fn finish(mut self) -> WaypointGraph {
@@ -75,6 +67,22 @@ pub(super) fn coarse(network: &RoadNetwork) -> WaypointGraph {
     builder.finish()
 }
 
+/// Places along a path, its ends and corners included, at most `step` apart.
+fn interpolated(path: &[Point2], step: f64) -> Vec<Point2> {
+    let mut places: Vec<Point2> = path.first().copied().into_iter().collect();
+    for pair in path.windows(2) {
+        let piece = pair[1] - pair[0];
+        let count = (piece.norm() / step).ceil().max(1.0);
+        places.extend((1..=count as u64).map(|index| pair[0] + piece * (index as f64 / count)));
+    }
+    places
+}
+
+/// All but the first and the last.
+fn inner<T>(items: &[T]) -> &[T] {
+    if items.len() < 2 { &[] } else { &items[1..items.len() - 1] }
+}
+
 /// The first and last waypoint of a sidewalk.
 type Ends = (WaypointId, WaypointId);
 
@@ -83,7 +91,7 @@ pub(super) fn walkable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
     let mut ends: Vec<Ends> = Vec::with_capacity(network.sidewalks.len());
     for sidewalk in &network.sidewalks {
         let path = shifted(&sidewalk.path, sidewalk.side, config.offset);
-        let walk = builder.along(&path, config.step, WaypointKind::Sidewalk);
+        let walk = builder.add_all(&interpolated(&path, config.step), WaypointKind::Sidewalk);
         for pair in walk.windows(2) {
             builder.join(pair[0], pair[1], None);
         }
@@ -126,13 +134,7 @@ fn walk_end(
     Some(if at_start { *first } else { *last })
 }
 
-fn join_corners(
-    builder: &mut Builder,
-    network: &RoadNetwork,
-    at: IntersectionId,
-    ends: &[Ends],
-    step: f64,
-) {
+fn join_corners(builder: &mut Builder, network: &RoadNetwork, at: IntersectionId, ends: &[Ends], step: f64) {
     let intersection = &network.intersections[at.index()];
     for (index, corner) in intersection.corners.iter().enumerate() {
         let (road, next) =
@@ -141,11 +143,11 @@ fn join_corners(
         let to = walk_end(network, at, next, Side::Right, ends);
         let (Some(from), Some(to)) = (from, to) else { continue };
         let mut last = from;
-        let between = builder.along(corner, step, WaypointKind::Sidewalk);
         // The ends of the walkway are the ends of the sidewalks, which are waypoints already.
-        for waypoint in between.iter().skip(1).take(between.len().saturating_sub(2)) {
-            builder.join(last, *waypoint, None);
-            last = *waypoint;
+        for place in inner(&interpolated(corner, step)) {
+            let waypoint = builder.add(*place, WaypointKind::Sidewalk);
+            builder.join(last, waypoint, None);
+            last = waypoint;
         }
         builder.join(last, to, None);
     }
@@ -169,18 +171,17 @@ pub(super) fn drivable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
     for (index, lane) in network.lanes.iter().enumerate() {
         let offset = polyline::offset(&lane.path, -config.offset);
         let kind = WaypointKind::Lane(LaneId::from_index(index));
-        let way = builder.along(&offset, config.step, kind);
+        let way = builder.add_all(&interpolated(&offset, config.step), kind);
         drive(&mut builder, &way);
         // A lane has at least two points, so its way is not empty.
         ends.push((way[0], way[way.len() - 1]));
     }
     for connection in &network.connections {
         let kind = WaypointKind::Lane(connection.from);
-        let way = builder.along(&coarsened(&connection.path, config.step), config.step, kind);
-        let inner = &way[1..way.len() - 1];
+        let way = builder.add_all(inner(&coarsened(&connection.path, config.step)), kind);
         let whole: Vec<WaypointId> = [ends[connection.from.index()].1]
             .into_iter()
-            .chain(inner.iter().copied())
+            .chain(way)
             .chain([ends[connection.to.index()].0])
             .collect();
         drive(&mut builder, &whole);

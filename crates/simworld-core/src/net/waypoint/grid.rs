@@ -30,7 +30,8 @@ impl PointGrid {
         let cell = CELL.max((size.x * size.y / MOST_CELLS).sqrt());
         let columns = (size.x / cell) as usize + 1;
         let rows = (size.y / cell) as usize + 1;
-        let mut grid = Self { origin: low, cell, columns, rows, starts: vec![0; columns * rows + 1], points: vec![] };
+        let mut grid =
+            Self { origin: low, cell, columns, rows, starts: vec![0; columns * rows + 1], points: vec![] };
         let cells: Vec<usize> = waypoints.iter().map(|w| grid.cell_of(w.position)).collect();
         for cell in &cells {
             grid.starts[cell + 1] += 1;
@@ -84,7 +85,8 @@ impl PointGrid {
 
     /// How far a point lies outside the grid, m.
     fn distance_outside(&self, point: Point2) -> f64 {
-        let far = self.origin + crate::geometry::Vector2::new(self.columns as f64, self.rows as f64) * self.cell;
+        let far =
+            self.origin + crate::geometry::Vector2::new(self.columns as f64, self.rows as f64) * self.cell;
         let dx = (self.origin.x - point.x).max(point.x - far.x).max(0.0);
         let dy = (self.origin.y - point.y).max(point.y - far.y).max(0.0);
         (dx * dx + dy * dy).sqrt()
@@ -118,7 +120,8 @@ mod tests {
     #[test]
     fn the_nearest_is_that_of_a_full_search() {
         let mut rng = Seed(9).stream("grid").rng();
-        let mut random = |reach: f64| Point2::new(rng.uniform(-reach, reach), rng.uniform(-reach, reach * 0.3));
+        let mut random =
+            |reach: f64| Point2::new(rng.uniform(-reach, reach), rng.uniform(-reach, reach * 0.3));
         let waypoints: Vec<Waypoint> =
             (0..400).map(|_| Waypoint { position: random(300.0), kind: WaypointKind::Sidewalk }).collect();
         let grid = PointGrid::new(&waypoints);

@@ -124,7 +124,8 @@ impl<'a> IntoEdgeReferences for &'a WaypointGraph {
     type EdgeReferences = std::vec::IntoIter<EdgeReference<'a>>;
 
     fn edge_references(self) -> Self::EdgeReferences {
-        let all: Vec<EdgeReference<'a>> = self.node_identifiers().flat_map(|from| self.edges_from(from)).collect();
+        let all: Vec<EdgeReference<'a>> =
+            self.node_identifiers().flat_map(|from| self.edges_from(from)).collect();
         all.into_iter()
     }
 }
@@ -140,9 +141,10 @@ impl<'a> IntoEdges for &'a WaypointGraph {
 impl WaypointGraph {
     fn edges_from(&self, from: WaypointId) -> impl Iterator<Item = EdgeReference<'_>> {
         let first = self.starts[from.index()] as usize;
-        WaypointGraph::edges(self, from)
-            .iter()
-            .enumerate()
-            .map(move |(rank, edge)| EdgeReference { from, index: first + rank, edge })
+        WaypointGraph::edges(self, from).iter().enumerate().map(move |(rank, edge)| EdgeReference {
+            from,
+            index: first + rank,
+            edge,
+        })
     }
 }

@@ -1,0 +1,230 @@
+//! What every derived network must be: lanes that lead on, paths that join, walkways that reach everywhere, signals that
+//! never let two crossing streams go at once.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use simworld_core::geometry::{Point2, direction};
+use simworld_core::id::{LaneId, WaypointId};
+use simworld_core::net::{
+    Aspect, Control, NetworkConfig, NetworkError, RoadNetwork, Route, RouteScratch, Street, StreetPlan, Turn,
+    WaypointConfig, WaypointGraph, polyline,
+};
+use simworld_core::ops;
+
+/// A grid with moved nodes and some streets taken out, still connected because the first row and all columns stay.
+fn shaken_grid() -> impl Strategy<Value = StreetPlan> {
+    (2_usize..5, 2_usize..5)
+        .prop_flat_map(|(columns, rows)| {
+            let count = columns * rows;
+            let shifts = prop::collection::vec((-25.0..25.0_f64, -25.0..25.0_f64), count);
+            let kept = prop::collection::vec(any::<bool>(), count * 2);
+            (Just((columns, rows)), shifts, kept)
+        })
+        .prop_map(|((columns, rows), shifts, kept)| {
+            let mut plan = StreetPlan::grid(columns, rows, 110.0);
+            for (node, (dx, dy)) in plan.nodes.iter_mut().zip(&shifts) {
+                *node = Point2::new(node.x + dx, node.y + dy);
+            }
+            let mut index = 0;
+            plan.streets.retain(|street| {
+                index += 1;
+                street.to != street.from + 1 || street.from < columns || kept[index % kept.len()]
+            });
+            plan
+        })
+}
+
+/// A star of streets with at least 30° between them.
+fn star() -> impl Strategy<Value = StreetPlan> {
+    prop::collection::vec((0.55..1.2_f64, 80.0..160.0_f64, 1_u8..3), 1..6).prop_map(|arms| {
+        let mut plan = StreetPlan { nodes: vec![Point2::origin()], streets: Vec::new() };
+        let mut heading = 0.0;
+        for (gap, length, lanes) in arms {
+            heading += gap;
+            plan.nodes.push(Point2::origin() + direction(heading) * length);
+            let to = plan.nodes.len() - 1;
+            plan.streets.push(Street {
+                forward_lanes: lanes,
+                backward_lanes: lanes,
+                ..Street::simple(0, to)
+            });
+        }
+        plan
+    })
+}
+
+fn check(plan: &StreetPlan) -> Result<(), TestCaseError> {
+    let network = RoadNetwork::derive(plan, &NetworkConfig::default()).expect("the plan is sound");
+    check_paths(&network)?;
+    check_lanes_reach_all(&network)?;
+    check_signals(&network)?;
+    check_right_of_way(&network)?;
+    check_walks(&network)
+}
+
+fn check_paths(network: &RoadNetwork) -> Result<(), TestCaseError> {
+    for lane in &network.lanes {
+        prop_assert!(!lane.outgoing.is_empty(), "a lane leads nowhere");
+        prop_assert!((lane.length - polyline::length(&lane.path)).abs() < 1e-9);
+    }
+    for connection in &network.connections {
+        let (from, to) = (&network.lanes[connection.from.index()], &network.lanes[connection.to.index()]);
+        let (end, heading) = polyline::at(&from.path, from.length);
+        prop_assert!((connection.path[0] - end).norm() < 1e-6, "a gap before the junction");
+        prop_assert!(
+            (connection.path[connection.path.len() - 1] - to.path[0]).norm() < 1e-6,
+            "a gap after it"
+        );
+        let (_, leaving) = polyline::at(&connection.path, 0.0);
+        if connection.turn != Turn::UTurn {
+            prop_assert!(ops::wrap_angle(leaving - heading).abs() < 0.35, "a kink at the stop line");
+        }
+        prop_assert_eq!(from.to, connection.intersection);
+        prop_assert_eq!(to.from, connection.intersection);
+    }
+    Ok(())
+}
+
+fn check_lanes_reach_all(network: &RoadNetwork) -> Result<(), TestCaseError> {
+    if network.intersections.iter().all(|intersection| intersection.roads.len() == 2) {
+        return Ok(()); // on a ring, one way round never meets the other
+    }
+    let mut reached = BTreeSet::from([LaneId(0)]);
+    let mut open = vec![LaneId(0)];
+    while let Some(lane) = open.pop() {
+        for connection in &network.lanes[lane.index()].outgoing {
+            let to = network.connections[connection.index()].to;
+            if reached.insert(to) {
+                open.push(to);
+            }
+        }
+    }
+    let inner = network.lanes.iter().enumerate().filter(|(_, lane)| {
+        let road = &network.roads[lane.road.index()];
+        road.forward.first() == road.forward.last() && road.backward.first() == road.backward.last()
+    });
+    for (index, _) in inner {
+        prop_assert!(reached.contains(&LaneId::from_index(index)), "lane {} cannot be reached", index);
+    }
+    Ok(())
+}
+
+fn check_signals(network: &RoadNetwork) -> Result<(), TestCaseError> {
+    let mut groups = 0;
+    for plan in &network.signals {
+        for group in &plan.groups {
+            prop_assert_eq!(group.index(), groups, "groups are numbered densely");
+            groups += 1;
+        }
+        let intersection = &network.intersections[plan.intersection.index()];
+        for phase in &plan.phases {
+            prop_assert!(phase.duration > 0.0);
+            let goes = |id: &simworld_core::id::ConnectionId| {
+                network.connections[id.index()]
+                    .signal
+                    .is_some_and(|group| phase.aspect(group) == Aspect::Green)
+            };
+            for a in intersection.connections.iter().filter(|id| goes(id)) {
+                let connection = &network.connections[a.index()];
+                for b in connection.conflicts.iter().filter(|id| goes(id)) {
+                    let settled = connection.yields_to.contains(b)
+                        || network.connections[b.index()].yields_to.contains(a);
+                    prop_assert!(settled, "two crossing streams go at once and nobody gives way");
+                }
+            }
+        }
+        for connection in &intersection.connections {
+            let group = network.connections[connection.index()].signal.expect("signals govern every way");
+            let green = plan.phases.iter().any(|phase| phase.aspect(group) == Aspect::Green);
+            prop_assert!(green, "a stream never gets green");
+        }
+    }
+    prop_assert_eq!(groups, network.signal_groups());
+    Ok(())
+}
+
+fn check_right_of_way(network: &RoadNetwork) -> Result<(), TestCaseError> {
+    for (index, connection) in network.connections.iter().enumerate() {
+        for other in &connection.conflicts {
+            let back = &network.connections[other.index()];
+            prop_assert!(
+                back.conflicts.iter().any(|id| id.index() == index),
+                "a conflict is known to one only"
+            );
+            let mutual =
+                connection.yields_to.contains(other) && back.yields_to.iter().any(|id| id.index() == index);
+            prop_assert!(!mutual, "two give way to each other");
+        }
+    }
+    Ok(())
+}
+
+fn check_walks(network: &RoadNetwork) -> Result<(), TestCaseError> {
+    let walks =
+        WaypointGraph::walkable(network, &WaypointConfig::default()).expect("the defaults are in range");
+    let (mut scratch, mut route) = (RouteScratch::default(), Route::default());
+    for to in 0..walks.waypoints().len() {
+        let to = WaypointId::from_index(to);
+        prop_assert!(walks.route(WaypointId(0), to, &mut scratch, &mut route), "a walkway is cut off");
+        let straight = (walks.waypoint(to).position - walks.waypoint(WaypointId(0)).position).norm();
+        prop_assert!(route.length >= straight - 1e-9);
+    }
+    let coarse = WaypointGraph::coarse(network);
+    for to in 0..coarse.waypoints().len() {
+        prop_assert!(coarse.route(WaypointId(0), WaypointId::from_index(to), &mut scratch, &mut route));
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn shaken_grids_hold_together(plan in shaken_grid()) {
+        check(&plan)?;
+    }
+
+    #[test]
+    fn stars_hold_together(plan in star()) {
+        check(&plan)?;
+    }
+
+    #[test]
+    fn no_plan_makes_it_panic(
+        nodes in prop::collection::vec((any::<f64>(), any::<f64>()), 0..6),
+        streets in prop::collection::vec((0_usize..8, 0_usize..8, any::<u8>(), any::<u8>()), 0..8),
+        lane_width in any::<f64>(),
+    ) {
+        let plan = StreetPlan {
+            nodes: nodes.into_iter().map(|(x, y)| Point2::new(x, y)).collect(),
+            streets: streets
+                .into_iter()
+                .map(|(from, to, forward_lanes, backward_lanes)| Street {
+                    forward_lanes, backward_lanes, ..Street::simple(from, to)
+                })
+                .collect(),
+        };
+        let _ = RoadNetwork::derive(&plan, &NetworkConfig { lane_width, ..NetworkConfig::default() });
+    }
+}
+
+#[test]
+fn faults_are_named() {
+    let mut plan = StreetPlan::crossroads(100.0);
+    plan.streets.push(Street::simple(0, 9));
+    let error = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap_err();
+    assert!(matches!(error, NetworkError::Street { street: 4, .. }), "{error}");
+    let short = StreetPlan::crossroads(5.0);
+    let error = RoadNetwork::derive(&short, &NetworkConfig::default()).unwrap_err();
+    assert!(error.to_string().contains("5.0 m long"), "{error}");
+}
+
+#[test]
+fn signals_can_be_turned_off() {
+    let config = NetworkConfig { signals_from_roads: 0, ..NetworkConfig::default() };
+    let network = RoadNetwork::derive(&StreetPlan::crossroads(80.0), &config).unwrap();
+    assert_eq!(network.intersections[0].control, Control::Priority);
+    assert!(network.signals.is_empty() && network.connections.iter().all(|c| c.signal.is_none()));
+    assert!(network.connections.iter().any(|c| !c.yields_to.is_empty()));
+}
