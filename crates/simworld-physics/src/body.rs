@@ -1,0 +1,238 @@
+//! The seam by which a body joins the physics: what it implements and what it is given.
+
+use rapier3d_f64::prelude::{
+    PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody, RigidBodyHandle, RigidBodySet,
+};
+use simworld_core::geometry::{Point2, Vector3};
+use simworld_core::id::EntityId;
+use simworld_core::scene::Role;
+use simworld_core::seam::{BodyState, Embodiment};
+
+use crate::PhysicsConfig;
+
+/// What ties a body to other things this step, as the world knows it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Bonds {
+    /// How it hangs on a carrier (seated, aboard), if it does: then the carrier moves it.
+    pub carried: Option<Role>,
+    /// The scooter it rides.
+    pub scooter: Option<EntityId>,
+}
+
+/// An [`Embodiment`] that moves under the laws of a physics world.
+///
+/// Once a substep, [`sense`](Self::sense) lets every body look at the same frozen state, side by side on several
+/// threads; then [`drive`](Self::drive) lets one after the other act on the engine, by ascending id. The engine
+/// steps, and [`settle`](Self::settle) tells each body what became of it.
+///
+/// # Implementing it
+///
+/// A hovering drone, held aloft by thrust against gravity:
+///
+/// ```
+/// use simworld_core::action::{Action, ActionKind, ActionSet};
+/// use simworld_core::geometry::{Pose, Twist, Vector3, pose_facing, Point3};
+/// use simworld_core::id::EntityId;
+/// use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+/// use simworld_core::seam::{BodyState, Dynamics, Embodiment, EmbodimentError};
+/// use simworld_physics::rapier::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
+/// use simworld_physics::{BodyContext, PhysicsBody, PhysicsConfig, PhysicsDynamics, collider_for, convert};
+///
+/// struct Drone { state: BodyState, climb: f64 }
+///
+/// impl Embodiment for Drone {
+///     fn supports(&self) -> ActionSet { ActionSet::of(&[ActionKind::MoveForward, ActionKind::Stop]) }
+///     fn apply(&mut self, action: &Action) -> Result<(), EmbodimentError> {
+///         self.climb = match action {
+///             Action::MoveForward { speed } if (0.0..=20.0).contains(speed) => *speed,
+///             Action::Stop => 0.0,
+///             other => return Err(EmbodimentError::unsupported(other.kind(), self.supports())),
+///         };
+///         Ok(())
+///     }
+///     fn state(&self) -> BodyState { self.state }
+/// }
+///
+/// impl PhysicsBody for Drone {
+///     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
+///         let frame = RigidBodyBuilder::dynamic().pose(convert::to_pose(&self.state.pose)).can_sleep(false);
+///         let hull = collider_for(&Shape::Sphere { radius: 0.2 }, id, 0.5).mass(2.0);
+///         physics.insert(frame, hull).0
+///     }
+///     fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64) {
+///         let wanted = Vector3::z() * self.climb - self.state.twist.linear + Vector3::z() * 9.81 * dt;
+///         let rigid = context.rigid_body();
+///         rigid.apply_impulse(convert::to_vector(&(wanted * rigid.mass())), true);
+///     }
+///     fn settle(&mut self, state: &BodyState) { self.state = *state; }
+/// }
+///
+/// let mut world = World::new();
+/// let start = pose_facing(Point3::new(0.0, 0.0, 5.0), 0.0);
+/// let id = world.spawn(EntityDesc::new(EntityKind::Robot, start, Shape::Sphere { radius: 0.2 }))?;
+/// let mut physics = PhysicsDynamics::new(PhysicsConfig::default())?;
+/// let state = BodyState { pose: start, twist: Twist::ZERO };
+/// physics.insert(&world, id, Box::new(Drone { state, climb: 0.0 }))?;
+/// world.actuate(id, Action::MoveForward { speed: 1.0 })?;
+/// for _ in 0..10 {
+///     world.begin_step();
+///     physics.step(&mut world, 0.1)?;
+///     world.finish_step();
+/// }
+/// assert!((world.entity(id).unwrap().position().z - 6.0).abs() < 0.05); // 1 m up in 1 s
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait PhysicsBody: Embodiment + Send {
+    /// Puts its rigid body and colliders into the engine at its present state. The frame of the rigid body is
+    /// the entity's body frame; colliders carry the entity's mark ([`collider_for`](crate::collider_for) sets it).
+    fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle;
+
+    /// Learns what it is tied to, once a step before it moves; of no interest to most bodies.
+    fn bind(&mut self, _bonds: Bonds) {}
+
+    /// Looks around before anybody moves and makes up its mind; reads, and changes only itself.
+    fn sense(&mut self, _around: &Surroundings<'_>, _dt: f64) {}
+
+    /// Acts on the engine for the coming substep of `dt` s: sets a kinematic target, applies impulses.
+    fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64);
+
+    /// Takes up the state that the engine reached.
+    fn settle(&mut self, state: &BodyState);
+
+    /// Is put somewhere else from outside; by default it takes the state as it is given.
+    fn place(&mut self, state: &BodyState) {
+        self.settle(state);
+    }
+}
+
+/// The frozen state around a body, for [`PhysicsBody::sense`].
+#[derive(Clone, Copy)]
+pub struct Surroundings<'a> {
+    pub(crate) physics: &'a PhysicsWorld,
+    pub(crate) nobody: &'a RigidBodySet,
+    pub(crate) rigid: RigidBodyHandle,
+    pub(crate) config: &'a PhysicsConfig,
+}
+
+impl Surroundings<'_> {
+    /// Queries against every solid but the body's own.
+    ///
+    /// The pipeline knows colliders and not their rigid bodies, so that a character controller standing beside a
+    /// passing car is blocked by it and not swept along, as it would be on a moving platform.
+    pub fn queries(&self) -> QueryPipeline<'_> {
+        let filter = QueryFilter::new().exclude_rigid_body(self.rigid);
+        QueryPipeline { bodies: self.nobody, ..self.physics.query_pipeline_with_filter(filter) }
+    }
+
+    /// The settings of the physics.
+    pub fn config(&self) -> &PhysicsConfig {
+        self.config
+    }
+}
+
+/// Room that a body takes in this substep: an upright cylinder in the world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claim {
+    /// Its axis.
+    pub center: Point2,
+    /// m.
+    pub radius: f64,
+    /// Height of its lower end, m.
+    pub bottom: f64,
+    /// Height of its upper end, m.
+    pub top: f64,
+}
+
+/// What a body may act on, for [`PhysicsBody::drive`].
+pub struct BodyContext<'a> {
+    pub(crate) physics: &'a mut PhysicsWorld,
+    pub(crate) rigid: RigidBodyHandle,
+    pub(crate) config: &'a PhysicsConfig,
+    pub(crate) claims: &'a mut Vec<Claim>,
+}
+
+impl BodyContext<'_> {
+    /// The body's own rigid body.
+    pub fn rigid_body(&mut self) -> &mut RigidBody {
+        self.physics.bodies.get_mut(self.rigid).expect("a body in the list has its rigid body in the engine")
+    }
+
+    /// The handle of the body's own rigid body.
+    pub fn handle(&self) -> RigidBodyHandle {
+        self.rigid
+    }
+
+    /// Queries that may change bodies, against every solid but the body's own.
+    pub fn queries_mut(&mut self) -> QueryPipelineMut<'_> {
+        let world = &mut *self.physics;
+        world.broad_phase.as_query_pipeline_mut(
+            world.narrow_phase.query_dispatcher(),
+            &mut world.bodies,
+            &mut world.colliders,
+            QueryFilter::new().exclude_rigid_body(self.rigid),
+        )
+    }
+
+    /// The settings of the physics.
+    pub fn config(&self) -> &PhysicsConfig {
+        self.config
+    }
+
+    /// How much of a displacement leads to no overlap with the room that bodies before this one have taken in
+    /// this substep: a share in [0, 1]. Moving away from an overlap is free.
+    pub fn free_share(&self, room: &Claim, displacement: &Vector3, gap: f64) -> f64 {
+        self.claims.iter().map(|claim| share_before(claim, room, displacement, gap)).fold(1.0, f64::min)
+    }
+
+    /// Takes room for this substep, which bodies after this one then respect.
+    pub fn claim(&mut self, room: Claim) {
+        self.claims.push(room);
+    }
+}
+
+/// The share of a displacement after which two discs come within `gap` of one another.
+fn share_before(claim: &Claim, room: &Claim, displacement: &Vector3, gap: f64) -> f64 {
+    let (low, high) =
+        (room.bottom.min(room.bottom + displacement.z), room.top.max(room.top + displacement.z));
+    if high <= claim.bottom || claim.top <= low {
+        return 1.0;
+    }
+    let reach = room.radius + claim.radius + gap;
+    let from = room.center - claim.center;
+    // |from + s * move|² = reach², the smaller root s.
+    let a = displacement.xy().norm_squared();
+    let b = from.dot(&displacement.xy());
+    let c = from.norm_squared() - reach * reach;
+    if a == 0.0 || b >= 0.0 {
+        return 1.0; // standing, or moving apart
+    }
+    if c <= 0.0 {
+        return 0.0;
+    }
+    let discriminant = b * b - a * c;
+    if discriminant <= 0.0 { 1.0 } else { ((-b - discriminant.sqrt()) / a).clamp(0.0, 1.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn disc(x: f64, y: f64) -> Claim {
+        Claim { center: Point2::new(x, y), radius: 0.25, bottom: 0.0, top: 1.8 }
+    }
+
+    #[test]
+    fn a_step_ends_at_the_gap() {
+        let share = share_before(&disc(1.0, 0.0), &disc(0.0, 0.0), &Vector3::new(1.0, 0.0, 0.0), 0.02);
+        assert!((share - 0.48).abs() < 1e-12, "{share}");
+    }
+
+    #[test]
+    fn passing_by_above_or_away_is_free() {
+        let step = Vector3::new(1.0, 0.0, 0.0);
+        assert_eq!(share_before(&disc(1.0, 0.6), &disc(0.0, 0.0), &step, 0.02), 1.0);
+        assert_eq!(share_before(&disc(-0.3, 0.0), &disc(0.0, 0.0), &step, 0.02), 1.0);
+        let below = Claim { bottom: -2.0, top: -0.1, ..disc(1.0, 0.0) };
+        assert_eq!(share_before(&below, &disc(0.0, 0.0), &step, 0.02), 1.0);
+    }
+}

@@ -1,0 +1,157 @@
+//! Contacts as events: which pairs came to touch, where, and how fast they approached.
+//!
+//! Bodies on the solver touch when the solver says so. Walkers keep a small gap to everything, so they touch what
+//! is about that gap away.
+
+use rapier3d_f64::math::Vector;
+use rapier3d_f64::parry::query::contact;
+use rapier3d_f64::prelude::{ColliderHandle, QueryFilter};
+use simworld_core::event::EventKind;
+use simworld_core::geometry::{Point3, Vector3};
+use simworld_core::id::EntityId;
+use simworld_core::scene::World;
+
+use crate::convert::{from_point, from_vector, to_point};
+use crate::dynamics::{Owned, PhysicsDynamics, world_point};
+use crate::humanoid::SKIN;
+use crate::shape::BodyTag;
+
+/// Gap up to which a walker comes to touch something, m.
+const TOUCH: f64 = SKIN + 0.01;
+/// Gap beyond which it no longer does, m.
+const PART: f64 = SKIN + 0.05;
+
+/// Which pairs touch, and the news of this step.
+#[derive(Debug, Default)]
+pub(crate) struct Contacts {
+    /// Pairs that touch, the lower id first, ascending.
+    pub(crate) touching: Vec<(EntityId, EntityId)>,
+    /// Those of the substep under examination.
+    now: Vec<(EntityId, EntityId)>,
+    /// Those that came to touch in this step.
+    begun: Vec<Contact>,
+}
+
+/// The beginning of a contact.
+#[derive(Clone, Copy, Debug)]
+struct Contact {
+    pair: (EntityId, EntityId),
+    point: Point3,
+    closing_speed: f64,
+}
+
+impl Contacts {
+    /// Reports the contacts that began in this step, by ascending pair, each once.
+    pub(crate) fn report(&mut self, world: &mut World) {
+        self.begun.sort_by_key(|contact| contact.pair);
+        self.begun.dedup_by_key(|contact| contact.pair);
+        for Contact { pair: (a, b), point, closing_speed } in self.begun.drain(..) {
+            world.emit(EventKind::Contact { a, b, point, closing_speed });
+        }
+    }
+
+    fn touched(&self, pair: (EntityId, EntityId)) -> bool {
+        self.touching.binary_search(&pair).is_ok()
+    }
+
+    fn note(&mut self, contact: Contact) {
+        if !self.touched(contact.pair) && !self.now.contains(&contact.pair) {
+            self.begun.push(contact);
+        }
+        self.now.push(contact.pair);
+    }
+
+    fn finish(&mut self) {
+        self.now.sort_unstable();
+        self.now.dedup();
+        std::mem::swap(&mut self.touching, &mut self.now);
+        self.now.clear();
+    }
+}
+
+impl PhysicsDynamics {
+    /// Finds the pairs that touch after a substep.
+    pub(crate) fn find_contacts(&mut self) {
+        let mut contacts = std::mem::take(&mut self.contacts);
+        for owned in self.bodies.iter().filter(|owned| owned.bonds.carried.is_none()) {
+            let rigid = &self.physics.bodies[owned.rigid];
+            for handle in rigid.colliders() {
+                if rigid.is_dynamic() {
+                    self.find_solved(owned, *handle, &mut contacts);
+                } else {
+                    self.find_close(owned, *handle, &mut contacts);
+                }
+            }
+        }
+        contacts.finish();
+        self.contacts = contacts;
+    }
+
+    /// What the solver has in contact with a dynamic body.
+    fn find_solved(&self, owned: &Owned, handle: ColliderHandle, contacts: &mut Contacts) {
+        for pair in self.physics.contact_pairs_with(handle).filter(|pair| pair.has_any_active_contact()) {
+            let Some((manifold, deepest)) = pair.find_deepest_contact() else { continue };
+            let is_first = pair.collider1 == handle;
+            let other = if is_first { pair.collider2 } else { pair.collider1 };
+            let collider = &self.physics.colliders[pair.collider1];
+            let point = world_point(collider.position(), deepest.local_p1);
+            // The manifold's normal points from the first to the second.
+            let normal = from_vector(manifold.data.normal);
+            let towards_other = if is_first { normal } else { -normal };
+            self.note(owned, other, point, towards_other, contacts);
+        }
+    }
+
+    /// What is about one skin away from a walker.
+    fn find_close(&self, owned: &Owned, handle: ColliderHandle, contacts: &mut Contacts) {
+        let collider = &self.physics.colliders[handle];
+        let (pose, solid) = (*collider.position(), collider.shape());
+        let mut aabb = collider.compute_aabb();
+        aabb.mins -= Vector::splat(PART);
+        aabb.maxs += Vector::splat(PART);
+        let filter = QueryFilter::new().exclude_rigid_body(owned.rigid);
+        for (other, met) in self.physics.intersect_aabb_conservative(aabb, filter) {
+            let Some(id) = BodyTag::from_user_data(met.user_data).entity() else { continue };
+            let Ok(Some(found)) = contact(&pose, solid, met.position(), met.shape(), PART) else { continue };
+            let reach = if contacts.touched(ordered(owned.id, id)) { PART } else { TOUCH };
+            if found.dist <= reach {
+                let point = from_point(found.point2);
+                self.note(owned, other, point, from_vector(found.normal1), contacts);
+            }
+        }
+    }
+
+    fn note(
+        &self,
+        owned: &Owned,
+        other: ColliderHandle,
+        point: Point3,
+        towards_other: Vector3,
+        contacts: &mut Contacts,
+    ) {
+        let collider = &self.physics.colliders[other];
+        let Some(id) = BodyTag::from_user_data(collider.user_data).entity() else { return };
+        let approach = self.velocity_before(owned, &point) - self.velocity_of(id, other, &point);
+        let closing_speed = approach.dot(&towards_other).max(0.0);
+        contacts.note(Contact { pair: ordered(owned.id, id), point, closing_speed });
+    }
+
+    /// Velocity of a point of a body before the substep, which the solver has not yet braked.
+    fn velocity_before(&self, owned: &Owned, point: &Point3) -> Vector3 {
+        let arm = point.coords - owned.body.state().pose.translation.vector;
+        owned.before.linear + owned.before.angular.cross(&arm)
+    }
+
+    fn velocity_of(&self, id: EntityId, collider: ColliderHandle, point: &Point3) -> Vector3 {
+        if let Ok(place) = self.position(id) {
+            return self.velocity_before(&self.bodies[place], point);
+        }
+        let parent = self.physics.colliders[collider].parent();
+        let rigid = parent.and_then(|handle| self.physics.bodies.get(handle));
+        rigid.map_or_else(Vector3::zeros, |rigid| from_vector(rigid.velocity_at_point(to_point(point))))
+    }
+}
+
+fn ordered(a: EntityId, b: EntityId) -> (EntityId, EntityId) {
+    if a <= b { (a, b) } else { (b, a) }
+}

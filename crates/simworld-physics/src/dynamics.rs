@@ -1,0 +1,356 @@
+//! The physics of a world: which bodies it has, and the step.
+
+use rapier3d_f64::math::{Pose as RapierPose, Vector};
+use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyHandle, RigidBodySet};
+use rayon::prelude::*;
+use simworld_core::event::EventKind;
+use simworld_core::geometry::{Pose, Twist};
+use simworld_core::hash::StateHasher;
+use simworld_core::id::EntityId;
+use simworld_core::scene::{Scene, World};
+use simworld_core::seam::{BodyState, Dynamics, DynamicsError};
+
+use crate::body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
+use crate::contact::Contacts;
+use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
+use crate::mirror::Moving;
+use crate::shape::BodyTag;
+use crate::sync::Slot;
+use crate::{Humanoid, HumanoidConfig, PhysicsConfig, PhysicsError, Rigid, Vehicle, VehicleConfig};
+
+/// Thickness of the ground, m: no body falls through it in a step.
+const GROUND_THICKNESS: f64 = 100.0;
+
+/// The bodies of a world under the laws of physics.
+///
+/// Solid things that do not move by themselves become fixed colliders; traffic near a body of this physics becomes
+/// a moving obstacle; the entities that were given a body here are moved by it.
+///
+/// ```
+/// use simworld_core::action::Action;
+/// use simworld_core::geometry::{Point3, pose_facing};
+/// use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+/// use simworld_core::seam::Dynamics;
+/// use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics};
+///
+/// let mut world = World::new();
+/// let wall = pose_facing(Point3::new(5.0, 0.0, 0.0), 0.0);
+/// world.spawn(EntityDesc::new(EntityKind::Building, wall, Shape::cuboid(2.0, 20.0, 6.0)))?;
+/// let shape = Shape::Capsule { radius: 0.25, height: 1.8 };
+/// let start = pose_facing(Point3::origin(), 0.0);
+/// let walker = world.spawn(EntityDesc::new(EntityKind::Person, start, shape))?;
+/// let mut physics = PhysicsDynamics::new(PhysicsConfig::default())?;
+/// physics.add_humanoid(&world, walker, HumanoidConfig::default())?;
+/// world.actuate(walker, Action::MoveForward { speed: 1.4 })?;
+/// for _ in 0..50 {
+///     world.begin_step();
+///     physics.step(&mut world, 0.1)?;
+///     world.finish_step();
+/// }
+/// let x = world.entity(walker).unwrap().position().x;
+/// assert!(x > 3.7 && x < 3.75); // the face of the wall is at 4 m, half a body away
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct PhysicsDynamics {
+    pub(crate) config: PhysicsConfig,
+    pub(crate) physics: PhysicsWorld,
+    /// What the physics makes of each slot of the world.
+    pub(crate) slots: Vec<Slot>,
+    /// By ascending id.
+    pub(crate) bodies: Vec<Owned>,
+    pub(crate) contacts: Contacts,
+    /// An empty set, lent to queries that must not know rigid bodies.
+    pub(crate) nobody: RigidBodySet,
+    // Scratch space of a step.
+    pub(crate) moving: Vec<Moving>,
+    pub(crate) near: Vec<simworld_core::geometry::Point2>,
+    claims: Vec<Claim>,
+    failures: Vec<EventKind>,
+}
+
+/// A body of this physics.
+pub(crate) struct Owned {
+    pub(crate) id: EntityId,
+    pub(crate) body: Box<dyn PhysicsBody>,
+    pub(crate) rigid: RigidBodyHandle,
+    /// The pose that the physics wrote last; another one in the world means that somebody moved the entity.
+    pub(crate) written: Pose,
+    pub(crate) bonds: Bonds,
+    /// Velocity at the start of the substep, for the closing speed of contacts.
+    pub(crate) before: Twist,
+}
+
+impl PhysicsDynamics {
+    /// A physics with a ground at z = 0 and no bodies.
+    ///
+    /// # Errors
+    /// A setting out of range.
+    pub fn new(config: PhysicsConfig) -> Result<Self, PhysicsError> {
+        config.validate()?;
+        let mut physics = PhysicsWorld::new();
+        physics.gravity = Vector::new(0.0, 0.0, -config.gravity);
+        let (reach, depth) = (config.ground_half_extent, GROUND_THICKNESS * 0.5);
+        let ground = ColliderBuilder::cuboid(reach, reach, depth)
+            .position(RapierPose::from_translation(Vector::new(0.0, 0.0, -depth)))
+            .friction(config.friction)
+            .user_data(BodyTag::Ground.to_user_data());
+        let ground = physics.insert_collider(ground, None);
+        let mut dynamics = Self {
+            config,
+            physics,
+            slots: Vec::new(),
+            bodies: Vec::new(),
+            contacts: Contacts::default(),
+            nobody: RigidBodySet::new(),
+            moving: Vec::new(),
+            near: Vec::new(),
+            claims: Vec::new(),
+            failures: Vec::new(),
+        };
+        dynamics.file(ground);
+        Ok(dynamics)
+    }
+
+    /// The settings.
+    pub fn config(&self) -> &PhysicsConfig {
+        &self.config
+    }
+
+    /// Gives a person's entity a body of its pose and size.
+    ///
+    /// # Errors
+    /// An unknown entity, one that has a body, a shape that is no upright body, or a setting out of range.
+    pub fn add_humanoid(
+        &mut self,
+        world: &World,
+        id: EntityId,
+        config: HumanoidConfig,
+    ) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        self.insert(world, id, Box::new(Humanoid::of(&entity, config)?))
+    }
+
+    /// Gives a car's entity a body of its pose and size.
+    ///
+    /// # Errors
+    /// An unknown entity, one that has a body, a shape too small for the wheels, or a setting out of range.
+    pub fn add_vehicle(
+        &mut self,
+        world: &World,
+        id: EntityId,
+        config: VehicleConfig,
+    ) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        self.insert(world, id, Box::new(Vehicle::of(&entity, config)?))
+    }
+
+    /// Lets an entity fall and tumble as a free rigid body of its pose, velocity, shape and mass.
+    ///
+    /// # Errors
+    /// An unknown entity, or one that has a body.
+    pub fn add_rigid(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        self.insert(world, id, Box::new(Rigid::of(&entity, self.config.friction)))
+    }
+
+    /// Gives an entity a body of any kind.
+    ///
+    /// # Errors
+    /// An unknown entity, or one that has a body.
+    pub fn insert(
+        &mut self,
+        world: &World,
+        id: EntityId,
+        mut body: Box<dyn PhysicsBody>,
+    ) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        let Err(place) = self.position(id) else { return Err(PhysicsError::Occupied { id }) };
+        if self.slots.len() <= id.index() {
+            self.slots.resize_with(id.index() + 1, Slot::default);
+        }
+        self.vacate(id.index());
+        self.slots[id.index()] = Slot::Own { id };
+        let rigid = body.attach(id, &mut self.physics);
+        let owned =
+            Owned { id, body, rigid, written: *entity.pose, bonds: Bonds::default(), before: Twist::ZERO };
+        self.bodies.insert(place, owned);
+        self.file_body(rigid);
+        Ok(())
+    }
+
+    /// Takes the body away from an entity, which then stays where it is.
+    ///
+    /// # Errors
+    /// The entity has none.
+    pub fn remove(&mut self, id: EntityId) -> Result<(), PhysicsError> {
+        let place = self.position(id).map_err(|_| PhysicsError::Bodiless { id })?;
+        let owned = self.bodies.remove(place);
+        self.physics.remove_body(owned.rigid);
+        self.slots[id.index()] = Slot::Vacant;
+        Ok(())
+    }
+
+    /// The entities that have a body here, by ascending id.
+    pub fn bodies(&self) -> impl Iterator<Item = EntityId> + '_ {
+        self.bodies.iter().map(|owned| owned.id)
+    }
+
+    /// The body of an entity, if it has one.
+    pub fn body(&self, id: EntityId) -> Option<&dyn PhysicsBody> {
+        self.position(id).ok().map(|place| &*self.bodies[place].body)
+    }
+
+    /// Where the body of an entity is and how it moves, if it has one.
+    pub fn state(&self, id: EntityId) -> Option<BodyState> {
+        self.body(id).map(|body| body.state())
+    }
+
+    pub(crate) fn position(&self, id: EntityId) -> Result<usize, usize> {
+        self.bodies.binary_search_by_key(&id, |owned| owned.id)
+    }
+
+    /// Passes on what bodies were told; what they refuse becomes an event.
+    fn take_actions(&mut self, world: &mut World) {
+        for (who, action) in world.actuations() {
+            let Ok(place) = self.position(*who) else { continue };
+            if let Err(error) = self.bodies[place].body.apply(action) {
+                let (action, reason) = (action.kind(), error.to_string());
+                self.failures.push(EventKind::ActionFailed { who: *who, action, reason });
+            }
+        }
+        for failure in self.failures.drain(..) {
+            world.emit(failure);
+        }
+        for owned in &mut self.bodies {
+            owned.body.bind(owned.bonds);
+        }
+    }
+
+    /// Lets every body look around; the state is frozen, so the order and the thread do not matter.
+    fn sense(&mut self, dt: f64) {
+        let (physics, nobody, config) = (&self.physics, &self.nobody, &self.config);
+        let sense = |owned: &mut Owned| {
+            if owned.bonds.carried.is_none() {
+                owned.body.sense(&Surroundings { physics, nobody, rigid: owned.rigid, config }, dt);
+            }
+        };
+        if self.bodies.len() >= config.parallel_threshold {
+            self.bodies.par_iter_mut().with_min_len(8).for_each(sense);
+        } else {
+            self.bodies.iter_mut().for_each(sense);
+        }
+    }
+
+    /// One substep: `share` of the world's step will have passed at its end.
+    fn substep(&mut self, dt: f64, share: f64) -> Result<(), PhysicsError> {
+        self.sense(dt);
+        self.claims.clear();
+        for owned in &mut self.bodies {
+            owned.before = owned.body.state().twist;
+            if owned.bonds.carried.is_none() {
+                let (physics, rigid) = (&mut self.physics, owned.rigid);
+                let claims = &mut self.claims;
+                owned.body.drive(&mut BodyContext { physics, rigid, config: &self.config, claims }, dt);
+            }
+        }
+        self.advance_mirrors(share);
+        self.physics.step();
+        self.check_finite()?;
+        for owned in self.bodies.iter_mut().filter(|owned| owned.bonds.carried.is_none()) {
+            let rigid = &self.physics.bodies[owned.rigid];
+            let linear = from_vector(rigid.velocity_at_point(rigid.translation()));
+            let twist = Twist { linear, angular: from_vector(rigid.angvel()) };
+            owned.body.settle(&BodyState { pose: from_pose(rigid.position()), twist });
+        }
+        self.find_contacts();
+        Ok(())
+    }
+
+    fn check_finite(&self) -> Result<(), PhysicsError> {
+        let quarantine = self.physics.quarantine();
+        if quarantine.bodies().is_empty() && quarantine.colliders().is_empty() {
+            return Ok(());
+        }
+        let caught = |owned: &&Owned| {
+            let rigid = &self.physics.bodies[owned.rigid];
+            quarantine.bodies().contains(&owned.rigid)
+                || rigid.colliders().iter().any(|handle| quarantine.colliders().contains(handle))
+        };
+        match self.bodies.iter().find(caught) {
+            Some(owned) => Err(PhysicsError::NotFinite { id: owned.id }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes poses and velocities of whatever moved.
+    fn write_back(&mut self, world: &mut World) -> Result<(), DynamicsError> {
+        for owned in self.bodies.iter_mut().filter(|owned| owned.bonds.carried.is_none()) {
+            let BodyState { pose, twist } = owned.body.state();
+            owned.written = pose;
+            let moved = world.entity(owned.id).is_some_and(|e| *e.pose != pose || *e.twist != twist);
+            if moved {
+                world.set_motion(owned.id, pose, twist)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts a body somewhere else from outside.
+    pub(crate) fn place(&mut self, index: usize, state: &BodyState) {
+        let owned = &mut self.bodies[index];
+        owned.body.place(state);
+        let state = owned.body.state();
+        owned.written = state.pose;
+        let rigid = owned.rigid;
+        let body = &mut self.physics.bodies[rigid];
+        body.set_position(to_pose(&state.pose), true);
+        body.set_linvel(to_vector(&state.twist.linear), true);
+        body.set_angvel(to_vector(&state.twist.angular), true);
+        self.file_body(rigid);
+    }
+}
+
+impl Dynamics for PhysicsDynamics {
+    fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
+        let substeps = f64::from(self.config.substeps);
+        if !(dt.is_finite() && dt > 0.0) {
+            return Err(DynamicsError::Other(format!("physics cannot step by {dt} s: give a positive time")));
+        }
+        self.synchronise(world);
+        self.take_actions(world);
+        self.physics.integration_parameters.dt = dt / substeps;
+        for substep in 1..=self.config.substeps {
+            self.substep(dt / substeps, f64::from(substep) / substeps)?;
+        }
+        self.write_back(world)?;
+        self.contacts.report(world);
+        Ok(())
+    }
+
+    fn save(&self) -> Result<Vec<u8>, DynamicsError> {
+        Ok(self.to_bytes()?)
+    }
+
+    fn restore(&mut self, world: &World, saved: &[u8]) -> Result<(), DynamicsError> {
+        Ok(self.take_up(world, saved)?)
+    }
+
+    fn state_hash(&self, hasher: &mut StateHasher) {
+        self.hash_state(hasher);
+    }
+}
+
+impl std::fmt::Debug for PhysicsDynamics {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PhysicsDynamics")
+            .field("config", &self.config)
+            .field("bodies", &self.bodies.len())
+            .field("colliders", &self.physics.colliders.len())
+            .finish_non_exhaustive()
+    }
+}
+
+/// A point of a collider in the world frame, given in the collider's own frame.
+pub(crate) fn world_point(collider: &RapierPose, local: Vector) -> simworld_core::geometry::Point3 {
+    from_point(*collider * local)
+}

@@ -1,0 +1,83 @@
+//! What can be wrong with a request to the physics.
+
+use simworld_core::id::EntityId;
+use simworld_core::seam::DynamicsError;
+use thiserror::Error;
+
+/// Why the physics refused, or could not go on.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PhysicsError {
+    /// A setting out of range.
+    #[error("{config}.{field} = {value} is out of range: give {allowed}")]
+    Config {
+        /// Which settings.
+        config: &'static str,
+        /// The field at fault.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed, in words.
+        allowed: &'static str,
+    },
+    /// No such entity in the world.
+    #[error("there is no entity {id} to give a body: spawn it first")]
+    Missing {
+        /// The unknown id.
+        id: EntityId,
+    },
+    /// The entity has a body already.
+    #[error("{id} has a body already: remove that one first")]
+    Occupied {
+        /// The entity.
+        id: EntityId,
+    },
+    /// The entity has no body here.
+    #[error("{id} has no body in this physics: add one first")]
+    Bodiless {
+        /// The entity.
+        id: EntityId,
+    },
+    /// The entity's shape does not suit the body.
+    #[error("the shape of {id} does not suit a {body}: {reason}")]
+    Shape {
+        /// The entity.
+        id: EntityId,
+        /// The kind of body.
+        body: &'static str,
+        /// What is wrong, and what would do.
+        reason: String,
+    },
+    /// The state of a body stopped being finite and the engine has put it out of action.
+    #[error("the motion of {id} is no longer finite: a force, mass or action on it is absurd")]
+    NotFinite {
+        /// The entity.
+        id: EntityId,
+    },
+    /// Saved bytes that cannot be taken up.
+    #[error("the saved physics cannot be taken up: {reason}")]
+    Saved {
+        /// What is wrong, and what would do.
+        reason: String,
+    },
+}
+
+impl From<PhysicsError> for DynamicsError {
+    fn from(error: PhysicsError) -> Self {
+        match error {
+            PhysicsError::Saved { reason } => Self::Saved(reason),
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
+
+/// Checks that a setting lies in a range; NaN lies in none.
+pub(crate) fn check_range(
+    config: &'static str,
+    field: &'static str,
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    allowed: &'static str,
+) -> Result<(), PhysicsError> {
+    if range.contains(&value) { Ok(()) } else { Err(PhysicsError::Config { config, field, value, allowed }) }
+}

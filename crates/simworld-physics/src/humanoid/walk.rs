@@ -1,0 +1,229 @@
+//! How a humanoid moves through a physics world.
+//!
+//! The collider ends one skin above the soles, because the character controller keeps that gap to whatever it
+//! stands on or walks along: the soles themselves are on the ground.
+
+use rapier3d_f64::control::{CharacterAutostep, CharacterLength, KinematicCharacterController};
+use rapier3d_f64::math::{Pose as RapierPose, Vector};
+use rapier3d_f64::parry::query::contact;
+use rapier3d_f64::prelude::{
+    ColliderBuilder, PhysicsWorld, QueryPipeline, RigidBodyBuilder, RigidBodyHandle, SharedShape,
+};
+use simworld_core::geometry::{Point2, Twist, Vector3, direction, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::ops::wrap_angle;
+use simworld_core::scene::Role;
+use simworld_core::seam::BodyState;
+
+use super::{ColliderForm, Humanoid, Posture};
+use crate::body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
+use crate::convert::{from_vector, to_pose, to_vector};
+use crate::shape::{BodyTag, upright};
+
+/// The gap that people keep to solids, m.
+pub(crate) const SKIN: f64 = 0.02;
+/// Free width that a person needs on a step to take it, m.
+const TREAD: f64 = 0.1;
+/// A rider slows down so that a turn takes about this long, s.
+const TURN_TIME: f64 = 0.5;
+/// The speed at which a rider takes the sharpest turns, m/s.
+const TURN_SPEED: f64 = 1.0;
+
+impl Humanoid {
+    /// The collider and its place in the body frame.
+    fn collider(&self) -> (SharedShape, RapierPose) {
+        let half_height = (self.height - SKIN) * 0.5;
+        let middle = Vector::new(0.0, 0.0, SKIN + half_height);
+        match self.config.form {
+            ColliderForm::Cylinder => {
+                let solid = SharedShape::cylinder(half_height, self.radius);
+                (solid, RapierPose::from_parts(middle, upright()))
+            }
+            ColliderForm::Capsule => {
+                let solid = SharedShape::capsule_z((half_height - self.radius).max(0.0), self.radius);
+                (solid, RapierPose::from_translation(middle))
+            }
+        }
+    }
+
+    fn controller(around: &Surroundings<'_>) -> KinematicCharacterController {
+        let config = around.config();
+        KinematicCharacterController {
+            up: Vector::Z,
+            offset: CharacterLength::Absolute(SKIN),
+            slide: true,
+            autostep: Some(CharacterAutostep {
+                max_height: CharacterLength::Absolute(config.step_height),
+                min_width: CharacterLength::Absolute(TREAD),
+                include_dynamic_bodies: true,
+            }),
+            max_slope_climb_angle: config.max_slope,
+            min_slope_slide_angle: config.max_slope,
+            snap_to_ground: Some(CharacterLength::Absolute(config.step_height)),
+            normal_nudge_factor: 1e-4,
+        }
+    }
+
+    /// Turns and changes speed within the limits; returns the displacement it would like, world frame, m.
+    fn intend(&mut self, gravity: f64, dt: f64) -> Vector3 {
+        let riding = self.motion.posture == Posture::Riding;
+        let turn_left = self.motion.turn_left;
+        let mut rate = self.config.turning_rate;
+        if riding {
+            let (now, wanted) = (self.motion.speed, self.wanted_on_wheels());
+            self.motion.speed = if wanted > now {
+                wanted.min(now + self.config.ride_acceleration * dt)
+            } else {
+                wanted.max(now - self.config.ride_braking * dt)
+            };
+            rate = rate.min(self.config.ride_lateral / self.motion.speed.max(TURN_SPEED));
+        } else {
+            self.motion.speed = self.motion.wanted_speed;
+        }
+        let turn = turn_left.clamp(-rate * dt, rate * dt);
+        self.motion.turn_left = turn_left - turn;
+        self.motion.yaw = wrap_angle(self.motion.yaw + turn);
+
+        let heading = direction(self.motion.yaw);
+        let mut wish = Vector3::new(heading.x, heading.y, 0.0) * (self.motion.speed * dt);
+        let step_left = self.motion.step_left;
+        let length = step_left.norm();
+        if length > 0.0 {
+            let step = step_left * (self.config.step_speed * dt / length).min(1.0);
+            self.motion.step_left = step_left - step;
+            wish += Vector3::new(
+                heading.x * step.x - heading.y * step.y,
+                heading.y * step.x + heading.x * step.y,
+                0.0,
+            );
+        }
+        if self.motion.grounded {
+            self.motion.fall_speed = 0.0;
+        } else {
+            self.motion.fall_speed += gravity * dt;
+            wish.z -= self.motion.fall_speed * dt;
+        }
+        wish
+    }
+
+    /// The speed a rider is after: what it was told, or less for a sharp turn.
+    fn wanted_on_wheels(&self) -> f64 {
+        let sharpness = self.motion.turn_left.abs();
+        let in_turn = self.config.ride_lateral * TURN_TIME / sharpness.max(1e-3);
+        self.motion.wanted_speed.min(in_turn.max(TURN_SPEED))
+    }
+
+    /// What is close to the body: nothing but the ground, something, or something inside of it.
+    fn company(&self, queries: &QueryPipeline<'_>, solid: &SharedShape, pose: &RapierPose) -> Company {
+        let mut aabb = solid.compute_aabb(pose);
+        aabb.mins -= Vector::splat(0.1);
+        aabb.maxs += Vector::splat(0.1);
+        let mut company = Company::Alone;
+        for (_, other) in queries.intersect_aabb_conservative(aabb) {
+            if BodyTag::from_user_data(other.user_data) == BodyTag::Ground {
+                continue;
+            }
+            let overlap = contact(pose, &**solid, other.position(), other.shape(), 0.0);
+            if overlap.is_ok_and(|found| found.is_some_and(|contact| contact.dist < -1e-4)) {
+                return Company::Overlapping;
+            }
+            company = Company::Near;
+        }
+        company
+    }
+
+    fn room(&self, position: &Vector3) -> Claim {
+        Claim {
+            center: Point2::new(position.x, position.y),
+            radius: self.radius,
+            bottom: position.z,
+            top: position.z + self.height,
+        }
+    }
+}
+
+/// What is close to a body.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Company {
+    Alone,
+    Near,
+    Overlapping,
+}
+
+impl PhysicsBody for Humanoid {
+    fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
+        let (solid, body_from_solid) = self.collider();
+        let frame = RigidBodyBuilder::kinematic_position_based().pose(to_pose(&self.state.pose));
+        let collider = ColliderBuilder::new(solid)
+            .position(body_from_solid)
+            .user_data(BodyTag::Entity(id).to_user_data());
+        physics.insert(frame, collider).0
+    }
+
+    fn bind(&mut self, bonds: Bonds) {
+        self.assume(match (bonds.carried, bonds.scooter) {
+            (Some(Role::Seated), _) => Posture::Seated,
+            (Some(_), _) => Posture::Aboard,
+            (None, Some(_)) => Posture::Riding,
+            (None, None) => Posture::Standing,
+        });
+    }
+
+    fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
+        let wish = self.intend(around.config().gravity, dt);
+        let (solid, body_from_solid) = self.collider();
+        let queries = around.queries();
+        let start = to_pose(&pose_facing(self.state.pose.translation.vector.into(), self.motion.yaw));
+        let company = self.company(&queries, &solid, &(start * body_from_solid));
+        if company == Company::Alone && self.motion.grounded && wish == Vector3::zeros() {
+            self.motion.planned = wish;
+            return;
+        }
+        let controller = Self::controller(around);
+        let walk = |from: Vector, wish: Vector| {
+            let pose = RapierPose::from_translation(from) * start * body_from_solid;
+            controller.move_shape(dt, &queries, &*solid, &pose, wish, |_| {})
+        };
+        let mut moved = Vector::ZERO;
+        if company == Company::Overlapping {
+            // Without a wish the controller pushes itself out of what has run into it.
+            moved = walk(moved, Vector::ZERO).translation;
+        }
+        let result = walk(moved, to_vector(&wish));
+        self.motion.grounded = result.grounded;
+        self.motion.planned = from_vector(moved + result.translation);
+    }
+
+    fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64) {
+        let position = self.state.pose.translation.vector;
+        let planned = self.motion.planned;
+        let share = context.free_share(&self.room(&position), &planned, SKIN);
+        // Half a step up would end inside the step, so it is not taken at all.
+        let displacement = match share {
+            1.0 => planned,
+            _ if planned.z > 1e-3 => Vector3::zeros(),
+            share => planned * share,
+        };
+        let target = position + displacement;
+        context.claim(self.room(&target));
+        let pose = pose_facing(target.into(), self.motion.yaw);
+        context.rigid_body().set_next_kinematic_position(to_pose(&pose));
+        if self.motion.posture == Posture::Riding {
+            // A rider who was stopped by a wall has to pick up speed again.
+            let heading = direction(self.motion.yaw);
+            let achieved = displacement.xy().dot(&heading) / dt;
+            self.motion.speed = self.motion.speed.min(achieved.max(0.0) + 1e-9);
+        }
+    }
+
+    fn settle(&mut self, state: &BodyState) {
+        self.state = *state;
+    }
+
+    fn place(&mut self, state: &BodyState) {
+        self.stand_at(&state.pose);
+        self.state.twist = Twist::ZERO;
+        self.motion.grounded = false;
+        self.motion.fall_speed = 0.0;
+    }
+}

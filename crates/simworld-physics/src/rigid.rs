@@ -1,0 +1,77 @@
+//! A free rigid body: it falls, tumbles and comes to rest, and takes no orders.
+
+use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
+use simworld_core::action::{Action, ActionSet};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityRef, Shape};
+use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
+
+use crate::body::{BodyContext, PhysicsBody};
+use crate::convert::{to_pose, to_vector};
+use crate::shape::collider_for;
+
+/// Density of things whose mass nobody gave, kg/m³: about that of seasoned softwood.
+const DENSITY: f64 = 500.0;
+
+/// A free rigid body with the shape and mass of an entity.
+#[derive(Clone, Debug)]
+pub struct Rigid {
+    state: BodyState,
+    shape: Shape,
+    mass: Option<f64>,
+    friction: f64,
+}
+
+impl Rigid {
+    /// A body with the pose, velocity, shape and mass of an entity, and a friction coefficient; without a mass it
+    /// weighs what softwood would, 500 kg/m³.
+    pub fn of(entity: &EntityRef<'_>, friction: f64) -> Self {
+        let state = BodyState { pose: *entity.pose, twist: *entity.twist };
+        let mass = entity.info.mass.filter(|mass| mass.is_finite() && *mass > 0.0);
+        Self { state, shape: entity.info.shape, mass, friction }
+    }
+}
+
+impl Embodiment for Rigid {
+    fn supports(&self) -> ActionSet {
+        ActionSet::NONE
+    }
+
+    fn apply(&mut self, action: &Action) -> Result<(), EmbodimentError> {
+        Err(EmbodimentError::Unsupported {
+            action: action.kind(),
+            supported: "only fall and tumble".to_owned(),
+        })
+    }
+
+    fn state(&self) -> BodyState {
+        self.state
+    }
+
+    fn restore(&mut self, state: &BodyState, saved: &[u8]) -> bool {
+        self.state = *state;
+        saved.is_empty()
+    }
+}
+
+impl PhysicsBody for Rigid {
+    fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
+        let body = RigidBodyBuilder::dynamic()
+            .pose(to_pose(&self.state.pose))
+            .linvel(to_vector(&self.state.twist.linear))
+            .angvel(to_vector(&self.state.twist.angular))
+            .ccd_enabled(true);
+        let collider = collider_for(&self.shape, id, self.friction);
+        let collider = match self.mass {
+            Some(mass) => collider.mass(mass),
+            None => collider.density(DENSITY),
+        };
+        physics.insert(body, collider).0
+    }
+
+    fn drive(&mut self, _: &mut BodyContext<'_>, _: f64) {}
+
+    fn settle(&mut self, state: &BodyState) {
+        self.state = *state;
+    }
+}

@@ -1,0 +1,105 @@
+//! Core's shapes as rapier's colliders, and the mark by which a collider names its entity.
+//!
+//! Core's shapes stand on their origin; rapier's have it in their middle, and its cylinders lie along y. The
+//! collider's place in its body makes up for both, so that a rigid body's frame is the entity's body frame.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
+use rapier3d_f64::prelude::{ColliderBuilder, SharedShape};
+use simworld_core::id::EntityId;
+use simworld_core::scene::Shape;
+
+/// The mark on a collider that says whose it is: rapier's `user_data`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyTag {
+    /// The ground, which is no entity.
+    Ground,
+    /// An entity.
+    Entity(EntityId),
+}
+
+impl BodyTag {
+    /// As rapier stores it.
+    pub fn to_user_data(self) -> u128 {
+        match self {
+            Self::Ground => 0,
+            Self::Entity(id) => u128::from(u64::from(id)) + 1,
+        }
+    }
+
+    /// As rapier stored it.
+    pub fn from_user_data(data: u128) -> Self {
+        match data.checked_sub(1) {
+            Some(id) => Self::Entity(EntityId::from(id as u64)),
+            None => Self::Ground,
+        }
+    }
+
+    /// The entity, if it is one.
+    pub fn entity(self) -> Option<EntityId> {
+        match self {
+            Self::Ground => None,
+            Self::Entity(id) => Some(id),
+        }
+    }
+}
+
+/// A quarter turn about x: rapier's y, the axis of its cylinders, becomes z.
+pub(crate) fn upright() -> Rotation {
+    Rotation::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2)
+}
+
+/// The solid for rapier and where it sits in the body frame, m.
+pub fn shape_from(shape: &Shape) -> (SharedShape, RapierPose) {
+    let half = shape.size() * 0.5;
+    let middle = Vector::new(0.0, 0.0, half.z);
+    let level = RapierPose::from_translation(middle);
+    match *shape {
+        Shape::Cylinder { radius, .. } => {
+            (SharedShape::cylinder(half.z, radius), RapierPose::from_parts(middle, upright()))
+        }
+        Shape::Capsule { radius, .. } => (SharedShape::capsule_z((half.z - radius).max(0.0), radius), level),
+        Shape::Sphere { radius } => (SharedShape::ball(radius), level),
+        // A shape that core learns later collides as the box around it until it is taught here.
+        _ => (SharedShape::cuboid(half.x, half.y, half.z), level),
+    }
+}
+
+/// The collider of an entity's shape, marked as the entity's, to be hung on a rigid body at the entity's pose.
+pub fn collider_for(shape: &Shape, id: EntityId, friction: f64) -> ColliderBuilder {
+    let (solid, body_from_solid) = shape_from(shape);
+    ColliderBuilder::new(solid)
+        .position(body_from_solid)
+        .friction(friction)
+        .user_data(BodyTag::Entity(id).to_user_data())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mark_names_its_entity() {
+        for id in [EntityId::new(0, 0), EntityId::new(7, 3), EntityId::new(u32::MAX, u32::MAX)] {
+            assert_eq!(BodyTag::from_user_data(BodyTag::Entity(id).to_user_data()), BodyTag::Entity(id));
+        }
+        assert_eq!(BodyTag::from_user_data(0).entity(), None);
+    }
+
+    #[test]
+    fn solids_stand_on_their_origin() {
+        let shapes = [
+            Shape::cuboid(1.0, 2.0, 3.0),
+            Shape::Cylinder { radius: 0.4, height: 3.0 },
+            Shape::Capsule { radius: 0.4, height: 3.0 },
+            Shape::Sphere { radius: 1.5 },
+        ];
+        for shape in shapes {
+            let (solid, body_from_solid) = shape_from(&shape);
+            let aabb = solid.compute_aabb(&body_from_solid);
+            assert!(aabb.mins.z.abs() < 1e-12 && (aabb.maxs.z - 3.0).abs() < 1e-12, "{shape:?}: {aabb:?}");
+            assert!((aabb.maxs.y - shape.size().y / 2.0).abs() < 1e-12, "{shape:?}: {aabb:?}");
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Saving and taking up the whole physics, bit for bit, and its hash.
+//!
+//! The saved form is a mark, a digest of the rest, and the rest: settings, the engine with its colliders, warm
+//! starts and search tree, and the bodies. The digest turns away damaged bytes before anything is built from them.
+
+use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle};
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::{Pose, Twist};
+use simworld_core::hash::{StateHash, StateHasher};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{Scene, World};
+use simworld_core::seam::{BodyState, Embodiment};
+
+use crate::body::Bonds;
+use crate::convert::{from_pose, from_vector};
+use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::sync::Slot;
+use crate::{PhysicsConfig, PhysicsError};
+
+/// The mark of this crate's saved state and its version.
+const MARK: [u8; 8] = *b"swphys01";
+
+/// What is written, by reference.
+#[derive(Serialize)]
+struct Written<'a> {
+    config: &'a PhysicsConfig,
+    physics: &'a PhysicsWorld,
+    slots: &'a [Slot],
+    touching: &'a [(EntityId, EntityId)],
+    bodies: Vec<SavedBody>,
+}
+
+/// What is read back.
+#[derive(Deserialize)]
+struct Read {
+    config: PhysicsConfig,
+    physics: PhysicsWorld,
+    slots: Vec<Slot>,
+    touching: Vec<(EntityId, EntityId)>,
+    bodies: Vec<SavedBody>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedBody {
+    id: EntityId,
+    rigid: RigidBodyHandle,
+    written: Pose,
+    pose: Pose,
+    twist: Twist,
+    inner: Vec<u8>,
+}
+
+fn saved_error(reason: impl Into<String>) -> PhysicsError {
+    PhysicsError::Saved { reason: reason.into() }
+}
+
+fn digest(bytes: &[u8]) -> [u8; 8] {
+    StateHasher::new().bytes(bytes).finish().0.to_le_bytes()
+}
+
+impl PhysicsDynamics {
+    pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, PhysicsError> {
+        let save = |owned: &Owned| {
+            let BodyState { pose, twist } = owned.body.state();
+            let (id, rigid, written) = (owned.id, owned.rigid, owned.written);
+            SavedBody { id, rigid, written, pose, twist, inner: owned.body.save() }
+        };
+        let written = Written {
+            config: &self.config,
+            physics: &self.physics,
+            slots: &self.slots,
+            touching: &self.contacts.touching,
+            bodies: self.bodies.iter().map(save).collect(),
+        };
+        let rest = postcard::to_allocvec(&written).map_err(|error| saved_error(error.to_string()))?;
+        Ok([&MARK, &digest(&rest), &rest[..]].concat())
+    }
+
+    /// Takes up a saved state. The entities must have bodies of the same kinds here; bodies that the saved state
+    /// does not know are dropped. On an error nothing but their inner state may have changed.
+    pub(crate) fn take_up(&mut self, world: &World, saved: &[u8]) -> Result<(), PhysicsError> {
+        let rest = saved.strip_prefix(&MARK).ok_or_else(|| saved_error("it is not this crate's"))?;
+        let (sum, rest) = rest.split_at_checked(8).ok_or_else(|| saved_error("it is cut short"))?;
+        if sum != digest(rest) {
+            return Err(saved_error("it is damaged"));
+        }
+        let read: Read = postcard::from_bytes(rest).map_err(|error| saved_error(error.to_string()))?;
+        if read.config != self.config {
+            return Err(saved_error("it was saved with other settings: make the physics with the same"));
+        }
+        for body in &read.bodies {
+            let id = body.id;
+            if world.entity(id).is_none() {
+                return Err(PhysicsError::Missing { id });
+            }
+            let place = self.position(id).map_err(|_| PhysicsError::Bodiless { id })?;
+            let state = BodyState { pose: body.pose, twist: body.twist };
+            if !self.bodies[place].body.restore(&state, &body.inner) {
+                return Err(saved_error(format!("the body of {id} is of another kind")));
+            }
+        }
+        self.bodies.retain(|owned| read.bodies.binary_search_by_key(&owned.id, |body| body.id).is_ok());
+        for (owned, body) in self.bodies.iter_mut().zip(&read.bodies) {
+            owned.rigid = body.rigid;
+            owned.written = body.written;
+            owned.before = body.twist;
+            owned.bonds = Bonds::default();
+        }
+        self.physics = read.physics;
+        self.slots = read.slots;
+        self.contacts.touching = read.touching;
+        Ok(())
+    }
+
+    /// Feeds what influences the future and is not in the world: the bodies, their rigid bodies, the contacts of
+    /// the solver with their warm starts.
+    pub(crate) fn hash_state(&self, hasher: &mut StateHasher) {
+        hasher.u64(self.bodies.len() as u64);
+        for owned in &self.bodies {
+            let inner = owned.body.save();
+            hasher.u64(owned.id.into()).u64(inner.len() as u64).bytes(&inner);
+            let Some(rigid) = self.physics.bodies.get(owned.rigid) else { continue };
+            hasher.pose(&from_pose(rigid.position()));
+            hasher.vector(&from_vector(rigid.linvel())).vector(&from_vector(rigid.angvel()));
+            hasher.u64(u64::from(rigid.is_sleeping())).f64(rigid.activation().time_since_can_sleep);
+        }
+        for pair in self.physics.contact_pairs() {
+            for point in pair.manifolds().iter().flat_map(|manifold| &manifold.points) {
+                hasher.f64(point.dist).f64(point.data.impulse);
+            }
+        }
+        hasher.u64(self.contacts.touching.len() as u64);
+        for (a, b) in &self.contacts.touching {
+            hasher.u64((*a).into()).u64((*b).into());
+        }
+    }
+}
+
+impl StateHash for PhysicsDynamics {
+    /// As [`Dynamics::state_hash`](simworld_core::seam::Dynamics::state_hash).
+    fn state_hash(&self, hasher: &mut StateHasher) {
+        self.hash_state(hasher);
+    }
+}

@@ -1,0 +1,97 @@
+//! Worlds in which the behaviour tests take place.
+#![allow(dead_code)]
+
+use nalgebra::UnitQuaternion;
+use simworld_core::action::Action;
+use simworld_core::event::EventKind;
+use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+use simworld_core::seam::Dynamics;
+use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics};
+
+/// A person's shape.
+pub const PERSON: Shape = Shape::Capsule { radius: 0.25, height: 1.75 };
+
+/// A world with its physics, stepped together.
+pub struct Stage {
+    pub world: World,
+    pub physics: PhysicsDynamics,
+    /// The contacts of all steps so far.
+    pub contacts: Vec<EventKind>,
+    /// Other events of all steps so far.
+    pub events: Vec<EventKind>,
+}
+
+impl Stage {
+    pub fn new() -> Self {
+        Self::with(PhysicsConfig::default())
+    }
+
+    pub fn with(config: PhysicsConfig) -> Self {
+        let physics = PhysicsDynamics::new(config).unwrap();
+        Self { world: World::new(), physics, contacts: Vec::new(), events: Vec::new() }
+    }
+
+    pub fn spawn(&mut self, kind: EntityKind, pose: Pose, shape: Shape) -> EntityId {
+        self.world.spawn(EntityDesc::new(kind, pose, shape)).unwrap()
+    }
+
+    /// A box standing at (x, y) with its sizes along the axes.
+    pub fn building(&mut self, x: f64, y: f64, size: (f64, f64, f64)) -> EntityId {
+        let shape = Shape::cuboid(size.0, size.1, size.2);
+        self.spawn(EntityKind::Building, at(x, y, 0.0), shape)
+    }
+
+    /// A person with a body.
+    pub fn person(&mut self, pose: Pose) -> EntityId {
+        let id = self.spawn(EntityKind::Person, pose, PERSON);
+        self.physics.add_humanoid(&self.world, id, HumanoidConfig::default()).unwrap();
+        id
+    }
+
+    pub fn tell(&mut self, who: EntityId, action: Action) {
+        self.world.actuate(who, action).unwrap();
+    }
+
+    pub fn step(&mut self) {
+        self.world.begin_step();
+        let dt = self.world.clock().dt();
+        self.physics.step(&mut self.world, dt).unwrap();
+        self.world.finish_step();
+        for event in self.world.events() {
+            match &event.kind {
+                EventKind::Contact { .. } => self.contacts.push(event.kind.clone()),
+                other => self.events.push(other.clone()),
+            }
+        }
+    }
+
+    /// Steps of 0.1 s.
+    pub fn run(&mut self, steps: usize) {
+        (0..steps).for_each(|_| self.step());
+    }
+
+    pub fn position(&self, id: EntityId) -> Point3 {
+        self.world.entity(id).unwrap().position()
+    }
+
+    pub fn velocity(&self, id: EntityId) -> Vector3 {
+        self.world.entity(id).unwrap().twist.linear
+    }
+}
+
+/// Standing at a point, facing `yaw` radians from east.
+pub fn at(x: f64, y: f64, yaw: f64) -> Pose {
+    pose_facing(Point3::new(x, y, 0.0), yaw)
+}
+
+/// A long box whose upper face rises towards east at `slope` radians and meets the ground at x = `foot`.
+pub fn ramp(foot: f64, slope: f64) -> (Pose, Shape) {
+    let (length, thickness) = (20.0, 4.0);
+    let tilt = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -slope);
+    // The middle of the upper face's lower edge is the body point (-length / 2, 0, thickness).
+    let edge = tilt * Vector3::new(-length / 2.0, 0.0, thickness);
+    let pose = Pose::from_parts((Vector3::new(foot, 0.0, 0.0) - edge).into(), tilt);
+    (pose, Shape::cuboid(length, 10.0, thickness))
+}
