@@ -171,6 +171,8 @@ impl PhysicsDynamics {
         self.vacate(id.index());
         self.slots[id.index()] = Slot::Own { id };
         let rigid = body.attach(id, &mut self.physics);
+        // Otherwise the engine knows the mass only after its first step, and the body drives before that.
+        self.physics.bodies[rigid].recompute_mass_properties_from_colliders(&self.physics.colliders);
         let owned =
             Owned { id, body, rigid, written: *entity.pose, bonds: Bonds::default(), before: Twist::ZERO };
         self.bodies.insert(place, owned);

@@ -74,7 +74,7 @@ fn a_person_without_ground_falls() {
     stage.run(5);
     assert!((stage.position(walker).z - 3.0).abs() < 0.01, "stands on {roof}");
     stage.tell(walker, Action::MoveForward { speed: 2.0 });
-    stage.run(13);
+    stage.run(16);
     let falling = stage.position(walker).z;
     assert!(falling > 0.1 && falling < 2.9, "over the edge and on the way down: {falling}");
     stage.run(10);
