@@ -1,1 +1,18 @@
-//! Procedural cities.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+pub mod building;
+mod city;
+mod config;
+pub mod element;
+mod error;
+pub mod growth;
+pub mod map;
+pub mod python;
+mod report;
+mod strips;
+
+pub use city::{City, CityEntities};
+pub use config::{BuildingConfig, CityConfig, ElementConfig, RoadConfig};
+pub use error::CityError;
+pub use report::CityReport;

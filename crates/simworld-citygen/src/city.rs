@@ -1,0 +1,203 @@
+//! A city: streets, buildings and street elements, and the way they enter a world.
+
+use std::sync::Arc;
+
+use simworld_core::geometry::{Point2, Point3, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::net::{RoadNetwork, StreetPlan, polyline};
+use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
+use simworld_core::seed::Seed;
+
+use crate::building::{self, Building};
+use crate::element::{self, Element};
+use crate::strips::{self, lane_reach, strip};
+use crate::{CityConfig, CityError, CityReport, growth};
+
+/// Tops of the flat layers, m: a hair apart, so that each covers the one below; people stand on the sidewalk's.
+const GROUND_TOP: f64 = -0.03;
+const ROAD_TOP: f64 = -0.02;
+const CROSSWALK_TOP: f64 = -0.01;
+const SIDEWALK_TOP: f64 = 0.0;
+/// Thickness of the flat layers, m.
+const LAYER: f64 = 0.05;
+/// Ground beyond the outermost street, m.
+const MARGIN: f64 = 120.0;
+
+/// A generated city.
+#[derive(Clone, Debug, PartialEq)]
+pub struct City {
+    /// Centrelines and junctions.
+    pub plan: StreetPlan,
+    /// Lanes, crossings, signals and all else that follows from the plan.
+    pub network: Arc<RoadNetwork>,
+    /// Buildings, road by road.
+    pub buildings: Vec<Building>,
+    /// Street elements, sidewalk by sidewalk.
+    pub elements: Vec<Element>,
+    frontage: f64,
+    frontage_used: f64,
+}
+
+/// The entities that a city became.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct CityEntities {
+    /// One a building, in the order of [`City::buildings`].
+    pub buildings: Vec<EntityId>,
+    /// One an element, in the order of [`City::elements`].
+    pub elements: Vec<EntityId>,
+    /// Ground, roads, sidewalks and crosswalks.
+    pub surfaces: Vec<EntityId>,
+}
+
+impl City {
+    /// Grows a city. The same configuration and seed give the same city, bit for bit.
+    ///
+    /// ```
+    /// use simworld_citygen::{City, CityConfig};
+    /// use simworld_core::seed::Seed;
+    /// let city = City::generate(&CityConfig::with_roads(12), Seed(7))?;
+    /// assert!(city.network.roads.len() >= 12);
+    /// assert_eq!(city, City::generate(&CityConfig::with_roads(12), Seed(7))?);
+    /// # Ok::<(), simworld_citygen::CityError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A setting out of range.
+    pub fn generate(config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
+        config.validate()?;
+        Self::from_plan(growth::grow(&config.roads, seed), config, seed)
+    }
+
+    /// Builds a city on streets from elsewhere.
+    ///
+    /// # Errors
+    /// A setting out of range, or streets that cannot be built.
+    pub fn from_plan(plan: StreetPlan, config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
+        config.validate()?;
+        let network = RoadNetwork::derive(&plan, &config.network)?;
+        let mut taken = strips::road_land(&network);
+        let built = building::build(&network, &config.buildings, seed, &mut taken);
+        let elements = element::furnish(&network, &config.elements, seed, &mut taken);
+        Ok(Self {
+            plan,
+            network: Arc::new(network),
+            buildings: built.buildings,
+            elements,
+            frontage: built.frontage,
+            frontage_used: built.frontage_used,
+        })
+    }
+
+    /// Share of the frontage that buildings take, in [0, 1].
+    pub fn frontage_used(&self) -> f64 {
+        if self.frontage > 0.0 { self.frontage_used / self.frontage } else { 0.0 }
+    }
+
+    /// The statistics of the city.
+    pub fn report(&self) -> CityReport {
+        CityReport::of(self)
+    }
+
+    /// The map as an SVG document; build a [`map::MapDrawing`](crate::map::MapDrawing) to draw more on it.
+    pub fn svg(&self) -> String {
+        crate::map::MapDrawing::of(self).to_string()
+    }
+
+    /// Puts the city into a world: surfaces, buildings and elements as entities, and the roads.
+    ///
+    /// # Errors
+    /// The world refused an entity.
+    pub fn populate(&self, world: &mut World) -> Result<CityEntities, WorldError> {
+        world.set_roads(Arc::clone(&self.network));
+        let mut entities = CityEntities::default();
+        self.spawn_surfaces(world, &mut entities.surfaces)?;
+        for building in &self.buildings {
+            entities.buildings.push(world.spawn(describe_building(building))?);
+        }
+        for element in &self.elements {
+            entities.elements.push(world.spawn(describe_element(element))?);
+        }
+        Ok(entities)
+    }
+
+    fn spawn_surfaces(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
+        let network = &self.network;
+        if let Some((low, high)) = network.bounds() {
+            let (a, b) =
+                (Point2::new(low.x, (low.y + high.y) * 0.5), Point2::new(high.x, (low.y + high.y) * 0.5));
+            let half = (high.y - low.y) * 0.5 + MARGIN;
+            spawned.push(world.spawn(layer(
+                EntityKind::Ground,
+                &Stripe { a, b, half, extend: MARGIN },
+                GROUND_TOP,
+            ))?);
+        }
+        for road in &network.roads {
+            let half = lane_reach(network, road);
+            // Beyond its ends a road reaches as far as it is wide, and so covers its junctions.
+            for piece in road.centerline.windows(2) {
+                let stripe = Stripe { a: piece[0], b: piece[1], half, extend: half };
+                spawned.push(world.spawn(layer(EntityKind::Road, &stripe, ROAD_TOP))?);
+            }
+        }
+        for crossing in &network.crossings {
+            let stripe =
+                Stripe { a: crossing.start, b: crossing.end, half: crossing.width * 0.5, extend: 0.0 };
+            spawned.push(world.spawn(layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP))?);
+        }
+        let width = network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
+        let walks = network.sidewalks.iter().map(|sidewalk| &sidewalk.path);
+        let corners = network.intersections.iter().flat_map(|intersection| &intersection.corners);
+        for path in walks.chain(corners) {
+            for piece in path.windows(2).filter(|piece| (piece[1] - piece[0]).norm() > 0.01) {
+                let stripe = Stripe { a: piece[0], b: piece[1], half: width * 0.5, extend: 0.0 };
+                spawned.push(world.spawn(layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP))?);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A rectangle along a line.
+struct Stripe {
+    a: Point2,
+    b: Point2,
+    half: f64,
+    extend: f64,
+}
+
+fn layer(kind: EntityKind, stripe: &Stripe, top: f64) -> EntityDesc {
+    let mut flat = strip(stripe.a, stripe.b, stripe.half, stripe.half, stripe.extend);
+    flat.pose.translation.z = top - LAYER;
+    let size = flat.half_extents * 2.0;
+    EntityDesc::new(kind, flat.pose, Shape::cuboid(size.x.max(0.01), size.y.max(0.01), LAYER))
+}
+
+fn describe_building(building: &Building) -> EntityDesc {
+    let pose = pose_facing(Point3::new(building.center.x, building.center.y, 0.0), building.facing);
+    let shape = Shape::cuboid(building.depth, building.width, building.height());
+    let mut desc = EntityDesc::new(EntityKind::Building, pose, shape)
+        .used_as(building.place)
+        .accessed_at(Point3::new(building.access.x, building.access.y, 0.0))
+        .colored(building.archetype.color)
+        .with("storeys", i64::from(building.storeys))
+        .with("type", building.archetype.name);
+    desc.info.name.clone_from(&building.name);
+    desc
+}
+
+fn describe_element(element: &Element) -> EntityDesc {
+    let pose = pose_facing(Point3::new(element.position.x, element.position.y, 0.0), element.facing);
+    let desc = EntityDesc::new(element.kind, pose, element.shape);
+    if element.kind.is_seat() {
+        // One sits down from the front.
+        desc.accessed_at(pose * Point3::new(element.shape.size().x * 0.5 + 0.6, 0.0, 0.0))
+    } else {
+        desc
+    }
+}
+
+/// Length of all centrelines of a plan, m.
+pub(crate) fn street_length(plan: &StreetPlan) -> f64 {
+    plan.streets.iter().map(|street| polyline::length(&plan.centerline(street))).sum()
+}

@@ -1,0 +1,144 @@
+//! What a city is to be like.
+
+use serde::{Deserialize, Serialize};
+use simworld_core::net::NetworkConfig;
+
+use crate::CityError;
+
+/// How streets grow.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RoadConfig {
+    /// Number of street segments to grow, in [2, 1 000 000]; a segment runs from junction to junction.
+    pub count: u32,
+    /// Mean length of a segment, m, in [60, 1000].
+    pub length: f64,
+    /// Share by which lengths vary to both sides, in [0, 0.4].
+    pub length_variation: f64,
+    /// Standard deviation of the bend from one segment to the next, radians, in [0, 0.5]: 0 grows a grid.
+    pub heading_variation: f64,
+    /// A new end nearer than this to a junction or a street is attached to it, m, in [10, 500]; at most 0.6 of the
+    /// length.
+    pub snap: f64,
+    /// Least angle between two streets at a junction, radians, in [0.5, 1.5].
+    pub least_angle: f64,
+    /// Probability that a street goes on beyond a junction, in [0, 1].
+    pub continuation: f64,
+    /// Probability of a branch to each side, in [0, 1].
+    pub branching: f64,
+    /// Weight of depth against breadth, in [0, 10]: at 0 the oldest ends grow first, higher values let long streets
+    /// run ahead.
+    pub depth_bias: f64,
+    /// Share of the segments that bend between their ends, in [0, 1].
+    pub bends: f64,
+    /// Lanes each way of an arterial, in [1, 4].
+    pub arterial_lanes: u8,
+}
+
+impl Default for RoadConfig {
+    fn default() -> Self {
+        Self {
+            count: 40,
+            length: 105.0,
+            length_variation: 0.25,
+            heading_variation: 0.08,
+            snap: 45.0,
+            least_angle: 0.9,
+            continuation: 0.92,
+            branching: 0.55,
+            depth_bias: 1.0,
+            bends: 0.3,
+            arterial_lanes: 1,
+        }
+    }
+}
+
+/// How buildings stand.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BuildingConfig {
+    /// Distance from the sidewalk to a façade, m, in [0.5, 50].
+    pub setback: f64,
+    /// Least gap between neighbours, m, in [0, 50].
+    pub gap: f64,
+    /// Share of the candidates that are kept, in [0, 1]; gaps are filled all the same up to this density.
+    pub density: f64,
+}
+
+impl Default for BuildingConfig {
+    fn default() -> Self {
+        Self { setback: 2.0, gap: 2.0, density: 1.0 }
+    }
+}
+
+/// How much stands along the streets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ElementConfig {
+    /// Trees per metre of sidewalk, in [0, 1].
+    pub trees: f64,
+    /// Street lamps per metre, in [0, 1].
+    pub lamps: f64,
+    /// Benches, bins, mailboxes, hydrants, signs and the like per metre, in [0, 1].
+    pub furniture: f64,
+}
+
+impl Default for ElementConfig {
+    fn default() -> Self {
+        Self { trees: 0.06, lamps: 0.03, furniture: 0.04 }
+    }
+}
+
+/// What a city is to be like.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CityConfig {
+    /// How streets grow.
+    pub roads: RoadConfig,
+    /// How buildings stand.
+    pub buildings: BuildingConfig,
+    /// How much stands along the streets.
+    pub elements: ElementConfig,
+    /// Widths, limits and signals.
+    pub network: NetworkConfig,
+}
+
+impl CityConfig {
+    /// A city of that many street segments, otherwise as by default.
+    pub fn with_roads(count: u32) -> Self {
+        Self { roads: RoadConfig { count, ..RoadConfig::default() }, ..Self::default() }
+    }
+
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    /// The first field out of range; NaN always is.
+    pub fn validate(&self) -> Result<(), CityError> {
+        let Self { roads, buildings, elements, network } = self;
+        let checks = [
+            ("roads.count", f64::from(roads.count), 2.0, 1e6, "2 to 1 000 000"),
+            ("roads.length", roads.length, 60.0, 1000.0, "60 to 1000 m"),
+            ("roads.length_variation", roads.length_variation, 0.0, 0.4, "0 to 0.4"),
+            ("roads.heading_variation", roads.heading_variation, 0.0, 0.5, "0 to 0.5 rad"),
+            ("roads.snap", roads.snap, 10.0, roads.length.min(833.0) * 0.6, "10 m to 0.6 of roads.length"),
+            ("roads.least_angle", roads.least_angle, 0.5, 1.5, "0.5 to 1.5 rad"),
+            ("roads.continuation", roads.continuation, 0.0, 1.0, "0 to 1"),
+            ("roads.branching", roads.branching, 0.0, 1.0, "0 to 1"),
+            ("roads.depth_bias", roads.depth_bias, 0.0, 10.0, "0 to 10"),
+            ("roads.bends", roads.bends, 0.0, 1.0, "0 to 1"),
+            ("roads.arterial_lanes", f64::from(roads.arterial_lanes), 1.0, 4.0, "1 to 4"),
+            ("buildings.setback", buildings.setback, 0.5, 50.0, "0.5 to 50 m"),
+            ("buildings.gap", buildings.gap, 0.0, 50.0, "0 to 50 m"),
+            ("buildings.density", buildings.density, 0.0, 1.0, "0 to 1"),
+            ("elements.trees", elements.trees, 0.0, 1.0, "0 to 1 per m"),
+            ("elements.lamps", elements.lamps, 0.0, 1.0, "0 to 1 per m"),
+            ("elements.furniture", elements.furniture, 0.0, 1.0, "0 to 1 per m"),
+        ];
+        for (field, value, low, high, allowed) in checks {
+            if !(low..=high).contains(&value) {
+                return Err(CityError::Config { field, value, allowed });
+            }
+        }
+        Ok(network.validate()?)
+    }
+}
