@@ -29,6 +29,8 @@ pub struct RoadConfig {
     /// Weight of depth against breadth, in [0, 10]: at 0 the oldest ends grow first, higher values let long streets
     /// run ahead.
     pub depth_bias: f64,
+    /// Weight of the distance from the middle, in [0, 10]: at 0 arms reach out, higher values close block after block.
+    pub compactness: f64,
     /// Share of the segments that bend between their ends, in [0, 1].
     pub bends: f64,
     /// Lanes each way of an arterial, in [1, 4].
@@ -45,8 +47,9 @@ impl Default for RoadConfig {
             snap: 45.0,
             least_angle: 0.9,
             continuation: 0.92,
-            branching: 0.55,
-            depth_bias: 1.0,
+            branching: 0.8,
+            depth_bias: 0.5,
+            compactness: 1.2,
             bends: 0.3,
             arterial_lanes: 1,
         }
@@ -125,6 +128,7 @@ impl CityConfig {
             ("roads.continuation", roads.continuation, 0.0, 1.0, "0 to 1"),
             ("roads.branching", roads.branching, 0.0, 1.0, "0 to 1"),
             ("roads.depth_bias", roads.depth_bias, 0.0, 10.0, "0 to 10"),
+            ("roads.compactness", roads.compactness, 0.0, 10.0, "0 to 10"),
             ("roads.bends", roads.bends, 0.0, 1.0, "0 to 1"),
             ("roads.arterial_lanes", f64::from(roads.arterial_lanes), 1.0, 4.0, "1 to 4"),
             ("buildings.setback", buildings.setback, 0.5, 50.0, "0.5 to 50 m"),

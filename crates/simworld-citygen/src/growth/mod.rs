@@ -26,6 +26,8 @@ const REVIVALS: u32 = 40;
 #[derive(Clone, Copy, Debug)]
 struct End {
     cost: f64,
+    /// The cost without what its place adds: what its children inherit.
+    steps: f64,
     /// Order of insertion: settles equal costs.
     serial: u64,
     proposal: Proposal,
@@ -101,28 +103,28 @@ impl Growth<'_> {
                 let arrived_new = fitted.is_new();
                 let node = self.fabric.build(&fitted);
                 if arrived_new {
-                    self.branch(end.cost, node, &end.proposal);
+                    self.branch(end.steps, node, &end.proposal);
                 }
             }
         }
     }
 
     /// Proposes the ways on from a new junction: straight, left and right.
-    fn branch(&mut self, cost: f64, node: usize, from: &Proposal) {
+    fn branch(&mut self, steps: f64, node: usize, from: &Proposal) {
         let arterial = from.class == RoadClass::Arterial;
         if self.rng.chance(self.config.continuation) {
             let bend = self.rng.normal_clamped(0.0, self.config.heading_variation, -0.6, 0.6);
             // Depth runs ahead: a continuation costs less than a branch.
             let step = if arterial { 0.6 } else { 1.0 };
-            self.push(cost + step / (1.0 + self.config.depth_bias), node, from.heading + bend, from.class);
+            self.push(steps + step / (1.0 + self.config.depth_bias), node, from.heading + bend, from.class);
         }
         for side in [FRAC_PI_2, -FRAC_PI_2] {
             if self.rng.chance(self.config.branching) {
                 let bend = self.rng.normal_clamped(0.0, self.config.heading_variation, -0.4, 0.4);
                 let class =
                     if arterial && self.rng.chance(0.2) { RoadClass::Arterial } else { RoadClass::Local };
-                let cost = cost + 1.0 + self.rng.uniform(0.0, 0.5);
-                self.push(cost, node, from.heading + side + bend, class);
+                let cost = self.rng.uniform(0.7, 1.2);
+                self.push(steps + cost, node, from.heading + side + bend, class);
             }
         }
     }
@@ -140,12 +142,15 @@ impl Growth<'_> {
         self.push(0.0, node, heading, RoadClass::Local);
     }
 
-    fn push(&mut self, cost: f64, from: usize, heading: f64, class: RoadClass) {
+    fn push(&mut self, steps: f64, from: usize, heading: f64, class: RoadClass) {
         let variation = self.config.length_variation;
         let length = self.config.length * self.rng.uniform(1.0 - variation, 1.0 + variation);
         self.serial += 1;
         let proposal = Proposal { from, heading, length, class };
-        self.queue.push(End { cost, serial: self.serial, proposal });
+        // People live densest in the middle: what is far out waits, so that blocks close before the city spreads.
+        let remoteness = self.fabric.node(from).coords.norm() / self.config.length;
+        let cost = steps + self.config.compactness * remoteness;
+        self.queue.push(End { cost, steps, serial: self.serial, proposal });
     }
 
     /// Road-end attachment: a dead end that looks at a junction not too far away is joined to it.
