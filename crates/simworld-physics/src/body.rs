@@ -1,7 +1,8 @@
 //! The seam by which a body joins the physics: what it implements and what it is given.
 
 use rapier3d_f64::prelude::{
-    PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody, RigidBodyHandle, RigidBodySet,
+    Collider, PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody, RigidBodyHandle,
+    RigidBodySet,
 };
 use simworld_core::geometry::{Point2, Vector3};
 use simworld_core::id::EntityId;
@@ -122,6 +123,12 @@ impl Surroundings<'_> {
     pub fn queries(&self) -> QueryPipeline<'_> {
         let filter = QueryFilter::new().exclude_rigid_body(self.rigid);
         QueryPipeline { bodies: self.nobody, ..self.physics.query_pipeline_with_filter(filter) }
+    }
+
+    /// The body's own collider, the first if it has several.
+    pub fn collider(&self) -> Option<&Collider> {
+        let first = self.physics.bodies.get(self.rigid)?.colliders().first()?;
+        self.physics.colliders.get(*first)
     }
 
     /// The settings of the physics.

@@ -3,8 +3,8 @@
 //! Bodies on the solver touch when the solver says so. Walkers keep a small gap to everything, so they touch what
 //! is about that gap away.
 
+use parry3d_f64::query::contact;
 use rapier3d_f64::math::Vector;
-use rapier3d_f64::parry::query::contact;
 use rapier3d_f64::prelude::{ColliderHandle, QueryFilter};
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point3, Vector3};
@@ -131,25 +131,25 @@ impl PhysicsDynamics {
     ) {
         let collider = &self.physics.colliders[other];
         let Some(id) = BodyTag::from_user_data(collider.user_data).entity() else { return };
-        let approach = self.velocity_before(owned, &point) - self.velocity_of(id, other, &point);
+        let approach = velocity_before(owned, &point) - self.velocity_of(id, other, &point);
         let closing_speed = approach.dot(&towards_other).max(0.0);
         contacts.note(Contact { pair: ordered(owned.id, id), point, closing_speed });
     }
 
-    /// Velocity of a point of a body before the substep, which the solver has not yet braked.
-    fn velocity_before(&self, owned: &Owned, point: &Point3) -> Vector3 {
-        let arm = point.coords - owned.body.state().pose.translation.vector;
-        owned.before.linear + owned.before.angular.cross(&arm)
-    }
-
     fn velocity_of(&self, id: EntityId, collider: ColliderHandle, point: &Point3) -> Vector3 {
         if let Ok(place) = self.position(id) {
-            return self.velocity_before(&self.bodies[place], point);
+            return velocity_before(&self.bodies[place], point);
         }
         let parent = self.physics.colliders[collider].parent();
         let rigid = parent.and_then(|handle| self.physics.bodies.get(handle));
         rigid.map_or_else(Vector3::zeros, |rigid| from_vector(rigid.velocity_at_point(to_point(point))))
     }
+}
+
+/// Velocity of a point of a body before the substep, which the solver has not yet braked.
+fn velocity_before(owned: &Owned, point: &Point3) -> Vector3 {
+    let arm = point.coords - owned.body.state().pose.translation.vector;
+    owned.before.linear + owned.before.angular.cross(&arm)
 }
 
 fn ordered(a: EntityId, b: EntityId) -> (EntityId, EntityId) {

@@ -8,7 +8,7 @@ use simworld_core::geometry::{Pose, Twist};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
-use simworld_core::seam::{BodyState, Dynamics, DynamicsError};
+use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
 use crate::body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
 use crate::contact::Contacts;
@@ -204,7 +204,7 @@ impl PhysicsDynamics {
 
     /// Where the body of an entity is and how it moves, if it has one.
     pub fn state(&self, id: EntityId) -> Option<BodyState> {
-        self.body(id).map(|body| body.state())
+        self.body(id).map(Embodiment::state)
     }
 
     pub(crate) fn position(&self, id: EntityId) -> Result<usize, usize> {

@@ -1,6 +1,6 @@
 //! Questions to the physics: what does a ray meet, what lies within a shape.
 
-use rapier3d_f64::parry::query::{Ray as RapierRay, intersection_test};
+use parry3d_f64::query::{Ray as RapierRay, intersection_test};
 use rapier3d_f64::prelude::{Collider, ColliderHandle, QueryFilter, SharedShape};
 use simworld_core::geometry::{Aabb, Pose, Ray, Vector3};
 use simworld_core::id::EntityId;

@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
-use rapier3d_f64::prelude::{ColliderBuilder, SharedShape};
+use rapier3d_f64::prelude::{Collider, ColliderBuilder, SharedShape};
 use simworld_core::id::EntityId;
 use simworld_core::scene::Shape;
 
@@ -48,6 +48,11 @@ impl BodyTag {
 /// A quarter turn about x: rapier's y, the axis of its cylinders, becomes z.
 pub(crate) fn upright() -> Rotation {
     Rotation::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2)
+}
+
+/// Where a collider sits in its rigid body's frame.
+pub(crate) fn body_from(collider: &Collider) -> RapierPose {
+    collider.position_wrt_parent().copied().unwrap_or_default()
 }
 
 /// The solid for rapier and where it sits in the body frame, m.

@@ -14,7 +14,7 @@ use crate::body::Bonds;
 use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
 use crate::mirror::Mirror;
-use crate::shape::{collider_for, shape_from};
+use crate::shape::{body_from, collider_for, shape_from};
 
 /// What the physics makes of a slot of the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -156,7 +156,7 @@ impl PhysicsDynamics {
 
     /// Lets queries see a new or displaced collider before the engine's next step.
     pub(crate) fn file(&mut self, handle: ColliderHandle) {
-        if let Some(collider) = self.physics.colliders.get(handle) {
+        if let Some(collider) = self.physics.colliders.get(handle).filter(|collider| collider.is_enabled()) {
             let parameters = &self.physics.integration_parameters;
             self.physics.broad_phase.set_aabb(parameters, handle, collider.compute_aabb());
         }
@@ -167,8 +167,7 @@ impl PhysicsDynamics {
         let pose = *self.physics.bodies[rigid].position();
         for handle in self.physics.bodies[rigid].colliders().to_vec() {
             if let Some(collider) = self.physics.colliders.get_mut(handle) {
-                let body_from_solid = collider.position_wrt_parent().copied().unwrap_or_default();
-                collider.set_position(pose * body_from_solid);
+                collider.set_position(pose * body_from(collider));
             }
             self.file(handle);
         }

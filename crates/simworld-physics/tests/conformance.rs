@@ -1,11 +1,12 @@
 //! The seams' own checks.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 
 use common::{PERSON, Stage, at, ramp};
 use simworld_core::action::Action;
 use simworld_core::command::Command;
-use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
+use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Scene, Shape, World};
@@ -33,7 +34,7 @@ impl Dynamics for Directed {
         let tick = world.clock().tick().0;
         let mut orders = Vec::new();
         for (index, who) in self.walkers.iter().enumerate() {
-            if tick % 7 == 0 {
+            if tick.is_multiple_of(7) {
                 orders.push((*who, Action::MoveForward { speed: 1.0 + index as f64 * 0.3 }));
                 orders.push((*who, Action::Rotate { angle: 0.4 * index as f64 - 0.9 }));
             }
@@ -44,7 +45,7 @@ impl Dynamics for Directed {
             let _ = world.apply(&Command::Actuate { who, action });
         }
         let pose = at(tick as f64 * 0.8 - 14.0, 4.0, 0.0);
-        world.set_motion(self.passer, pose, Default::default())?;
+        world.set_motion(self.passer, pose, Twist::ZERO)?;
         self.physics.step(world, dt)
     }
     fn save(&self) -> Result<Vec<u8>, DynamicsError> {

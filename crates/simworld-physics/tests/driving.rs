@@ -1,4 +1,5 @@
 //! A car accelerates, brakes, stops and steers.
+#![allow(clippy::unwrap_used)]
 
 mod common;
 

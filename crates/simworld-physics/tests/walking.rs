@@ -21,6 +21,21 @@ fn a_person_walks_four_metres_at_any_distance_from_the_origin() {
 }
 
 #[test]
+fn a_person_walks_four_metres_along_a_wall_at_any_distance_from_the_origin() {
+    for start in [0.0, 10_000.0] {
+        let mut stage = Stage::new();
+        // Close enough for the character controller to be asked all the way.
+        stage.building(start, -start + 1.33, (40.0, 2.0, 5.0));
+        let walker = stage.person(at(start, -start, 0.0));
+        stage.tell(walker, Action::MoveForward { speed: 1.0 });
+        stage.run(40);
+        let walked = stage.position(walker);
+        assert!((walked.x - start - 4.0).abs() < 1e-3, "from {start}: {walked}");
+        assert!((walked.y + start).abs() < 1e-3 && walked.z.abs() < 1e-3, "from {start}: {walked}");
+    }
+}
+
+#[test]
 fn a_person_stops_when_told() {
     let mut stage = Stage::new();
     let walker = stage.person(at(0.0, 0.0, 0.0));

@@ -8,6 +8,7 @@ use simworld_core::command::Command;
 use simworld_core::event::EventKind;
 use simworld_core::geometry::Twist;
 use simworld_core::scene::{EntityKind, Scene, Shape};
+use simworld_physics::HumanoidConfig;
 
 #[test]
 fn a_removed_entity_loses_its_body_and_a_newcomer_in_its_slot_has_none() {
@@ -79,6 +80,28 @@ fn a_seated_person_stays_on_the_seat_until_standing_up() {
 }
 
 #[test]
+fn a_passenger_travels_with_the_car_and_gets_out_beside_it() {
+    let mut stage = Stage::new();
+    let car = stage.spawn(EntityKind::Car, at(0.0, 2.0, 0.0), Shape::cuboid(4.3, 1.8, 1.5));
+    let person = stage.person(at(0.0, 0.0, 0.0));
+    let bystander = stage.person(at(20.0, -3.0, 0.0));
+    stage.step();
+    stage.tell(person, Action::EnterCar { car });
+    for step in 1..=40 {
+        stage.world.set_motion(car, at(f64::from(step), 2.0, 0.0), Twist::ZERO).unwrap();
+        stage.step();
+    }
+    let gap = stage.position(person) - stage.position(car);
+    assert!(gap.norm() < 0.6, "on the seat: {gap}");
+    stage.tell(person, Action::ExitCar);
+    stage.tell(person, Action::MoveForward { speed: 1.0 });
+    stage.run(20);
+    let there = stage.position(person);
+    assert!((there.x - 42.0).abs() < 0.1 && there.y > 3.0 && there.z.abs() < 0.01, "{there}");
+    assert_eq!(stage.position(bystander).x, 20.0);
+}
+
+#[test]
 fn a_rider_speeds_up_to_25_km_an_hour_and_loses_it_on_getting_off() {
     let mut stage = Stage::new();
     let scooter = stage.spawn(EntityKind::Scooter, at(0.8, 0.0, 0.0), Shape::cuboid(1.1, 0.5, 1.2));
@@ -122,7 +145,7 @@ fn what_is_carried_blocks_nobody() {
 fn a_body_runs_in_a_simulation_by_commands() {
     let mut stage = Stage::new();
     let person = stage.spawn(EntityKind::Person, at(0.0, 0.0, 0.0), PERSON);
-    stage.physics.add_humanoid(&stage.world, person, Default::default()).unwrap();
+    stage.physics.add_humanoid(&stage.world, person, HumanoidConfig::default()).unwrap();
     let mut simulation = simworld_core::simulation::Simulation::new(stage.world);
     simulation.add_dynamics("physics", Box::new(stage.physics));
     simulation.submit(Command::Actuate { who: person, action: Action::MoveForward { speed: 1.4 } });

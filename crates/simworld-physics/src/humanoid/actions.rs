@@ -39,8 +39,12 @@ impl Humanoid {
                 self.on_the_move(kind)?;
                 self.motion.turn_left = if angle.abs() <= 2.0 * PI { angle } else { wrap_angle(angle) };
             }
-            Action::Stop | Action::PickUp { .. } | Action::DropOff => self.halt(),
-            Action::CarryHeavy { .. } | Action::PutDownHeavy | Action::OpenDoor { .. } => self.halt(),
+            Action::Stop
+            | Action::PickUp { .. }
+            | Action::DropOff
+            | Action::CarryHeavy { .. }
+            | Action::PutDownHeavy
+            | Action::OpenDoor { .. } => self.halt(),
             Action::SitDown { .. } => self.assume(Posture::Seated),
             Action::EnterCar { .. } => self.assume(Posture::Aboard),
             Action::RideScooter { .. } => self.assume(Posture::Riding),

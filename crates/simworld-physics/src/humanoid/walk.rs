@@ -3,9 +3,10 @@
 //! The collider ends one skin above the soles, because the character controller keeps that gap to whatever it
 //! stands on or walks along: the soles themselves are on the ground.
 
+use parry3d_f64::query::contact;
+use parry3d_f64::shape::Shape;
 use rapier3d_f64::control::{CharacterAutostep, CharacterLength, KinematicCharacterController};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
-use rapier3d_f64::parry::query::contact;
 use rapier3d_f64::prelude::{
     ColliderBuilder, PhysicsWorld, QueryPipeline, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
@@ -18,12 +19,16 @@ use simworld_core::seam::BodyState;
 use super::{ColliderForm, Humanoid, Posture};
 use crate::body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
 use crate::convert::{from_vector, to_pose, to_vector};
-use crate::shape::{BodyTag, upright};
+use crate::shape::{BodyTag, body_from, upright};
 
 /// The gap that people keep to solids, m.
 pub(crate) const SKIN: f64 = 0.02;
 /// Free width that a person needs on a step to take it, m.
 const TREAD: f64 = 0.1;
+/// How close something must be for the character controller to be asked, beyond the way of a substep, m.
+const NEARBY: f64 = 0.1;
+/// How far the soles of someone standing on the ground may be off it, m.
+const LEVEL: f64 = 1e-3;
 /// A rider slows down so that a turn takes about this long, s.
 const TURN_TIME: f64 = 0.5;
 /// The speed at which a rider takes the sharpest turns, m/s.
@@ -113,23 +118,11 @@ impl Humanoid {
         self.motion.wanted_speed.min(in_turn.max(TURN_SPEED))
     }
 
-    /// What is close to the body: nothing but the ground, something, or something inside of it.
-    fn company(&self, queries: &QueryPipeline<'_>, solid: &SharedShape, pose: &RapierPose) -> Company {
-        let mut aabb = solid.compute_aabb(pose);
-        aabb.mins -= Vector::splat(0.1);
-        aabb.maxs += Vector::splat(0.1);
-        let mut company = Company::Alone;
-        for (_, other) in queries.intersect_aabb_conservative(aabb) {
-            if BodyTag::from_user_data(other.user_data) == BodyTag::Ground {
-                continue;
-            }
-            let overlap = contact(pose, &**solid, other.position(), other.shape(), 0.0);
-            if overlap.is_ok_and(|found| found.is_some_and(|contact| contact.dist < -1e-4)) {
-                return Company::Overlapping;
-            }
-            company = Company::Near;
-        }
-        company
+    /// Whether it stands on the ground itself, farther than `reach` from its edge.
+    fn is_on_level_ground(&self, half_extent: f64, reach: f64) -> bool {
+        let at = self.state.pose.translation;
+        let inside = half_extent - reach;
+        self.motion.grounded && at.z.abs() < LEVEL && at.x.abs() < inside && at.y.abs() < inside
     }
 
     fn room(&self, position: &Vector3) -> Claim {
@@ -145,9 +138,33 @@ impl Humanoid {
 /// What is close to a body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Company {
+    /// Nothing but the ground.
     Alone,
+    /// Something within reach.
     Near,
+    /// Something that shares its room.
     Overlapping,
+}
+
+impl Company {
+    /// Who is within `reach` m of the box around a solid.
+    fn of(solid: &dyn Shape, pose: &RapierPose, reach: f64, queries: &QueryPipeline<'_>) -> Self {
+        let mut aabb = solid.compute_aabb(pose);
+        aabb.mins -= Vector::splat(reach);
+        aabb.maxs += Vector::splat(reach);
+        let mut company = Self::Alone;
+        for (_, other) in queries.intersect_aabb_conservative(aabb) {
+            if BodyTag::from_user_data(other.user_data) == BodyTag::Ground {
+                continue;
+            }
+            let overlap = contact(pose, solid, other.position(), other.shape(), 0.0);
+            if overlap.is_ok_and(|found| found.is_some_and(|contact| contact.dist < -1e-4)) {
+                return Self::Overlapping;
+            }
+            company = Self::Near;
+        }
+        company
+    }
 }
 
 impl PhysicsBody for Humanoid {
@@ -171,18 +188,21 @@ impl PhysicsBody for Humanoid {
 
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
         let wish = self.intend(around.config().gravity, dt);
-        let (solid, body_from_solid) = self.collider();
+        let Some(collider) = around.collider() else { return };
+        let (solid, body_from_solid) = (collider.shape(), body_from(collider));
         let queries = around.queries();
         let start = to_pose(&pose_facing(self.state.pose.translation.vector.into(), self.motion.yaw));
-        let company = self.company(&queries, &solid, &(start * body_from_solid));
-        if company == Company::Alone && self.motion.grounded && wish == Vector3::zeros() {
-            self.motion.planned = wish;
+        let reach = wish.norm() + NEARBY;
+        let company = Company::of(solid, &(start * body_from_solid), reach, &queries);
+        if company == Company::Alone && self.is_on_level_ground(around.config().ground_half_extent, reach) {
+            // There is nothing to run into: the controller would find out the same at many times the cost.
+            self.motion.planned = Vector3::new(wish.x, wish.y, -self.state.pose.translation.z);
             return;
         }
         let controller = Self::controller(around);
         let walk = |from: Vector, wish: Vector| {
             let pose = RapierPose::from_translation(from) * start * body_from_solid;
-            controller.move_shape(dt, &queries, &*solid, &pose, wish, |_| {})
+            controller.move_shape(dt, &queries, solid, &pose, wish, |_| {})
         };
         let mut moved = Vector::ZERO;
         if company == Company::Overlapping {

@@ -3,9 +3,9 @@
 //! Wheel forces scale with the chassis mass in rapier's controller, so springs are given by the natural frequency
 //! of the ride: four springs of stiffness k per kilogram give ω² = 4 k and a static deflection g / (4 k).
 
+use parry3d_f64::mass_properties::MassProperties;
 use rapier3d_f64::control::{DynamicRayCastVehicleController, WheelTuning};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
-use rapier3d_f64::parry::mass_properties::MassProperties;
 use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape};
 use simworld_core::geometry::Vector3;
 use simworld_core::id::EntityId;

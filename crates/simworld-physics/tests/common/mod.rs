@@ -1,5 +1,5 @@
 //! Worlds in which the behaviour tests take place.
-#![allow(dead_code, unreachable_pub)]
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use nalgebra::UnitQuaternion;
 use simworld_core::action::Action;
