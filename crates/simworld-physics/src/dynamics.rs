@@ -24,7 +24,8 @@ const GROUND_THICKNESS: f64 = 100.0;
 /// The bodies of a world under the laws of physics.
 ///
 /// Solid things that do not move by themselves become fixed colliders; traffic near a body of this physics becomes
-/// a moving obstacle; the entities that were given a body here are moved by it.
+/// a moving obstacle; the entities that were given a body here are moved by it. A saved state
+/// is taken up by a physics with the same settings in which the same entities have bodies of the same kinds.
 ///
 /// ```
 /// use simworld_core::action::Action;

@@ -4,6 +4,7 @@
 //! stands on or walks along: the soles themselves are on the ground.
 
 use parry3d_f64::query::contact;
+use parry3d_f64::query::details::ShapeCastOptions;
 use parry3d_f64::shape::Shape;
 use rapier3d_f64::control::{CharacterAutostep, CharacterLength, KinematicCharacterController};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
@@ -29,6 +30,8 @@ const TREAD: f64 = 0.1;
 const NEARBY: f64 = 0.1;
 /// How far the soles of someone standing on the ground may be off it, m.
 const LEVEL: f64 = 1e-3;
+/// Height from which the ground is looked for, m.
+const RAISE: f64 = 0.05;
 /// A rider slows down so that a turn takes about this long, s.
 const TURN_TIME: f64 = 0.5;
 /// The speed at which a rider takes the sharpest turns, m/s.
@@ -64,7 +67,8 @@ impl Humanoid {
             }),
             max_slope_climb_angle: config.max_slope,
             min_slope_slide_angle: config.max_slope,
-            snap_to_ground: Some(CharacterLength::Absolute(config.step_height)),
+            // Done by `drop_to_support`, from a little above.
+            snap_to_ground: None,
             normal_nudge_factor: 1e-4,
         }
     }
@@ -120,9 +124,13 @@ impl Humanoid {
 
     /// Whether it stands on the ground itself, farther than `reach` from its edge.
     fn is_on_level_ground(&self, half_extent: f64, reach: f64) -> bool {
-        let at = self.state.pose.translation;
-        let inside = half_extent - reach;
-        self.motion.grounded && at.z.abs() < LEVEL && at.x.abs() < inside && at.y.abs() < inside
+        let level = self.state.pose.translation.z.abs() < LEVEL;
+        self.motion.grounded && level && self.is_over_ground(half_extent, reach)
+    }
+
+    fn is_over_ground(&self, half_extent: f64, reach: f64) -> bool {
+        let (at, inside) = (self.state.pose.translation, half_extent - reach);
+        at.z > -LEVEL && at.x.abs() < inside && at.y.abs() < inside
     }
 
     fn room(&self, position: &Vector3) -> Claim {
@@ -133,6 +141,27 @@ impl Humanoid {
             top: position.z + self.height,
         }
     }
+}
+
+/// How far down it is to what carries a walker within a step's height, m; negative if it is a little up.
+///
+/// A cast that starts at the very gap it looks for misses now and then, so it starts above.
+fn drop_to_support(
+    solid: &dyn Shape,
+    pose: &RapierPose,
+    step_height: f64,
+    queries: &QueryPipeline<'_>,
+) -> Option<f64> {
+    let raised = RapierPose::from_translation(Vector::new(0.0, 0.0, RAISE)) * *pose;
+    let options = ShapeCastOptions {
+        target_distance: SKIN,
+        stop_at_penetration: false,
+        max_time_of_impact: RAISE + step_height,
+        compute_impact_geometry_on_penetration: true,
+    };
+    let (_, hit) = queries.cast_shape(&raised, -Vector::Z, solid, options)?;
+    // Walls beside the body are no support, nor is what the raised body is inside of.
+    (hit.normal1.z > 0.5 && hit.time_of_impact > 0.0).then_some(hit.time_of_impact - RAISE)
 }
 
 /// What is close to a body.
@@ -187,6 +216,7 @@ impl PhysicsBody for Humanoid {
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
+        let was_grounded = self.motion.grounded;
         let wish = self.intend(around.config().gravity, dt);
         let Some(collider) = around.collider() else { return };
         let (solid, body_from_solid) = (collider.shape(), body_from(collider));
@@ -210,8 +240,19 @@ impl PhysicsBody for Humanoid {
             moved = walk(moved, Vector::ZERO).translation;
         }
         let result = walk(moved, to_vector(&wish));
+        moved += result.translation;
         self.motion.grounded = result.grounded;
-        self.motion.planned = from_vector(moved + result.translation);
+        if was_grounded {
+            let pose = RapierPose::from_translation(moved) * start * body_from_solid;
+            if let Some(drop) = drop_to_support(solid, &pose, around.config().step_height, &queries) {
+                moved.z -= drop;
+                self.motion.grounded = true;
+            }
+        }
+        if self.is_over_ground(around.config().ground_half_extent, reach) {
+            moved.z = moved.z.max(-self.state.pose.translation.z);
+        }
+        self.motion.planned = from_vector(moved);
     }
 
     fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64) {
