@@ -50,6 +50,8 @@ pub struct TaskContext<'a> {
     pub intents: &'a [(EntityId, Intent)],
     /// What happened in the last step.
     pub events: &'a [Event],
+    /// The entities that the task's commands of the last step made, in the order of the commands.
+    pub spawned: &'a [EntityId],
 }
 
 /// What a task decides in a step; the caller owns and clears it.

@@ -267,7 +267,7 @@ pub fn check_task(make: impl Fn() -> Box<dyn Task>, scene: &dyn Scene, agents: &
         for _ in 0..30 {
             out.clear();
             let mut outcome = Outcome::default();
-            let context = TaskContext { scene, agents, intents: &[], events: &[] };
+            let context = TaskContext { scene, agents, intents: &[], events: &[], spawned: &[] };
             task.step(&context, &mut out, &mut outcome)
                 .unwrap_or_else(|error| panic!("a step failed: {error}"));
             assert!(outcome.rewards.iter().all(|reward| reward.is_finite()), "a reward is not finite");
