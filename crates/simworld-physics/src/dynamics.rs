@@ -16,7 +16,7 @@ use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::mirror::Moving;
 use crate::shape::BodyTag;
 use crate::sync::Slot;
-use crate::{Humanoid, HumanoidConfig, PhysicsConfig, PhysicsError, Rigid, Vehicle, VehicleConfig};
+use crate::{PhysicsConfig, PhysicsError};
 
 /// Thickness of the ground, m: no body falls through it in a step.
 const GROUND_THICKNESS: f64 = 100.0;
@@ -117,101 +117,6 @@ impl PhysicsDynamics {
         &self.config
     }
 
-    /// Gives a person's entity a body of its pose and size.
-    ///
-    /// # Errors
-    /// An unknown entity, one that has a body, a shape that is no upright body, or a setting out of range.
-    pub fn add_humanoid(
-        &mut self,
-        world: &World,
-        id: EntityId,
-        config: HumanoidConfig,
-    ) -> Result<(), PhysicsError> {
-        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Humanoid::of(&entity, config)?))
-    }
-
-    /// Gives a car's entity a body of its pose and size.
-    ///
-    /// # Errors
-    /// An unknown entity, one that has a body, a shape too small for the wheels, or a setting out of range.
-    pub fn add_vehicle(
-        &mut self,
-        world: &World,
-        id: EntityId,
-        config: VehicleConfig,
-    ) -> Result<(), PhysicsError> {
-        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Vehicle::of(&entity, config)?))
-    }
-
-    /// Lets an entity fall and tumble as a free rigid body of its pose, velocity, shape and mass.
-    ///
-    /// # Errors
-    /// An unknown entity, or one that has a body.
-    pub fn add_rigid(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
-        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Rigid::of(&entity, self.config.friction)))
-    }
-
-    /// Gives an entity a body of any kind.
-    ///
-    /// # Errors
-    /// An unknown entity, or one that has a body.
-    pub fn insert(
-        &mut self,
-        world: &World,
-        id: EntityId,
-        mut body: Box<dyn PhysicsBody>,
-    ) -> Result<(), PhysicsError> {
-        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        let Err(place) = self.position(id) else { return Err(PhysicsError::Occupied { id }) };
-        if self.slots.len() <= id.index() {
-            self.slots.resize_with(id.index() + 1, Slot::default);
-        }
-        self.vacate(id.index());
-        self.slots[id.index()] = Slot::Own { id };
-        let rigid = body.attach(id, &mut self.physics);
-        // Otherwise the engine knows the mass only after its first step, and the body drives before that.
-        self.physics.bodies[rigid].recompute_mass_properties_from_colliders(&self.physics.colliders);
-        let owned =
-            Owned { id, body, rigid, written: *entity.pose, bonds: Bonds::default(), before: Twist::ZERO };
-        self.bodies.insert(place, owned);
-        self.file_body(rigid);
-        Ok(())
-    }
-
-    /// Takes the body away from an entity, which then stays where it is.
-    ///
-    /// # Errors
-    /// The entity has none.
-    pub fn remove(&mut self, id: EntityId) -> Result<(), PhysicsError> {
-        let place = self.position(id).map_err(|_| PhysicsError::Bodiless { id })?;
-        let owned = self.bodies.remove(place);
-        self.physics.remove_body(owned.rigid);
-        self.slots[id.index()] = Slot::Vacant;
-        Ok(())
-    }
-
-    /// The entities that have a body here, by ascending id.
-    pub fn bodies(&self) -> impl Iterator<Item = EntityId> + '_ {
-        self.bodies.iter().map(|owned| owned.id)
-    }
-
-    /// The body of an entity, if it has one.
-    pub fn body(&self, id: EntityId) -> Option<&dyn PhysicsBody> {
-        self.position(id).ok().map(|place| &*self.bodies[place].body)
-    }
-
-    /// Where the body of an entity is and how it moves, if it has one.
-    pub fn state(&self, id: EntityId) -> Option<BodyState> {
-        self.body(id).map(Embodiment::state)
-    }
-
-    pub(crate) fn position(&self, id: EntityId) -> Result<usize, usize> {
-        self.bodies.binary_search_by_key(&id, |owned| owned.id)
-    }
-
     /// Passes on what bodies were told; what they refuse becomes an event.
     fn take_actions(&mut self, world: &mut World) {
         for (who, action) in world.actuations() {
@@ -238,7 +143,7 @@ impl PhysicsDynamics {
             }
         };
         if self.bodies.len() >= config.parallel_threshold {
-            self.bodies.par_iter_mut().with_min_len(8).for_each(sense);
+            self.bodies.par_iter_mut().with_min_len(4).for_each(sense);
         } else {
             self.bodies.iter_mut().for_each(sense);
         }

@@ -143,7 +143,6 @@ impl PhysicsBody for Vehicle {
     }
 }
 
-/// Where a wheel touches the ground, for tests of the suspension.
 #[cfg(test)]
 mod tests {
     use simworld_core::geometry::Pose;
