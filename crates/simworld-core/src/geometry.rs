@@ -121,11 +121,13 @@ impl Aabb {
     }
 
     /// The smallest box that holds both.
+    #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
     /// The box grown by `margin` on every side.
+    #[must_use]
     pub fn inflated(&self, margin: f64) -> Self {
         let reach = Vector3::repeat(margin);
         Self { min: self.min - reach, max: self.max + reach }
