@@ -1,0 +1,187 @@
+//! What the world does to couriers: they move, tire, rest, and mount what they bought.
+
+use std::ops::ControlFlow;
+
+use simworld_core::action::Action;
+use simworld_core::command::Command;
+use simworld_core::geometry::{Aabb, Point3, Pose, pose_facing, yaw_of};
+use simworld_core::id::EntityId;
+use simworld_core::ops;
+use simworld_core::scene::{ARM_REACH, Attachment, EntityDesc, EntityKind, Role, Shape};
+use simworld_core::value::Value;
+
+use super::config::EnergyConfig;
+use super::order::{OrderId, Stage};
+use super::state::{Errand, Ride};
+use super::turn::{Turn, fact};
+
+/// Slower than this is rest, m/s.
+const STANDING: f64 = 0.1;
+
+impl EnergyConfig {
+    /// What a metre costs at a speed in m/s.
+    pub fn per_metre(&self, speed: f64, riding: bool) -> f64 {
+        if riding { self.riding } else { self.walking * ops::pow(speed / self.walking_speed, self.growth) }
+    }
+}
+
+impl Turn<'_> {
+    /// Takes in how far a courier moved: it costs energy, and brings along what it carries.
+    pub(super) fn exert(&mut self, index: usize) {
+        let courier = &mut self.state.couriers[index];
+        let Some(body) = self.scene.entity(courier.id) else { return };
+        let moved = (body.planar() - courier.position).norm();
+        courier.position = body.planar();
+        let speed = moved / self.state.dt;
+        let energy = &self.config.energy;
+        let before = courier.energy;
+        if speed < STANDING {
+            courier.energy = (before + energy.rest * self.state.dt).min(energy.capacity);
+        } else {
+            let cost = moved * energy.per_metre(speed, courier.is_riding());
+            courier.energy = (before - cost).max(0.0);
+            courier.tally.energy += before - courier.energy;
+            courier.tally.distance += moved;
+        }
+        for id in &self.state.live {
+            if let Some(Stage::Carried(carried)) =
+                self.state.orders.get_mut(id.index()).map(|order| &mut order.stage)
+                && carried.carrier == index
+            {
+                carried.distance += moved;
+            }
+        }
+        self.tire(index);
+    }
+
+    fn tire(&mut self, index: usize) {
+        let energy = &self.config.energy;
+        let courier = &mut self.state.couriers[index];
+        let low = courier.energy < energy.low;
+        if low != courier.low {
+            courier.low = low;
+            courier.notices += 1;
+        }
+        if courier.exhausted {
+            self.wake(index);
+        } else if courier.energy <= 0.0 {
+            courier.exhausted = true;
+            courier.tally.exhaustions += 1;
+            self.halt(index);
+            self.tell("courier_exhausted", Some(index), &[]);
+        }
+    }
+
+    /// An exhausted courier gets up again once it has rested or drunk enough.
+    pub(super) fn wake(&mut self, index: usize) {
+        let courier = &mut self.state.couriers[index];
+        if courier.exhausted && courier.energy >= self.config.energy.ready {
+            courier.exhausted = false;
+            let energy = courier.energy;
+            self.tell("courier_recovered", Some(index), &[("energy", energy.into())]);
+        }
+    }
+
+    /// Puts a parcel into a courier's hand, or on its back if the hand is full.
+    pub(super) fn spawn_parcel(&mut self, index: usize, order: OrderId) {
+        let who = self.state.couriers[index].id;
+        let Some(body) = self.scene.entity(who) else { return };
+        let bond = self.grip(index, who);
+        let pose = body.pose * bond.parent_from_body;
+        let mut parcel = EntityDesc::new(EntityKind::Parcel, pose, Shape::cuboid(0.3, 0.3, 0.2))
+            .named(format!("order {order}"))
+            .with("order", fact(order));
+        parcel.attachment = Some(bond);
+        self.command(Command::Spawn(Box::new(parcel)));
+    }
+
+    /// Where the next parcel of a courier goes.
+    pub(super) fn grip(&self, index: usize, who: EntityId) -> Attachment {
+        let holds = |stage: &Stage| matches!(stage, Stage::Carried(carried) if carried.carrier == index);
+        let others = self.state.live_orders().filter(|order| holds(&order.stage)).count().saturating_sub(1);
+        let (role, x, y, z) = match others {
+            0 => (Role::Held, 0.35, -0.25, 0.9),
+            behind => (Role::Part, -0.3, 0.0, 0.9 + 0.22 * (behind - 1) as f64),
+        };
+        Attachment { parent: who, role, parent_from_body: Pose::translation(x, y, z) }
+    }
+
+    /// Learns which entity is the parcel of an order, a step after it was spawned.
+    pub(super) fn find_parcels(&mut self, index: usize) {
+        let who = self.state.couriers[index].id;
+        for position in 0..self.state.live.len() {
+            let id = self.state.live[position];
+            let Some(Stage::Carried(carried)) =
+                self.state.orders.get_mut(id.index()).map(|order| &mut order.stage)
+            else {
+                continue;
+            };
+            if carried.carrier == index && carried.parcel.is_none() {
+                let wanted = fact(id);
+                self.scene.visit_attached(who, &mut |child| {
+                    if child.info.attributes.get("order") == Some(&wanted) {
+                        carried.parcel = Some(child.id);
+                    }
+                });
+            }
+        }
+    }
+
+    /// Puts a scooter beside a courier; it is mounted in the steps that follow.
+    pub(super) fn spawn_scooter(&mut self, index: usize) {
+        let Some(body) = self.scene.entity(self.state.couriers[index].id) else { return };
+        let scooter = EntityDesc::new(EntityKind::Scooter, beside(body.pose), Shape::cuboid(1.1, 0.45, 1.1))
+            .weighing(15.0)
+            .with("owner", body.id);
+        self.command(Command::Spawn(Box::new(scooter)));
+        self.state.couriers[index].ride = Ride::Ordered;
+    }
+
+    /// Brings a courier and its scooter together.
+    pub(super) fn mount(&mut self, index: usize) {
+        let who = self.state.couriers[index].id;
+        let Some(body) = self.scene.entity(who) else { return };
+        let mut ride = self.state.couriers[index].ride;
+        if ride == Ride::Ordered {
+            let owner = Value::Entity(who);
+            let _ = self.scene.visit(&Aabb::column_around(body.planar(), 20.0), &mut |entity| {
+                if entity.kind == EntityKind::Scooter && entity.info.attributes.get("owner") == Some(&owner) {
+                    ride = Ride::Beside(entity.id);
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            });
+        }
+        let (Ride::Beside(id) | Ride::Riding(id)) = ride else { return };
+        let Some(scooter) = self.scene.entity(id) else {
+            self.state.couriers[index].ride = Ride::None;
+            self.tell("scooter_lost", Some(index), &[]);
+            return;
+        };
+        let mounted = scooter.attachment.is_some_and(|bond| bond.parent == who && bond.role == Role::Ridden);
+        let was = self.state.couriers[index].ride;
+        self.state.couriers[index].ride = if mounted { Ride::Riding(id) } else { Ride::Beside(id) };
+        if mounted {
+            if was != Ride::Riding(id) {
+                self.tell("scooter_mounted", Some(index), &[("scooter", id.into())]);
+                self.send(index); // goes on, faster
+            }
+            return;
+        }
+        if (scooter.planar() - body.planar()).norm() > ARM_REACH * 0.9 {
+            self.command(Command::Move { id, pose: beside(body.pose) });
+        }
+        self.command(Command::Actuate { who, action: Action::RideScooter { scooter: id } });
+    }
+
+    /// Whether a courier stands where its errand leads, and which order it is about.
+    pub(super) fn waits_at_meeting(&self, index: usize, order: OrderId, meet: &Point3) -> bool {
+        self.state.couriers[index].errand == Errand::Meet(order)
+            && self.is_at(index, meet, self.config.reach.meeting)
+    }
+}
+
+/// A pose to the left of a body, upright.
+fn beside(body: &Pose) -> Pose {
+    pose_facing(body * Point3::new(0.0, 0.9, 0.0), yaw_of(body))
+}

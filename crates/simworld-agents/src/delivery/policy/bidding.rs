@@ -1,0 +1,133 @@
+//! What to bid for and how much.
+
+use serde::{Deserialize, Serialize};
+use simworld_core::ops;
+use simworld_core::seed::StreamRng;
+
+use super::PolicyKind;
+use crate::delivery::{BidResult, Cents, CourierView, OpenOrder};
+
+/// What an hour is worth to a courier, $/s: chosen so that cost-plus bids lie well under the usual ceiling.
+const WAGE: f64 = 0.008;
+/// Share of the energy of a job that is made up for by drinks; the rest comes back while waiting.
+const DRUNK_SHARE: f64 = 0.5;
+/// Shares of the ceiling among which EXP3 learns.
+const ARMS: [f64; 7] = [0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+/// Exploration of EXP3; the usual choice for some tens of rounds.
+const EXPLORATION: f64 = 0.2;
+/// A restaurant farther off is none of a nearest-only courier's business, m.
+const CLOSE: f64 = 200.0;
+
+/// What a policy has learnt from how its bids ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Learner {
+    margin: f64,
+    weights: Vec<f64>,
+    /// Results taken in so far.
+    known: u64,
+}
+
+impl Default for Learner {
+    fn default() -> Self {
+        Self { margin: 0.35, weights: vec![1.0; ARMS.len()], known: 0 }
+    }
+}
+
+impl Learner {
+    /// Takes in how bids ended since last time.
+    pub(super) fn learn(&mut self, view: &CourierView<'_>) {
+        let (results, known) = view.results_since(self.known);
+        self.known = known;
+        for result in results {
+            let step = if result.won { 0.05 } else { -0.04 };
+            self.margin = (self.margin + step).clamp(0.0, 2.0);
+            self.reinforce(result);
+        }
+    }
+
+    /// EXP3: the arm that was played gains by its reward over its probability.
+    fn reinforce(&mut self, result: &BidResult) {
+        let share = result.price.0 as f64 / result.ceiling.0.max(1) as f64;
+        let arm = nearest_arm(share);
+        let reward = if result.won { share.min(1.0) } else { 0.0 };
+        let probability = self.probabilities()[arm];
+        self.weights[arm] *= ops::exp(EXPLORATION * reward / (probability * ARMS.len() as f64));
+        let most = self.weights.iter().copied().fold(1.0, f64::max);
+        for weight in &mut self.weights {
+            *weight = (*weight / most).max(1e-9); // only their proportions matter
+        }
+    }
+
+    fn probabilities(&self) -> Vec<f64> {
+        let total: f64 = self.weights.iter().sum();
+        let even = EXPLORATION / ARMS.len() as f64;
+        self.weights.iter().map(|weight| (1.0 - EXPLORATION) * weight / total + even).collect()
+    }
+}
+
+fn nearest_arm(share: f64) -> usize {
+    let gap = |arm: &usize| (ARMS[*arm] - share).abs();
+    (0..ARMS.len()).min_by(|a, b| gap(a).total_cmp(&gap(b))).unwrap_or(0)
+}
+
+/// What a job costs a courier in time and energy, $.
+fn cost(view: &CourierView<'_>, order: &OpenOrder) -> f64 {
+    let (length, speed) = (order.approach + order.route, view.speed().max(0.1));
+    let energy = length * view.config().energy.per_metre(speed, view.is_riding());
+    let drinks = energy / view.config().prices.drink_energy;
+    WAGE * length / speed + DRUNK_SHARE * drinks * view.drink_price().dollars()
+}
+
+/// Chooses an order to bid for and a price, before the persona has its say.
+pub(super) fn choose(
+    kind: PolicyKind,
+    learner: &Learner,
+    view: &CourierView<'_>,
+    rng: &mut StreamRng,
+) -> Option<(OpenOrder, f64)> {
+    let left = view.time_left();
+    let in_time =
+        |order: &OpenOrder| order.closes_in + (order.approach + order.route) / view.speed().max(0.1) <= left;
+    let open = view.open_orders().filter(|order| order.own_bid.is_none() && in_time(order));
+    let length = |order: &OpenOrder| order.approach + order.route;
+    let order = match kind {
+        PolicyKind::NearestOnly => {
+            open.filter(|order| order.approach <= CLOSE).min_by(|a, b| a.approach.total_cmp(&b.approach))
+        }
+        PolicyKind::ValueDensity => {
+            let density = |order: &OpenOrder| order.ceiling.dollars() / length(order).max(1.0);
+            open.max_by(|a, b| density(a).total_cmp(&density(b)))
+        }
+        PolicyKind::WideRandom | PolicyKind::Lowballer => {
+            let all: Vec<OpenOrder> = open.collect();
+            rng.choose(&all).copied()
+        }
+        _ => {
+            let gain = |order: &OpenOrder| order.ceiling.dollars() - cost(view, order);
+            open.max_by(|a, b| gain(a).total_cmp(&gain(b)))
+        }
+    }?;
+    let (ceiling, cost) = (order.ceiling.dollars(), cost(view, &order));
+    let price = match kind {
+        PolicyKind::CostPlusLow => cost * 1.1,
+        PolicyKind::CostPlusMedium => cost * 1.35,
+        PolicyKind::CostPlusHigh => cost * 1.8,
+        PolicyKind::FixedNarrow => ceiling * rng.uniform(0.88, 0.94),
+        PolicyKind::WideRandom => ceiling * rng.uniform(0.35, 1.0),
+        PolicyKind::WinRateAdaptive => cost * (1.0 + learner.margin),
+        PolicyKind::Exp3 => ceiling * rng.weighted(&learner.probabilities()).map_or(1.0, |arm| ARMS[arm]),
+        PolicyKind::BestResponse => {
+            (ceiling * view.last_clearing().map_or(0.8, |share| share * 0.98)).max(cost)
+        }
+        PolicyKind::NearestOnly => ceiling * 0.75,
+        PolicyKind::ValueDensity => cost * 1.25,
+        PolicyKind::Lowballer => ceiling * 0.4,
+        PolicyKind::NearlyInactive => ceiling * 0.85,
+    };
+    Some((order, price))
+}
+
+/// A price that may be bid: at least a dollar or the ceiling, at most the ceiling.
+pub(super) fn admissible(price: f64, ceiling: Cents) -> Cents {
+    Cents::from_dollars(price).unwrap_or(ceiling).clamp(Cents(100).min(ceiling), ceiling)
+}
