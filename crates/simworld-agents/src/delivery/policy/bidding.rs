@@ -7,8 +7,8 @@ use simworld_core::seed::StreamRng;
 use super::PolicyKind;
 use crate::delivery::{BidResult, Cents, CourierView, OpenOrder};
 
-/// What an hour is worth to a courier, $/s: chosen so that cost-plus bids lie well under the usual ceiling.
-const WAGE: f64 = 0.008;
+/// What a second is worth to a courier, $: chosen so that cost-plus bids lie well under the usual ceiling.
+const WAGE: f64 = 0.014;
 /// Share of the energy of a job that is made up for by drinks; the rest comes back while waiting.
 const DRUNK_SHARE: f64 = 0.5;
 /// Shares of the ceiling among which EXP3 learns.

@@ -1,0 +1,195 @@
+//! Whatever couriers try, money is conserved at every step and every order is in one state; and the same seed does
+//! the same, also across a snapshot.
+
+mod delivery_common;
+
+use delivery_common::{Town, world};
+use proptest::prelude::*;
+use simworld_agents::delivery::{
+    AuctionRule, Cents, CourierAction, DeliveryConfig, DeliveryTask, OrderId, Persona, PolicyKind, Shopping,
+    Split,
+};
+use simworld_agents::mind::Mind;
+use simworld_core::geometry::Point2;
+use simworld_core::intent::Intent;
+use simworld_core::scene::World;
+use simworld_core::seam::{Task, TaskError, TaskOutput};
+use simworld_core::seed::Seed;
+use simworld_core::testing::check_task;
+
+fn busy() -> DeliveryConfig {
+    let mut config = DeliveryConfig::default();
+    config.orders.per_customer_hour = 60.0;
+    config.auction.window = 3.0;
+    config.energy.walking = 0.5;
+    config
+}
+
+fn any_action() -> impl Strategy<Value = Intent> {
+    let order = (0..12u32).prop_map(OrderId);
+    let number = prop_oneof![Just(f64::NAN), Just(1e300), -50.0..50.0];
+    prop_oneof![
+        4 => (order.clone(), -100i64..2500).prop_map(|(order, price)| {
+            CourierAction::BidOrder { order, price: Cents(price) }.into()
+        }),
+        3 => order.clone().prop_map(|order| CourierAction::PickUpOrder { order }.into()),
+        3 => order.clone().prop_map(|order| CourierAction::DeliverOrder { order }.into()),
+        2 => (order.clone(), any::<bool>(), -1e4..1e4, 0i64..500).prop_map(|(order, at, x, bounty)| {
+            let meet = at.then(|| Point2::new(x, 0.0));
+            CourierAction::ShareOrder { order, meet, bounty: Cents(bounty) }.into()
+        }),
+        1 => order.clone().prop_map(|order| CourierAction::CancelShareOrder { order }.into()),
+        2 => order.clone().prop_map(|order| CourierAction::GoToMeetPoint { order }.into()),
+        1 => Just(CourierAction::PurchaseScooter.into()),
+        1 => Just(CourierAction::PurchaseDrinks.into()),
+        1 => number.clone().prop_map(|speed| CourierAction::AdjustSpeed { speed }.into()),
+        1 => number.prop_map(|x| Intent::call("bid_order").arg("order", 0_i64).arg("price", x)),
+        1 => Just(Intent::Words("bring me home".to_owned())),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// `Town::step` audits the books after every step.
+    #[test]
+    fn the_books_balance_whatever_couriers_try(
+        split in prop_oneof![Just(Split::Distance), Just(Split::Equal), Just(Split::Bounty)],
+        script in prop::collection::vec((0usize..3, any_action(), 0usize..25), 1..60),
+    ) {
+        let mut config = busy();
+        config.sharing.split = split;
+        let mut town = Town::new(config, 3, 5);
+        for (courier, intent, pause) in script {
+            town.step(&[(courier, intent)]);
+            for _ in 0..pause {
+                town.step(&[]);
+            }
+        }
+    }
+
+    #[test]
+    fn any_settings_are_refused_or_played(
+        steps in prop_oneof![1u64..100, any::<u64>()],
+        capacity in 0u32..5,
+        money in any::<i64>(),
+        sane in prop::collection::vec(0.2f64..1.0, 8),
+        (which, wild) in (0usize..16, any::<f64>()),
+        at_store in any::<bool>(),
+    ) {
+        let mut numbers = sane;
+        if let Some(number) = numbers.get_mut(which) {
+            *number = wild; // in half of the cases all are in range
+        }
+        let mut config = DeliveryConfig { steps, capacity, ..DeliveryConfig::default() };
+        config.initial_money = if which == 9 { Cents(money) } else { Cents(money.rem_euclid(20_000)) };
+        config.orders.hunger_rate = numbers[0];
+        config.orders.least_factor = numbers[1];
+        config.energy.rest = numbers[2];
+        config.energy.growth = numbers[3];
+        config.speed.slowest = numbers[4];
+        config.prices.volatility = numbers[5];
+        config.auction.window = numbers[6];
+        config.auction.rule = AuctionRule::Softmin { temperature: numbers[7] };
+        config.prices.shopping = if at_store { Shopping::AtStore } else { Shopping::Anywhere };
+        if config.validate().is_ok() {
+            let mut town = Town::new(config, 2, 1);
+            play(&mut town, &mut minds(2), 50);
+        } else {
+            prop_assert!(DeliveryTask::new(config).is_err());
+        }
+    }
+
+    #[test]
+    fn foreign_bytes_are_refused_without_panic(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let mut task = DeliveryTask::new(DeliveryConfig::default()).unwrap();
+        let _ = task.restore(&bytes);
+        let mut mind = minds(1).remove(0);
+        let _ = mind.restore(&bytes);
+    }
+}
+
+fn minds(count: usize) -> Vec<Box<dyn Mind<DeliveryTask>>> {
+    let stream = Seed(3).stream("test/minds");
+    let kind = |index: usize| PolicyKind::ALL[index % 12];
+    let bold = Persona { openness: 0.8, agreeableness: 1.0, ..Persona::default() };
+    (0..count).map(|index| kind(index).mind(bold, stream.indexed(index as u64))).collect()
+}
+
+fn play(town: &mut Town, minds: &mut [Box<dyn Mind<DeliveryTask>>], steps: usize) {
+    for _ in 0..steps {
+        let mut intents = Vec::new();
+        for (index, mind) in minds.iter_mut().enumerate() {
+            let mut wanted = Vec::new();
+            let who = town.couriers[index];
+            mind.decide(&town.task, town.simulation.world(), who, &mut wanted).unwrap();
+            intents.extend(wanted.into_iter().map(|intent| (index, intent)));
+        }
+        town.step(&intents);
+    }
+}
+
+#[test]
+fn policies_deliver_and_balance_the_books() {
+    let mut town = Town::new(DeliveryConfig::default(), 12, 7);
+    play(&mut town, &mut minds(12), 5000);
+    let report = town.task.report().unwrap();
+    println!("{:#?}", town.task.metrics());
+    for (row, kind) in report.couriers.iter().zip(PolicyKind::ALL) {
+        println!(
+            "{kind:>18} {:>8} won {} delivered {} refused {}",
+            row.profit, row.won, row.delivered, row.refused
+        );
+    }
+    assert!(report.delivered >= 12, "{} delivered", report.delivered);
+    assert!(report.delivered * 10 >= report.awarded * 6, "{} of {}", report.delivered, report.awarded);
+    let refused: u32 = report.couriers.iter().map(|row| row.refused).sum();
+    assert!(refused <= 20, "{refused} of their own intents were refused");
+    let bids = |kind| report.couriers[PolicyKind::ALL.iter().position(|k| *k == kind).unwrap()].bids;
+    assert!(bids(PolicyKind::NearlyInactive) < bids(PolicyKind::Lowballer));
+}
+
+#[test]
+fn the_same_seed_does_the_same_and_another_does_not() {
+    let run = |seed| {
+        let mut town = Town::new(busy(), 4, seed);
+        play(&mut town, &mut minds(4), 600);
+        (town.log, town.task.save())
+    };
+    assert_eq!(run(7), run(7));
+    assert_ne!(run(7).0, run(8).0);
+}
+
+#[test]
+fn a_saved_episode_goes_on_as_if_it_had_not_stopped() {
+    let mut town = Town::new(busy(), 4, 7);
+    let mut players = minds(4);
+    play(&mut town, &mut players, 400);
+    let (saved, brains) = (town.save(), players.iter().map(Mind::save).collect::<Vec<_>>());
+    play(&mut town, &mut players, 400);
+
+    let mut resumed = Town::resume(busy(), 4, saved);
+    let mut others = minds(4);
+    for (mind, saved) in others.iter_mut().zip(&brains) {
+        assert!(mind.restore(saved));
+    }
+    play(&mut resumed, &mut others, 400);
+    assert_eq!(resumed.task.save(), town.task.save());
+    assert!(town.log.ends_with(&resumed.log));
+    let mut other = DeliveryTask::new(DeliveryConfig::default()).unwrap();
+    assert!(!other.restore(&town.task.save()), "saved under other settings");
+}
+
+#[test]
+fn the_task_conforms() {
+    let (world, couriers) = world(3);
+    check_task(|| Box::new(DeliveryTask::new(busy()).unwrap()), &world, &couriers);
+}
+
+#[test]
+fn a_scene_without_restaurants_is_refused_with_a_hint() {
+    let (_, couriers) = world(1);
+    let mut task = DeliveryTask::new(DeliveryConfig::default()).unwrap();
+    let error = task.reset(&World::new(), &couriers, Seed(1), &mut TaskOutput::default()).unwrap_err();
+    assert!(matches!(&error, TaskError::Scene { missing, .. } if missing == "restaurant"), "{error}");
+}

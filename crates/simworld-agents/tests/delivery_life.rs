@@ -1,0 +1,222 @@
+//! An order from post to door, alone, shared, late and unwanted; purchases; exhaustion.
+
+mod delivery_common;
+
+use delivery_common::{Town, quiet};
+use simworld_agents::delivery::{Account, Cents, CourierAction, Errand, OrderId, Shopping, Split, Stage};
+use simworld_core::scene::{EntityKind, Role, Scene};
+use simworld_core::seam::Task;
+
+const ORDER: OrderId = OrderId(0);
+
+fn purse(town: &Town, courier: usize) -> Cents {
+    town.task.ledger().unwrap().balance(Account::Courier(courier))
+}
+
+/// Courier 0 wins the only order at its ceiling less a dollar; what it will be paid.
+fn win(town: &mut Town) -> Cents {
+    let price = town.task.orders()[0].ceiling - Cents(100);
+    town.act(0, CourierAction::BidOrder { order: ORDER, price }).unwrap();
+    town.until("order_awarded", 20);
+    price
+}
+
+fn pick_up(town: &mut Town) {
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+    town.until("order_picked_up", 1500);
+}
+
+#[test]
+fn an_order_is_won_carried_and_paid() {
+    let mut town = Town::new(quiet(), 1, 1);
+    let pay = win(&mut town);
+    assert!(
+        town.act(0, CourierAction::DeliverOrder { order: ORDER }).is_err(),
+        "it is still at the restaurant"
+    );
+    pick_up(&mut town);
+    town.step(&[]);
+    let held = town.simulation.world().attached(town.couriers[0], Role::Held).expect("a parcel in hand");
+    assert_eq!(town.simulation.world().entity(held).unwrap().kind, EntityKind::Parcel);
+    town.act(0, CourierAction::DeliverOrder { order: ORDER }).unwrap();
+    town.until("order_delivered", 2500);
+    assert!((town.outcome.rewards[0] - pay.dollars()).abs() < 1e-9, "{:?}", town.outcome);
+    assert_eq!(purse(&town, 0), Cents(10_000) + pay);
+    assert_eq!(town.task.ledger().unwrap().balance(Account::Platform), Cents(100));
+    assert_eq!(town.task.ledger().unwrap().balance(Account::Escrow), Cents::ZERO);
+    assert!(town.simulation.world().entity(held).is_none(), "the parcel went into the house");
+    let report = town.task.report().unwrap();
+    assert_eq!((report.delivered, report.awarded, report.couriers[0].late), (1, 1, 0));
+    assert!(report.couriers[0].energy > 5.0 && report.completion_time > 10.0);
+}
+
+#[test]
+fn one_who_dawdles_is_paid_less_and_never_less_than_half() {
+    let mut town = Town::new(quiet(), 1, 1);
+    let pay = win(&mut town);
+    for _ in 0..2500 {
+        town.step(&[]);
+    }
+    pick_up(&mut town);
+    town.act(0, CourierAction::DeliverOrder { order: ORDER }).unwrap();
+    town.until("order_delivered", 2500);
+    assert_eq!(purse(&town, 0), Cents(10_000) + pay.times(0.5));
+}
+
+#[test]
+fn an_order_nobody_wants_expires_without_payment() {
+    let mut town = Town::new(quiet(), 1, 1);
+    town.until("order_expired", 15);
+    assert!(matches!(town.task.orders()[0].stage, Stage::Expired));
+    assert_eq!(town.task.ledger().unwrap().balance(Account::Customers), Cents::ZERO);
+}
+
+#[test]
+fn the_lowest_bid_wins_and_nothing_above_the_ceiling_is_taken() {
+    let mut town = Town::new(quiet(), 3, 1);
+    let ceiling = town.task.orders()[0].ceiling;
+    let bid = |price| CourierAction::BidOrder { order: ORDER, price };
+    assert!(town.act(0, bid(ceiling + Cents(1))).is_err());
+    assert!(town.act(0, bid(Cents::ZERO)).is_err());
+    town.act(0, bid(ceiling)).unwrap();
+    town.act(1, bid(Cents(500))).unwrap();
+    town.act(2, bid(Cents(700))).unwrap();
+    town.until("order_awarded", 20);
+    let Stage::Awarded(awarded) = &town.task.orders()[0].stage else { panic!("not awarded") };
+    assert_eq!((awarded.courier, awarded.pay), (1, Cents(500)));
+    assert!(town.act(2, bid(Cents(300))).is_err(), "the auction is over");
+}
+
+fn share_with(split: Split, bounty: Cents) -> (Town, Cents) {
+    let mut config = quiet();
+    config.sharing.split = split;
+    let mut town = Town::new(config, 2, 1);
+    let pay = win(&mut town);
+    pick_up(&mut town);
+    town.act(0, CourierAction::ShareOrder { order: ORDER, meet: None, bounty }).unwrap();
+    town.act(1, CourierAction::GoToMeetPoint { order: ORDER }).unwrap();
+    assert_eq!(town.count("share_accepted"), 1);
+    town.act(0, CourierAction::GoToMeetPoint { order: ORDER }).unwrap();
+    town.until("handed_over", 2500);
+    let Stage::Carried(carried) = &town.task.orders()[0].stage else { panic!("not carried") };
+    assert_eq!(carried.carrier, 1);
+    let parcel = carried.parcel.expect("the world shows the parcel");
+    let bond = *town.simulation.world().entity(parcel).unwrap().attachment.unwrap();
+    assert_eq!(bond.parent, town.couriers[1], "the parcel changed hands");
+    assert!(town.act(0, CourierAction::DeliverOrder { order: ORDER }).is_err());
+    town.act(1, CourierAction::DeliverOrder { order: ORDER }).unwrap();
+    town.until("order_delivered", 2500);
+    (town, pay)
+}
+
+fn paid(town: &Town) -> Cents {
+    let Stage::Delivered(delivered) = &town.task.orders()[0].stage else { panic!("not delivered") };
+    assert_eq!((delivered.courier, delivered.first), (1, Some(0)));
+    delivered.paid
+}
+
+#[test]
+fn a_shared_order_pays_both() {
+    let (town, _) = share_with(Split::Distance, Cents::ZERO);
+    let paid = paid(&town);
+    let gains = [purse(&town, 0) - Cents(10_000), purse(&town, 1) - Cents(10_000)];
+    assert_eq!(gains[0] + gains[1], paid);
+    assert!(gains[0] > Cents::ZERO, "{gains:?}");
+    let (town, _) = share_with(Split::Equal, Cents::ZERO);
+    assert_eq!(purse(&town, 0) - Cents(10_000), self::paid(&town).times(0.5));
+}
+
+#[test]
+fn a_bounty_waits_in_escrow_and_goes_to_the_second() {
+    let (town, _) = share_with(Split::Bounty, Cents(300));
+    assert_eq!(purse(&town, 1), Cents(10_300));
+    assert_eq!(purse(&town, 0), Cents(9_700) + paid(&town));
+}
+
+#[test]
+fn a_cancelled_offer_gives_the_bounty_back() {
+    let mut config = quiet();
+    config.sharing.split = Split::Bounty;
+    let mut town = Town::new(config, 2, 1);
+    win(&mut town);
+    town.act(0, CourierAction::ShareOrder { order: ORDER, meet: None, bounty: Cents(300) }).unwrap();
+    assert_eq!(purse(&town, 0), Cents(9_700));
+    town.act(1, CourierAction::GoToMeetPoint { order: ORDER }).unwrap();
+    town.act(0, CourierAction::CancelShareOrder { order: ORDER }).unwrap();
+    assert_eq!(purse(&town, 0), Cents(10_000));
+    assert_eq!(town.task.view(town.couriers[1]).unwrap().errand(), Errand::Idle);
+}
+
+#[test]
+fn a_scooter_is_paid_mounted_and_fast() {
+    let mut town = Town::new(quiet(), 1, 1);
+    town.act(0, CourierAction::PurchaseScooter).unwrap();
+    assert_eq!(purse(&town, 0), Cents::ZERO);
+    town.until("scooter_mounted", 5);
+    assert!(town.act(0, CourierAction::PurchaseScooter).is_err(), "one is enough");
+    win(&mut town);
+    let before = town.task.view(town.couriers[0]).unwrap().energy();
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+    for _ in 0..10 {
+        town.step(&[]);
+    }
+    let speed = town.simulation.world().entity(town.couriers[0]).unwrap().twist.ground_speed();
+    assert!((speed - 25.0 / 3.6).abs() < 0.01, "{speed}");
+    let spent = before - town.task.view(town.couriers[0]).unwrap().energy();
+    assert!(spent < 0.1, "{spent}");
+}
+
+#[test]
+fn an_exhausted_courier_stops_until_it_drank() {
+    let mut config = quiet();
+    config.energy.walking = 5.0;
+    let mut town = Town::new(config, 1, 1);
+    win(&mut town);
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+    town.until("courier_exhausted", 400);
+    let at = town.simulation.world().entity(town.couriers[0]).unwrap().planar();
+    assert!(town.act(0, CourierAction::PickUpOrder { order: ORDER }).is_err());
+    for _ in 0..20 {
+        town.step(&[]);
+    }
+    let now = town.simulation.world().entity(town.couriers[0]).unwrap().planar();
+    assert!((now - at).norm() < 0.3, "it stands");
+    town.act(0, CourierAction::PurchaseDrinks).unwrap();
+    assert_eq!((town.count("courier_recovered"), purse(&town, 0)), (1, Cents(9_500)));
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+}
+
+#[test]
+fn rest_alone_brings_an_exhausted_courier_back() {
+    let mut config = quiet();
+    (config.energy.walking, config.energy.rest) = (5.0, 1.0);
+    let mut town = Town::new(config, 1, 1);
+    win(&mut town);
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+    town.until("courier_exhausted", 400);
+    town.until("courier_recovered", 210);
+}
+
+#[test]
+fn at_the_store_means_going_there() {
+    let mut config = quiet();
+    config.prices.shopping = Shopping::AtStore;
+    let mut town = Town::new(config, 1, 1);
+    town.act(0, CourierAction::PurchaseScooter).unwrap();
+    assert_eq!(purse(&town, 0), Cents(10_000), "not there yet");
+    town.until("scooter_bought", 600);
+    assert_eq!(purse(&town, 0), Cents::ZERO);
+}
+
+#[test]
+fn the_time_runs_out() {
+    let mut config = quiet();
+    config.steps = 3;
+    let mut town = Town::new(config, 1, 1);
+    town.step(&[]);
+    town.step(&[]);
+    assert!(!town.outcome.truncated);
+    town.step(&[]);
+    assert!(town.outcome.truncated && !town.outcome.terminated);
+    assert!(town.task.metrics().iter().all(|metric| metric.value.is_finite()));
+}
