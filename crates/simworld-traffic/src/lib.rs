@@ -1,1 +1,16 @@
-//! Microscopic traffic.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod config;
+pub mod control;
+mod dynamics;
+mod pedestrian;
+mod signal;
+mod traffic;
+pub mod vehicle;
+
+pub use config::{TrafficConfig, TrafficError};
+pub use dynamics::TrafficDynamics;
+pub use pedestrian::Pedestrian;
+pub use signal::{Demand, FixedTime, SignalPolicy};
+pub use traffic::{Body, Counters, Foreign, Placed, Traffic};

@@ -1,0 +1,176 @@
+//! Traffic in a world: its vehicles and pedestrians as entities, its signals as the world's.
+
+use std::sync::Arc;
+
+use simworld_core::geometry::{Point3, Twist, Vector3, direction, pose_facing};
+use simworld_core::hash::{StateHash, StateHasher};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+use simworld_core::seam::{Dynamics, DynamicsError};
+use simworld_core::seed::Seed;
+
+use crate::{Foreign, Traffic, TrafficConfig, TrafficError};
+
+/// Colours of cars, linear-light sRGB.
+const PAINTS: [[f32; 3]; 7] = [
+    [0.62, 0.62, 0.64],
+    [0.04, 0.04, 0.05],
+    [0.75, 0.75, 0.73],
+    [0.45, 0.03, 0.03],
+    [0.03, 0.09, 0.3],
+    [0.05, 0.2, 0.1],
+    [0.5, 0.32, 0.05],
+];
+
+/// Moves the traffic of a world: one entity a vehicle and a pedestrian.
+///
+/// People and vehicles that belong to others are seen: drivers stop for them.
+///
+/// ```
+/// use std::sync::Arc;
+/// use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
+/// use simworld_core::scene::World;
+/// use simworld_core::seed::Seed;
+/// use simworld_core::simulation::Simulation;
+/// use simworld_traffic::{TrafficConfig, TrafficDynamics};
+/// let mut world = World::new();
+/// world.set_roads(Arc::new(RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default())?));
+/// let traffic = TrafficDynamics::new(&mut world, &TrafficConfig::default(), Seed(1))?;
+/// assert_eq!(world.len(), 120); // 40 vehicles, 80 pedestrians
+/// let mut simulation = Simulation::new(world);
+/// simulation.add_dynamics("traffic", Box::new(traffic));
+/// for _ in 0..50 { simulation.step()?; }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct TrafficDynamics {
+    traffic: Traffic,
+    vehicles: Vec<EntityId>,
+    pedestrians: Vec<EntityId>,
+    /// Bodies of others, found anew when entities come or go.
+    others: Vec<EntityId>,
+    revision: Option<u64>,
+    foreign: Vec<Foreign>,
+}
+
+impl TrafficDynamics {
+    /// Places traffic on the roads of the world and spawns its entities.
+    ///
+    /// # Errors
+    /// A world without roads, a setting out of range, or an entity that the world refuses.
+    pub fn new(world: &mut World, config: &TrafficConfig, seed: Seed) -> Result<Self, TrafficError> {
+        let network = Arc::clone(world.roads().ok_or(TrafficError::NoRoads)?);
+        let traffic = Traffic::new(network, config, seed)?;
+        let mut vehicles = vec![EntityId::default(); traffic.placed().vehicles as usize];
+        let mut paint = seed.stream("traffic/paint").rng();
+        let mut bodies: Vec<_> = traffic.vehicles().collect();
+        bodies.sort_by_key(|body| body.id);
+        for body in bodies {
+            let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.kind.shape());
+            let color = PAINTS[paint.below(PAINTS.len())];
+            vehicles[body.id as usize] = world.spawn(desc.colored(color))?;
+        }
+        let mut pedestrians = Vec::new();
+        for walker in traffic.pedestrians() {
+            let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading);
+            let height = paint.normal_clamped(1.72, 0.09, 1.5, 2.0);
+            let coat = [0; 3].map(|_: i32| paint.uniform(0.02, 0.5) as f32);
+            let desc = EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.22, height });
+            pedestrians.push(world.spawn(desc.colored(coat))?);
+        }
+        world.signals_mut().copy_from_slice(traffic.signals());
+        Ok(Self { traffic, vehicles, pedestrians, others: Vec::new(), revision: None, foreign: Vec::new() })
+    }
+
+    /// The traffic itself.
+    pub fn traffic(&self) -> &Traffic {
+        &self.traffic
+    }
+
+    /// The traffic itself, to give its signals a policy.
+    pub fn traffic_mut(&mut self) -> &mut Traffic {
+        &mut self.traffic
+    }
+
+    /// The entities of the vehicles, by number.
+    pub fn vehicles(&self) -> &[EntityId] {
+        &self.vehicles
+    }
+
+    /// The entities of the pedestrians, by number.
+    pub fn pedestrians(&self) -> &[EntityId] {
+        &self.pedestrians
+    }
+
+    fn look_around(&mut self, world: &World) {
+        if self.revision != Some(world.revision()) {
+            self.revision = Some(world.revision());
+            let mut own: Vec<EntityId> = self.vehicles.iter().chain(&self.pedestrians).copied().collect();
+            own.sort_unstable();
+            let is_other = |entity: &simworld_core::scene::EntityRef<'_>| {
+                entity.kind.is_mobile() && own.binary_search(&entity.id).is_err()
+            };
+            self.others.clear();
+            self.others.extend(world.iter().filter(is_other).map(|entity| entity.id));
+        }
+        self.foreign.clear();
+        for id in &self.others {
+            if let Some(entity) = world.entity(*id).filter(|entity| entity.attachment.is_none()) {
+                let size = entity.info.shape.size();
+                self.foreign.push(Foreign { position: entity.planar(), radius: size.x.max(size.y) * 0.5 });
+            }
+        }
+    }
+
+    fn write(&self, world: &mut World) -> Result<(), DynamicsError> {
+        for body in self.traffic.vehicles() {
+            let id = self.vehicles[body.id as usize];
+            if world.entity(id).is_some() {
+                world.set_motion(id, body.pose, body.twist)?;
+            }
+        }
+        for (id, walker) in self.pedestrians.iter().zip(self.traffic.pedestrians()) {
+            if world.entity(*id).is_none() {
+                continue;
+            }
+            let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading);
+            let ahead = direction(walker.heading) * walker.speed;
+            let linear = Vector3::new(ahead.x, ahead.y, 0.0);
+            world.set_motion(*id, pose, Twist { linear, angular: Vector3::zeros() })?;
+        }
+        world.signals_mut().copy_from_slice(self.traffic.signals());
+        Ok(())
+    }
+}
+
+impl Dynamics for TrafficDynamics {
+    fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
+        let roads = world.roads().map_or(0, |roads| roads.signal_groups());
+        if roads != self.traffic.signals().len() {
+            let message = "the world's roads are not those the traffic was made for: make it anew";
+            return Err(DynamicsError::Other(message.to_owned()));
+        }
+        self.look_around(world);
+        self.traffic.step_among(&self.foreign, dt);
+        self.write(world)
+    }
+
+    fn save(&self) -> Result<Vec<u8>, DynamicsError> {
+        let saved = (self.traffic.state(), &self.vehicles, &self.pedestrians);
+        postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))
+    }
+
+    fn restore(&mut self, _: &World, saved: &[u8]) -> Result<(), DynamicsError> {
+        let (state, vehicles, pedestrians) =
+            postcard::from_bytes(saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
+        if !self.traffic.set_state(state) {
+            return Err(DynamicsError::Saved("it belongs to another network".to_owned()));
+        }
+        (self.vehicles, self.pedestrians) = (vehicles, pedestrians);
+        self.revision = None;
+        Ok(())
+    }
+
+    fn state_hash(&self, hasher: &mut StateHasher) {
+        self.traffic.state_hash(hasher);
+    }
+}

@@ -1,0 +1,293 @@
+//! The traffic of a network: three managers on a fixed step (the paper's Algorithm 2).
+
+mod foreign;
+
+use std::sync::Arc;
+
+use foreign::Finder;
+pub use foreign::Foreign;
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::{Point2, Pose, Twist, Vector3, direction, heading, pose_facing};
+use simworld_core::hash::{StateHash, StateHasher};
+use simworld_core::net::{Aspect, RoadNetwork, WaypointConfig, WaypointGraph, polyline};
+use simworld_core::seed::{Seed, Stream};
+
+use crate::pedestrian::{self, Pedestrian, PedestrianManager};
+use crate::signal::{Demand, IntersectionManager, SignalPolicy};
+use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
+use crate::{TrafficConfig, TrafficError};
+
+/// What was counted since the start; the first two say how much was done, the others what went less than well.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Vehicle updates.
+    pub updates: u64,
+    /// Leaves to cross an intersection.
+    pub crossings: u64,
+    /// Steps in which a vehicle went on at red because it could no longer stop.
+    pub dilemmas: u64,
+    /// Times that a vehicle was held at a stop line by more than its brakes.
+    pub forced_stops: u64,
+    /// Times that a vehicle had stood for three minutes.
+    pub long_waits: u64,
+}
+
+/// How many found a place at the start, of those asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Placed {
+    /// Vehicles.
+    pub vehicles: u32,
+    /// Pedestrians.
+    pub pedestrians: u32,
+}
+
+/// A vehicle as others see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Its number, from zero.
+    pub id: u32,
+    /// Its type.
+    pub kind: VehicleKind,
+    /// World from body: the origin is the middle of its bottom.
+    pub pose: Pose,
+    /// Velocity.
+    pub twist: Twist,
+}
+
+/// The traffic of a network.
+///
+/// ```
+/// use std::sync::Arc;
+/// use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
+/// use simworld_core::seed::Seed;
+/// use simworld_traffic::{Traffic, TrafficConfig};
+/// let network = RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default())?;
+/// let mut traffic = Traffic::new(Arc::new(network), &TrafficConfig::default(), Seed(1))?;
+/// for _ in 0..600 { traffic.step(0.1); }
+/// assert!(traffic.counters().crossings > 20);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Traffic {
+    config: TrafficConfig,
+    streams: Stream,
+    tracks: Tracks,
+    ways: WaypointGraph,
+    finder: Finder,
+    signals: IntersectionManager,
+    state: State,
+    placed: Placed,
+    // Buffers kept from step to step.
+    walkers: Vec<u32>,
+    obstacles: Vec<(u32, f64)>,
+    approaching: Vec<u32>,
+}
+
+/// Everything that changes, for snapshots.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct State {
+    vehicles: VehicleManager,
+    pedestrians: PedestrianManager,
+    aspects: Vec<Aspect>,
+    seconds: f64,
+    steps: u64,
+    counters: Counters,
+}
+
+impl Traffic {
+    /// Places vehicles and pedestrians; [`placed`](Self::placed) says how many found room.
+    ///
+    /// # Errors
+    /// A setting out of range.
+    pub fn new(network: Arc<RoadNetwork>, config: &TrafficConfig, seed: Seed) -> Result<Self, TrafficError> {
+        config.validate()?;
+        let streams = seed.stream("traffic");
+        let tracks = Tracks::new(Arc::clone(&network), config);
+        let ways = WaypointGraph::walkable(&network, &WaypointConfig { step: 25.0, offset: 0.0 })?;
+        let mut vehicles = VehicleManager::new(&tracks);
+        let mut pedestrians = PedestrianManager::new(&network);
+        let placed = Placed {
+            vehicles: vehicles.spawn(&tracks, config, streams.named("vehicles")),
+            pedestrians: pedestrians.spawn(&ways, config, streams.named("pedestrians")),
+        };
+        let mut traffic = Self {
+            config: config.clone(),
+            streams,
+            finder: Finder::new(&tracks),
+            walkers: vec![0; network.crossings.len()],
+            approaching: vec![0; network.signal_groups()],
+            signals: IntersectionManager::new(network),
+            tracks,
+            ways,
+            state: State { vehicles, pedestrians, ..State::default() },
+            placed,
+            obstacles: Vec::new(),
+        };
+        traffic.update_signals();
+        Ok(traffic)
+    }
+
+    /// Gives the signals another policy than the fixed plans; it decides from the next step on.
+    pub fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
+        self.signals.set_policy(policy);
+    }
+
+    /// One step of `dt` s.
+    pub fn step(&mut self, dt: f64) {
+        self.step_among(&[], dt);
+    }
+
+    /// One step of `dt` s among bodies that are not the traffic's own: drivers stop for them.
+    pub fn step_among(&mut self, foreign: &[Foreign], dt: f64) {
+        self.finder.find(&self.tracks, foreign, &mut self.walkers, &mut self.obstacles);
+        for (count, own) in self.walkers.iter_mut().zip(&self.state.pedestrians.on_crossing) {
+            *count += own;
+        }
+        self.update_vehicles(dt);
+        self.update_pedestrians(dt);
+        self.state.steps += 1;
+        // Counted, not accumulated, so that long runs keep their phase.
+        self.state.seconds = self.state.steps as f64 * dt;
+        self.update_signals();
+    }
+
+    fn update_vehicles(&mut self, dt: f64) {
+        let State { vehicles, pedestrians, counters, .. } = &mut self.state;
+        let sight = vehicle::Sight {
+            aspects: &self.signals.aspects,
+            walkers: &self.walkers,
+            waiting: &pedestrians.waiting,
+            obstacles: &self.obstacles,
+        };
+        let streams = self.streams.named("vehicles");
+        vehicles.step(&self.tracks, &self.config, streams, &sight, dt, counters);
+    }
+
+    fn update_pedestrians(&mut self, dt: f64) {
+        let State { vehicles, pedestrians, .. } = &mut self.state;
+        let sight = pedestrian::Sight {
+            network: &self.tracks.network,
+            ways: &self.ways,
+            aspects: &self.signals.aspects,
+            claims: &vehicles.claims,
+        };
+        pedestrians.step(&sight, &self.config, self.streams.named("pedestrians"), dt);
+    }
+
+    fn update_signals(&mut self) {
+        self.count_approaching();
+        let demand = Demand { approaching: &self.approaching, waiting: &self.state.pedestrians.waiting };
+        self.signals.step(self.state.seconds, &demand);
+        self.state.aspects.clone_from(&self.signals.aspects);
+    }
+
+    fn count_approaching(&mut self) {
+        /// Detectors see so far, m.
+        const SEEN: f64 = 50.0;
+        self.approaching.fill(0);
+        for (track, vehicle) in self.state.vehicles.iter() {
+            let next = self.tracks.network.connections.get(vehicle.next as usize);
+            let near = self.tracks.connection(track).is_none()
+                && self.tracks.length[track as usize] - vehicle.s < SEEN;
+            if let Some(group) = next.filter(|_| near).and_then(|connection| connection.signal) {
+                self.approaching[group.index()] += 1;
+            }
+        }
+    }
+
+    /// How many found a place at the start.
+    pub fn placed(&self) -> Placed {
+        self.placed
+    }
+
+    /// What was counted since the start.
+    pub fn counters(&self) -> Counters {
+        self.state.counters
+    }
+
+    /// What every signal group shows.
+    pub fn signals(&self) -> &[Aspect] {
+        &self.signals.aspects
+    }
+
+    /// The network.
+    pub fn network(&self) -> &Arc<RoadNetwork> {
+        &self.tracks.network
+    }
+
+    /// The walkers, by number.
+    pub fn pedestrians(&self) -> &[Pedestrian] {
+        &self.state.pedestrians.walkers
+    }
+
+    /// The vehicles, in the order of their tracks.
+    pub fn vehicles(&self) -> impl Iterator<Item = Body> {
+        self.state.vehicles.iter().map(|(track, vehicle)| {
+            let length = vehicle.kind.length();
+            // The rear may still be on the track before.
+            let front = self.point(track, vehicle.id, vehicle.s - 0.15 * length);
+            let rear = self.point(track, vehicle.id, vehicle.s - 0.85 * length);
+            let middle = nalgebra::center(&front, &rear);
+            let yaw = heading(&(front - rear));
+            let ahead = direction(yaw) * vehicle.v;
+            Body {
+                id: vehicle.id,
+                kind: vehicle.kind,
+                pose: pose_facing(simworld_core::geometry::Point3::new(middle.x, middle.y, 0.0), yaw),
+                twist: Twist { linear: Vector3::new(ahead.x, ahead.y, 0.0), angular: Vector3::zeros() },
+            }
+        })
+    }
+
+    fn point(&self, track: u32, id: u32, station: f64) -> Point2 {
+        let path = self.tracks.path(track);
+        if station >= 0.0 {
+            return polyline::at(path, station).0;
+        }
+        let before = self.state.vehicles.paths[id as usize].before;
+        if before == track {
+            // At the start a vehicle has come from nowhere: its lane is continued backwards.
+            let (start, yaw) = polyline::at(path, 0.0);
+            return start + direction(yaw) * station;
+        }
+        let length = self.tracks.length[before as usize];
+        if station + length >= 0.0 {
+            return polyline::at(self.tracks.path(before), station + length).0;
+        }
+        let (start, yaw) = polyline::at(self.tracks.path(before), 0.0);
+        start + direction(yaw) * (station + length)
+    }
+
+    /// Where each vehicle is: the lane or connection it is on, and its front on it, m. Lanes are numbered as in the network,
+    /// connections after them.
+    pub fn stations(&self) -> impl Iterator<Item = (u32, u32, f64, f64)> {
+        self.state.vehicles.iter().map(|(track, vehicle)| (vehicle.id, track, vehicle.s, vehicle.v))
+    }
+
+    pub(crate) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Takes up a saved state; false if it is not that of this network and configuration.
+    pub(crate) fn set_state(&mut self, state: State) -> bool {
+        let vehicles = state.vehicles.fits(&self.tracks);
+        let fits = vehicles
+            && state.aspects.len() == self.signals.aspects.len()
+            && state.pedestrians.fits(&self.ways, self.walkers.len());
+        if fits {
+            self.signals.aspects.clone_from(&state.aspects);
+            self.state = state;
+        }
+        fits
+    }
+}
+
+impl StateHash for Traffic {
+    fn state_hash(&self, hasher: &mut StateHasher) {
+        hasher.u64(self.state.steps);
+        self.state.vehicles.state_hash(hasher);
+        self.state.pedestrians.state_hash(hasher);
+        for aspect in &self.state.aspects {
+            hasher.u64(*aspect as u64);
+        }
+    }
+}

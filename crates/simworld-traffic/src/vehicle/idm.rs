@@ -1,0 +1,129 @@
+//! Car following: the Intelligent Driver Model (Treiber, Hennecke and Helbing 2000).
+
+use serde::{Deserialize, Serialize};
+
+/// The hardest braking of any vehicle, m/s²: tyres on dry asphalt.
+pub const HARDEST_BRAKING: f64 = 9.0;
+
+/// The parameters of the model; the default is an urban driver.
+///
+/// ```
+/// use simworld_traffic::vehicle::Idm;
+/// let driver = Idm::default();
+/// // In equilibrium at 10 m/s the gap is (2 + 10 · 1) / √(1 − (10/13.9)⁴) = 14.02 m.
+/// let gap = driver.equilibrium_gap(10.0);
+/// assert!((gap - 14.02).abs() < 0.01);
+/// assert!(driver.acceleration(10.0, 13.9, gap, 10.0).abs() < 1e-9);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Idm {
+    /// Speed on a free road, m/s; the speed limit holds beside it.
+    pub desired_speed: f64,
+    /// Time gap to the leader, s.
+    pub headway: f64,
+    /// Gap to the leader at rest, m.
+    pub gap: f64,
+    /// Comfortable acceleration, m/s².
+    pub acceleration: f64,
+    /// Comfortable braking, m/s².
+    pub deceleration: f64,
+}
+
+impl Default for Idm {
+    fn default() -> Self {
+        Self { desired_speed: 13.9, headway: 1.0, gap: 2.0, acceleration: 1.5, deceleration: 2.0 }
+    }
+}
+
+impl Idm {
+    /// Acceleration at speed `v` m/s with the free speed `free` m/s, `gap` m behind a leader at `leader` m/s; an infinite gap
+    /// is a free road. Never below minus [`HARDEST_BRAKING`].
+    #[inline]
+    pub fn acceleration(&self, v: f64, free: f64, gap: f64, leader: f64) -> f64 {
+        let ratio = v / free;
+        let square = ratio * ratio;
+        // Above its free speed a vehicle brakes comfortably, however far above.
+        let road = (self.acceleration * (1.0 - square * square)).max(-self.deceleration);
+        let closing = v * (v - leader) / (2.0 * (self.acceleration * self.deceleration).sqrt());
+        let wanted = self.gap + (v * self.headway + closing).max(0.0);
+        let interaction = wanted / gap.max(0.01);
+        (road - self.acceleration * interaction * interaction).max(-HARDEST_BRAKING)
+    }
+
+    /// The gap at which one follows at constant speed, m; infinite at the desired speed.
+    pub fn equilibrium_gap(&self, v: f64) -> f64 {
+        let ratio = v / self.desired_speed;
+        let square = ratio * ratio;
+        (self.gap + v * self.headway) / (1.0 - square * square).max(0.0).sqrt()
+    }
+}
+
+/// Speed and way after `dt` s at constant acceleration, without ever going backwards.
+#[inline]
+pub(crate) fn advance(v: f64, acceleration: f64, dt: f64) -> (f64, f64) {
+    let after = v + acceleration * dt;
+    if after >= 0.0 {
+        (after, (v + after) * 0.5 * dt)
+    } else {
+        // It comes to rest within the step.
+        (0.0, v * v / (-2.0 * acceleration))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A leader brakes as hard as it can; the follower starts from any state that respects its own gap.
+    #[test]
+    fn it_never_hits_a_leader_that_brakes_as_hard_as_it_can() {
+        let driver = Idm::default();
+        for dt in [0.05, 0.1, 0.2] {
+            for own in 0..28 {
+                for leading in 0..28 {
+                    let (mut v, mut leader) = (f64::from(own) * 0.5, f64::from(leading) * 0.5);
+                    let mut gap = driver.gap + v * driver.headway;
+                    for _ in 0..600 {
+                        let a = driver.acceleration(v, driver.desired_speed, gap, leader);
+                        let (next_leader, leader_way) = advance(leader, -HARDEST_BRAKING, dt);
+                        let (next, way) = advance(v, a, dt);
+                        gap += leader_way - way;
+                        (v, leader) = (next, next_leader);
+                        assert!(gap > 0.0, "hit from {own}/2 m/s behind {leading}/2 m/s at dt {dt}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Queue discharge at 1900 ± 5 % veh/h per lane, the standard saturation flow of the Highway Capacity Manual.
+    #[test]
+    fn a_queue_discharges_at_the_saturation_flow() {
+        let driver = Idm::default();
+        let (dt, length) = (0.1, 4.5);
+        let mut queue: Vec<(f64, f64)> =
+            (0..22).map(|i| (-f64::from(i) * (length + driver.gap), 0.0)).collect();
+        let mut passed: Vec<f64> = Vec::new();
+        let mut time = 0.0;
+        while passed.len() < 22 && time < 200.0 {
+            let frozen = queue.clone();
+            for (index, (s, v)) in queue.iter_mut().enumerate() {
+                let (gap, leader) = match index.checked_sub(1).map(|i| frozen[i]) {
+                    Some((leader_s, leader_v)) => (leader_s - length - *s, leader_v),
+                    None => (f64::INFINITY, 0.0),
+                };
+                let (next, way) = advance(*v, driver.acceleration(*v, 13.9, gap, leader), dt);
+                (*s, *v) = (*s + way, next);
+            }
+            time += dt;
+            let count = queue.iter().filter(|(s, _)| *s > 0.0).count();
+            while passed.len() < count {
+                passed.push(time);
+            }
+        }
+        let headway = (passed[21] - passed[9]) / 12.0;
+        let flow = 3600.0 / headway;
+        assert!((flow - 1900.0).abs() < 95.0, "saturation flow {flow:.0} veh/h");
+    }
+}

@@ -1,0 +1,154 @@
+//! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
+
+use super::manager::{NONE, STANDING, Sight, Vehicle, VehicleManager};
+use super::tracks::{Track, Tracks};
+use crate::TrafficConfig;
+
+/// Where a vehicle stops before a line, m.
+const BEFORE_LINE: f64 = 0.5;
+/// Braking for which drivers lay out their speed before a turn and before a lane whose end they cannot see past, m/s².
+const PLANNED_BRAKING: f64 = 2.0;
+
+/// The acceleration of a vehicle, m/s².
+#[inline]
+pub(super) fn acceleration(
+    manager: &VehicleManager,
+    tracks: &Tracks,
+    config: &TrafficConfig,
+    sight: &Sight<'_>,
+    track: Track,
+    vehicle: &Vehicle,
+    leader: Option<&Vehicle>,
+) -> f64 {
+    let idm = &config.idm;
+    let mut view = View {
+        s: vehicle.s,
+        gap: f64::INFINITY,
+        speed: 0.0,
+        free: idm.desired_speed.min(tracks.speed[track as usize]),
+    };
+    if let Some(leader) = leader {
+        view.follow(leader.s - leader.kind.length() - vehicle.s, leader.v);
+    }
+    let to_end = tracks.length[track as usize] - vehicle.s;
+    match tracks.connection(track) {
+        Some(way) => view.across(manager, tracks, sight, way, to_end, vehicle.s, leader.is_none()),
+        None if vehicle.next == NONE => view.stop_in(to_end, idm.gap),
+        None if vehicle.holding != vehicle.next => view.stop_in(to_end, idm.gap),
+        None => view.into_junction(manager, tracks, sight, vehicle.next as usize, to_end, leader.is_none()),
+    }
+    if !sight.obstacles.is_empty() {
+        view.beware(sight, track, vehicle.s, idm.gap);
+    }
+    let mut acceleration = idm.acceleration(vehicle.v, view.free, view.gap, view.speed);
+    if vehicle.v < STANDING && view.gap < idm.gap {
+        // Standing close is standing: no creeping on rounding.
+        acceleration = acceleration.min(0.0);
+    }
+    acceleration
+}
+
+/// The nearest thing ahead, and the speed that the road allows.
+struct View {
+    s: f64,
+    gap: f64,
+    speed: f64,
+    free: f64,
+}
+
+impl View {
+    fn follow(&mut self, gap: f64, speed: f64) {
+        if gap < self.gap {
+            self.gap = gap;
+            self.speed = speed;
+        }
+    }
+
+    /// Must stand before a line so far ahead.
+    fn stop_in(&mut self, distance: f64, gap: f64) {
+        // The model keeps its gap to a leader at rest, but a line may be driven up to.
+        self.follow(distance + gap - BEFORE_LINE, 0.0);
+    }
+
+    /// Must have a speed so far ahead.
+    fn slow_to(&mut self, speed: f64, distance: f64) {
+        let allowed = (speed * speed + 2.0 * PLANNED_BRAKING * distance.max(0.0)).sqrt();
+        self.free = self.free.min(allowed.max(0.5));
+    }
+
+    /// On a lane with leave to cross: what is on the way, and behind it.
+    fn into_junction(
+        &mut self,
+        manager: &VehicleManager,
+        tracks: &Tracks,
+        sight: &Sight<'_>,
+        way: usize,
+        to_line: f64,
+        is_first: bool,
+    ) {
+        let track = tracks.lanes + way;
+        self.slow_to(tracks.speed[track], to_line);
+        self.mind_people(tracks, sight, way, to_line);
+        if !is_first {
+            return;
+        }
+        match manager.queues[track].back() {
+            Some(leader) => self.follow(to_line + leader.s - leader.kind.length(), leader.v),
+            None => self.after_way(manager, tracks, way, to_line + tracks.length[track]),
+        }
+        if let Some(station) = first_obstacle(sight, track as Track, 0.0) {
+            self.follow(to_line + station, 0.0);
+        }
+    }
+
+    /// On the way across.
+    #[expect(clippy::too_many_arguments, reason = "all of it is one driver's view of one junction")]
+    fn across(
+        &mut self,
+        manager: &VehicleManager,
+        tracks: &Tracks,
+        sight: &Sight<'_>,
+        way: usize,
+        to_end: f64,
+        s: f64,
+        is_first: bool,
+    ) {
+        self.mind_people(tracks, sight, way, -s);
+        if is_first {
+            self.after_way(manager, tracks, way, to_end);
+        }
+    }
+
+    /// The lane behind a junction: its last vehicle, and its end, where one may have to stop.
+    fn after_way(&mut self, manager: &VehicleManager, tracks: &Tracks, way: usize, to_lane: f64) {
+        let lane = tracks.lane_after(way) as usize;
+        if let Some(leader) = manager.queues[lane].back() {
+            self.follow(to_lane + leader.s - leader.kind.length(), leader.v);
+        }
+        self.slow_to(0.0, to_lane + tracks.length[lane]);
+    }
+
+    /// Stops before strips with people on them; `offset` is the distance to the beginning of the way, negative on it.
+    fn mind_people(&mut self, tracks: &Tracks, sight: &Sight<'_>, way: usize, offset: f64) {
+        for strip in &tracks.strips[way] {
+            let distance = offset + strip.stop;
+            // Whoever is on the strip already drives on and clears it.
+            if sight.walkers[strip.crossing as usize] > 0 && distance > -0.2 {
+                self.follow(distance.max(0.05) + 1.5, 0.0);
+            }
+        }
+    }
+
+    /// Stops behind foreign bodies on the track.
+    fn beware(&mut self, sight: &Sight<'_>, track: Track, s: f64, gap: f64) {
+        if let Some(station) = first_obstacle(sight, track, s) {
+            self.follow(station - self.s + gap * 0.5, 0.0);
+        }
+    }
+}
+
+/// The first foreign body on a track beyond a station.
+fn first_obstacle(sight: &Sight<'_>, track: Track, beyond: f64) -> Option<f64> {
+    let start = sight.obstacles.partition_point(|(at, station)| (*at, *station) < (track, beyond));
+    sight.obstacles.get(start).filter(|(at, _)| *at == track).map(|(_, station)| *station)
+}

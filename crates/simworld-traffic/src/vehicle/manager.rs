@@ -1,0 +1,340 @@
+//! The vehicle manager: where vehicles are, how they accelerate, and how they pass from track to track.
+//!
+//! Vehicles stand front to back in one queue a track, so that a leader is the entry before. A step computes all
+//! accelerations from the frozen state, then moves everybody; only occupied tracks are visited.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+use simworld_core::hash::StateHasher;
+use simworld_core::net::Aspect;
+use simworld_core::seed::Stream;
+
+use super::idm::advance;
+use super::lookahead;
+use super::tracks::{Track, Tracks};
+use super::{VehicleKind, junction};
+use crate::{Counters, TrafficConfig};
+
+/// No connection.
+pub(crate) const NONE: u32 = u32::MAX;
+/// A vehicle slower than this stands, m/s.
+pub(crate) const STANDING: f64 = 0.1;
+/// Standing longer than this is counted, s.
+const LONG: f64 = 180.0;
+
+/// One vehicle, as far as a step needs it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Vehicle {
+    /// Its front, m along its track.
+    pub(crate) s: f64,
+    /// Speed, m/s.
+    pub(crate) v: f64,
+    /// Time it has stood, s.
+    pub(crate) stood: f64,
+    pub(crate) id: u32,
+    /// The connection it wants at the end of its lane, or is on.
+    pub(crate) next: u32,
+    /// The connection it has been granted and not yet cleared.
+    pub(crate) holding: u32,
+    pub(crate) kind: VehicleKind,
+}
+
+/// What a vehicle was, apart from its motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Path {
+    pub(crate) track: Track,
+    /// The track it came from, where its rear may still be.
+    pub(crate) before: Track,
+    /// Decisions made so far: the index of its next draw.
+    decisions: u64,
+}
+
+/// What drivers see of people and signals.
+pub(crate) struct Sight<'a> {
+    pub(crate) aspects: &'a [Aspect],
+    /// People on each crossing.
+    pub(crate) walkers: &'a [u32],
+    /// People at the kerb of each crossing who may walk.
+    pub(crate) waiting: &'a [u32],
+    /// Foreign bodies on tracks: track and station of their near side, sorted.
+    pub(crate) obstacles: &'a [(Track, f64)],
+}
+
+/// All vehicles.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct VehicleManager {
+    /// Front to back, one queue a track.
+    pub(crate) queues: Vec<VecDeque<Vehicle>>,
+    /// Tracks with vehicles, ascending.
+    pub(crate) active: Vec<Track>,
+    pub(crate) paths: Vec<Path>,
+    /// Vehicles that hold each connection.
+    pub(crate) holders: Vec<u32>,
+    /// Room on each lane that vehicles on their way to it will take, m.
+    pub(crate) inbound: Vec<f64>,
+    /// Vehicles that hold a way over each crossing and have not passed it.
+    pub(crate) claims: Vec<u32>,
+    #[serde(skip)]
+    accelerations: Vec<f64>,
+    #[serde(skip)]
+    weights: Vec<f64>,
+    #[serde(skip)]
+    pub(crate) requests: Vec<junction::Request>,
+}
+
+impl VehicleManager {
+    pub(crate) fn new(tracks: &Tracks) -> Self {
+        Self {
+            queues: vec![VecDeque::new(); tracks.count()],
+            holders: vec![0; tracks.count() - tracks.lanes],
+            inbound: vec![0.0; tracks.lanes],
+            claims: vec![0; tracks.network.crossings.len()],
+            ..Self::default()
+        }
+    }
+
+    /// Places vehicles on lanes, in proportion to their length, and returns how many found room.
+    pub(crate) fn spawn(&mut self, tracks: &Tracks, config: &TrafficConfig, streams: Stream) -> u32 {
+        /// Room before and behind each vehicle at the start, m.
+        const ROOM: f64 = 4.0;
+        let mut rng = streams.named("places").rng();
+        let longest = VehicleKind::Bus.length() + ROOM;
+        let mut places: Vec<(Track, f64)> = Vec::new();
+        for lane in 0..tracks.lanes {
+            let count = ((tracks.length[lane] - 1.0) / longest).floor().max(0.0) as usize;
+            places.extend((1..=count).map(|slot| (lane as Track, slot as f64 * longest)));
+        }
+        rng.shuffle(&mut places);
+        places.truncate(config.vehicles as usize);
+        // Front to back on each lane, so that pushing to the back keeps the order.
+        places.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        for (index, (track, s)) in places.iter().enumerate() {
+            let kind = match rng.unit() {
+                draw if draw < config.buses => VehicleKind::Bus,
+                draw if draw < config.buses + config.vans => VehicleKind::Van,
+                _ => VehicleKind::Car,
+            };
+            self.paths.push(Path { track: *track, before: *track, decisions: 0 });
+            let mut vehicle =
+                Vehicle { s: *s, v: 0.0, stood: 0.0, id: index as u32, next: NONE, holding: NONE, kind };
+            vehicle.next = self.choose(tracks, config, streams, vehicle.id, *track);
+            self.queues[*track as usize].push_back(vehicle);
+            self.active.push(*track);
+        }
+        self.active.dedup();
+        places.len() as u32
+    }
+
+    /// Draws the way on from a lane.
+    fn choose(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        streams: Stream,
+        id: u32,
+        lane: Track,
+    ) -> u32 {
+        let path = &mut self.paths[id as usize];
+        path.decisions += 1;
+        let mut rng = streams.indexed(u64::from(id)).indexed(path.decisions).rng();
+        let ways = tracks.ways(lane, &config.turns, &mut self.weights);
+        // If every way has weight zero, the first is as good as any.
+        let index = rng.weighted(&self.weights).unwrap_or(0);
+        ways.get(index).map_or(NONE, |way| way.0)
+    }
+
+    /// One step of all vehicles.
+    pub(crate) fn step(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        streams: Stream,
+        sight: &Sight<'_>,
+        dt: f64,
+        counters: &mut Counters,
+    ) {
+        junction::revoke(self, tracks, sight, counters);
+        junction::grant(self, tracks, config, sight, counters);
+        self.accelerate(tracks, config, sight);
+        self.integrate(tracks, dt, counters);
+        self.pass_on(tracks, config, streams);
+        self.count_claims(tracks);
+    }
+
+    fn accelerate(&mut self, tracks: &Tracks, config: &TrafficConfig, sight: &Sight<'_>) {
+        self.accelerations.clear();
+        let mut accelerations = std::mem::take(&mut self.accelerations);
+        for track in &self.active {
+            let queue = &self.queues[*track as usize];
+            let mut leader: Option<&Vehicle> = None;
+            for vehicle in queue {
+                accelerations
+                    .push(lookahead::acceleration(self, tracks, config, sight, *track, vehicle, leader));
+                leader = Some(vehicle);
+            }
+        }
+        self.accelerations = accelerations;
+    }
+
+    fn integrate(&mut self, tracks: &Tracks, dt: f64, counters: &mut Counters) {
+        let mut next = 0;
+        for track in &self.active {
+            let is_lane = (*track as usize) < tracks.lanes;
+            let end = tracks.length[*track as usize];
+            for vehicle in &mut self.queues[*track as usize] {
+                let (v, way) = advance(vehicle.v, self.accelerations[next], dt);
+                next += 1;
+                counters.updates += 1;
+                vehicle.s += way;
+                vehicle.v = v;
+                if is_lane && vehicle.holding == NONE && vehicle.s >= end {
+                    // A stop line is never passed without leave, whatever the brakes would say.
+                    vehicle.s = end - 1e-6;
+                    vehicle.v = 0.0;
+                    counters.forced_stops += 1;
+                }
+                let before = vehicle.stood;
+                vehicle.stood = if vehicle.v < STANDING { before + dt } else { 0.0 };
+                if before < LONG && vehicle.stood >= LONG {
+                    counters.long_waits += 1;
+                }
+            }
+        }
+    }
+
+    /// Moves vehicles whose front left their track to the next, and frees what their rear has cleared.
+    fn pass_on(&mut self, tracks: &Tracks, config: &TrafficConfig, streams: Stream) {
+        let occupied = self.active.len();
+        for index in 0..occupied {
+            let track = self.active[index];
+            while let Some(front) = self.queues[track as usize].front().copied() {
+                if front.s < tracks.length[track as usize] {
+                    break;
+                }
+                self.queues[track as usize].pop_front();
+                self.move_on(tracks, config, streams, track, front);
+            }
+            if (track as usize) < tracks.lanes {
+                self.release_cleared(track);
+            }
+        }
+        self.active.sort_unstable();
+        self.active.dedup();
+        let queues = &self.queues;
+        self.active.retain(|track| !queues[*track as usize].is_empty());
+    }
+
+    fn move_on(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        streams: Stream,
+        from: Track,
+        mut vehicle: Vehicle,
+    ) {
+        vehicle.s -= tracks.length[from as usize];
+        let to = match tracks.connection(from) {
+            Some(connection) => {
+                let lane = tracks.lane_after(connection);
+                self.inbound[lane as usize] -= room_for(vehicle.kind, config);
+                vehicle.next = self.choose(tracks, config, streams, vehicle.id, lane);
+                lane
+            }
+            None => tracks.lanes as Track + vehicle.next,
+        };
+        let path = &mut self.paths[vehicle.id as usize];
+        path.before = from;
+        path.track = to;
+        if vehicle.s >= tracks.length[to as usize] && tracks.connection(to).is_some() {
+            // A step longer than the whole way across: on to the lane behind it.
+            self.move_on(tracks, config, streams, to, vehicle);
+            return;
+        }
+        self.queues[to as usize].push_back(vehicle);
+        self.active.push(to);
+    }
+
+    /// Vehicles at the beginning of a lane whose rear has left the junction give it free.
+    fn release_cleared(&mut self, lane: Track) {
+        for vehicle in self.queues[lane as usize].iter_mut().rev() {
+            if vehicle.s > 60.0 {
+                break;
+            }
+            let still_before = vehicle.holding == NONE || vehicle.holding == vehicle.next;
+            if !still_before && vehicle.s - vehicle.kind.length() > 0.3 {
+                self.holders[vehicle.holding as usize] -= 1;
+                vehicle.holding = NONE;
+            }
+        }
+    }
+
+    fn count_claims(&mut self, tracks: &Tracks) {
+        self.claims.fill(0);
+        for track in &self.active {
+            for vehicle in &self.queues[*track as usize] {
+                if vehicle.holding == NONE {
+                    continue;
+                }
+                let way = vehicle.holding as usize;
+                let rear = position_on_way(tracks, *track, vehicle, way) - vehicle.kind.length();
+                for strip in &tracks.strips[way] {
+                    if rear < strip.end {
+                        self.claims[strip.crossing as usize] += 1;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Every vehicle with its track, track by track, front to back.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (Track, &Vehicle)> {
+        self.active
+            .iter()
+            .flat_map(|track| self.queues[*track as usize].iter().map(move |vehicle| (*track, vehicle)))
+    }
+
+    /// Whether a saved state is one of this network.
+    pub(crate) fn fits(&self, tracks: &Tracks) -> bool {
+        let ways = tracks.count() - tracks.lanes;
+        let is_way = |way: u32| way == NONE || (way as usize) < ways;
+        let count = self.paths.len();
+        self.queues.len() == tracks.count()
+            && self.holders.len() == ways
+            && self.inbound.len() == tracks.lanes
+            && self.claims.len() == tracks.network.crossings.len()
+            && self.active.iter().all(|track| (*track as usize) < tracks.count())
+            && self.paths.iter().all(|p| (p.track.max(p.before) as usize) < tracks.count())
+            && self.queues.iter().flatten().all(|v| {
+                (v.id as usize) < count
+                    && is_way(v.next)
+                    && is_way(v.holding)
+                    && v.s.is_finite()
+                    && v.v.is_finite()
+            })
+    }
+
+    pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
+        for track in &self.active {
+            hasher.u64(u64::from(*track));
+            for vehicle in &self.queues[*track as usize] {
+                hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
+                hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding));
+            }
+        }
+    }
+}
+
+/// The front of a vehicle in metres along the way that it holds: negative before it, beyond its length behind it.
+pub(crate) fn position_on_way(tracks: &Tracks, track: Track, vehicle: &Vehicle, way: usize) -> f64 {
+    match tracks.connection(track) {
+        Some(_) => vehicle.s,
+        None if vehicle.next as usize == way => vehicle.s - tracks.length[track as usize],
+        None => vehicle.s + tracks.length[tracks.lanes + way],
+    }
+}
+
+/// Room on a lane that a vehicle takes when it stands, m.
+pub(crate) fn room_for(kind: VehicleKind, config: &TrafficConfig) -> f64 {
+    kind.length() + config.idm.gap
+}

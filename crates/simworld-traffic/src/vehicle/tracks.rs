@@ -1,0 +1,130 @@
+//! Tracks: lanes and the ways across intersections, numbered together, with what a driver must know of each.
+
+use std::sync::Arc;
+
+use simworld_core::geometry::Point2;
+use simworld_core::id::{ConnectionId, LaneId};
+use simworld_core::net::{RoadNetwork, Turn, polyline};
+use simworld_core::ops::wrap_angle;
+
+use crate::TrafficConfig;
+
+/// A lane or a connection: lanes come first.
+pub(crate) type Track = u32;
+
+/// A place on a connection where people may cross it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strip {
+    pub(crate) crossing: u32,
+    /// Where a vehicle's front must stop to leave the strip free, m along the connection; may be negative.
+    pub(crate) stop: f64,
+    /// Where the strip ends, m along the connection.
+    pub(crate) end: f64,
+}
+
+/// The network as drivers see it.
+#[derive(Clone, Debug)]
+pub(crate) struct Tracks {
+    pub(crate) network: Arc<RoadNetwork>,
+    pub(crate) lanes: usize,
+    /// Length of each track, m.
+    pub(crate) length: Vec<f64>,
+    /// Speed allowed on each track by law and curvature, m/s.
+    pub(crate) speed: Vec<f64>,
+    /// The crossings on each connection, in the order in which it meets them.
+    pub(crate) strips: Vec<Vec<Strip>>,
+}
+
+impl Tracks {
+    pub(crate) fn new(network: Arc<RoadNetwork>, config: &TrafficConfig) -> Self {
+        let lane_lengths = network.lanes.iter().map(|lane| lane.length);
+        let way_lengths = network.connections.iter().map(|connection| connection.length);
+        let length = lane_lengths.chain(way_lengths).collect();
+        let lane_speeds = network.lanes.iter().map(|lane| lane.speed_limit);
+        let way_speeds = network.connections.iter().map(|connection| {
+            let limit = network.lanes[connection.to.index()].speed_limit;
+            limit.min(curve_speed(&connection.path, connection.length, config.lateral_acceleration))
+        });
+        let speed = lane_speeds.chain(way_speeds).collect();
+        let strips = (0..network.connections.len()).map(|index| strips(&network, index)).collect();
+        Self { lanes: network.lanes.len(), length, speed, strips, network }
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.length.len()
+    }
+
+    pub(crate) fn track_of(&self, connection: ConnectionId) -> Track {
+        (self.lanes + connection.index()) as Track
+    }
+
+    /// The connection that a track is; `None` for lanes.
+    #[inline]
+    pub(crate) fn connection(&self, track: Track) -> Option<usize> {
+        (track as usize).checked_sub(self.lanes)
+    }
+
+    /// The lane to which a connection leads.
+    #[inline]
+    pub(crate) fn lane_after(&self, connection: usize) -> Track {
+        self.network.connections[connection].to.0
+    }
+
+    pub(crate) fn path(&self, track: Track) -> &[Point2] {
+        match self.connection(track) {
+            Some(connection) => &self.network.connections[connection].path,
+            None => &self.network.lanes[LaneId(track).index()].path,
+        }
+    }
+
+    /// The ways on from a lane, with their weights by turn, into `weights`.
+    pub(crate) fn ways(&self, lane: Track, turns: &[f64; 3], weights: &mut Vec<f64>) -> &[ConnectionId] {
+        let ways = &self.network.lanes[lane as usize].outgoing;
+        weights.clear();
+        weights.extend(ways.iter().map(|way| match self.network.connections[way.index()].turn {
+            Turn::Straight => turns[0],
+            Turn::Right => turns[1],
+            Turn::Left => turns[2],
+            Turn::UTurn => 1.0,
+        }));
+        ways
+    }
+}
+
+/// The speed at which the tightest part of a path is taken, m/s.
+fn curve_speed(path: &[Point2], length: f64, lateral: f64) -> f64 {
+    let (_, first) = polyline::at(path, 0.0);
+    let (_, last) = polyline::at(path, length);
+    let turned = wrap_angle(last - first).abs();
+    if turned < 0.15 {
+        return f64::INFINITY;
+    }
+    (lateral * length / turned).sqrt().max(2.5)
+}
+
+fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {
+    /// Room for toes and bumpers, m.
+    const ROOM: f64 = 0.7;
+    let connection = &network.connections[connection];
+    let mut strips: Vec<Strip> = connection
+        .crossings
+        .iter()
+        .filter_map(|id| {
+            let crossing = &network.crossings[id.index()];
+            let mut station = 0.0;
+            for piece in connection.path.windows(2) {
+                let span = (piece[1] - piece[0]).norm();
+                if let Some((share, _)) = polyline::crossing(piece[0], piece[1], crossing.start, crossing.end)
+                {
+                    let middle = station + share * span;
+                    let half = crossing.width * 0.5 + ROOM;
+                    return Some(Strip { crossing: id.0, stop: middle - half, end: middle + half });
+                }
+                station += span;
+            }
+            None
+        })
+        .collect();
+    strips.sort_by(|a, b| a.stop.total_cmp(&b.stop));
+    strips
+}

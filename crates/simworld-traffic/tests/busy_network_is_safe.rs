@@ -1,0 +1,102 @@
+//! Ten thousand steps of a busy network: nobody touches anybody, nobody runs a red light, nobody is stuck.
+
+use std::sync::Arc;
+
+use simworld_core::geometry::{Obb, Point3, pose_facing};
+use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::seed::Seed;
+use simworld_traffic::{Body, Traffic, TrafficConfig};
+
+fn grid(columns: usize, vehicles: u32, pedestrians: u32) -> Traffic {
+    let plan = StreetPlan::grid(columns, columns, 130.0);
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
+    let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
+    Traffic::new(Arc::new(network), &config, Seed(11)).unwrap()
+}
+
+fn solid(body: &Body) -> Obb {
+    body.kind.shape().obb(&body.pose)
+}
+
+/// Pairs of vehicles whose bodies overlap, by exact rectangles over a sweep along x.
+fn collisions(bodies: &mut Vec<Body>) -> usize {
+    bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
+    let mut count = 0;
+    for (index, a) in bodies.iter().enumerate() {
+        for b in bodies[index + 1..].iter().take_while(|b| b.pose.translation.x - a.pose.translation.x < 14.0)
+        {
+            count += usize::from(solid(a).footprints_overlap(&solid(b)));
+        }
+    }
+    count
+}
+
+#[test]
+fn ten_thousand_steps_without_a_collision_or_a_red_light_violation() {
+    let mut traffic = grid(4, 110, 150);
+    assert_eq!((traffic.placed().vehicles, traffic.placed().pedestrians), (110, 150));
+    let network = Arc::clone(traffic.network());
+    let lanes = network.lanes.len() as u32;
+    let mut before: Vec<(u32, f64)> = vec![(u32::MAX, 0.0); 110];
+    let mut bodies = Vec::new();
+    for step in 0..10_000 {
+        let aspects = traffic.signals().to_vec();
+        traffic.step(0.1);
+        for (id, track, station, _) in traffic.stations() {
+            let (old, _) = std::mem::replace(&mut before[id as usize], (track, station));
+            if track >= lanes && old < lanes {
+                let connection = &network.connections[(track - lanes) as usize];
+                let red = connection.signal.is_some_and(|group| aspects[group.index()] == Aspect::Red);
+                assert!(!red, "vehicle {id} entered on red at step {step}");
+            }
+        }
+        bodies.clear();
+        bodies.extend(traffic.vehicles());
+        assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
+        for walker in traffic.pedestrians().iter().filter(|walker| walker.crossing.is_some()) {
+            let at = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), 0.0);
+            let person = simworld_core::scene::Shape::Capsule { radius: 0.2, height: 1.8 }.obb(&at);
+            let hit = bodies.iter().find(|body| {
+                (body.pose.translation.vector - at.translation.vector).norm() < 9.0
+                    && body.twist.linear.norm() > 0.1
+                    && solid(body).footprints_overlap(&person)
+            });
+            assert!(hit.is_none(), "a walker on a crossing is hit by {hit:?} at step {step}");
+        }
+    }
+    let counters = traffic.counters();
+    assert_eq!(counters.dilemmas, 0, "yellow is long enough for everybody to stop or to pass: {counters:?}");
+    assert_eq!(counters.forced_stops, 0, "brakes suffice: {counters:?}");
+    assert!(counters.long_waits < 20, "hardly anybody stands for three minutes: {counters:?}");
+    assert!(counters.crossings > 3000, "traffic flows: {counters:?}");
+}
+
+#[test]
+fn traffic_still_flows_after_a_long_time() {
+    let mut traffic = grid(5, 160, 60);
+    let mut last = 0;
+    for window in 0..5 {
+        for _ in 0..2000 {
+            traffic.step(0.1);
+        }
+        let crossings = traffic.counters().crossings;
+        assert!(crossings - last > 500, "flow died in window {window}: {:?}", traffic.counters());
+        last = crossings;
+    }
+}
+
+#[test]
+fn priority_junctions_are_safe_as_well() {
+    let config = NetworkConfig { signals_from_roads: 0, ..NetworkConfig::default() };
+    let network = RoadNetwork::derive(&StreetPlan::grid(4, 4, 120.0), &config).unwrap();
+    let traffic_config = TrafficConfig { vehicles: 70, pedestrians: 40, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::new(network), &traffic_config, Seed(5)).unwrap();
+    let mut bodies = Vec::new();
+    for step in 0..4000 {
+        traffic.step(0.1);
+        bodies.clear();
+        bodies.extend(traffic.vehicles());
+        assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
+    }
+    assert!(traffic.counters().crossings > 1500, "{:?}", traffic.counters());
+}
