@@ -1,6 +1,8 @@
 //! Whatever couriers try, money is conserved at every step and every order is in one state; and the same seed does
 //! the same, also across a snapshot.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod delivery_common;
 
 use delivery_common::{Town, world};

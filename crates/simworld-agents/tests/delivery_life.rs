@@ -1,5 +1,7 @@
 //! An order from post to door, alone, shared, late and unwanted; purchases; exhaustion.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod delivery_common;
 
 use delivery_common::{Town, quiet};

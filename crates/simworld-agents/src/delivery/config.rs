@@ -1,6 +1,6 @@
 //! Every constant of the delivery task in one structure, each with its unit, range and source.
 //!
-//! "Paper" is the case study of the SimWorld paper. What the paper leaves open is chosen here and said to be: the
+//! "Paper" is the case study of the `SimWorld` paper. What the paper leaves open is chosen here and said to be: the
 //! "ancestor" is an early public version of the task without bidding, the "sibling" a later benchmark of the same
 //! group.
 
@@ -363,7 +363,7 @@ impl PriceConfig {
 }
 
 /// An incomparable value, such as NaN, is out of every range.
-fn within<T: PartialOrd + Display>(field: &str, value: T, low: T, high: T) -> Result<(), TaskError> {
+fn within<T: PartialOrd + Display + Copy>(field: &str, value: T, low: T, high: T) -> Result<(), TaskError> {
     if value >= low && value <= high {
         return Ok(());
     }

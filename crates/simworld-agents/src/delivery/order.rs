@@ -163,13 +163,13 @@ impl Awarded {
 }
 
 impl Carried {
-    /// The parcel changed hands as offered; `None`, with nothing changed, if nobody accepted or it did before.
-    pub fn hand_over(self) -> Result<Self, Self> {
-        let (Some(offer), None) = (self.terms.offer, self.first) else { return Err(self) };
-        let Some(second) = offer.accepted else { return Err(self) };
+    /// The parcel changed hands as offered; `None` if nobody accepted the offer, or it did before.
+    pub fn hand_over(self) -> Option<Self> {
+        let (Some(offer), None) = (self.terms.offer, self.first) else { return None };
+        let second = offer.accepted?;
         let first = Leg { courier: self.carrier, distance: self.distance, bounty: offer.bounty };
         let terms = Awarded { offer: None, ..self.terms };
-        Ok(Self { terms, carrier: second, distance: 0.0, first: Some(first), parcel: self.parcel })
+        Some(Self { terms, carrier: second, distance: 0.0, first: Some(first), parcel: self.parcel })
     }
 
     /// It is home.

@@ -5,7 +5,6 @@ use simworld_core::geometry::{Point2, Point3};
 use simworld_core::id::EntityId;
 use simworld_core::seed::StreamRng;
 
-use super::auction::Bid;
 use super::money::{Cents, Ledger};
 use super::order::{Order, OrderId};
 
@@ -190,13 +189,5 @@ impl State {
             order.stage.holder() == Some(courier) || accepted == Some(courier)
         };
         self.live_orders().filter(concerns).count()
-    }
-
-    /// Every open bid, with its order.
-    pub(super) fn bid_of(&self, order: &Order, courier: usize) -> Option<Bid> {
-        match &order.stage {
-            super::order::Stage::Open(open) => open.bids.iter().find(|bid| bid.courier == courier).copied(),
-            _ => None,
-        }
     }
 }

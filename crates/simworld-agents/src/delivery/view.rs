@@ -34,6 +34,7 @@ pub struct OpenOrder {
 
 /// An order that a courier has won or carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "four independent facts, each read by itself")]
 pub struct HeldOrder {
     /// Which.
     pub id: OrderId,
@@ -192,7 +193,7 @@ impl<'a> CourierView<'a> {
                 approach: self.distance_to(&order.pickup),
                 route: order.route,
                 closes_in: open.closes.saturating_sub(self.state.tick) as f64 * self.state.dt,
-                own_bid: self.state.bid_of(order, self.index).map(|bid| bid.price),
+                own_bid: open.bids.iter().find(|bid| bid.courier == self.index).map(|bid| bid.price),
             })
         })
     }

@@ -58,7 +58,7 @@ impl Turn<'_> {
         if !both || apart > self.config.reach.meeting {
             return;
         }
-        let Ok(carried) = carried.hand_over() else { return };
+        let Some(carried) = carried.hand_over() else { return };
         let parcel = carried.parcel;
         self.state.orders[id.index()].stage = Stage::Carried(carried);
         for index in [first, second] {

@@ -68,7 +68,7 @@ impl CourierMind {
         }
         self.invest(view)
             .or_else(|| self.meet(view))
-            .or_else(|| self.work(view))
+            .or_else(|| work(view))
             .or_else(|| hurry(view))
             .or_else(|| self.share(view))
             .or_else(|| self.bid(view))
@@ -77,7 +77,7 @@ impl CourierMind {
 
     /// A scooter pays if what it saves in the time left is worth more than it costs: the time that orders take
     /// shrinks by the ratio of speeds, and each order brings about the usual ceiling.
-    fn invest(&mut self, view: &CourierView<'_>) -> Option<CourierAction> {
+    fn invest(&self, view: &CourierView<'_>) -> Option<CourierAction> {
         if view.has_scooter() || view.purse() < view.scooter_price() + view.drink_price() {
             return None;
         }
@@ -104,21 +104,6 @@ impl CourierMind {
             return Some(CourierAction::CancelShareOrder { order });
         }
         (ready && view.errand() == Errand::Idle).then_some(CourierAction::GoToMeetPoint { order })
-    }
-
-    /// Delivers or picks up, whichever is nearer; what is late goes first.
-    fn work(&mut self, view: &CourierView<'_>) -> Option<CourierAction> {
-        if view.errand() != Errand::Idle {
-            return None;
-        }
-        let free = view.held_orders().filter(|held| !(held.accepted && held.carried));
-        let rank = |held: &HeldOrder| held.distance + held.due_in.clamp(0.0, 300.0) * 0.2;
-        let next = free.min_by(|a, b| rank(a).total_cmp(&rank(b)))?;
-        Some(if next.carried {
-            CourierAction::DeliverOrder { order: next.id }
-        } else {
-            CourierAction::PickUpOrder { order: next.id }
-        })
     }
 
     /// Now and then offers an order whose way is long, or takes an offer on its own way.
@@ -154,6 +139,21 @@ impl CourierMind {
         let price = admissible(price * self.persona.price_factor() * noise, order.ceiling);
         Some(CourierAction::BidOrder { order: order.id, price })
     }
+}
+
+/// Delivers or picks up, whichever is nearer; what is late goes first.
+fn work(view: &CourierView<'_>) -> Option<CourierAction> {
+    if view.errand() != Errand::Idle {
+        return None;
+    }
+    let free = view.held_orders().filter(|held| !(held.accepted && held.carried));
+    let rank = |held: &HeldOrder| held.distance + held.due_in.clamp(0.0, 300.0) * 0.2;
+    let next = free.min_by(|a, b| rank(a).total_cmp(&rank(b)))?;
+    Some(if next.carried {
+        CourierAction::DeliverOrder { order: next.id }
+    } else {
+        CourierAction::PickUpOrder { order: next.id }
+    })
 }
 
 /// Drinks when low on energy and able to pay.
