@@ -222,3 +222,40 @@ fn the_time_runs_out() {
     assert!(town.outcome.truncated && !town.outcome.terminated);
     assert!(town.task.metrics().iter().all(|metric| metric.value.is_finite()));
 }
+
+/// Grown roads make routes longer than the straight line, never shorter.
+#[test]
+fn routes_follow_sidewalks_where_there_are_roads() {
+    use std::sync::Arc;
+
+    use simworld_core::geometry::Point2;
+    use simworld_core::net::{NetworkConfig, RoadClass, RoadNetwork, Street, StreetPlan};
+    use simworld_core::seam::TaskOutput;
+    use simworld_core::seed::Seed;
+
+    let street = |from, to| Street {
+        from,
+        to,
+        via: Vec::new(),
+        class: RoadClass::Local,
+        forward_lanes: 1,
+        backward_lanes: 1,
+    };
+    // A corner: from the restaurants west and south of it to the homes, the way is round the corner.
+    let nodes = [(-150.0, 0.0), (150.0, 0.0), (150.0, -200.0)].map(|(x, y)| Point2::new(x, y)).to_vec();
+    let plan = StreetPlan { nodes, streets: vec![street(0, 1), street(1, 2)] };
+    let roads = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
+    let mut config = quiet();
+    config.orders.initial = 30;
+    let straight = Town::new(config.clone(), 1, 1);
+    let (mut world, couriers) = delivery_common::world(1);
+    world.set_roads(Arc::new(roads));
+    let mut task = simworld_agents::delivery::DeliveryTask::new(config).unwrap();
+    task.reset(&world, &couriers, Seed(1), &mut TaskOutput::default()).unwrap();
+    let mut longer = 0;
+    for (order, other) in task.orders().iter().zip(straight.task.orders()) {
+        assert!(order.route >= other.route - 1e-9, "{} < {}", order.route, other.route);
+        longer += usize::from(order.route > other.route + 1.0);
+    }
+    assert!(longer > 10, "{longer}");
+}

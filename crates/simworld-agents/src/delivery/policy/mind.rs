@@ -78,7 +78,7 @@ impl CourierMind {
     /// A scooter pays if what it saves in the time left is worth more than it costs: the time that orders take
     /// shrinks by the ratio of speeds, and each order brings about the usual ceiling.
     fn invest(&self, view: &CourierView<'_>) -> Option<CourierAction> {
-        if view.has_scooter() || view.purse() < view.scooter_price() + view.drink_price() {
+        if view.has_scooter() || view.purse() < view.scooter_price() {
             return None;
         }
         let (speed, orders) = (&view.config().speed, &view.config().orders);

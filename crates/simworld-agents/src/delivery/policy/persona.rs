@@ -78,7 +78,7 @@ impl Persona {
 
     /// How much an investment must promise over its price; lower for the bold.
     pub(super) fn caution(&self) -> f64 {
-        (1.0 + 0.4 * self.neuroticism - 0.5 * self.openness).max(0.2)
+        (1.0 + 0.4 * self.neuroticism - 0.8 * self.openness).max(0.2)
     }
 }
 
