@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::{Point2, Point3, pose_facing};
+use simworld_core::geometry::{Point2, Point3, Vector2, heading, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::net::{RoadNetwork, StreetPlan, polyline};
+use simworld_core::net::{Crossing, RoadNetwork, StreetPlan, polyline};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
 use simworld_core::seed::Seed;
 
@@ -20,12 +20,16 @@ const CROSSWALK_TOP: f64 = -0.01;
 const SIDEWALK_TOP: f64 = 0.0;
 /// Thickness of the flat layers, m.
 const LAYER: f64 = 0.05;
+/// Distance of a signal post from the kerb and from its crossing, m.
+const POST_SETBACK: f64 = 0.35;
 /// Ground beyond the outermost street, m.
 const MARGIN: f64 = 120.0;
 
 /// A generated city.
 #[derive(Clone, Debug, PartialEq)]
 pub struct City {
+    /// What it was made from.
+    pub config: CityConfig,
     /// Centrelines and junctions.
     pub plan: StreetPlan,
     /// Lanes, crossings, signals and all else that follows from the plan.
@@ -47,6 +51,8 @@ pub struct CityEntities {
     pub elements: Vec<EntityId>,
     /// Ground, roads, sidewalks and crosswalks.
     pub surfaces: Vec<EntityId>,
+    /// One post a signalised leg of an intersection, in the order of the network's crossings.
+    pub signals: Vec<EntityId>,
 }
 
 impl City {
@@ -79,6 +85,7 @@ impl City {
         let built = building::build(&network, &config.buildings, seed, &mut taken);
         let elements = element::furnish(&network, &config.elements, seed, &mut taken);
         Ok(Self {
+            config: config.clone(),
             plan,
             network: Arc::new(network),
             buildings: built.buildings,
@@ -116,6 +123,9 @@ impl City {
         }
         for element in &self.elements {
             entities.elements.push(world.spawn(describe_element(element))?);
+        }
+        for crossing in self.network.crossings.iter().filter(|crossing| crossing.signal.is_some()) {
+            entities.signals.push(world.spawn(describe_signal(crossing))?);
         }
         Ok(entities)
     }
@@ -184,6 +194,15 @@ fn describe_building(building: &Building) -> EntityDesc {
         .with("type", building.archetype.name);
     desc.info.name.clone_from(&building.name);
     desc
+}
+
+/// A post at the kerb that vehicles pass on their right, beyond the crossing; it looks at those who come.
+fn describe_signal(crossing: &Crossing) -> EntityDesc {
+    let across = (crossing.end - crossing.start).normalize();
+    let outwards = Vector2::new(-across.y, across.x);
+    let at = crossing.start - across * POST_SETBACK + outwards * (crossing.width * 0.5 + POST_SETBACK);
+    let pose = pose_facing(Point3::new(at.x, at.y, 0.0), heading(&outwards));
+    EntityDesc::new(EntityKind::TrafficSignal, pose, Shape::Cylinder { radius: 0.08, height: 3.5 })
 }
 
 fn describe_element(element: &Element) -> EntityDesc {

@@ -52,12 +52,55 @@ fn crossing_roads_become_a_junction() {
     assert_eq!(warnings.len(), 4, "two splits, one lost part, one stub: {warnings:?}");
 }
 
+#[test]
+fn more_road_than_can_be_checked_is_refused_at_once() {
+    let xy = |x, y| python::Xy { x, y };
+    let record = |a, b| python::RoadRecord { start: a, end: b, is_highway: false };
+    let across = |index: usize| record(xy(-9e5, index as f64 * 30.0), xy(9e5, index as f64 * 30.0));
+    let long = RoadsFile { roads: (0..1000).map(across).collect() };
+    assert!(matches!(python::plan_from_roads(&long), Err(FormatError::TooMuch { .. })));
+    let copies = RoadsFile { roads: vec![record(xy(0.0, 0.0), xy(90.0, 0.0)); 100_000] };
+    let (plan, warnings) = python::plan_from_roads(&copies).unwrap();
+    assert_eq!((plan.streets.len(), warnings.len()), (1, 99_999));
+}
+
+#[test]
+fn routes_survive_their_file() {
+    let text =
+        br#"{"routes":[{"start":{"x":0,"y":1},"end":{"x":2,"y":3},"points":[{"x":0,"y":1},{"x":2,"y":3}]}]}"#;
+    let routes: python::RoutesFile = python::read(text).unwrap();
+    assert_eq!(python::read::<python::RoutesFile>(python::write(&routes).as_bytes()).unwrap(), routes);
+    assert_eq!(routes.routes[0].points.len(), 2);
+}
+
+/// A sound file to be damaged.
+fn sound_file() -> Vec<u8> {
+    let city = City::generate(&CityConfig::with_roads(4), Seed(1)).unwrap();
+    python::write(&city.roads_file()).into_bytes()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
     #[test]
     fn arbitrary_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         let _ = python::read_roads(&bytes);
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused(at in any::<prop::sample::Index>(), byte in any::<u8>(), cut in any::<bool>()) {
+        let mut bytes = sound_file();
+        let at = at.index(bytes.len());
+        if cut {
+            bytes.truncate(at);
+            prop_assert!(python::read_roads(&bytes).is_err(), "a truncated file is no file");
+        } else {
+            bytes[at] = byte;
+            if let Ok((plan, _)) = python::read_roads(&bytes) {
+                RoadNetwork::derive(&plan, &NetworkConfig::default())
+                    .map_err(|error| TestCaseError::fail(error.to_string()))?;
+            }
+        }
     }
 
     #[test]

@@ -51,19 +51,33 @@ fn a_city_has_the_places_that_people_go_to() {
     }
 }
 
+#[test]
+fn a_hamlet_has_what_people_need() {
+    for seed in 0..40 {
+        let city = City::generate(&CityConfig::with_roads(10), Seed(seed)).unwrap();
+        let count = |place: Place| city.buildings.iter().filter(|building| building.place == place).count();
+        assert!(count(Place::Restaurant) >= 3 && count(Place::Home) >= 5, "seed {seed}");
+        for place in [Place::Store, Place::Hospital, Place::Museum, Place::ChargingStation, Place::RestArea] {
+            assert!(count(place) >= 1, "seed {seed} has no {place}");
+        }
+    }
+}
+
 /// Pairs of streets that cross elsewhere than at a junction, counted without any grid.
 fn crossings(city: &City) -> usize {
     let plan = &city.plan;
-    let ends = |index: usize| {
-        let street = &plan.streets[index];
-        (street.from, street.to, plan.nodes[street.from], plan.nodes[street.to])
-    };
+    let lines: Vec<_> = plan.streets.iter().map(|street| plan.centerline(street)).collect();
+    let ends = |index: usize| (plan.streets[index].from, plan.streets[index].to);
     let pairs = (0..plan.streets.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     pairs
         .filter(|(a, b)| {
-            let ((a0, a1, p, q), (b0, b1, r, s)) = (ends(*a), ends(*b));
+            let ((a0, a1), (b0, b1)) = (ends(*a), ends(*b));
             let meet = a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1;
-            !meet && polyline::crossing(p, q, r, s).is_some()
+            // Bends count: every piece of the one against every piece of the other.
+            !meet
+                && lines[*a].windows(2).any(|p| {
+                    lines[*b].windows(2).any(|q| polyline::crossing(p[0], p[1], q[0], q[1]).is_some())
+                })
         })
         .count()
 }

@@ -16,6 +16,13 @@ const FARTHEST: f64 = 1e6;
 /// Width of a cell of the search grid, m.
 const CELL: f64 = 250.0;
 
+/// More roads are not read.
+const MOST_ROADS: u64 = 1_000_000;
+/// More road than this is not read, m: the search grid takes memory by length.
+const MOST_LENGTH: u64 = 1_000_000_000;
+/// Pairs of roads that are compared at most, a road and in all; towns need about 150 a road.
+const MOST_PAIRS: (u64, u64) = (400, 10_000_000);
+
 /// A straight piece between two nodes.
 #[derive(Clone, Copy)]
 struct Piece {
@@ -29,8 +36,9 @@ struct Piece {
 /// Makes a plan of the roads of a file.
 ///
 /// # Errors
-/// A coordinate out of range, or no usable road.
+/// A coordinate out of range, more road than can be checked, or no usable road.
 pub fn plan_from_roads(file: &RoadsFile) -> Result<(StreetPlan, Vec<Warning>), FormatError> {
+    at_most("number of roads", file.roads.len() as u64, MOST_ROADS)?;
     let mut warnings = Vec::new();
     let mut nodes = Nodes::default();
     let mut pieces = Vec::new();
@@ -53,13 +61,21 @@ pub fn plan_from_roads(file: &RoadsFile) -> Result<(StreetPlan, Vec<Warning>), F
             pieces.push(Piece { from, to, highway: record.is_highway, road });
         }
     }
-    let pieces = split_at_meetings(&mut nodes, pieces, &mut warnings);
+    // Doubles go first, or a million copies of one road would be compared with one another.
+    let pieces = drop_doubles(pieces, &mut warnings);
+    let length: f64 = pieces.iter().map(|p| (nodes.points[p.to] - nodes.points[p.from]).norm()).sum();
+    at_most("length in metres", length as u64, MOST_LENGTH)?;
+    let pieces = split_at_meetings(&mut nodes, pieces, &mut warnings)?;
     let pieces = drop_doubles(pieces, &mut warnings);
     let pieces = keep_largest_part(nodes.points.len(), pieces, &mut warnings);
     if pieces.is_empty() {
         return Err(FormatError::Empty { least: MERGE });
     }
     Ok((plan(&nodes.points, &pieces), warnings))
+}
+
+fn at_most(what: &'static str, amount: u64, limit: u64) -> Result<(), FormatError> {
+    if amount <= limit { Ok(()) } else { Err(FormatError::TooMuch { what, amount, limit }) }
 }
 
 /// Points, merged with those nearer than [`MERGE`].
@@ -128,12 +144,20 @@ impl PieceGrid {
 }
 
 /// Splits pieces where they cross and where the end of one touches the middle of another.
-fn split_at_meetings(nodes: &mut Nodes, pieces: Vec<Piece>, warnings: &mut Vec<Warning>) -> Vec<Piece> {
+fn split_at_meetings(
+    nodes: &mut Nodes,
+    pieces: Vec<Piece>,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Piece>, FormatError> {
     let mut cuts: Vec<Vec<(f64, usize)>> = vec![Vec::new(); pieces.len()];
     let grid = PieceGrid::new(&nodes.points, &pieces);
+    let mut compared = 0;
     for (index, piece) in pieces.iter().enumerate() {
         let (a, b) = (nodes.points[piece.from], nodes.points[piece.to]);
-        for other in grid.near(a, b) {
+        let near = grid.near(a, b);
+        compared += near.len() as u64;
+        at_most("pairs to compare", compared, pieces.len() as u64 * MOST_PAIRS.0 + MOST_PAIRS.1)?;
+        for other in near {
             let rival = pieces[other];
             let (c, d) = (nodes.points[rival.from], nodes.points[rival.to]);
             for (node, point) in [(rival.from, c), (rival.to, d)] {
@@ -169,7 +193,7 @@ fn split_at_meetings(nodes: &mut Nodes, pieces: Vec<Piece>, warnings: &mut Vec<W
             from = to;
         }
     }
-    split
+    Ok(split)
 }
 
 /// One street between any two nodes.

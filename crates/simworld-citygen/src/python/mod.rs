@@ -49,6 +49,18 @@ pub enum FormatError {
         /// The number.
         value: f64,
     },
+    /// More road than can be checked in reasonable time and memory.
+    #[error(
+        "the roads are too many, too long or too dense: {what} {amount} is above {limit}; split the file"
+    )]
+    TooMuch {
+        /// What there is too much of.
+        what: &'static str,
+        /// How much there is.
+        amount: u64,
+        /// How much is allowed.
+        limit: u64,
+    },
     /// Nothing is left to build on.
     #[error("the file holds no usable road: give at least one of {least} m or more")]
     Empty {
