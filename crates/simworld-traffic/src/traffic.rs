@@ -88,6 +88,8 @@ pub(crate) struct State {
     vehicles: VehicleManager,
     pedestrians: PedestrianManager,
     aspects: Vec<Aspect>,
+    /// How long each group has shown its aspect, s.
+    shown: Vec<f64>,
     seconds: f64,
     steps: u64,
     counters: Counters,
@@ -122,7 +124,8 @@ impl Traffic {
             placed,
             obstacles: Vec::new(),
         };
-        traffic.update_signals();
+        traffic.state.shown = vec![0.0; traffic.signals.aspects.len()];
+        traffic.update_signals(0.0);
         Ok(traffic)
     }
 
@@ -147,13 +150,14 @@ impl Traffic {
         self.state.steps += 1;
         // Counted, not accumulated, so that long runs keep their phase.
         self.state.seconds = self.state.steps as f64 * dt;
-        self.update_signals();
+        self.update_signals(dt);
     }
 
     fn update_vehicles(&mut self, dt: f64) {
-        let State { vehicles, pedestrians, counters, .. } = &mut self.state;
+        let State { vehicles, pedestrians, counters, shown, .. } = &mut self.state;
         let sight = vehicle::Sight {
             aspects: &self.signals.aspects,
+            shown,
             walkers: &self.walkers,
             waiting: &pedestrians.waiting,
             obstacles: &self.obstacles,
@@ -173,11 +177,16 @@ impl Traffic {
         pedestrians.step(&sight, &self.config, self.streams.named("pedestrians"), dt);
     }
 
-    fn update_signals(&mut self) {
+    fn update_signals(&mut self, dt: f64) {
         self.count_approaching();
         let demand = Demand { approaching: &self.approaching, waiting: &self.state.pedestrians.waiting };
         self.signals.step(self.state.seconds, &demand);
-        self.state.aspects.clone_from(&self.signals.aspects);
+        let State { aspects, shown, .. } = &mut self.state;
+        aspects.resize(self.signals.aspects.len(), Aspect::Red);
+        for ((old, new), shown) in aspects.iter_mut().zip(&self.signals.aspects).zip(shown) {
+            *shown = if old == new { *shown + dt } else { 0.0 };
+            *old = *new;
+        }
     }
 
     fn count_approaching(&mut self) {
@@ -272,6 +281,7 @@ impl Traffic {
         let vehicles = state.vehicles.fits(&self.tracks);
         let fits = vehicles
             && state.aspects.len() == self.signals.aspects.len()
+            && state.shown.len() == state.aspects.len()
             && state.pedestrians.fits(&self.ways, self.walkers.len());
         if fits {
             self.signals.aspects.clone_from(&state.aspects);

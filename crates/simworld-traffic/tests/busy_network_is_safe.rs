@@ -68,7 +68,8 @@ fn ten_thousand_steps_without_a_collision_or_a_red_light_violation() {
     assert_eq!(counters.dilemmas, 0, "yellow is long enough for everybody to stop or to pass: {counters:?}");
     assert_eq!(counters.forced_stops, 0, "brakes suffice: {counters:?}");
     assert!(counters.long_waits < 20, "hardly anybody stands for three minutes: {counters:?}");
-    assert!(counters.crossings > 3000, "traffic flows: {counters:?}");
+    // On average everybody crosses an intersection every minute: less would be a jam at this density.
+    assert!(counters.crossings > 110 * 1000 / 60, "traffic flows: {counters:?}");
 }
 
 #[test]
@@ -98,5 +99,5 @@ fn priority_junctions_are_safe_as_well() {
         bodies.extend(traffic.vehicles());
         assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
     }
-    assert!(traffic.counters().crossings > 1500, "{:?}", traffic.counters());
+    assert!(traffic.counters().crossings > 70 * 400 / 60, "{:?}", traffic.counters());
 }

@@ -15,6 +15,10 @@ use crate::{Counters, TrafficConfig};
 const COMFORTABLE: f64 = 3.0;
 /// Time that one wants between clearing a conflict and the arrival of who has priority, s.
 const MARGIN: f64 = 1.0;
+/// Yellow that has shown for less time than this leaves enough of it to get under way, s.
+const FRESH: f64 = 0.6;
+/// A vehicle nearer to its stop line than this stands at it, m.
+const AT_LINE: f64 = 1.5;
 /// Vehicles with priority are looked for within this distance, m.
 const SIGHT: f64 = 90.0;
 
@@ -31,10 +35,11 @@ pub(crate) struct Request {
 pub(super) fn revoke(
     manager: &mut VehicleManager,
     tracks: &Tracks,
+    config: &TrafficConfig,
     sight: &Sight<'_>,
     counters: &mut Counters,
 ) {
-    let VehicleManager { queues, active, holders, inbound, .. } = manager;
+    let VehicleManager { queues, active, holders, long_holders, inbound, .. } = manager;
     for track in active.iter().filter(|track| (**track as usize) < tracks.lanes) {
         let end = tracks.length[*track as usize];
         for vehicle in &mut queues[*track as usize] {
@@ -46,16 +51,19 @@ pub(super) fn revoke(
             }
             let way = vehicle.holding as usize;
             let Some(group) = tracks.network.connections[way].signal else { continue };
-            let needed = vehicle.v * vehicle.v / (2.0 * (end - vehicle.s).max(0.01));
+            let distance = end - vehicle.s;
+            let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
+            let turns_left = tracks.network.connections[way].turn == Turn::Left;
             let gone = match sight.aspects[group.index()] {
                 Aspect::Green => false,
-                Aspect::Yellow => needed <= COMFORTABLE && vehicle.stood == 0.0 && vehicle.v > 2.0,
+                Aspect::Yellow => needed <= COMFORTABLE && !(turns_left && distance < AT_LINE),
                 Aspect::Red => needed <= HARDEST_BRAKING,
             };
             if gone {
                 vehicle.holding = NONE;
                 holders[way] -= 1;
-                inbound[tracks.lane_after(way) as usize] -= vehicle.kind.length() + 2.0;
+                long_holders[way] -= u32::from(vehicle.kind.is_long());
+                inbound[tracks.lane_after(way) as usize] -= room_for(vehicle.kind, config);
             } else if sight.aspects[group.index()] == Aspect::Red {
                 counters.dilemmas += 1;
             }
@@ -89,6 +97,7 @@ pub(super) fn grant(
             let way = vehicle.next as usize;
             manager.queues[request.lane as usize][request.rank].holding = vehicle.next;
             manager.holders[way] += 1;
+            manager.long_holders[way] += u32::from(vehicle.kind.is_long());
             manager.inbound[tracks.lane_after(way) as usize] += room_for(vehicle.kind, config);
             counters.crossings += 1;
         }
@@ -126,6 +135,10 @@ fn may_enter(
     let distance = tracks.length[lane as usize] - vehicle.s;
     signal_allows(tracks, sight, way, vehicle, distance)
         && connection.conflicts.iter().all(|other| manager.holders[other.index()] == 0)
+        && tracks.tight[way].iter().all(|other| {
+            let held = if vehicle.kind.is_long() { &manager.holders } else { &manager.long_holders };
+            held[*other as usize] == 0
+        })
         && tracks.strips[way].iter().all(|strip| {
             sight.walkers[strip.crossing as usize] == 0 && sight.waiting[strip.crossing as usize] == 0
         })
@@ -145,7 +158,11 @@ fn signal_allows(tracks: &Tracks, sight: &Sight<'_>, way: usize, vehicle: &Vehic
         Aspect::Yellow => {
             // Too late to stop; or a left turn that waited through the whole green for its gap.
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
-            needed > COMFORTABLE || (connection.turn == Turn::Left && distance < 3.0 && vehicle.stood > 5.0)
+            needed > COMFORTABLE
+                || (connection.turn == Turn::Left
+                    && distance < AT_LINE
+                    && vehicle.stood > 5.0
+                    && sight.shown[group.index()] < FRESH)
         }
     }
 }

@@ -27,6 +27,12 @@ impl VehicleKind {
         }
     }
 
+    /// Whether its ends swing out of its lane in a turn.
+    #[inline]
+    pub const fn is_long(self) -> bool {
+        matches!(self, Self::Bus)
+    }
+
     /// Its solid.
     pub fn shape(self) -> Shape {
         match self {

@@ -92,6 +92,7 @@ impl View {
         if !is_first {
             return;
         }
+        self.let_part(manager, tracks, way, -to_line);
         match manager.queues[track].back() {
             Some(leader) => self.follow(to_line + leader.s - leader.kind.length(), leader.v),
             None => self.after_way(manager, tracks, way, to_line + tracks.length[track]),
@@ -114,8 +115,31 @@ impl View {
         is_first: bool,
     ) {
         self.mind_people(tracks, sight, way, -s);
+        self.let_part(manager, tracks, way, s);
         if is_first {
             self.after_way(manager, tracks, way, to_end);
+        }
+    }
+
+    /// Stays behind those who left the same lane for another way until their rear is out of one's own; `at` is where one is
+    /// on the way, negative before it.
+    fn let_part(&mut self, manager: &VehicleManager, tracks: &Tracks, way: usize, at: f64) {
+        for (sibling, clear) in &tracks.siblings[way] {
+            if manager.holders[*sibling as usize] == 0 {
+                continue;
+            }
+            let sibling = *sibling as usize;
+            let length = tracks.length[tracks.lanes + sibling];
+            let lane = tracks.lane_after(sibling) as usize;
+            let on_way = manager.queues[tracks.lanes + sibling].iter().rev().map(|other| (other, other.s));
+            let behind = manager.queues[lane].iter().rev().filter(|other| other.holding as usize == sibling);
+            let all = on_way.chain(behind.map(|other| (other, other.s + length)));
+            for (other, front) in all {
+                let rear = front - other.kind.length();
+                if front > at && rear < *clear {
+                    self.follow(rear - at, other.v);
+                }
+            }
         }
     }
 

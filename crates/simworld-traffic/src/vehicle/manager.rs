@@ -53,6 +53,8 @@ pub(crate) struct Path {
 /// What drivers see of people and signals.
 pub(crate) struct Sight<'a> {
     pub(crate) aspects: &'a [Aspect],
+    /// How long each group has shown its aspect, s.
+    pub(crate) shown: &'a [f64],
     /// People on each crossing.
     pub(crate) walkers: &'a [u32],
     /// People at the kerb of each crossing who may walk.
@@ -71,6 +73,8 @@ pub(crate) struct VehicleManager {
     pub(crate) paths: Vec<Path>,
     /// Vehicles that hold each connection.
     pub(crate) holders: Vec<u32>,
+    /// Those of them that are long.
+    pub(crate) long_holders: Vec<u32>,
     /// Room on each lane that vehicles on their way to it will take, m.
     pub(crate) inbound: Vec<f64>,
     /// Vehicles that hold a way over each crossing and have not passed it.
@@ -88,6 +92,7 @@ impl VehicleManager {
         Self {
             queues: vec![VecDeque::new(); tracks.count()],
             holders: vec![0; tracks.count() - tracks.lanes],
+            long_holders: vec![0; tracks.count() - tracks.lanes],
             inbound: vec![0.0; tracks.lanes],
             claims: vec![0; tracks.network.crossings.len()],
             ..Self::default()
@@ -154,7 +159,7 @@ impl VehicleManager {
         dt: f64,
         counters: &mut Counters,
     ) {
-        junction::revoke(self, tracks, sight, counters);
+        junction::revoke(self, tracks, config, sight, counters);
         junction::grant(self, tracks, config, sight, counters);
         self.accelerate(tracks, config, sight);
         self.integrate(tracks, dt, counters);
@@ -264,6 +269,7 @@ impl VehicleManager {
             let still_before = vehicle.holding == NONE || vehicle.holding == vehicle.next;
             if !still_before && vehicle.s - vehicle.kind.length() > 0.3 {
                 self.holders[vehicle.holding as usize] -= 1;
+                self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.kind.is_long());
                 vehicle.holding = NONE;
             }
         }
@@ -301,6 +307,7 @@ impl VehicleManager {
         let count = self.paths.len();
         self.queues.len() == tracks.count()
             && self.holders.len() == ways
+            && self.long_holders.len() == ways
             && self.inbound.len() == tracks.lanes
             && self.claims.len() == tracks.network.crossings.len()
             && self.active.iter().all(|track| (*track as usize) < tracks.count())

@@ -31,6 +31,10 @@ pub(crate) struct Tracks {
     pub(crate) length: Vec<f64>,
     /// Speed allowed on each track by law and curvature, m/s.
     pub(crate) speed: Vec<f64>,
+    /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
+    pub(crate) siblings: Vec<Vec<(u32, f64)>>,
+    /// Ways so near to each connection that a long vehicle on either sweeps over the other in the turn.
+    pub(crate) tight: Vec<Vec<u32>>,
     /// The crossings on each connection, in the order in which it meets them.
     pub(crate) strips: Vec<Vec<Strip>>,
 }
@@ -47,15 +51,13 @@ impl Tracks {
         });
         let speed = lane_speeds.chain(way_speeds).collect();
         let strips = (0..network.connections.len()).map(|index| strips(&network, index)).collect();
-        Self { lanes: network.lanes.len(), length, speed, strips, network }
+        let siblings = (0..network.connections.len()).map(|index| siblings(&network, index)).collect();
+        let tight = (0..network.connections.len()).map(|index| tight(&network, index)).collect();
+        Self { lanes: network.lanes.len(), length, speed, siblings, tight, strips, network }
     }
 
     pub(crate) fn count(&self) -> usize {
         self.length.len()
-    }
-
-    pub(crate) fn track_of(&self, connection: ConnectionId) -> Track {
-        (self.lanes + connection.index()) as Track
     }
 
     /// The connection that a track is; `None` for lanes.
@@ -100,6 +102,46 @@ fn curve_speed(path: &[Point2], length: f64, lateral: f64) -> f64 {
         return f64::INFINITY;
     }
     (lateral * length / turned).sqrt().max(2.5)
+}
+
+/// The ways that part from this one, and where.
+fn siblings(network: &RoadNetwork, connection: usize) -> Vec<(u32, f64)> {
+    /// Paths farther apart than this carry two vehicles beside each other, m.
+    const APART: f64 = 2.8;
+    let own = &network.connections[connection];
+    let others = network.lanes[own.from.index()].outgoing.iter().filter(|id| id.index() != connection);
+    others
+        .map(|id| {
+            let other = &network.connections[id.index()];
+            let mut clear = 0.0;
+            let mut station = 0.0;
+            for piece in other.path.windows(2) {
+                station += (piece[1] - piece[0]).norm();
+                if polyline::closest(&own.path, &piece[1]).is_some_and(|near| near.distance < APART) {
+                    clear = station;
+                }
+            }
+            (id.0, clear + 0.5)
+        })
+        .collect()
+}
+
+/// Ways beside this one that a long vehicle's swing reaches, in turns.
+fn tight(network: &RoadNetwork, connection: usize) -> Vec<u32> {
+    /// Two lanes side by side and a margin, m.
+    const BESIDE: f64 = 4.0;
+    let own = &network.connections[connection];
+    let others = network.intersections[own.intersection.index()].connections.iter();
+    let is_tight = |id: &&ConnectionId| {
+        let other = &network.connections[id.index()];
+        let turns = own.turn != Turn::Straight || other.turn != Turn::Straight;
+        id.index() != connection
+            && turns
+            && own.from != other.from
+            && !own.conflicts.contains(id)
+            && polyline::distance_between(&own.path, &other.path) < BESIDE
+    };
+    others.filter(is_tight).map(|id| id.0).collect()
 }
 
 fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {
