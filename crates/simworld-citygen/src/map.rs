@@ -2,7 +2,7 @@
 //!
 //! North is up; one unit of the drawing is one metre.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 use simworld_core::geometry::{Obb, Point2};
 use simworld_core::net::polyline;
@@ -330,7 +330,8 @@ fn path_data(points: &[Point2], closed: bool) -> String {
     let mut data = String::new();
     for (index, point) in points.iter().enumerate() {
         let letter = if index == 0 { 'M' } else { 'L' };
-        data.push_str(&format!("{letter}{} {}", round(point.x), round(-point.y)));
+        // Writing to a string never fails.
+        let _ = write!(data, "{letter}{} {}", round(point.x), round(-point.y));
     }
     if closed {
         data.push('Z');

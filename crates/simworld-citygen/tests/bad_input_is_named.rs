@@ -75,7 +75,7 @@ fn routes_survive_their_file() {
 
 /// A sound file to be damaged.
 fn sound_file() -> Vec<u8> {
-    let city = City::generate(&CityConfig::with_roads(4), Seed(1)).unwrap();
+    let city = City::generate(&CityConfig::with_roads(4), Seed(1)).expect("the settings are in range");
     python::write(&city.roads_file()).into_bytes()
 }
 

@@ -7,7 +7,8 @@ use simworld_core::seed::Seed;
 
 fn digest(config: &CityConfig, seed: u64) -> StateDigest {
     let mut world = World::new();
-    City::generate(config, Seed(seed)).unwrap().populate(&mut world).unwrap();
+    let city = City::generate(config, Seed(seed)).expect("the settings are in range");
+    city.populate(&mut world).expect("a world takes its city");
     world.finish_step();
     world.digest()
 }
