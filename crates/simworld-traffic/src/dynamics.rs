@@ -142,6 +142,11 @@ impl TrafficDynamics {
     }
 }
 
+/// Tells damaged bytes from whole ones: state that merely reads well may still contradict itself.
+fn checksum(bytes: &[u8]) -> [u8; 8] {
+    StateHasher::new().bytes(bytes).finish().0.to_le_bytes()
+}
+
 impl Dynamics for TrafficDynamics {
     fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
         let roads = world.roads().map_or(0, |roads| roads.signal_groups());
@@ -156,14 +161,23 @@ impl Dynamics for TrafficDynamics {
 
     fn save(&self) -> Result<Vec<u8>, DynamicsError> {
         let saved = (self.traffic.state(), &self.vehicles, &self.pedestrians);
-        postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))
+        let mut bytes =
+            postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
+        bytes.extend(checksum(&bytes));
+        Ok(bytes)
     }
 
     fn restore(&mut self, _: &World, saved: &[u8]) -> Result<(), DynamicsError> {
-        let (state, vehicles, pedestrians) =
-            postcard::from_bytes(saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
-        if !self.traffic.set_state(state) {
-            return Err(DynamicsError::Saved("it belongs to another network".to_owned()));
+        let refused = |why: &str| DynamicsError::Saved(why.to_owned());
+        let (bytes, sum) = saved.split_last_chunk::<8>().ok_or_else(|| refused("it is cut off"))?;
+        if checksum(bytes) != *sum {
+            return Err(refused("its checksum does not fit its bytes, so it is damaged"));
+        }
+        let (state, vehicles, pedestrians): (_, Vec<EntityId>, Vec<EntityId>) =
+            postcard::from_bytes(bytes).map_err(|error| refused(&error.to_string()))?;
+        let as_many = (vehicles.len(), pedestrians.len()) == (self.vehicles.len(), self.pedestrians.len());
+        if !as_many || !self.traffic.set_state(state) {
+            return Err(refused("it belongs to another network or configuration"));
         }
         (self.vehicles, self.pedestrians) = (vehicles, pedestrians);
         self.revision = None;

@@ -279,7 +279,10 @@ impl Traffic {
     /// Takes up a saved state; false if it is not that of this network and configuration.
     pub(crate) fn set_state(&mut self, state: State) -> bool {
         let vehicles = state.vehicles.fits(&self.tracks);
+        let people = state.pedestrians.walkers.len();
         let fits = vehicles
+            && state.vehicles.paths.len() == self.placed.vehicles as usize
+            && people == self.placed.pedestrians as usize
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()
             && state.pedestrians.fits(&self.ways, self.walkers.len());
