@@ -9,9 +9,9 @@ use simworld_traffic::{Body, Traffic, TrafficConfig};
 
 fn grid(columns: usize, vehicles: u32, pedestrians: u32) -> Traffic {
     let plan = StreetPlan::grid(columns, columns, 130.0);
-    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network");
     let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
-    Traffic::new(Arc::new(network), &config, Seed(11)).unwrap()
+    Traffic::new(Arc::new(network), &config, Seed(11)).expect("the settings are in range")
 }
 
 fn solid(body: &Body) -> Obb {
@@ -19,7 +19,7 @@ fn solid(body: &Body) -> Obb {
 }
 
 /// Pairs of vehicles whose bodies overlap, by exact rectangles over a sweep along x.
-fn collisions(bodies: &mut Vec<Body>) -> usize {
+fn collisions(bodies: &mut [Body]) -> usize {
     bodies.sort_by(|a, b| a.pose.translation.x.total_cmp(&b.pose.translation.x));
     let mut count = 0;
     for (index, a) in bodies.iter().enumerate() {

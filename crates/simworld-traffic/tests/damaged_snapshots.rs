@@ -11,12 +11,13 @@ use simworld_traffic::{TrafficConfig, TrafficDynamics};
 
 /// A small city after three seconds.
 fn started(vehicles: u32) -> (World, TrafficDynamics) {
-    let network = RoadNetwork::derive(&StreetPlan::grid(2, 2, 60.0), &NetworkConfig::default()).unwrap();
+    let network = RoadNetwork::derive(&StreetPlan::grid(2, 2, 60.0), &NetworkConfig::default())
+        .expect("a grid is a network");
     let mut world = World::new();
     world.set_roads(Arc::new(network));
     let config = TrafficConfig { vehicles, pedestrians: 5, ..TrafficConfig::default() };
-    let mut traffic = TrafficDynamics::new(&mut world, &config, Seed(1)).unwrap();
-    (0..30).for_each(|_| traffic.step(&mut world, 0.1).unwrap());
+    let mut traffic = TrafficDynamics::new(&mut world, &config, Seed(1)).expect("it has roads");
+    (0..30).for_each(|_| traffic.step(&mut world, 0.1).expect("a step succeeds"));
     (world, traffic)
 }
 

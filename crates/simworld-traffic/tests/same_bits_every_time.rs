@@ -10,7 +10,10 @@ use simworld_core::seed::Seed;
 use simworld_traffic::{Traffic, TrafficConfig, TrafficDynamics, TrafficError};
 
 fn network() -> Arc<RoadNetwork> {
-    Arc::new(RoadNetwork::derive(&StreetPlan::grid(3, 4, 115.0), &NetworkConfig::default()).unwrap())
+    Arc::new(
+        RoadNetwork::derive(&StreetPlan::grid(3, 4, 115.0), &NetworkConfig::default())
+            .expect("a grid is a network"),
+    )
 }
 
 #[test]

@@ -187,7 +187,6 @@ fn has_room(
 }
 
 /// Whether somebody with priority on another way would have to brake.
-#[expect(clippy::too_many_arguments, reason = "two vehicles, two ways and what both see")]
 fn is_hindered(
     manager: &VehicleManager,
     tracks: &Tracks,

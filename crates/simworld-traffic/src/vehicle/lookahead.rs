@@ -35,7 +35,7 @@ pub(super) fn acceleration(
         Some(way) => view.across(manager, tracks, sight, way, to_end, vehicle.s, leader.is_none()),
         None if vehicle.next == NONE => view.stop_in(to_end, idm.gap),
         None if vehicle.holding != vehicle.next => view.stop_in(to_end, idm.gap),
-        None => view.into_junction(manager, tracks, sight, vehicle.next as usize, to_end, leader.is_none()),
+        None => view.enter_junction(manager, tracks, sight, vehicle.next as usize, to_end, leader.is_none()),
     }
     if !sight.obstacles.is_empty() {
         view.beware(sight, track, vehicle.s, idm.gap);
@@ -77,7 +77,7 @@ impl View {
     }
 
     /// On a lane with leave to cross: what is on the way, and behind it.
-    fn into_junction(
+    fn enter_junction(
         &mut self,
         manager: &VehicleManager,
         tracks: &Tracks,
