@@ -3,7 +3,7 @@
 use std::fmt;
 
 use comfy_table::presets::UTF8_FULL_CONDENSED;
-use comfy_table::{Attribute, Cell, CellAlignment, Table};
+use comfy_table::{Cell, CellAlignment, Table};
 use serde::{Deserialize, Serialize};
 use simworld_core::hash::StateDigest;
 use simworld_core::seam::Metric;
@@ -59,8 +59,8 @@ impl fmt::Display for FigureOfSeeds {
 
 /// The columns of the table: heading, and the metric's name.
 const COLUMNS: [(&str, &str); 5] = [
-    ("profit $", "total_profit"),
-    ("successful orders", "successful_orders"),
+    ("profit $", "profit"),
+    ("successful orders", "orders_per_agent"),
     ("energy efficiency", "energy_per_dollar"),
     ("sharing", "sharing_count"),
     ("investment", "investment_count"),
@@ -99,12 +99,12 @@ impl RunReport {
     pub fn table(&self) -> Table {
         let right = |text: &str| Cell::new(text).set_alignment(CellAlignment::Right);
         let mut table = Table::new();
-        table.load_preset(UTF8_FULL_CONDENSED);
+        table.load_style(UTF8_FULL_CONDENSED);
         table.set_header([""].into_iter().chain(COLUMNS.map(|(heading, _)| heading)));
         let ours = COLUMNS.map(|(_, name)| self.figure(name).map_or("-".to_owned(), |figure| figure.to_string()));
         let label = format!("simworld: {}", self.players);
         table.add_row(
-            [Cell::new(label).add_attribute(Attribute::Bold)].into_iter().chain(ours.iter().map(|cell| right(cell))),
+            [Cell::new(label)].into_iter().chain(ours.iter().map(|cell| right(cell))),
         );
         for (model, cells) in PAPER {
             let label = Cell::new(format!("paper: {model}"));
@@ -116,7 +116,7 @@ impl RunReport {
     /// Every metric of the task, for each seed and over all.
     pub fn details(&self) -> Table {
         let mut table = Table::new();
-        table.load_preset(UTF8_FULL_CONDENSED);
+        table.load_style(UTF8_FULL_CONDENSED);
         let seeds = self.seeds.iter().map(|seed| format!("seed {}", seed.seed.0));
         table.set_header(
             ["metric".to_owned(), "unit".to_owned()].into_iter().chain(seeds).chain(["mean ± std".to_owned()]),

@@ -1,0 +1,184 @@
+//! Puts the parts together: a city, its traffic, couriers with physical bodies, and the task.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use simworld_agents::delivery::{DeliveryConfig, DeliveryTask, Persona};
+use simworld_agents::episode::{Agent, Episode, EpisodeError};
+use simworld_agents::executor::RuleExecutor;
+use simworld_citygen::python::{FormatError, Warning, read_roads};
+use simworld_citygen::{City, CityError};
+use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::net::{NetworkError, WaypointConfig, WaypointGraph};
+use simworld_core::scene::{EntityDesc, EntityKind, Place, Shape, World, WorldError};
+use simworld_core::seam::TaskError;
+use simworld_core::seed::Seed;
+use simworld_core::simulation::Simulation;
+use simworld_physics::{HumanoidConfig, PhysicsDynamics, PhysicsError};
+use simworld_traffic::{TrafficConfig, TrafficDynamics, TrafficError};
+use thiserror::Error;
+
+use super::RunConfig;
+
+/// Why the parts do not fit together.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum AssembleError {
+    /// The file of roads cannot be opened.
+    #[error("{path}: {source}")]
+    RoadsFile {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The file of roads cannot be read.
+    #[error("{path}: {source}")]
+    Roads {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: FormatError,
+    },
+    /// No city.
+    #[error(transparent)]
+    City(#[from] CityError),
+    /// No traffic.
+    #[error(transparent)]
+    Traffic(#[from] TrafficError),
+    /// No physics.
+    #[error(transparent)]
+    Physics(#[from] PhysicsError),
+    /// No walkways.
+    #[error(transparent)]
+    Network(#[from] NetworkError),
+    /// The world refused an entity.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The task refused its settings.
+    #[error(transparent)]
+    Task(#[from] TaskError),
+    /// The episode could not begin.
+    #[error(transparent)]
+    Episode(#[from] EpisodeError),
+    /// Couriers have nowhere to stand.
+    #[error("the city has no place where couriers could begin: give it more roads (city.roads.count)")]
+    NoPlace,
+}
+
+/// A run ready to be stepped.
+pub struct Assembly {
+    /// The episode.
+    pub episode: Episode<DeliveryTask>,
+    /// The couriers' bodies.
+    pub couriers: Vec<EntityId>,
+}
+
+/// The city of a configuration, the same for all its seeds; and what was mended in its file of roads.
+///
+/// # Errors
+/// The file of roads cannot be used, or a setting is out of range.
+pub fn make_city(config: &RunConfig) -> Result<(City, Vec<Warning>), AssembleError> {
+    let seed = Seed(config.seed).stream("city").seed();
+    let Some(path) = &config.roads else { return Ok((City::generate(&config.city, seed)?, Vec::new())) };
+    let bytes = std::fs::read(path).map_err(|source| AssembleError::RoadsFile { path: path.clone(), source })?;
+    let (plan, warnings) =
+        read_roads(&bytes).map_err(|source| AssembleError::Roads { path: path.clone(), source })?;
+    Ok((City::from_plan(plan, &config.city, seed)?, warnings))
+}
+
+/// The run of one seed in that city.
+///
+/// # Errors
+/// A part that cannot be made.
+pub fn assemble(config: &RunConfig, city: &City, seed: Seed) -> Result<Assembly, AssembleError> {
+    let mut world = World::new();
+    city.populate(&mut world)?;
+    let traffic_config =
+        TrafficConfig { vehicles: config.vehicles, pedestrians: config.pedestrians, ..config.traffic.clone() };
+    let traffic = TrafficDynamics::new(&mut world, &traffic_config, seed)?;
+    let couriers = spawn_couriers(&mut world, city, config.agents, seed)?;
+    let mut physics = PhysicsDynamics::new(config.physics.clone())?;
+    for courier in &couriers {
+        physics.add_humanoid(&world, *courier, HumanoidConfig::default())?;
+    }
+    world.finish_step();
+    let mut simulation = Simulation::new(world);
+    simulation.add_dynamics("traffic", Box::new(traffic));
+    simulation.add_dynamics("physics", Box::new(physics));
+    simulation.set_trail_interval(0); // the episode keeps the trail, task and executors included
+    let delivery = DeliveryConfig { steps: config.steps, ..config.delivery.clone() };
+    let task = DeliveryTask::new(delivery)?;
+    let agents = make_agents(config, city, &couriers, seed)?;
+    let mut episode = Episode::new(simulation, task, agents, seed.stream("delivery").seed())?;
+    episode.set_trail_interval(config.digest_interval);
+    Ok(Assembly { episode, couriers })
+}
+
+/// Couriers begin before restaurants and stores, one at each door in turn, out of each other's way.
+fn spawn_couriers(
+    world: &mut World,
+    city: &City,
+    count: u32,
+    seed: Seed,
+) -> Result<Vec<EntityId>, AssembleError> {
+    let mut doors: Vec<_> = city
+        .buildings
+        .iter()
+        .filter(|building| matches!(building.place, Place::Restaurant | Place::Store | Place::Office))
+        .collect();
+    let mut rng = seed.stream("couriers").rng();
+    rng.shuffle(&mut doors);
+    if doors.is_empty() {
+        return Err(AssembleError::NoPlace);
+    }
+    let mut couriers = Vec::with_capacity(count as usize);
+    for index in 0..count as usize {
+        let door = doors[index % doors.len()];
+        // Those who share a door stand in a row along the sidewalk.
+        let place = 0.8 * (index / doors.len()) as f64;
+        let along = simworld_core::geometry::direction(door.facing + std::f64::consts::FRAC_PI_2);
+        let spot = door.access + along * place;
+        let pose = pose_facing(Point3::new(spot.x, spot.y, 0.0), door.facing);
+        let height = rng.normal_clamped(1.74, 0.08, 1.55, 1.95);
+        let desc = EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.25, height })
+            .named(format!("courier {index}"))
+            .colored([0.85, 0.35, 0.05]);
+        couriers.push(world.spawn(desc)?);
+    }
+    Ok(couriers)
+}
+
+fn make_agents(
+    config: &RunConfig,
+    city: &City,
+    couriers: &[EntityId],
+    seed: Seed,
+) -> Result<Vec<Agent<DeliveryTask>>, AssembleError> {
+    let ways = Arc::new(WaypointGraph::walkable(&city.network, &WaypointConfig::default())?);
+    let minds = seed.stream("minds");
+    let agent = |(index, id): (usize, &EntityId)| {
+        let kind = config.policies[index % config.policies.len()];
+        let stream = minds.indexed(index as u64);
+        let mut rng = stream.named("persona").rng();
+        let mut trait_value = || rng.normal_clamped(0.0, 0.4, -1.0, 1.0);
+        let persona = Persona {
+            openness: trait_value(),
+            conscientiousness: trait_value(),
+            extraversion: trait_value(),
+            agreeableness: trait_value(),
+            neuroticism: trait_value(),
+        };
+        Agent {
+            id: *id,
+            mind: kind.mind(persona, stream),
+            planner: Box::new(TmpPlanner),
+            executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
+        }
+    };
+    Ok(couriers.iter().enumerate().map(agent).collect())
+}
+
+struct TmpPlanner;
+impl simworld_core::seam::Planner for TmpPlanner { fn plan(&mut self, i: &simworld_core::intent::Intent, _: &dyn simworld_core::scene::Scene, _: EntityId) -> Result<simworld_core::seam::Plan, simworld_core::seam::PlanError> { Err(simworld_core::seam::PlanError::Call{call:i.to_string(),reason:String::new()}) } }
