@@ -103,7 +103,6 @@ pub fn assemble(config: &RunConfig, city: &City, seed: Seed) -> Result<Assembly,
     for courier in &couriers {
         physics.add_humanoid(&world, *courier, HumanoidConfig::default())?;
     }
-    world.finish_step();
     let mut simulation = Simulation::new(world);
     simulation.add_dynamics("traffic", Box::new(traffic));
     simulation.add_dynamics("physics", Box::new(physics));
