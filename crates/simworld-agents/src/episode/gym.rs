@@ -61,7 +61,10 @@ impl<T: Task, O: Observer<Observation: Default>> ParallelEnv for GymEpisode<T, O
         self.observe_all()
     }
 
-    fn step(&mut self, actions: &BTreeMap<EntityId, Intent>) -> Result<ParallelStep<Self::Observation>, EnvError> {
+    fn step(
+        &mut self,
+        actions: &BTreeMap<EntityId, Intent>,
+    ) -> Result<ParallelStep<Self::Observation>, EnvError> {
         let episode = self.episode.as_mut().ok_or(EnvError::NotReset)?;
         if episode.is_over() {
             return Err(EnvError::NotReset);

@@ -69,7 +69,12 @@ impl<T: Task> Episode<T> {
     ///
     /// # Errors
     /// The task refuses the scene, or the world refuses what the task wants in it.
-    pub fn new(simulation: Simulation, task: T, agents: Vec<Agent<T>>, seed: Seed) -> Result<Self, EpisodeError> {
+    pub fn new(
+        simulation: Simulation,
+        task: T,
+        agents: Vec<Agent<T>>,
+        seed: Seed,
+    ) -> Result<Self, EpisodeError> {
         let ids: Vec<EntityId> = agents.iter().map(|agent| agent.id).collect();
         let mut episode = Self {
             returns: vec![0.0; ids.len()],
@@ -199,7 +204,8 @@ impl<T: Task> Episode<T> {
         let calls = self.task.calls();
         let mut index = 0;
         while index < self.intents.len() {
-            let for_task = matches!(&self.intents[index].1, Intent::Call { name, .. } if calls.contains(&name.as_str()));
+            let for_task =
+                matches!(&self.intents[index].1, Intent::Call { name, .. } if calls.contains(&name.as_str()));
             if for_task {
                 index += 1;
             } else {

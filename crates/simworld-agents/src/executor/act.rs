@@ -9,7 +9,13 @@ use super::{RuleExecutor, Stage};
 
 impl RuleExecutor {
     /// Tells the action in one step and looks for its effect in the next.
-    pub(super) fn act(&mut self, scene: &dyn Scene, who: EntityId, action: Action, out: &mut Vec<Action>) -> Progress {
+    pub(super) fn act(
+        &mut self,
+        scene: &dyn Scene,
+        who: EntityId,
+        action: Action,
+        out: &mut Vec<Action>,
+    ) -> Progress {
         if self.state.stage == Stage::Acted {
             return match missing_effect(scene, who, &action) {
                 None => self.next_step(),

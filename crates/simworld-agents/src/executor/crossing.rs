@@ -18,11 +18,19 @@ const PASSAGE: f64 = 2.5;
 
 /// Whether to begin: on walk where there is a signal, in a gap where there is none; never into a vehicle that stands on the
 /// strip.
-pub(super) fn may_begin(scene: &dyn Scene, me: &EntityRef<'_>, id: CrossingId, to: Point2, speed: f64) -> bool {
+pub(super) fn may_begin(
+    scene: &dyn Scene,
+    me: &EntityRef<'_>,
+    id: CrossingId,
+    to: Point2,
+    speed: f64,
+) -> bool {
     let Some(crossing) = scene.roads().and_then(|roads| roads.crossings.get(id.index())) else { return true };
     let duration = (crossing.end - crossing.start).norm() / speed.max(0.1);
     match crossing.signal {
-        Some(group) => scene.signals().get(group.index()) == Some(&Aspect::Green) && is_clear(scene, me, to, 0.0),
+        Some(group) => {
+            scene.signals().get(group.index()) == Some(&Aspect::Green) && is_clear(scene, me, to, 0.0)
+        }
         None => is_clear(scene, me, to, duration + MARGIN),
     }
 }

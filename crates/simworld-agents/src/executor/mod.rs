@@ -89,7 +89,13 @@ impl RuleExecutor {
 
     /// An executor with settings of one's own.
     pub fn with_config(ways: Option<Arc<WaypointGraph>>, config: ExecutorConfig) -> Self {
-        Self { config, ways, state: State::default(), scratch: RouteScratch::default(), route: Route::default() }
+        Self {
+            config,
+            ways,
+            state: State::default(),
+            scratch: RouteScratch::default(),
+            route: Route::default(),
+        }
     }
 
     /// Whether it has nothing to do.

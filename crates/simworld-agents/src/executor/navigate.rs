@@ -197,7 +197,12 @@ impl RuleExecutor {
 }
 
 /// The route less a first and a last waypoint that would mean going back; crossings are never cut short.
-fn trimmed<'a>(ways: &WaypointGraph, route: &'a [WaypointId], here: Point2, goal: Point2) -> &'a [WaypointId] {
+fn trimmed<'a>(
+    ways: &WaypointGraph,
+    route: &'a [WaypointId],
+    here: Point2,
+    goal: Point2,
+) -> &'a [WaypointId] {
     let position = |id: WaypointId| ways.waypoint(id).position;
     let is_walkway = |a, b| ways.edge(a, b).is_some_and(|edge| edge.crossing.is_none());
     let mut route = route;
