@@ -27,6 +27,9 @@ pub enum Command {
         id: EntityId,
         /// What it was.
         desc: Box<EntityDesc>,
+        /// What hung on it, with its bonds.
+        #[serde(default)]
+        load: Vec<(EntityId, Attachment)>,
     },
     /// Takes an entity out.
     Remove {
@@ -39,6 +42,17 @@ pub enum Command {
         id: EntityId,
         /// Where to.
         pose: Pose,
+    },
+    /// Puts an entity back where it was, with the velocity and the bond it had.
+    Reset {
+        /// Which.
+        id: EntityId,
+        /// Where to.
+        pose: Pose,
+        /// How it moves.
+        twist: Twist,
+        /// On what it hangs, if on anything.
+        bond: Option<Attachment>,
     },
     /// Sets or, with `None`, removes an attribute.
     SetAttribute {
@@ -122,26 +136,33 @@ impl World {
                 let id = self.spawn((**desc).clone())?;
                 return Ok(Applied { spawned: Some(id), undo: Some(Command::Remove { id }) });
             }
-            Command::Respawn { id, desc } => {
-                self.respawn(*id, (**desc).clone())?;
+            Command::Respawn { id, desc, load } => {
+                self.respawn_loaded(*id, (**desc).clone(), load)?;
                 return Ok(Applied { spawned: Some(*id), undo: Some(Command::Remove { id: *id }) });
             }
             Command::Remove { id } => {
+                let load = self.load(*id);
                 let desc = Box::new(self.remove(*id)?);
-                Some(Command::Respawn { id: *id, desc })
+                Some(Command::Respawn { id: *id, desc, load })
             }
             Command::Move { id, pose } => {
-                let old = *self.entity(*id).ok_or(WorldError::Missing { id: *id })?.pose;
+                let undo = self.reset_of(*id)?;
                 self.set_motion(*id, *pose, Twist::ZERO)?;
-                Some(Command::Move { id: *id, pose: old })
+                Some(undo)
+            }
+            Command::Reset { id, pose, twist, bond } => {
+                let undo = self.reset_of(*id)?;
+                self.reset(*id, *pose, *twist, *bond)?;
+                Some(undo)
             }
             Command::SetAttribute { id, key, value } => {
                 let old = self.set_attribute(*id, key, value.clone())?;
                 Some(Command::SetAttribute { id: *id, key: key.clone(), value: old })
             }
             Command::Attach { child, bond } => {
-                let old = self.attach(*child, *bond)?;
-                Some(Command::Attach { child: *child, bond: old })
+                let undo = self.reset_of(*child)?;
+                self.attach(*child, *bond)?;
+                Some(undo)
             }
             Command::SetEnvironment(environment) => {
                 Some(Command::SetEnvironment(self.set_environment(*environment)?))
@@ -156,5 +177,12 @@ impl World {
             }
         };
         Ok(Applied { spawned: None, undo })
+    }
+
+    /// The command that brings an entity back to where it is now.
+    fn reset_of(&self, id: EntityId) -> Result<Command, WorldError> {
+        let entity = self.entity(id).ok_or(WorldError::Missing { id })?;
+        let (pose, twist) = (*entity.pose, *entity.twist);
+        Ok(Command::Reset { id, pose, twist, bond: entity.attachment.copied() })
     }
 }

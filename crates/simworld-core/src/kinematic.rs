@@ -104,6 +104,9 @@ impl Embodiment for KinematicBody {
 }
 
 /// Moves bodies that move themselves: any [`Embodiment`] with its own [`advance`](Embodiment::advance).
+///
+/// A body that was moved from outside goes on from where it was put, if it can be restored; one that hangs on a
+/// carrier rests.
 #[derive(Default)]
 pub struct KinematicDynamics {
     bodies: BTreeMap<EntityId, Box<dyn Embodiment>>,
@@ -119,10 +122,24 @@ impl KinematicDynamics {
     pub fn insert(&mut self, id: EntityId, body: Box<dyn Embodiment>) -> Option<Box<dyn Embodiment>> {
         self.bodies.insert(id, body)
     }
+
+    /// Takes up where bodies were put since the last step, before any of them acts.
+    fn follow(&mut self, world: &World) {
+        for (id, body) in &mut self.bodies {
+            let Some(entity) = world.entity(*id) else { continue };
+            let found = BodyState { pose: *entity.pose, twist: *entity.twist };
+            if found != body.state() {
+                let saved = body.save();
+                body.restore(&found, &saved);
+            }
+        }
+    }
 }
 
 impl Dynamics for KinematicDynamics {
     fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
+        self.bodies.retain(|id, _| world.entity(*id).is_some());
+        self.follow(world);
         let mut failures = Vec::new();
         for (who, action) in world.actuations() {
             if let Some(body) = self.bodies.get_mut(who)
@@ -136,8 +153,11 @@ impl Dynamics for KinematicDynamics {
         for failure in failures {
             world.emit(failure);
         }
-        self.bodies.retain(|id, _| world.entity(*id).is_some());
         for (id, body) in &mut self.bodies {
+            let Some(entity) = world.entity(*id) else { continue };
+            if entity.attachment.is_some() {
+                continue; // its carrier moves it
+            }
             body.advance(dt);
             let BodyState { pose, twist } = body.state();
             world.set_motion(*id, pose, twist)?;

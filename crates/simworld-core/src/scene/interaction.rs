@@ -178,8 +178,22 @@ impl World {
                 state: "its hands are full, or it rides already",
             });
         }
+        self.check_not_carrying(who, item, wanted.verb)?;
         let parent_from_body = Pose::from_parts(wanted.offset.into(), nalgebra::UnitQuaternion::identity());
         self.bond(item, Some(Attachment { parent: who, role: wanted.role, parent_from_body }));
+        Ok(())
+    }
+
+    /// Nobody lifts the chair he sits on, nor sits down on the chair he carries.
+    fn check_not_carrying(
+        &self,
+        who: EntityId,
+        object: EntityId,
+        verb: &'static str,
+    ) -> Result<(), InteractionError> {
+        if self.hangs_on(who, object) || self.hangs_on(object, who) {
+            return Err(InteractionError::Busy { who, verb, state: "one of the two carries the other" });
+        }
         Ok(())
     }
 
@@ -210,6 +224,7 @@ impl World {
         if let Some(by) = self.attached(object, wanted.role) {
             return Err(self.taken(object, by));
         }
+        self.check_not_carrying(who, object, wanted.verb)?;
         let seat = self.find(object)?;
         let height =
             if wanted.role == Role::Seated { (seat.info.shape.size().z * 0.5).min(0.45) } else { 0.0 };

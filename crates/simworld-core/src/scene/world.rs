@@ -1,10 +1,13 @@
 //! The world store: entities in parallel arrays, filed in a loose quadtree, changed only by commands and by
 //! dynamics.
 
+mod bonds;
+mod snapshot;
+
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+pub use snapshot::WorldSnapshot;
 use thiserror::Error;
 
 use super::quadtree::Quadtree;
@@ -43,6 +46,12 @@ pub enum WorldError {
         /// Up, m.
         z: f64,
     },
+    /// The rotation of a pose is not one.
+    #[error("a quaternion of norm {norm} is no rotation: normalise it")]
+    Rotation {
+        /// Its norm.
+        norm: f64,
+    },
     /// The velocity is not finite.
     #[error("the velocity of {id} is not finite")]
     Twist {
@@ -59,6 +68,12 @@ pub enum WorldError {
         child: EntityId,
         /// The carrier asked for.
         parent: EntityId,
+    },
+    /// Something that is to be loaded onto a carrier hangs on one already.
+    #[error("{child} hangs on something already: free it first")]
+    Bonded {
+        /// The load.
+        child: EntityId,
     },
     /// A slot that should be free is in use.
     #[error("{id} is in use: only a removed entity can be restored")]
@@ -120,23 +135,6 @@ pub struct World {
     events: Vec<Event>,
 }
 
-/// A [`World`] as data: serialise it, and [restore](World::restore) goes on bit for bit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct WorldSnapshot {
-    clock: Clock,
-    environment: Environment,
-    signals: Vec<Aspect>,
-    roads: Option<Arc<RoadNetwork>>,
-    generations: Vec<u32>,
-    entities: Vec<Option<EntityDesc>>,
-    free: Vec<u32>,
-    tree_width: f64,
-    revision: u64,
-    actuations: Vec<(EntityId, Action)>,
-    intents: Vec<(EntityId, Intent)>,
-    events: Vec<Event>,
-}
-
 impl World {
     /// An empty world at tick zero, in clear weather, stepping by 0.1 s.
     pub fn new() -> Self {
@@ -187,7 +185,7 @@ impl World {
     /// # Errors
     /// A pose out of the world, a shape that is no solid, or a carrier that does not exist.
     pub fn spawn(&mut self, desc: EntityDesc) -> Result<EntityId, WorldError> {
-        self.check(&desc)?;
+        self.check(self.next_id(), &desc)?;
         let slot = self.free.pop().unwrap_or_else(|| self.new_slot());
         Ok(self.fill(slot, desc))
     }
@@ -197,7 +195,7 @@ impl World {
     /// # Errors
     /// As [`spawn`](Self::spawn), and if the slot was taken by somebody else since.
     pub fn respawn(&mut self, id: EntityId, desc: EntityDesc) -> Result<(), WorldError> {
-        self.check(&desc)?;
+        self.check(id, &desc)?;
         let index = id.index() as u32;
         let Some(position) = self.free.iter().position(|slot| *slot == index) else {
             return Err(WorldError::InUse { id });
@@ -238,9 +236,7 @@ impl World {
     pub fn set_motion(&mut self, id: EntityId, pose: Pose, twist: Twist) -> Result<(), WorldError> {
         self.check_alive(id)?;
         check_pose(&pose)?;
-        if !twist.linear.iter().chain(twist.angular.iter()).all(|number| number.is_finite()) {
-            return Err(WorldError::Twist { id });
-        }
+        check_twist(id, &twist)?;
         self.twists[id.index()] = twist;
         self.place(id, pose);
         Ok(())
@@ -263,39 +259,6 @@ impl World {
             Some(value) => info.attributes.insert(key.to_owned(), value),
             None => info.attributes.remove(key),
         })
-    }
-
-    /// Hangs an entity on a carrier, or frees it with `None`; returns the old bond.
-    ///
-    /// # Errors
-    /// No such entity or carrier, or a carrier that hangs on the entity itself.
-    pub fn attach(
-        &mut self,
-        child: EntityId,
-        bond: Option<Attachment>,
-    ) -> Result<Option<Attachment>, WorldError> {
-        self.check_alive(child)?;
-        if let Some(bond) = &bond {
-            self.check_alive(bond.parent)?;
-            let mut above = Some(bond.parent);
-            while let Some(ancestor) = above {
-                if ancestor == child {
-                    return Err(WorldError::Cycle { child, parent: bond.parent });
-                }
-                above = self.bonds[ancestor.index()].map(|bond| bond.parent);
-            }
-        }
-        let old = self.bonds[child.index()];
-        self.bond(child, bond);
-        Ok(old)
-    }
-
-    pub(super) fn bond(&mut self, child: EntityId, bond: Option<Attachment>) {
-        self.set_bond(child.index(), bond);
-        if let Some(bond) = bond {
-            let pose = self.poses[bond.parent.index()] * bond.parent_from_body;
-            self.place(child, pose);
-        }
     }
 
     /// Moves a living entity to a checked pose.
@@ -378,27 +341,6 @@ impl World {
         self.events.clear();
     }
 
-    /// What hangs on others goes where they went; carriers come first, whatever their slots.
-    fn follow_carriers(&mut self) {
-        for index in 0..self.bonded.len() {
-            let slot = self.bonded[index] as usize;
-            let pose = self.carried_pose(slot);
-            let id = EntityId::new(slot as u32, self.generations[slot]);
-            let twist = self.bonds[slot].map_or(Twist::ZERO, |bond| self.twists[bond.parent.index()]);
-            if pose != self.poses[slot] || twist != self.twists[slot] {
-                self.twists[slot] = twist;
-                self.place(id, pose);
-            }
-        }
-    }
-
-    fn carried_pose(&self, slot: usize) -> Pose {
-        match &self.bonds[slot] {
-            Some(bond) => self.carried_pose(bond.parent.index()) * bond.parent_from_body,
-            None => self.poses[slot],
-        }
-    }
-
     fn renew_digests(&mut self) {
         let mut touched = std::mem::take(&mut self.touched);
         for slot in touched.drain(..) {
@@ -413,96 +355,23 @@ impl World {
         self.touched = touched;
     }
 
-    // ---- snapshots ----
-
-    /// The whole state as data.
-    pub fn snapshot(&self) -> WorldSnapshot {
-        WorldSnapshot {
-            clock: self.clock,
-            environment: self.environment,
-            signals: self.signals.clone(),
-            roads: self.roads.clone(),
-            generations: self.generations.clone(),
-            entities: (0..self.infos.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
-            free: self.free.clone(),
-            tree_width: self.tree.width(),
-            revision: self.revision,
-            actuations: self.actuations.clone(),
-            intents: self.intents.clone(),
-            events: self.events.clone(),
-        }
-    }
-
-    /// The world of a snapshot; it goes on bit for bit as the one the snapshot was taken of.
-    ///
-    /// # Errors
-    /// A snapshot that contradicts itself, or holds an impossible entity.
-    pub fn restore(snapshot: WorldSnapshot) -> Result<Self, WorldError> {
-        let damaged = |what| WorldError::Snapshot { what };
-        if snapshot.generations.len() != snapshot.entities.len() {
-            return Err(damaged("generations and entities differ in number"));
-        }
-        if !(snapshot.tree_width.is_finite() && snapshot.tree_width >= 8.0) {
-            return Err(damaged("the width of its quadtree is no size"));
-        }
-        let vacant = snapshot.entities.iter().filter(|entity| entity.is_none()).count();
-        let is_vacant = |slot: &u32| snapshot.entities.get(*slot as usize).is_some_and(Option::is_none);
-        let mut distinct = snapshot.free.clone();
-        distinct.sort_unstable();
-        distinct.dedup();
-        if distinct.len() != vacant || snapshot.free.len() != vacant || !distinct.iter().all(is_vacant) {
-            return Err(damaged("the list of free slots does not fit the entities"));
-        }
-        let groups = snapshot.roads.as_ref().map_or(0, |roads| roads.signal_groups());
-        if snapshot.signals.len() != groups {
-            return Err(damaged("its signals do not fit its roads"));
-        }
-        let mut world = Self {
-            clock: snapshot.clock,
-            environment: snapshot.environment,
-            roads: snapshot.roads,
-            signals: snapshot.signals,
-            actuations: snapshot.actuations,
-            intents: snapshot.intents,
-            events: snapshot.events,
-            tree: Quadtree::with_width(snapshot.tree_width),
-            ..Self::default()
-        };
-        for _ in &snapshot.entities {
-            world.new_slot();
-        }
-        world.generations = snapshot.generations;
-        world.free = snapshot.free;
-        let mut bonds = Vec::new();
-        for (slot, desc) in snapshot.entities.into_iter().enumerate() {
-            if let Some(mut desc) = desc {
-                bonds.push((slot, desc.attachment.take()));
-                world.check(&desc)?;
-                world.fill(slot as u32, desc);
-            }
-        }
-        for (slot, bond) in bonds {
-            let child = EntityId::new(slot as u32, world.generations[slot]);
-            let pose = world.poses[slot];
-            if bond.is_some() {
-                world.attach(child, bond)?;
-                world.place(child, pose);
-            }
-        }
-        world.renew_digests();
-        world.revision = snapshot.revision;
-        Ok(world)
-    }
-
     // ---- inner workings ----
 
-    fn check(&self, desc: &EntityDesc) -> Result<(), WorldError> {
+    fn check(&self, id: EntityId, desc: &EntityDesc) -> Result<(), WorldError> {
         check_pose(&desc.pose)?;
+        check_twist(id, &desc.twist)?;
         desc.info.shape.validate()?;
         if let Some(bond) = &desc.attachment {
             self.check_alive(bond.parent)?;
+            check_pose(&bond.parent_from_body)?;
         }
         Ok(())
+    }
+
+    /// The id that the next spawn gives.
+    fn next_id(&self) -> EntityId {
+        let slot = self.free.last().map_or(self.infos.len(), |slot| *slot as usize);
+        EntityId::new(slot as u32, self.generations.get(slot).copied().unwrap_or(0))
     }
 
     fn check_alive(&self, id: EntityId) -> Result<(), WorldError> {
@@ -567,18 +436,6 @@ impl World {
         self.tree = tree;
     }
 
-    fn set_bond(&mut self, slot: usize, bond: Option<Attachment>) {
-        self.bonds[slot] = bond;
-        match (self.bonded.binary_search(&(slot as u32)), bond) {
-            (Err(position), Some(_)) => self.bonded.insert(position, slot as u32),
-            (Ok(position), None) => {
-                self.bonded.remove(position);
-            }
-            _ => {}
-        }
-        self.touch(slot);
-    }
-
     fn touch(&mut self, slot: usize) {
         if !self.is_touched[slot] {
             self.is_touched[slot] = true;
@@ -614,11 +471,19 @@ impl World {
     }
 }
 
+fn check_twist(id: EntityId, twist: &Twist) -> Result<(), WorldError> {
+    let finite = twist.linear.iter().chain(twist.angular.iter()).all(|number| number.is_finite());
+    if finite { Ok(()) } else { Err(WorldError::Twist { id }) }
+}
+
 fn check_pose(pose: &Pose) -> Result<(), WorldError> {
     let at = pose.translation.vector;
-    let sound =
-        at.iter().all(|x| x.abs() <= WORLD_LIMIT) && pose.rotation.coords.iter().all(|x| x.is_finite());
-    if sound { Ok(()) } else { Err(WorldError::Pose { x: at.x, y: at.y, z: at.z }) }
+    if !at.iter().all(|x| x.abs() <= WORLD_LIMIT) {
+        return Err(WorldError::Pose { x: at.x, y: at.y, z: at.z });
+    }
+    let norm = pose.rotation.coords.norm();
+    // Single-precision engines normalise to about 1e-7; NaN fails the comparison.
+    if (norm - 1.0).abs() <= 1e-3 { Ok(()) } else { Err(WorldError::Rotation { norm }) }
 }
 
 impl Scene for World {

@@ -2,7 +2,7 @@
 //! does not hold; call them from a test of your own.
 
 use std::collections::BTreeSet;
-use std::fmt::Debug;
+use std::fmt::{Debug, Write};
 use std::ops::ControlFlow;
 
 use crate::action::{Action, ActionKind};
@@ -272,7 +272,8 @@ pub fn check_task(make: impl Fn() -> Box<dyn Task>, scene: &dyn Scene, agents: &
                 .unwrap_or_else(|error| panic!("a step failed: {error}"));
             assert!(outcome.rewards.iter().all(|reward| reward.is_finite()), "a reward is not finite");
             assert!(outcome.rewards.len() <= agents.len(), "more rewards than agents");
-            trace.push_str(&format!("{outcome:?}{:?}{:?}{:?}", out.commands, out.plans, out.events));
+            write!(trace, "{outcome:?}{:?}{:?}{:?}", out.commands, out.plans, out.events)
+                .expect("a string takes whatever is written");
             if outcome.terminated || outcome.truncated {
                 break;
             }

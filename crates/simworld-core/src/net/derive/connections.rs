@@ -146,15 +146,14 @@ fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[Connectio
             if first.from == second.from {
                 continue; // one file of vehicles: the follower sees its leader
             }
-            let touch =
-                first.to == second.to || polyline::distance_between(&first.path, &second.path) < TOUCHING;
+            // Narrow lanes side by side do not touch, or nobody could use them.
+            let near = TOUCHING.min(0.9 * network.lanes[first.from.index()].width);
+            let touch = first.to == second.to || polyline::distance_between(&first.path, &second.path) < near;
             if !touch {
                 continue;
             }
-            let yields = match go_together(network, id, first, second) {
-                true => Some(right_of_way(network, *a) > right_of_way(network, *b)),
-                false => None,
-            };
+            let yields = go_together(network, id, first, second)
+                .then(|| right_of_way(network, *a) > right_of_way(network, *b));
             network.connections[a.index()].conflicts.push(*b);
             network.connections[b.index()].conflicts.push(*a);
             match yields {

@@ -99,7 +99,7 @@ impl WaypointGraph {
         while let Some(best) = scratch.open.pop() {
             let here = best.waypoint as usize;
             if here == to.index() {
-                self.trace(to, scratch, route);
+                trace(to, scratch, route);
                 return true;
             }
             if best.distance > scratch.distance(here) {
@@ -116,14 +116,15 @@ impl WaypointGraph {
         }
         false
     }
+}
 
-    fn trace(&self, to: WaypointId, scratch: &RouteScratch, route: &mut Route) {
-        route.length = scratch.distance(to.index());
-        let mut at = to.0;
-        while at != u32::MAX {
-            route.waypoints.push(WaypointId(at));
-            at = scratch.previous[at as usize];
-        }
-        route.waypoints.reverse();
+/// Writes the way back from the goal, turned round.
+fn trace(to: WaypointId, scratch: &RouteScratch, route: &mut Route) {
+    route.length = scratch.distance(to.index());
+    let mut at = to.0;
+    while at != u32::MAX {
+        route.waypoints.push(WaypointId(at));
+        at = scratch.previous[at as usize];
     }
+    route.waypoints.reverse();
 }

@@ -1,0 +1,116 @@
+//! A world as data, and back.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Quadtree, World, WorldError};
+use crate::action::Action;
+use crate::clock::Clock;
+use crate::environment::Environment;
+use crate::event::Event;
+use crate::id::EntityId;
+use crate::intent::Intent;
+use crate::net::{Aspect, RoadNetwork};
+use crate::scene::EntityDesc;
+
+/// A [`World`] as data: serialise it, and [restore](World::restore) goes on bit for bit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorldSnapshot {
+    clock: Clock,
+    environment: Environment,
+    signals: Vec<Aspect>,
+    roads: Option<Arc<RoadNetwork>>,
+    generations: Vec<u32>,
+    entities: Vec<Option<EntityDesc>>,
+    free: Vec<u32>,
+    tree_width: f64,
+    revision: u64,
+    actuations: Vec<(EntityId, Action)>,
+    intents: Vec<(EntityId, Intent)>,
+    events: Vec<Event>,
+}
+
+impl World {
+    /// The whole state as data.
+    pub fn snapshot(&self) -> WorldSnapshot {
+        WorldSnapshot {
+            clock: self.clock,
+            environment: self.environment,
+            signals: self.signals.clone(),
+            roads: self.roads.clone(),
+            generations: self.generations.clone(),
+            entities: (0..self.infos.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
+            free: self.free.clone(),
+            tree_width: self.tree.width(),
+            revision: self.revision,
+            actuations: self.actuations.clone(),
+            intents: self.intents.clone(),
+            events: self.events.clone(),
+        }
+    }
+
+    /// The world of a snapshot; it goes on bit for bit as the one the snapshot was taken of.
+    ///
+    /// # Errors
+    /// A snapshot that contradicts itself, or holds an impossible entity.
+    pub fn restore(snapshot: WorldSnapshot) -> Result<Self, WorldError> {
+        let damaged = |what| WorldError::Snapshot { what };
+        if snapshot.generations.len() != snapshot.entities.len() {
+            return Err(damaged("generations and entities differ in number"));
+        }
+        if !(snapshot.tree_width.is_finite() && snapshot.tree_width >= 8.0) {
+            return Err(damaged("the width of its quadtree is no size"));
+        }
+        let vacant = snapshot.entities.iter().filter(|entity| entity.is_none()).count();
+        let is_vacant = |slot: &u32| snapshot.entities.get(*slot as usize).is_some_and(Option::is_none);
+        let mut distinct = snapshot.free.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        if distinct.len() != vacant || snapshot.free.len() != vacant || !distinct.iter().all(is_vacant) {
+            return Err(damaged("the list of free slots does not fit the entities"));
+        }
+        if snapshot.environment.validate().is_err() {
+            return Err(damaged("its sun or weather is out of range"));
+        }
+        let groups = snapshot.roads.as_ref().map_or(0, |roads| roads.signal_groups());
+        if snapshot.signals.len() != groups {
+            return Err(damaged("its signals do not fit its roads"));
+        }
+        let mut world = Self {
+            clock: snapshot.clock,
+            environment: snapshot.environment,
+            roads: snapshot.roads,
+            signals: snapshot.signals,
+            actuations: snapshot.actuations,
+            intents: snapshot.intents,
+            events: snapshot.events,
+            tree: Quadtree::with_width(snapshot.tree_width),
+            ..Self::default()
+        };
+        for _ in &snapshot.entities {
+            world.new_slot();
+        }
+        world.generations = snapshot.generations;
+        world.free = snapshot.free;
+        let mut bonds = Vec::new();
+        for (slot, desc) in snapshot.entities.into_iter().enumerate() {
+            if let Some(mut desc) = desc {
+                bonds.push((slot, desc.attachment.take()));
+                world.check(EntityId::new(slot as u32, world.generations[slot]), &desc)?;
+                world.fill(slot as u32, desc);
+            }
+        }
+        for (slot, bond) in bonds {
+            let child = EntityId::new(slot as u32, world.generations[slot]);
+            let pose = world.poses[slot];
+            if bond.is_some() {
+                world.attach(child, bond)?;
+                world.place(child, pose);
+            }
+        }
+        world.renew_digests();
+        world.revision = snapshot.revision;
+        Ok(world)
+    }
+}

@@ -1,0 +1,121 @@
+//! Any command, sound or not, leaves a sound world: a refused one changes nothing, and an undo takes one back.
+
+mod common;
+
+use common::{any_change, any_command, bytes, contents, small_world};
+use proptest::prelude::*;
+use simworld_core::command::Command;
+use simworld_core::geometry::{Pose, Twist, Vector3};
+use simworld_core::hash::StateHash;
+use simworld_core::id::EntityId;
+use simworld_core::scene::{Attachment, Role, Scene, WorldError};
+use simworld_core::testing::check_scene;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_refused_command_changes_nothing(commands in prop::collection::vec(any_command(), 1..40)) {
+        let mut world = small_world();
+        for (index, command) in commands.iter().enumerate() {
+            let before = bytes(&world);
+            if let Err(error) = world.apply(command) {
+                prop_assert!(before == bytes(&world), "refused with: {}", error);
+                prop_assert!(!error.to_string().is_empty());
+            }
+            if index % 5 == 0 {
+                world.finish_step();
+                world.begin_step();
+            }
+        }
+        check_scene(&world);
+    }
+
+    #[test]
+    fn undone_commands_leave_no_trace(commands in prop::collection::vec(any_change(), 1..30)) {
+        let mut world = small_world();
+        let (before, environment) = (contents(&world), *world.environment());
+        let mut undos = Vec::new();
+        for command in &commands {
+            if let Ok(applied) = world.apply(command) {
+                undos.push(applied.undo.expect("a change can be taken back"));
+            }
+        }
+        for undo in undos.iter().rev() {
+            world.apply(undo).unwrap_or_else(|error| panic!("{undo:?} was refused: {error}"));
+        }
+        prop_assert_eq!(contents(&world), before);
+        prop_assert_eq!(*world.environment(), environment);
+        check_scene(&world);
+    }
+
+    #[test]
+    fn an_undo_can_be_undone(commands in prop::collection::vec(any_change(), 1..20), last in any_change()) {
+        let mut world = small_world();
+        for command in &commands {
+            let _ = world.apply(command);
+        }
+        if let Ok(applied) = world.apply(&last)
+            // A spawned entity that is taken back and spawned again keeps its id.
+            && let Some(undo) = applied.undo
+        {
+            let after = contents(&world);
+            let redo = world.apply(&undo).expect("an undo goes through").undo.expect("so does its undo");
+            world.apply(&redo).expect("a redo goes through");
+            prop_assert_eq!(contents(&world), after);
+        }
+    }
+}
+
+#[test]
+fn a_carrier_comes_back_with_its_load() {
+    let mut world = small_world();
+    let (person, parcel) = (EntityId::new(0, 0), EntityId::new(2, 0));
+    let bond = Attachment { parent: person, role: Role::Held, parent_from_body: Pose::identity() };
+    world.apply(&Command::Attach { child: parcel, bond: Some(bond) }).unwrap();
+    let undo = world.apply(&Command::Remove { id: person }).unwrap().undo.unwrap();
+    assert!(world.entity(parcel).unwrap().attachment.is_none(), "a load of nobody");
+    world.apply(&undo).unwrap();
+    assert_eq!(world.attached(person, Role::Held), Some(parcel));
+}
+
+#[test]
+fn a_bond_that_leads_nowhere_is_refused() {
+    let mut world = small_world();
+    let before = world.snapshot();
+    let (person, parcel) = (EntityId::new(0, 0), EntityId::new(2, 0));
+    let mut nowhere = Pose::identity();
+    nowhere.translation.vector = Vector3::new(f64::NAN, 0.0, 0.0);
+    let bond = Attachment { parent: person, role: Role::Held, parent_from_body: nowhere };
+    assert!(matches!(world.attach(parcel, Some(bond)), Err(WorldError::Pose { .. })));
+    let mut twisted = Pose::identity();
+    twisted.rotation.as_mut_unchecked().coords *= 1e200;
+    assert!(matches!(world.set_motion(parcel, twisted, Twist::ZERO), Err(WorldError::Rotation { .. })));
+    assert_eq!(world.snapshot(), before);
+}
+
+#[test]
+fn the_digest_sees_every_change() {
+    let base = {
+        let mut world = small_world();
+        world.finish_step();
+        world.digest()
+    };
+    let id = EntityId::new(1, 0);
+    let aside = Pose::translation(0.0, 1e-9, 0.0);
+    let bond = Attachment { parent: EntityId::new(0, 0), role: Role::Part, parent_from_body: aside };
+    let mut weather = simworld_core::environment::Environment::default();
+    weather.weather.rain = 1.0;
+    for change in [
+        Command::Move { id, pose: aside },
+        Command::Remove { id },
+        Command::SetAttribute { id, key: "charge".to_owned(), value: Some(1_i64.into()) },
+        Command::Attach { child: id, bond: Some(bond) },
+        Command::SetEnvironment(weather),
+    ] {
+        let mut world = small_world();
+        world.apply(&change).unwrap();
+        world.finish_step();
+        assert_ne!(world.digest(), base, "{change:?} went unnoticed");
+    }
+}
