@@ -6,6 +6,7 @@ use std::sync::Arc;
 use simworld_agents::delivery::{DeliveryConfig, DeliveryTask, Persona};
 use simworld_agents::episode::{Agent, Episode, EpisodeError};
 use simworld_agents::executor::RuleExecutor;
+use simworld_agents::language::GrammarPlanner;
 use simworld_citygen::python::{FormatError, Warning, read_roads};
 use simworld_citygen::{City, CityError};
 use simworld_core::geometry::{Point3, pose_facing};
@@ -172,12 +173,9 @@ fn make_agents(
         Agent {
             id: *id,
             mind: kind.mind(persona, stream),
-            planner: Box::new(TmpPlanner),
+            planner: Box::new(GrammarPlanner),
             executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
         }
     };
     Ok(couriers.iter().enumerate().map(agent).collect())
 }
-
-struct TmpPlanner;
-impl simworld_core::seam::Planner for TmpPlanner { fn plan(&mut self, i: &simworld_core::intent::Intent, _: &dyn simworld_core::scene::Scene, _: EntityId) -> Result<simworld_core::seam::Plan, simworld_core::seam::PlanError> { Err(simworld_core::seam::PlanError::Call{call:i.to_string(),reason:String::new()}) } }

@@ -1,1 +1,7 @@
-//! In work.
+//! Senses beside the camera: the scene as a graph of things and relations, and the position as a receiver gives it.
+
+mod gps;
+mod scene_graph;
+
+pub use gps::{GpsFix, GpsObserver};
+pub use scene_graph::{SceneGraph, SceneGraphObserver, Sighting};
