@@ -44,7 +44,7 @@ fn bench(criterion: &mut Criterion) {
     criterion.bench_function("step of 10 000 walking bodies", |b| b.iter(|| step(&mut world, &headings)));
     let (world, _) = crowd();
     let mut rng = Seed(2).stream("bench/reads").rng();
-    criterion.bench_function("visit of 50 m around (about 25 bodies)", |b| {
+    criterion.bench_function("visit of a 50 m square (about 6 bodies)", |b| {
         b.iter(|| {
             let center = Point2::new(rng.uniform(0.0, WIDTH), rng.uniform(0.0, WIDTH));
             let mut count = 0_usize;

@@ -148,7 +148,7 @@ fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[Connectio
             }
             // Narrow lanes side by side do not touch, or nobody could use them.
             let near = TOUCHING.min(0.9 * network.lanes[first.from.index()].width);
-            let touch = first.to == second.to || polyline::distance_between(&first.path, &second.path) < near;
+            let touch = first.to == second.to || polyline::nearer_than(&first.path, &second.path, near);
             if !touch {
                 continue;
             }
