@@ -1,67 +1,106 @@
-//! Why there is no picture.
+//! What can go wrong between a scene and its picture, in words that say how to mend it.
 
 use std::path::PathBuf;
 
-use simworld_core::camera::CameraError;
 use thiserror::Error;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RenderError {
-    /// No graphics adapter.
+    /// No graphics adapter answers. Everything of simworld but pictures works without one.
     #[error(
-        "no graphics adapter: install a driver for the GPU, or software Vulkan (Debian: apt-get install \
-         mesa-vulkan-drivers libvulkan1); everything but pictures works without ({reason})"
+        "no graphics adapter was found ({reason}): install a GPU driver, or software Vulkan with `apt-get install \
+         mesa-vulkan-drivers libvulkan1`; everything but pictures works without"
     )]
     NoAdapter {
-        /// What the graphics interface says.
+        /// What the graphics interface said.
         reason: String,
     },
-    /// The adapter refused to work.
-    #[error("the graphics adapter refused a device: {reason}")]
-    Device {
-        /// What it says.
+    /// An adapter is there but gives no device.
+    #[error("the adapter {adapter} gives no device: {reason}")]
+    NoDevice {
+        /// Name of the adapter.
+        adapter: String,
+        /// What it said.
         reason: String,
-    },
-    /// The camera cannot exist, or its image is too large for the adapter.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-    /// An image larger than the adapter's limit.
-    #[error("an image of {width} x {height} pixels is more than this adapter's {limit} a side")]
-    TooLarge {
-        /// Pixels across.
-        width: u32,
-        /// Pixels down.
-        height: u32,
-        /// The adapter's limit.
-        limit: u32,
     },
     /// A setting out of range.
     #[error("{field} = {value} is out of range: give {allowed}")]
     Config {
-        /// The setting.
+        /// The field of [`RenderConfig`](crate::RenderConfig).
         field: &'static str,
-        /// Its value.
+        /// The refused value.
         value: f64,
-        /// What is allowed, in words.
+        /// The allowed range, in words.
         allowed: &'static str,
     },
-    /// The adapter failed while drawing.
-    #[error("drawing failed: {reason}")]
-    Drawing {
-        /// What it says.
-        reason: String,
+    /// A camera whose picture the adapter cannot hold.
+    #[error(
+        "a picture of {width} x {height} pixels is out of range: this adapter draws 1 to {limit} each way"
+    )]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// The most each way.
+        limit: u32,
     },
-    /// The image cannot be encoded.
-    #[error("the image cannot be encoded: {0}")]
-    Encoding(#[from] png::EncodingError),
-    /// The image cannot be written.
-    #[error("{path}: {source}")]
-    File {
-        /// Which file.
+    /// A camera that cannot exist.
+    #[error("the camera's {field} = {value} is out of range: give {allowed}")]
+    Camera {
+        /// The field.
+        field: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// Intrinsics that core refuses.
+    #[error(transparent)]
+    Intrinsics(#[from] simworld_core::camera::CameraError),
+    /// More to draw than the adapter's buffers hold.
+    #[error(
+        "{count} things to draw exceed the {limit} that this adapter holds: lower `far` or raise `min_pixels`"
+    )]
+    TooMany {
+        /// How many.
+        count: usize,
+        /// The most.
+        limit: usize,
+    },
+    /// The adapter ran out of memory.
+    #[error("the adapter ran out of memory: draw a smaller picture or a smaller shadow map")]
+    OutOfMemory,
+    /// The graphics interface refused a call or lost its device; make a new renderer.
+    #[error("the graphics device failed: {0}")]
+    Device(String),
+    /// The frame has not been drawn, or its buffers were resized by hand.
+    #[error(
+        "the frame's {buffer} buffer has {found} entries where {width} x {height} pixels need {expected}"
+    )]
+    Frame {
+        /// The buffer.
+        buffer: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that belongs to the size.
+        expected: usize,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// The PNG encoder refused.
+    #[error("the picture cannot be encoded as PNG: {0}")]
+    Png(#[from] png::EncodingError),
+    /// A file cannot be written.
+    #[error("{} cannot be written: {source}", path.display())]
+    Write {
+        /// The file.
         path: PathBuf,
-        /// Why not.
+        /// What the system said.
         source: std::io::Error,
     },
 }

@@ -1,92 +1,102 @@
-//! What a camera yields: colour, depth and ids, as plain arrays and as PNG.
-
-use std::io::Cursor;
-use std::path::Path;
+//! The picture: RGB, depth and ids of one camera, in buffers that the caller owns.
 
 use simworld_core::id::EntityId;
-use simworld_core::scene::Scene;
 
 use crate::RenderError;
-use crate::classes::class_color;
+use crate::classes::SKY;
 
-/// The depth of the sky.
+/// The depth of a pixel on which there is nothing.
 pub const SKY_DEPTH: f32 = f32::INFINITY;
 
-/// One image: row-major, top row first. The caller owns it and passes it again, so that its memory is reused.
+/// What a camera saw. Buffers are row by row from the top left; make one frame and pass it every time.
+///
+/// ```
+/// let mut frame = simworld_render::Frame::new();
+/// frame.resize(4, 3);
+/// assert_eq!((frame.rgb.len(), frame.depth.len()), (36, 12));
+/// assert!(frame.depth_at(0, 0).is_none(), "an empty frame is all sky");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Pixels across.
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Colour, three bytes a pixel, sRGB.
+    /// Colour, sRGB, three bytes a pixel.
     pub rgb: Vec<u8>,
-    /// Planar depth, m: distance along the optical axis; [`SKY_DEPTH`] where nothing was met.
+    /// Planar depth, the distance along the optical axis, m; [`SKY_DEPTH`] (infinity) where there is nothing.
     pub depth: Vec<f32>,
-    /// Slot of the entity plus one; 0 for the sky.
-    pub instances: Vec<u32>,
-    /// Cityscapes class id.
+    /// Instance: [`EntityId::index`] plus one; 0 where there is nothing.
+    pub ids: Vec<u32>,
+    /// Class: a Cityscapes label id, see [`classes`](crate::classes); 23 (sky) where there is nothing.
     pub classes: Vec<u8>,
+    /// What was drawn, ascending; entities hidden behind others are among them.
+    pub drawn: Vec<EntityId>,
 }
 
 impl Frame {
-    /// An empty frame, to be filled.
+    /// An empty frame, to be drawn into.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The entity that a pixel shows, in the scene that was rendered.
-    pub fn entity_at(&self, scene: &dyn Scene, x: u32, y: u32) -> Option<EntityId> {
-        let slot = self.instances.get((y * self.width + x) as usize)?.checked_sub(1)?;
-        // A frame holds slots; the generation is the one that lives there now.
-        (0..1024).map(|generation| EntityId::new(slot, generation)).find(|id| scene.entity(*id).is_some())
+    /// Gives every buffer the length of that size, empties what it held, and keeps the memory.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        let pixels = width as usize * height as usize;
+        (self.width, self.height) = (width, height);
+        refill(&mut self.rgb, pixels * 3, 0);
+        refill(&mut self.depth, pixels, SKY_DEPTH);
+        refill(&mut self.ids, pixels, 0);
+        refill(&mut self.classes, pixels, SKY.id);
+        self.drawn.clear();
     }
 
-    /// The colour image as PNG.
-    ///
-    /// # Errors
-    /// An empty frame.
-    pub fn rgb_png(&self) -> Result<Vec<u8>, RenderError> {
-        self.encode(png::ColorType::Rgb, png::BitDepth::Eight, &self.rgb)
+    /// The depth of a pixel, m; `None` for the sky and outside the picture.
+    pub fn depth_at(&self, x: u32, y: u32) -> Option<f32> {
+        self.index(x, y).and_then(|index| self.depth.get(index).copied()).filter(|depth| depth.is_finite())
     }
 
-    /// The depth image as PNG: 16 bit, mm; 0 for the sky, 65535 for 65.535 m and more.
-    ///
-    /// # Errors
-    /// An empty frame.
-    pub fn depth_png(&self) -> Result<Vec<u8>, RenderError> {
-        let millimetres = |depth: &f32| if depth.is_finite() { (depth * 1000.0).round() as u16 } else { 0 };
-        let bytes: Vec<u8> = self.depth.iter().flat_map(|depth| millimetres(depth).to_be_bytes()).collect();
-        self.encode(png::ColorType::Grayscale, png::BitDepth::Sixteen, &bytes)
+    /// The entity on a pixel; `None` for the sky and outside the picture.
+    pub fn entity_at(&self, x: u32, y: u32) -> Option<EntityId> {
+        let instance = *self.ids.get(self.index(x, y)?)?;
+        let slot = (instance as usize).checked_sub(1)?;
+        let position = self.drawn.binary_search_by_key(&slot, |id| id.index()).ok()?;
+        self.drawn.get(position).copied()
     }
 
-    /// The classes in the Cityscapes palette as PNG.
-    ///
-    /// # Errors
-    /// An empty frame.
-    pub fn classes_png(&self) -> Result<Vec<u8>, RenderError> {
-        let bytes: Vec<u8> = self.classes.iter().flat_map(|class| class_color(*class)).collect();
-        self.encode(png::ColorType::Rgb, png::BitDepth::Eight, &bytes)
+    /// The class of a pixel, a Cityscapes label id; `None` outside the picture.
+    pub fn class_at(&self, x: u32, y: u32) -> Option<u8> {
+        self.classes.get(self.index(x, y)?).copied()
     }
 
-    /// Writes the colour image.
-    ///
-    /// # Errors
-    /// The image is empty, or the file cannot be written.
-    pub fn write_png(&self, path: impl AsRef<Path>) -> Result<(), RenderError> {
-        let path = path.as_ref();
-        std::fs::write(path, self.rgb_png()?)
-            .map_err(|source| RenderError::File { path: path.to_owned(), source })
+    /// The sRGB colour of a pixel; `None` outside the picture.
+    pub fn rgb_at(&self, x: u32, y: u32) -> Option<[u8; 3]> {
+        let index = self.index(x, y)? * 3;
+        self.rgb.get(index..index + 3).and_then(|bytes| bytes.try_into().ok())
     }
 
-    fn encode(&self, color: png::ColorType, depth: png::BitDepth, bytes: &[u8]) -> Result<Vec<u8>, RenderError> {
-        let mut out = Cursor::new(Vec::new());
-        let mut encoder = png::Encoder::new(&mut out, self.width, self.height);
-        encoder.set_color(color);
-        encoder.set_depth(depth);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(bytes)?;
-        writer.finish()?;
-        Ok(out.into_inner())
+    fn index(&self, x: u32, y: u32) -> Option<usize> {
+        (x < self.width && y < self.height).then(|| y as usize * self.width as usize + x as usize)
     }
+
+    /// Checks that a buffer has the length of the size.
+    pub(crate) fn check(
+        &self,
+        buffer: &'static str,
+        found: usize,
+        channels: usize,
+    ) -> Result<(), RenderError> {
+        let (width, height) = (self.width, self.height);
+        let expected = width as usize * height as usize * channels;
+        if found == expected && expected > 0 {
+            Ok(())
+        } else {
+            Err(RenderError::Frame { buffer, found, expected, width, height })
+        }
+    }
+}
+
+fn refill<T: Clone>(buffer: &mut Vec<T>, length: usize, value: T) {
+    buffer.clear();
+    buffer.resize(length, value);
 }

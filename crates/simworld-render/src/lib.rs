@@ -1,19 +1,24 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
-mod classes;
-mod device;
+pub mod classes;
+mod config;
+mod draw_list;
 mod error;
+mod export;
 mod frame;
-mod gather;
+mod gpu;
+mod light;
+mod look;
 mod mesh;
-mod pipeline;
 mod renderer;
 mod sensor;
-mod targets;
+mod shadow;
+mod view;
 
-pub use classes::{class_color, class_of, class_name};
+pub use config::{AdapterChoice, AntiAliasing, Backends, RenderConfig};
 pub use error::RenderError;
+pub use export::PNG_DEPTH_LIMIT;
 pub use frame::{Frame, SKY_DEPTH};
-pub use renderer::{RenderConfig, Renderer};
-pub use sensor::{CameraSensor, Mount};
+pub use renderer::Renderer;
+pub use sensor::CameraSensor;

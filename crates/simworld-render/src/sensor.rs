@@ -1,6 +1,6 @@
-//! A camera as a sense: what an entity sees from where it stands.
+//! A camera worn by an entity, as core's `Observer`.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point3, Pose};
@@ -8,48 +8,83 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
 use simworld_core::seam::{ObserveError, Observer};
 
-use crate::{Frame, Renderer};
+use crate::{Frame, RenderConfig, RenderError, Renderer};
 
-/// Where a camera sits on its carrier.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Mount {
-    /// At the eyes of a person, the top of anything else, looking ahead.
-    #[default]
-    Eyes,
-    /// At a pose of the carrier's body frame, looking along the pose's x axis.
-    Body(Pose),
-}
+/// Eye height of a person 1.75 m tall, m.
+const EYE_HEIGHT: f64 = 1.6;
 
-impl Mount {
-    fn pose(&self, carrier: &EntityRef<'_>) -> Pose {
-        match self {
-            Self::Body(body_from_camera) => carrier.pose * body_from_camera,
-            Self::Eyes => {
-                let size = carrier.info.shape.size();
-                let (forward, up) = match carrier.kind {
-                    // Before the face, so that the head is not in the picture.
-                    EntityKind::Person => (0.25, size.z - 0.12),
-                    _ => (0.0, size.z + 0.1),
-                };
-                let eyes = carrier.pose * Point3::new(forward, 0.0, up);
-                Pose::from_parts(eyes.into(), carrier.pose.rotation)
-            }
-        }
-    }
-}
-
-/// A camera carried by whoever observes; several may share a renderer.
-#[derive(Clone)]
+/// A camera mounted on whoever is observed: it looks along the body's forward axis and does not see the wearer.
+///
+/// Many sensors may share one renderer.
+///
+/// ```no_run
+/// use simworld_core::camera::Intrinsics;
+/// use simworld_core::geometry::{Point3, pose_facing};
+/// use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+/// use simworld_core::seam::Observer;
+/// use simworld_render::{CameraSensor, Frame, RenderConfig};
+///
+/// let mut world = World::new();
+/// let shape = Shape::Capsule { radius: 0.25, height: 1.75 };
+/// let walker = world.spawn(EntityDesc::new(EntityKind::Person, pose_facing(Point3::origin(), 0.0), shape))?;
+/// let mut eyes = CameraSensor::new(Intrinsics::from_fov(640, 480, 1.5)?, &RenderConfig::default())?;
+/// let mut frame = Frame::default();
+/// eyes.observe(&world, walker, &mut frame)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
 pub struct CameraSensor {
     renderer: Arc<Mutex<Renderer>>,
     intrinsics: Intrinsics,
-    mount: Mount,
+    mount: Option<Pose>,
 }
 
 impl CameraSensor {
-    /// A camera with these intrinsics.
-    pub fn new(renderer: Arc<Mutex<Renderer>>, intrinsics: Intrinsics, mount: Mount) -> Self {
-        Self { renderer, intrinsics, mount }
+    /// A camera with a renderer of its own.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`].
+    pub fn new(intrinsics: Intrinsics, config: &RenderConfig) -> Result<Self, RenderError> {
+        Ok(Self::sharing(Arc::new(Mutex::new(Renderer::new(config)?)), intrinsics))
+    }
+
+    /// A camera that shares a renderer with others.
+    pub fn sharing(renderer: Arc<Mutex<Renderer>>, intrinsics: Intrinsics) -> Self {
+        Self { renderer, intrinsics, mount: None }
+    }
+
+    /// Mounted at a pose in the wearer's body frame (x forward, y left, z up), instead of at
+    /// [`default_mount`](Self::default_mount).
+    #[must_use]
+    pub fn mounted_at(mut self, body_from_mount: Pose) -> Self {
+        self.mount = Some(body_from_mount);
+        self
+    }
+
+    /// Where the camera sits if nothing else is said: at the eyes of a person (1.6 m of 1.75 m), above the windscreen
+    /// of a vehicle, and otherwise at nine tenths of the height, in the middle.
+    pub fn default_mount(wearer: &EntityRef<'_>) -> Pose {
+        let size = wearer.info.shape.size();
+        match wearer.kind {
+            EntityKind::Person => Pose::translation(0.0, 0.0, EYE_HEIGHT.min(size.z * EYE_HEIGHT / 1.75)),
+            kind if kind.is_vehicle() => Pose::translation(size.x * 0.2, 0.0, size.z * 0.9),
+            _ => Pose::translation(0.0, 0.0, size.z * 0.9),
+        }
+    }
+
+    /// The camera on that wearer, as it stands now.
+    ///
+    /// # Errors
+    /// Nobody has that id.
+    pub fn camera(&self, scene: &dyn Scene, who: EntityId) -> Result<Camera, ObserveError> {
+        let wearer = scene.entity(who).ok_or(ObserveError::Missing { id: who })?;
+        let body_from_mount = self.mount.unwrap_or_else(|| Self::default_mount(&wearer));
+        Ok(Camera::looking_along(&(wearer.pose * body_from_mount), self.intrinsics))
+    }
+
+    /// The point from which it sees in the body frame of that wearer, m.
+    pub fn eye_in_body(&self, wearer: &EntityRef<'_>) -> Point3 {
+        self.mount.unwrap_or_else(|| Self::default_mount(wearer)).translation.vector.into()
     }
 }
 
@@ -57,10 +92,10 @@ impl Observer for CameraSensor {
     type Observation = Frame;
 
     fn observe(&mut self, scene: &dyn Scene, who: EntityId, out: &mut Frame) -> Result<(), ObserveError> {
-        let carrier = scene.entity(who).ok_or(ObserveError::Missing { id: who })?;
-        let camera = Camera::looking_along(&self.mount.pose(&carrier), self.intrinsics);
-        let mut renderer =
-            self.renderer.lock().map_err(|_| ObserveError::Sensor("the renderer failed before".to_owned()))?;
-        renderer.render(scene, &camera, out).map_err(|error| ObserveError::Sensor(error.to_string()))
+        let camera = self.camera(scene, who)?;
+        let mut renderer = self.renderer.lock().unwrap_or_else(PoisonError::into_inner);
+        renderer
+            .render_hiding(scene, &camera, Some(who), out)
+            .map_err(|error| ObserveError::Sensor(error.to_string()))
     }
 }

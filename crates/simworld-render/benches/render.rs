@@ -1,0 +1,3 @@
+//! Frames per second.
+#![allow(missing_docs)]
+fn main() {}

@@ -1,0 +1,147 @@
+//! Settings of a renderer.
+
+use serde::{Deserialize, Serialize};
+
+use crate::RenderError;
+
+/// Which graphics interfaces may be used. Only those whose crate feature is on can answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Backends {
+    /// Any that this system has; the environment variable `WGPU_BACKEND` may narrow it.
+    #[default]
+    Any,
+    /// Vulkan alone.
+    Vulkan,
+    /// Metal alone.
+    Metal,
+    /// Direct3D 12 alone.
+    Dx12,
+    /// None, as on a machine without graphics.
+    None,
+}
+
+/// Which adapter is taken where there are several.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum AdapterChoice {
+    /// The fastest: a GPU before software.
+    #[default]
+    Fastest,
+    /// Software rendering, which draws the same on machines that have different GPUs.
+    Software,
+}
+
+/// How edges in RGB are smoothed. Depth and ids never are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum AntiAliasing {
+    /// Not at all: RGB, depth and ids come from one pass and agree at every pixel.
+    #[default]
+    Off,
+    /// Four samples a pixel: RGB is drawn in a pass of its own.
+    Msaa4,
+}
+
+/// Settings of a [`Renderer`](crate::Renderer).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RenderConfig {
+    /// Which graphics interfaces may be used.
+    pub backends: Backends,
+    /// Which adapter is taken where there are several.
+    pub adapter: AdapterChoice,
+    /// Distance of the nearest plane that is drawn, m, from 1e-3 to 100.
+    pub near: f64,
+    /// Entities whose bounds lie wholly beyond this distance are not drawn, m, from `near` to 1e6.
+    pub far: f64,
+    /// Entities whose bounding sphere covers fewer pixels across are not drawn, from 0 to 100.
+    pub min_pixels: f64,
+    /// Smoothing of edges in RGB.
+    pub anti_aliasing: AntiAliasing,
+    /// Side of the sun's shadow map, texels, from 256 to 8192; 0 turns shadows off.
+    pub shadow_resolution: u32,
+    /// Shadows are drawn within this distance of the camera, m, from 10 to 2000.
+    pub shadow_distance: f64,
+    /// Brightness of RGB over the automatic exposure, which follows from sun and clouds alone, in stops from -8 to 8.
+    pub exposure_compensation: f64,
+}
+
+impl Default for RenderConfig {
+    fn default() -> Self {
+        Self {
+            backends: Backends::Any,
+            adapter: AdapterChoice::Fastest,
+            near: 0.05,
+            far: 1000.0,
+            min_pixels: 0.7,
+            anti_aliasing: AntiAliasing::Off,
+            shadow_resolution: 2048,
+            shadow_distance: 120.0,
+            exposure_compensation: 0.0,
+        }
+    }
+}
+
+impl RenderConfig {
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    /// The first field out of range, with what is allowed; NaN is always out of range.
+    pub fn validate(&self) -> Result<(), RenderError> {
+        let side = f64::from(self.shadow_resolution);
+        let checks = [
+            ("near", self.near, 1e-3, 100.0, "0.001 to 100 m"),
+            ("far", self.far, self.near, 1e6, "more than `near`, at most 1e6 m"),
+            ("min_pixels", self.min_pixels, 0.0, 100.0, "0 to 100 pixels"),
+            (
+                "shadow_resolution",
+                side,
+                if side == 0.0 { 0.0 } else { 256.0 },
+                8192.0,
+                "0, or 256 to 8192 texels",
+            ),
+            ("shadow_distance", self.shadow_distance, 10.0, 2000.0, "10 to 2000 m"),
+            ("exposure_compensation", self.exposure_compensation, -8.0, 8.0, "-8 to 8 stops"),
+        ];
+        for (field, value, low, high, allowed) in checks {
+            if !(low..=high).contains(&value) {
+                return Err(RenderError::Config { field, value, allowed });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_field_is_checked() {
+        assert!(RenderConfig::default().validate().is_ok());
+        let spoilt = [
+            RenderConfig { near: f64::NAN, ..RenderConfig::default() },
+            RenderConfig { near: -1.0, ..RenderConfig::default() },
+            RenderConfig { far: 0.01, ..RenderConfig::default() },
+            RenderConfig { far: f64::INFINITY, ..RenderConfig::default() },
+            RenderConfig { min_pixels: -0.1, ..RenderConfig::default() },
+            RenderConfig { shadow_resolution: 3, ..RenderConfig::default() },
+            RenderConfig { shadow_distance: 0.0, ..RenderConfig::default() },
+            RenderConfig { exposure_compensation: 9.0, ..RenderConfig::default() },
+        ];
+        for config in spoilt {
+            let error = config.validate().unwrap_err().to_string();
+            assert!(error.contains("out of range: give"), "{error}");
+        }
+    }
+
+    #[test]
+    fn an_unknown_key_is_named() {
+        let error = serde_json::from_str::<RenderConfig>(r#"{ "fare": 3.0 }"#).unwrap_err().to_string();
+        assert!(error.contains("fare") && error.contains("shadow_distance"), "{error}");
+    }
+}

@@ -1,0 +1,110 @@
+//! The adapter and its device; errors of wgpu are kept until somebody asks, instead of ending the program.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::config::{AdapterChoice, Backends};
+use crate::{RenderConfig, RenderError};
+
+/// A device, its queue, and the first error that wgpu reported since it was last asked.
+pub(crate) struct Gpu {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub info: wgpu::AdapterInfo,
+    fault: Arc<Mutex<Option<RenderError>>>,
+}
+
+impl Gpu {
+    pub(crate) fn new(config: &RenderConfig) -> Result<Self, RenderError> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = backends(config.backends);
+        let instance = wgpu::Instance::new(descriptor);
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            force_fallback_adapter: config.adapter == AdapterChoice::Software,
+            ..Default::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&options))
+            .map_err(|error| RenderError::NoAdapter { reason: error.to_string() })?;
+        let info = adapter.get_info();
+        let offered = adapter.limits();
+        let limits = wgpu::Limits {
+            max_buffer_size: offered.max_buffer_size,
+            ..wgpu::Limits::downlevel_defaults().using_resolution(offered)
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("simworld"),
+            required_limits: limits,
+            ..Default::default()
+        }))
+        .map_err(|error| RenderError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+
+        let fault = Arc::new(Mutex::new(None));
+        let slot = Arc::clone(&fault);
+        device.on_uncaptured_error(Arc::new(move |error| {
+            slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(typed(&error));
+        }));
+        Ok(Self { device, queue, info, fault })
+    }
+
+    /// The first error since the last call.
+    pub(crate) fn check(&self) -> Result<(), RenderError> {
+        match self.fault.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+
+    /// Waits until everything submitted is done.
+    pub(crate) fn wait(&self) -> Result<(), RenderError> {
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| RenderError::Device(error.to_string()))?;
+        self.check()
+    }
+
+    /// The largest picture, pixels each way.
+    pub(crate) fn largest_picture(&self) -> u32 {
+        self.device.limits().max_texture_dimension_2d
+    }
+}
+
+fn backends(choice: Backends) -> wgpu::Backends {
+    match choice {
+        Backends::Any => wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY),
+        Backends::Vulkan => wgpu::Backends::VULKAN,
+        Backends::Metal => wgpu::Backends::METAL,
+        Backends::Dx12 => wgpu::Backends::DX12,
+        Backends::None => wgpu::Backends::empty(),
+    }
+}
+
+fn typed(error: &wgpu::Error) -> RenderError {
+    match error {
+        wgpu::Error::OutOfMemory { .. } => RenderError::OutOfMemory,
+        other => RenderError::Device(other.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A call that wgpu refuses comes back as an error, once.
+    #[test]
+    fn refused_calls_are_errors() {
+        let Some(gpu) = Gpu::new(&RenderConfig::default()).map_err(|error| println!("skipped: {error}")).ok()
+        else {
+            let required = std::env::var_os("SIMWORLD_REQUIRE_ADAPTER").is_some_and(|value| value == "1");
+            assert!(!required, "an adapter is required here");
+            return;
+        };
+        let _ = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: 16,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::VERTEX,
+            mapped_at_creation: false,
+        });
+        assert!(matches!(gpu.check(), Err(RenderError::Device(reason)) if !reason.is_empty()));
+        assert!(gpu.check().is_ok());
+    }
+}

@@ -1,0 +1,292 @@
+//! The pipelines: one for each pattern, specialised by an override constant, so that no pixel pays for another's
+//! painting; one for the sky, and one for shadows.
+
+use super::device::Gpu;
+use super::targets::{COLOR, DEPTH, ID, SAMPLES, Z};
+use crate::config::AntiAliasing;
+use crate::draw_list::Instance;
+use crate::mesh::{Pattern, Vertex};
+
+const COMMON: &str = include_str!("../shaders/globals.wgsl");
+const NOISE: &str = include_str!("../shaders/noise.wgsl");
+const SKY: &str = include_str!("../shaders/sky.wgsl");
+const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
+const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
+const FORWARD: &str = include_str!("../shaders/forward.wgsl");
+const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
+
+/// Everything that is bound and run.
+pub(crate) struct Pipelines {
+    /// RGB with the measures, or RGB alone where it is smoothed; by [`Pattern`].
+    pub picture: Vec<wgpu::RenderPipeline>,
+    /// Depth and ids alone, where RGB is smoothed.
+    pub measures: Option<wgpu::RenderPipeline>,
+    pub sky: wgpu::RenderPipeline,
+    pub shadow: wgpu::RenderPipeline,
+    pub globals: wgpu::BindGroup,
+    pub globals_buffer: wgpu::Buffer,
+    pub shadow_inputs: wgpu::BindGroup,
+    /// The shadow map as a target.
+    pub shadow_map: wgpu::TextureView,
+}
+
+/// What the pipelines of one module share.
+struct Recipe<'a> {
+    gpu: &'a Gpu,
+    module: &'a wgpu::ShaderModule,
+    layout: &'a wgpu::PipelineLayout,
+}
+
+struct Variant<'a> {
+    label: &'a str,
+    vertex: &'a str,
+    fragment: Option<&'a str>,
+    pattern: Option<Pattern>,
+    targets: &'a [Option<wgpu::ColorTargetState>],
+    depth: wgpu::DepthStencilState,
+    samples: u32,
+    /// Whether it reads vertices and instances.
+    meshes: bool,
+}
+
+impl Pipelines {
+    pub(crate) fn new(gpu: &Gpu, globals_size: u64, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
+        let device = &gpu.device;
+        let (globals_layout, globals_buffer, globals) = bind_globals(device, globals_size);
+        let (shadow_layout, shadow_inputs, shadow_map) = bind_shadow(device, shadow_resolution.max(1));
+        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
+            device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: groups,
+                immediate_size: 0,
+            })
+        };
+        let module = |label, sources: &[&str]| {
+            device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(sources.concat().into()),
+            })
+        };
+        let full = layout(&[Some(&globals_layout), Some(&shadow_layout)]);
+        let plain = layout(&[Some(&globals_layout)]);
+        let forward = module("forward", &[COMMON, NOISE, SKY, PATTERNS, FORWARD]);
+        let sky = module("sky", &[COMMON, NOISE, SKY, SKY_PASS]);
+        let shadow = module("shadow", &[COMMON, SHADOW]);
+
+        let smooth = smoothing == AntiAliasing::Msaa4;
+        let forward = Recipe { gpu, module: &forward, layout: &full };
+        Self {
+            picture: Pattern::ALL.map(|pattern| forward.picture(pattern, smooth)).into(),
+            measures: smooth.then(|| forward.measures()),
+            sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
+            shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow(),
+            globals,
+            globals_buffer,
+            shadow_inputs,
+            shadow_map,
+        }
+    }
+}
+
+fn target(format: wgpu::TextureFormat, write_mask: wgpu::ColorWrites) -> Option<wgpu::ColorTargetState> {
+    Some(wgpu::ColorTargetState { format, blend: None, write_mask })
+}
+
+fn depth_state(compare: wgpu::CompareFunction, bias: wgpu::DepthBiasState) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: Z,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState::default(),
+        bias,
+    }
+}
+
+impl Recipe<'_> {
+    fn picture(&self, pattern: Pattern, smooth: bool) -> wgpu::RenderPipeline {
+        let all = wgpu::ColorWrites::ALL;
+        let targets = [target(COLOR, all), target(DEPTH, all), target(ID, all)];
+        self.build(&Variant {
+            label: "picture",
+            vertex: "vertex_main",
+            fragment: Some(if smooth { "fragment_color" } else { "fragment_all" }),
+            pattern: Some(pattern),
+            targets: if smooth { &targets[..1] } else { &targets },
+            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
+            samples: if smooth { SAMPLES } else { 1 },
+            meshes: true,
+        })
+    }
+
+    fn measures(&self) -> wgpu::RenderPipeline {
+        let all = wgpu::ColorWrites::ALL;
+        self.build(&Variant {
+            label: "measures",
+            vertex: "vertex_main",
+            fragment: Some("fragment_measures"),
+            pattern: None,
+            targets: &[target(DEPTH, all), target(ID, all)],
+            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
+            samples: 1,
+            meshes: true,
+        })
+    }
+
+    fn sky(&self, smooth: bool) -> wgpu::RenderPipeline {
+        let (all, none) = (wgpu::ColorWrites::ALL, wgpu::ColorWrites::empty());
+        let targets = [target(COLOR, all), target(DEPTH, none), target(ID, none)];
+        self.build(&Variant {
+            label: "sky",
+            vertex: "vertex_sky",
+            fragment: Some(if smooth { "fragment_sky" } else { "fragment_sky_all" }),
+            pattern: None,
+            targets: if smooth { &targets[..1] } else { &targets },
+            // Infinity, where nothing was drawn.
+            depth: depth_state(wgpu::CompareFunction::Equal, wgpu::DepthBiasState::default()),
+            samples: if smooth { SAMPLES } else { 1 },
+            meshes: false,
+        })
+    }
+
+    fn shadow(&self) -> wgpu::RenderPipeline {
+        let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 1.5, clamp: 0.0 };
+        self.build(&Variant {
+            label: "shadow",
+            vertex: "vertex_shadow",
+            fragment: None,
+            pattern: None,
+            targets: &[],
+            depth: depth_state(wgpu::CompareFunction::Less, bias),
+            samples: 1,
+            meshes: true,
+        })
+    }
+
+    fn build(&self, variant: &Variant<'_>) -> wgpu::RenderPipeline {
+        let constants: Vec<(&str, f64)> =
+            variant.pattern.iter().map(|pattern| ("PATTERN", f64::from(*pattern as u32))).collect();
+        let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let buffers = [Some(vertex_layout()), Some(instance_layout())];
+        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(variant.label),
+            layout: Some(self.layout),
+            vertex: wgpu::VertexState {
+                module: self.module,
+                entry_point: Some(variant.vertex),
+                compilation_options: options.clone(),
+                buffers: if variant.meshes { &buffers } else { &[] },
+            },
+            primitive: wgpu::PrimitiveState {
+                cull_mode: variant.meshes.then_some(wgpu::Face::Back),
+                ..Default::default()
+            },
+            depth_stencil: Some(variant.depth.clone()),
+            multisample: wgpu::MultisampleState { count: variant.samples, ..Default::default() },
+            fragment: variant.fragment.map(|entry| wgpu::FragmentState {
+                module: self.module,
+                entry_point: Some(entry),
+                compilation_options: options,
+                targets: variant.targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+        wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Uint32];
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &ATTRIBUTES,
+    }
+}
+
+fn instance_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![
+        4 => Float32x4, 5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4
+    ];
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<Instance>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &ATTRIBUTES,
+    }
+}
+
+fn bind_globals(device: &wgpu::Device, size: u64) -> (wgpu::BindGroupLayout, wgpu::Buffer, wgpu::BindGroup) {
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("globals"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    });
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("globals"),
+        size,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("globals"),
+        layout: &layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+    });
+    (layout, buffer, group)
+}
+
+fn bind_shadow(
+    device: &wgpu::Device,
+    side: u32,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup, wgpu::TextureView) {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty,
+        count: None,
+    };
+    let map = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("shadow"),
+        entries: &[entry(0, map), entry(1, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison))],
+    });
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow map"),
+        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: Z,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("shadow"),
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(wgpu::CompareFunction::LessEqual),
+        ..Default::default()
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("shadow"),
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
+        ],
+    });
+    (layout, group, view)
+}
