@@ -5,8 +5,10 @@ mod common;
 use common::{any_command, bytes, small_world};
 use proptest::prelude::*;
 use simworld_core::command::Command;
+use simworld_core::geometry::Pose;
 use simworld_core::hash::StateHash;
-use simworld_core::scene::{World, WorldSnapshot};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldSnapshot};
 
 fn step(world: &mut World, commands: &[Command]) {
     world.begin_step();
@@ -60,5 +62,18 @@ proptest! {
             step(&mut world, &[]);
             simworld_core::testing::check_scene(&world);
         }
+    }
+}
+
+#[test]
+fn free_slots_are_filled_in_the_same_order() {
+    let mut straight = small_world();
+    for index in [3, 1, 2] {
+        straight.remove(EntityId::new(index, 0)).unwrap();
+    }
+    let mut resumed = World::restore(straight.snapshot()).unwrap();
+    for _ in 0..4 {
+        let desc = EntityDesc::new(EntityKind::Cone, Pose::identity(), Shape::cuboid(0.3, 0.3, 0.5));
+        assert_eq!(straight.spawn(desc.clone()), resumed.spawn(desc));
     }
 }
