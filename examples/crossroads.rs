@@ -50,14 +50,21 @@ fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let placed = traffic.placed();
     println!("placed {} of {vehicles} vehicles and {} pedestrians", placed.vehicles, placed.pedestrians);
     if !(arguments.seconds > 0.0 && arguments.seconds <= 1e7) {
-        return Err(format!("--seconds {} is out of range: give more than 0, at most 1e7", arguments.seconds).into());
+        return Err(format!(
+            "--seconds {} is out of range: give more than 0, at most 1e7",
+            arguments.seconds
+        )
+        .into());
     }
     for _ in 0..(arguments.seconds / 0.1).round() as u64 {
         traffic.step(0.1);
     }
     println!("{}", draw(&traffic));
     let counters = traffic.counters();
-    println!("{} vehicles crossed; red lights passed because nobody could stop: {}", counters.crossings, counters.dilemmas);
+    println!(
+        "{} vehicles crossed; red lights passed because nobody could stop: {}",
+        counters.crossings, counters.dilemmas
+    );
     Ok(())
 }
 

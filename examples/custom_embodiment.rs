@@ -51,7 +51,9 @@ impl Embodiment for Drone {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     if std::env::args().any(|argument| argument == "--help" || argument == "-h") {
-        println!("Flies a drone of one's own once round a square and prints where it goes. It takes no options.");
+        println!(
+            "Flies a drone of one's own once round a square and prints where it goes. It takes no options."
+        );
         return Ok(());
     }
     let mut world = World::new();
@@ -62,7 +64,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     bodies.insert(drone, Box::new(Drone { state, speed: 0.0, climb: 0.0 }));
     let mut simulation = Simulation::new(world);
     simulation.add_dynamics("bodies", Box::new(bodies));
-    let mut tell = |simulation: &mut Simulation, action| simulation.submit(Command::Actuate { who: drone, action });
+    let tell =
+        |simulation: &mut Simulation, action| simulation.submit(Command::Actuate { who: drone, action });
     tell(&mut simulation, Action::LookUp { angle: 0.1 });
     for corner in 0..4 {
         tell(&mut simulation, Action::MoveForward { speed: 8.0 });
@@ -70,7 +73,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             simulation.step()?;
         }
         let at = simulation.world().entity(drone).map(|entity| entity.position());
-        println!("corner {}: {:?}", corner + 1, at.map(|p| [p.x, p.y, p.z].map(|x| (x * 100.0).round() / 100.0)));
+        println!(
+            "corner {}: {:?}",
+            corner + 1,
+            at.map(|p| [p.x, p.y, p.z].map(|x| (x * 100.0).round() / 100.0))
+        );
         tell(&mut simulation, Action::Rotate { angle: std::f64::consts::FRAC_PI_2 });
     }
     Ok(())

@@ -30,15 +30,28 @@ struct Tour {
 }
 
 impl Task for Tour {
-    fn reset(&mut self, _: &dyn Scene, agents: &[EntityId], _: Seed, _: &mut TaskOutput) -> Result<(), TaskError> {
+    fn reset(
+        &mut self,
+        _: &dyn Scene,
+        agents: &[EntityId],
+        _: Seed,
+        _: &mut TaskOutput,
+    ) -> Result<(), TaskError> {
         *self = Self::default();
         if agents.is_empty() { Err(TaskError::Other("a tour needs a tourist".to_owned())) } else { Ok(()) }
     }
 
-    fn step(&mut self, context: &TaskContext<'_>, _: &mut TaskOutput, outcome: &mut Outcome) -> Result<(), TaskError> {
+    fn step(
+        &mut self,
+        context: &TaskContext<'_>,
+        _: &mut TaskOutput,
+        outcome: &mut Outcome,
+    ) -> Result<(), TaskError> {
         self.steps += 1;
         let Some(tourist) = context.scene.entity(context.agents[0]) else { return Ok(()) };
-        let here = context.scene.nearest(tourist.planar(), 12.0, &|place| place.info.name.is_some() && place.id != tourist.id);
+        let here = context
+            .scene
+            .nearest(tourist.planar(), 12.0, &|place| place.info.name.is_some() && place.id != tourist.id);
         let arrived = here.filter(|place| (place.access().xy() - tourist.planar()).norm() < 2.0);
         let is_new = arrived.is_some_and(|place| self.visited.insert(place.id));
         outcome.rewards.push(f64::from(u8::from(is_new)));
@@ -58,7 +71,13 @@ struct Guide {
 }
 
 impl Mind<Tour> for Guide {
-    fn decide(&mut self, _: &Tour, scene: &dyn Scene, _: EntityId, out: &mut Vec<Intent>) -> Result<(), MindError> {
+    fn decide(
+        &mut self,
+        _: &Tour,
+        scene: &dyn Scene,
+        _: EntityId,
+        out: &mut Vec<Intent>,
+    ) -> Result<(), MindError> {
         if scene.clock().tick().0 >= self.next_decision
             && let Some(sight) = self.sights.pop()
         {

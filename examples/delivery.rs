@@ -140,14 +140,16 @@ struct Bars {
 
 impl Bars {
     fn new() -> Result<Self, Fault> {
-        let style = ProgressStyle::with_template("{prefix:>8} {bar:40} {pos:>5}/{len} steps  {eta:>4} left  {msg}")?;
+        let style =
+            ProgressStyle::with_template("{prefix:>8} {bar:40} {pos:>5}/{len} steps  {eta:>4} left  {msg}")?;
         Ok(Self { all: MultiProgress::new(), style })
     }
 
     fn watch(&self, stop: Arc<AtomicBool>) -> Watch {
         let (all, style) = (self.all.clone(), self.style.clone());
         Watch::new(stop, move |name, length| {
-            let bar = all.add(ProgressBar::new(length).with_style(style.clone()).with_prefix(name.to_owned()));
+            let bar =
+                all.add(ProgressBar::new(length).with_style(style.clone()).with_prefix(name.to_owned()));
             Box::new(move |step, message: &str| {
                 bar.set_position(step);
                 bar.set_message(message.to_owned());

@@ -33,7 +33,8 @@ fn main() -> ExitCode {
 fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let mut world = World::new();
     let start = pose_facing(Point3::new(0.0, 0.0, arguments.height), 0.4);
-    let box_id = world.spawn(EntityDesc::new(EntityKind::Prop, start, Shape::cuboid(0.5, 0.5, 0.5)).weighing(10.0))?;
+    let box_id =
+        world.spawn(EntityDesc::new(EntityKind::Prop, start, Shape::cuboid(0.5, 0.5, 0.5)).weighing(10.0))?;
     let mut physics = PhysicsDynamics::new(PhysicsConfig::default())?;
     physics.add_rigid(&world, box_id)?;
     let mut simulation = Simulation::new(world);

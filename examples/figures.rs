@@ -44,11 +44,15 @@ fn delivery(steps: u64) -> Result<(), Box<dyn std::error::Error>> {
     let config = RunConfig { steps, frames: 0, ..RunConfig::default() };
     let (city, _) = make_city(&config)?;
     let (results, time) = timed(|| {
-        (0..3).map(|n| run_seed(&config, &city, Seed(1 + n), None, None, &Watch::silent())).collect::<Result<Vec<_>, _>>()
+        (0..3)
+            .map(|n| run_seed(&config, &city, Seed(1 + n), None, None, &Watch::silent()))
+            .collect::<Result<Vec<_>, _>>()
     });
     results?;
     let each = time.as_secs_f64() / (3.0 * steps as f64) * 1e6;
-    println!("main job, three seeds of {steps} steps one after the other: {time:.2?} ({each:.0} µs a step); bar: 60 s");
+    println!(
+        "main job, three seeds of {steps} steps one after the other: {time:.2?} ({each:.0} µs a step); bar: 60 s"
+    );
     if let Some(peak) = peak_memory() {
         println!("memory at its peak: {:.0} MB; bar: 500 MB", peak / 1e6);
     }
@@ -66,7 +70,9 @@ fn peak_memory() -> Option<f64> {
 fn city() -> Result<(), Box<dyn std::error::Error>> {
     let seeds = 100;
     let (cities, time) = timed(|| {
-        (0..seeds).map(|seed| City::generate(&CityConfig::default(), Seed(seed))).collect::<Result<Vec<_>, _>>()
+        (0..seeds)
+            .map(|seed| City::generate(&CityConfig::default(), Seed(seed)))
+            .collect::<Result<Vec<_>, _>>()
     });
     let buildings: usize = cities?.iter().map(|city| city.buildings.len()).sum();
     let each = time.as_secs_f64() / seeds as f64;

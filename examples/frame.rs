@@ -63,7 +63,12 @@ fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     }
     let roads = &city.network.roads;
     let road = roads.get(arguments.road).ok_or_else(|| {
-        format!("there is no road {}: this city has {} (give --road 0 to {})", arguments.road, roads.len(), roads.len() - 1)
+        format!(
+            "there is no road {}: this city has {} (give --road 0 to {})",
+            arguments.road,
+            roads.len(),
+            roads.len() - 1
+        )
     })?;
     let (start, heading) = polyline::at(&road.centerline, 10.0);
     let right = direction(heading - 1.571) * 1.2;

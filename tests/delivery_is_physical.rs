@@ -41,7 +41,8 @@ fn couriers_stay_out_of_walls_and_wait_at_red() {
             walked += body.twist.ground_speed() * 0.1;
             for house in &houses {
                 let local = house.pose.inverse_transform_point(&body.position());
-                let inside = local.x.abs() < house.half_extents.x - 0.05 && local.y.abs() < house.half_extents.y - 0.05;
+                let inside = local.x.abs() < house.half_extents.x - 0.05
+                    && local.y.abs() < house.half_extents.y - 0.05;
                 assert!(!inside, "courier {index} is in a wall");
             }
             let now = crossing_under(network, &body.planar());

@@ -50,9 +50,12 @@ fn roads_that_are_no_roads_are_named() {
     std::fs::write(&path, br#"{"roads":[{"start":{"x":0,"y":0},"end":{"x":"#).unwrap();
     let truncated = make_city(&config).unwrap_err();
     assert!(truncated.to_string().contains("roads.json: at roads[0].end"), "{truncated}");
-    std::fs::write(&path, br#"{"roads":[
+    std::fs::write(
+        &path,
+        br#"{"roads":[
         {"start":{"x":-150,"y":0},"end":{"x":150,"y":0},"is_highway":false},
-        {"start":{"x":0,"y":-150},"end":{"x":0,"y":150},"is_highway":false}]}"#)
+        {"start":{"x":0,"y":-150},"end":{"x":0,"y":150},"is_highway":false}]}"#,
+    )
     .unwrap();
     let (city, warnings) = make_city(&config).unwrap();
     assert_eq!(city.network.roads.len(), 4);

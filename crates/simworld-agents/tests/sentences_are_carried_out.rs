@@ -55,7 +55,11 @@ fn things_are_found_as_people_name_them() {
     assert_eq!(goals("go to the nearest chair"), [2]);
     assert_eq!(goals("Please walk to the Harbour Museum, then sit down"), [4, 2]);
     assert_eq!(goals("go to harbor museum"), [4], "one letter is missing");
-    assert_eq!(goals("go to the restaurant near the museum"), [5], "the other one is nearer, but not near the museum");
+    assert_eq!(
+        goals("go to the restaurant near the museum"),
+        [5],
+        "the other one is nearer, but not near the museum"
+    );
     assert_eq!(goals("go to the cafe"), [6]);
     assert_eq!(goals("run to #1 and sit down on it"), [1]);
     assert_eq!(goals("pick up the parcel and go to the museum and drop it off"), [3, 4]);
@@ -91,7 +95,8 @@ fn the_seams_are_kept() {
 fn a_prompt_keeps_its_budget() {
     let (world, me) = square();
     let mut graph = SceneGraph::default();
-    simworld_core::seam::Observer::observe(&mut SceneGraphObserver::new(100.0), &world, me, &mut graph).unwrap();
+    simworld_core::seam::Observer::observe(&mut SceneGraphObserver::new(100.0), &world, me, &mut graph)
+        .unwrap();
     assert_eq!(graph.sightings[0].kind, EntityKind::Parcel);
     for budget in [0, 30, 100, 1000] {
         assert!(graph.to_text(budget).chars().count() <= budget);

@@ -83,7 +83,8 @@ pub struct Assembly {
 pub fn make_city(config: &RunConfig) -> Result<(City, Vec<Warning>), AssembleError> {
     let seed = Seed(config.seed).stream("city").seed();
     let Some(path) = &config.roads else { return Ok((City::generate(&config.city, seed)?, Vec::new())) };
-    let bytes = std::fs::read(path).map_err(|source| AssembleError::RoadsFile { path: path.clone(), source })?;
+    let bytes =
+        std::fs::read(path).map_err(|source| AssembleError::RoadsFile { path: path.clone(), source })?;
     let (plan, warnings) =
         read_roads(&bytes).map_err(|source| AssembleError::Roads { path: path.clone(), source })?;
     Ok((City::from_plan(plan, &config.city, seed)?, warnings))
@@ -96,8 +97,11 @@ pub fn make_city(config: &RunConfig) -> Result<(City, Vec<Warning>), AssembleErr
 pub fn assemble(config: &RunConfig, city: &City, seed: Seed) -> Result<Assembly, AssembleError> {
     let mut world = World::new();
     city.populate(&mut world)?;
-    let traffic_config =
-        TrafficConfig { vehicles: config.vehicles, pedestrians: config.pedestrians, ..config.traffic.clone() };
+    let traffic_config = TrafficConfig {
+        vehicles: config.vehicles,
+        pedestrians: config.pedestrians,
+        ..config.traffic.clone()
+    };
     let traffic = TrafficDynamics::new(&mut world, &traffic_config, seed)?;
     let couriers = spawn_couriers(&mut world, city, config.agents, seed)?;
     let mut physics = PhysicsDynamics::new(config.physics.clone())?;

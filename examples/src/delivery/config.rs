@@ -183,7 +183,10 @@ fn part<E: std::fmt::Display>(name: &str, result: Result<(), E>) -> Result<(), O
         let field = text.split(" = ").next().unwrap_or_default();
         let field = field.strip_prefix("PhysicsConfig.").unwrap_or(field);
         let key = format!("{name}.{field}");
-        let message = format!("{key}{}", text.strip_prefix(text.split(" = ").next().unwrap_or_default()).unwrap_or(&text));
+        let message = format!(
+            "{key}{}",
+            text.strip_prefix(text.split(" = ").next().unwrap_or_default()).unwrap_or(&text)
+        );
         OutOfRange { key, message }
     })
 }

@@ -182,7 +182,9 @@ pub fn read_log(path: &Path) -> Result<ReadLog, LogError> {
 impl ReadLog {
     fn take(&mut self, record: LogRecord, path: &Path, line: usize) -> Result<(), LogError> {
         let ordered = |before: Option<Tick>, tick: Tick| match before {
-            Some(before) if tick < before => Err(LogError::Order { path: path.to_owned(), line, tick, before }),
+            Some(before) if tick < before => {
+                Err(LogError::Order { path: path.to_owned(), line, tick, before })
+            }
             _ => Ok(()),
         };
         match record {

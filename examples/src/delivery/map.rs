@@ -7,7 +7,8 @@ use super::SeedRun;
 
 /// Colours told apart on a map, for trails in turn.
 const COLORS: [&str; 10] = [
-    "#1f4e9c", "#b3261e", "#1b7f4b", "#8e3ba8", "#c25e00", "#00798c", "#7a4b23", "#d6336c", "#4d5bd6", "#5c7a00",
+    "#1f4e9c", "#b3261e", "#1b7f4b", "#8e3ba8", "#c25e00", "#00798c", "#7a4b23", "#d6336c", "#4d5bd6",
+    "#5c7a00",
 ];
 
 /// The map as an SVG document.

@@ -67,7 +67,8 @@ impl OutputFolder {
     /// It cannot be made.
     pub fn seed_folder(&self, seed: Seed) -> Result<PathBuf, OutputError> {
         let path = self.path.join(format!("seed-{}", seed.0));
-        std::fs::create_dir_all(&path).map_err(|source| OutputError::NotWritable { path: path.clone(), source })?;
+        std::fs::create_dir_all(&path)
+            .map_err(|source| OutputError::NotWritable { path: path.clone(), source })?;
         Ok(path)
     }
 
@@ -77,7 +78,8 @@ impl OutputFolder {
     /// The disk is full, or the folder went away.
     pub fn write(&self, name: impl AsRef<Path>, contents: impl AsRef<[u8]>) -> Result<PathBuf, OutputError> {
         let path = self.path.join(name);
-        std::fs::write(&path, contents).map_err(|source| OutputError::NotWritable { path: path.clone(), source })?;
+        std::fs::write(&path, contents)
+            .map_err(|source| OutputError::NotWritable { path: path.clone(), source })?;
         Ok(path)
     }
 }

@@ -101,11 +101,10 @@ impl RunReport {
         let mut table = Table::new();
         table.load_style(UTF8_FULL_CONDENSED);
         table.set_header([""].into_iter().chain(COLUMNS.map(|(heading, _)| heading)));
-        let ours = COLUMNS.map(|(_, name)| self.figure(name).map_or("-".to_owned(), |figure| figure.to_string()));
+        let ours =
+            COLUMNS.map(|(_, name)| self.figure(name).map_or("-".to_owned(), |figure| figure.to_string()));
         let label = format!("simworld: {}", self.players);
-        table.add_row(
-            [Cell::new(label)].into_iter().chain(ours.iter().map(|cell| right(cell))),
-        );
+        table.add_row([Cell::new(label)].into_iter().chain(ours.iter().map(|cell| right(cell))));
         for (model, cells) in PAPER {
             let label = Cell::new(format!("paper: {model}"));
             table.add_row([label].into_iter().chain(cells.map(right)));
@@ -119,13 +118,17 @@ impl RunReport {
         table.load_style(UTF8_FULL_CONDENSED);
         let seeds = self.seeds.iter().map(|seed| format!("seed {}", seed.seed.0));
         table.set_header(
-            ["metric".to_owned(), "unit".to_owned()].into_iter().chain(seeds).chain(["mean ± std".to_owned()]),
+            ["metric".to_owned(), "unit".to_owned()]
+                .into_iter()
+                .chain(seeds)
+                .chain(["mean ± std".to_owned()]),
         );
         let Some(first) = self.seeds.first() else { return table };
         for metric in &first.metrics {
-            let values = self.seeds.iter().map(|seed| {
-                seed.metric(&metric.name).map_or("-".to_owned(), |value| format!("{value:.2}"))
-            });
+            let values = self
+                .seeds
+                .iter()
+                .map(|seed| seed.metric(&metric.name).map_or("-".to_owned(), |value| format!("{value:.2}")));
             let over_all = self.figure(&metric.name).map_or("-".to_owned(), |figure| figure.to_string());
             let row = [metric.name.clone(), metric.unit.clone()].into_iter().chain(values).chain([over_all]);
             table.add_row(row.map(Cell::new).enumerate().map(|(column, cell)| {

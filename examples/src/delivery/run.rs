@@ -83,13 +83,15 @@ pub fn play(config: &RunConfig, folder: &OutputFolder, watch: &Watch) -> Result<
         .map(|seed| {
             let path = folder.seed_folder(*seed)?;
             // Frames are of the first seed: one renderer, one set of pictures.
-            let mut taker = if *seed == seeds[0] { taker.lock().ok().and_then(|mut taker| taker.take()) } else { None };
+            let mut taker =
+                if *seed == seeds[0] { taker.lock().ok().and_then(|mut taker| taker.take()) } else { None };
             let run = run_seed(config, &city, *seed, Some(&path), taker.as_mut(), watch)?;
             write_seed(folder, &city, &run)?;
             Ok(run)
         })
         .collect::<Result<_, RunError>>()?;
-    let report = RunReport { players: players(config), seeds: runs.into_iter().map(|run| run.report).collect() };
+    let report =
+        RunReport { players: players(config), seeds: runs.into_iter().map(|run| run.report).collect() };
     folder.write("report.txt", report.to_string())?;
     folder.write("report.json", to_json(&report))?;
     Ok(report)
@@ -173,7 +175,11 @@ pub fn run_seed(
     if let Some(folder) = folder {
         write_trail(folder, &assembly)?;
     }
-    Ok(SeedRun { report: seed_report(&assembly, seed, end), couriers: assembly.episode.task().report(), trails })
+    Ok(SeedRun {
+        report: seed_report(&assembly, seed, end),
+        couriers: assembly.episode.task().report(),
+        trails,
+    })
 }
 
 /// The report of an assembled run as it stands.

@@ -58,9 +58,8 @@ impl<T: Task> Episode<T> {
             return Err(EpisodeError::Agents { saved, present: self.ids.clone() });
         }
         self.simulation.restore(snapshot.simulation)?;
-        let fits = |restored: bool, part: &dyn Fn() -> String| match restored {
-            true => Ok(()),
-            false => Err(EpisodeError::SavedState { part: part() }),
+        let fits = |restored: bool, part: &dyn Fn() -> String| {
+            if restored { Ok(()) } else { Err(EpisodeError::SavedState { part: part() }) }
         };
         fits(self.task.restore(&snapshot.task), &|| "the task".to_owned())?;
         for (agent, saved) in self.agents.iter_mut().zip(&snapshot.agents) {

@@ -116,7 +116,7 @@ impl RuleExecutor {
         let leg = way.legs[way.next];
         if let Some(id) = leg.crossing.filter(|_| !way.crossing_begun) {
             if !crossing::may_begin(scene, me, id, leg.point, speed) {
-                self.face(me, leg.point, 0.0, out);
+                face(me, leg.point, 0.0, out);
                 self.tell_speed(0.0, out);
                 return Arrival::Underway;
             }
@@ -141,20 +141,11 @@ impl RuleExecutor {
         } else {
             avoid::detour(scene, me, leg.point, self.config.look_ahead)
         };
-        let error = self.face(me, leg.point, aside, out);
+        let error = face(me, leg.point, aside, out);
         // Turning on the spot beats a wide circle round the waypoint.
         let pace = if error.abs() > FACING { 0.0 } else { speed };
         self.tell_speed(slow_for_arrival(pace, distance, way.next + 1 == way.legs.len()), out);
         Arrival::Underway
-    }
-
-    /// Turns towards a point, `aside` radians to its left; returns the heading error.
-    fn face(&self, me: &EntityRef<'_>, point: Point2, aside: f64, out: &mut Vec<Action>) -> f64 {
-        let error = wrap_angle(heading(&(point - me.planar())) + aside - yaw_of(me.pose));
-        if error.abs() > STRAIGHT {
-            out.push(Action::Rotate { angle: error });
-        }
-        error
     }
 
     /// Tries something else after standing for too long: first a step aside, then another way.
@@ -194,6 +185,15 @@ impl RuleExecutor {
         legs.push(Leg { point: goal, crossing: None });
         legs
     }
+}
+
+/// Turns towards a point, `aside` radians to its left; returns the heading error.
+fn face(me: &EntityRef<'_>, point: Point2, aside: f64, out: &mut Vec<Action>) -> f64 {
+    let error = wrap_angle(heading(&(point - me.planar())) + aside - yaw_of(me.pose));
+    if error.abs() > STRAIGHT {
+        out.push(Action::Rotate { angle: error });
+    }
+    error
 }
 
 /// The route less a first and a last waypoint that would mean going back; crossings are never cut short.

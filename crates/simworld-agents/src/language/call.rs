@@ -37,7 +37,9 @@ pub(super) fn plan_call(
         "stand_up" => act(Action::StandUp),
         "get_off_scooter" => act(Action::GetOffScooter),
         "stop" => act(Action::Stop),
-        "wait" => Ok(Plan { steps: vec![PlanStep::Wait { seconds: call.number("seconds", 0.0, 86_400.0)? }] }),
+        "wait" => {
+            Ok(Plan { steps: vec![PlanStep::Wait { seconds: call.number("seconds", 0.0, 86_400.0)? }] })
+        }
         _ => Err(call.wrong(format!("is unknown: call {CALLS}"))),
     }
 }
@@ -70,7 +72,8 @@ impl Call<'_> {
             let (x, y) = (self.number("x", -1e7, 1e7)?, self.number("y", -1e7, 1e7)?);
             Goal::Point(Point3::new(x, y, 0.0))
         };
-        let speed = if self.args.contains_key("speed") { Some(self.number("speed", 0.1, 10.0)?) } else { None };
+        let speed =
+            if self.args.contains_key("speed") { Some(self.number("speed", 0.1, 10.0)?) } else { None };
         Ok(Plan { steps: vec![PlanStep::Navigate { to, within: PLACE_DISTANCE, speed }] })
     }
 

@@ -65,8 +65,31 @@ const VERBS: &[(&[&str], Verb)] = &[
 
 /// Words that ask nicely and say nothing.
 const NOISE: &[&str] = &[
-    "please", "could", "can", "would", "will", "you", "kindly", "just", "now", "i", "want", "like", "id", "lets", "let",
-    "us", "should", "must", "next", "first", "finally", "afterwards", "quickly", "ok", "okay",
+    "please",
+    "could",
+    "can",
+    "would",
+    "will",
+    "you",
+    "kindly",
+    "just",
+    "now",
+    "i",
+    "want",
+    "like",
+    "id",
+    "lets",
+    "let",
+    "us",
+    "should",
+    "must",
+    "next",
+    "first",
+    "finally",
+    "afterwards",
+    "quickly",
+    "ok",
+    "okay",
 ];
 
 /// One clause.
@@ -82,7 +105,8 @@ pub(super) struct Clause {
 impl Clause {
     /// Whether the thing is the one that was spoken of.
     pub(super) fn means_topic(&self) -> bool {
-        matches!(self.thing.last().map(String::as_str), Some("it" | "there" | "them")) && self.thing.len() <= 2
+        matches!(self.thing.last().map(String::as_str), Some("it" | "there" | "them"))
+            && self.thing.len() <= 2
     }
 
     /// How long to wait.
@@ -111,7 +135,8 @@ impl Clause {
 pub(super) fn clauses(sentence: &str) -> Result<Vec<Clause>, String> {
     let mut found: Vec<Clause> = Vec::new();
     for piece in pieces(sentence) {
-        let words: Vec<String> = piece.iter().filter(|word| !NOISE.contains(&word.as_str())).cloned().collect();
+        let words: Vec<String> =
+            piece.iter().filter(|word| !NOISE.contains(&word.as_str())).cloned().collect();
         if words.is_empty() {
             continue;
         }
@@ -143,11 +168,17 @@ fn pieces(sentence: &str) -> Vec<Vec<String>> {
     let mut pieces: Vec<Vec<String>> = vec![Vec::new()];
     let words = words(sentence);
     for (index, word) in words.iter().enumerate() {
-        let rest: Vec<String> =
-            words[index + 1..].iter().filter(|word| !NOISE.contains(&word.as_str())).take(3).cloned().collect();
+        let rest: Vec<String> = words[index + 1..]
+            .iter()
+            .filter(|word| !NOISE.contains(&word.as_str()))
+            .take(3)
+            .cloned()
+            .collect();
         let cuts = match word.as_str() {
             "then" | "." | ";" | "!" => true,
-            "and" | "," => rest.first().is_some_and(|next| next == "then" || next == "and") || verb_of(&rest).is_some(),
+            "and" | "," => {
+                rest.first().is_some_and(|next| next == "then" || next == "and") || verb_of(&rest).is_some()
+            }
             _ => false,
         };
         if cuts {
@@ -157,11 +188,11 @@ fn pieces(sentence: &str) -> Vec<Vec<String>> {
             pieces[last].push(word.clone());
         }
     }
-    pieces.iter_mut().for_each(|piece| {
+    for piece in &mut pieces {
         if piece.last().is_some_and(|word| word == "and") {
             piece.pop();
         }
-    });
+    }
     pieces
 }
 
@@ -226,7 +257,10 @@ mod tests {
                 (Verb::Go, thing("to (10,-3)"))
             ]
         );
-        assert_eq!(verbs("wait 2.5 seconds. stand up"), [(Verb::Wait, thing("2.5 seconds")), (Verb::StandUp, thing(""))]);
+        assert_eq!(
+            verbs("wait 2.5 seconds. stand up"),
+            [(Verb::Wait, thing("2.5 seconds")), (Verb::StandUp, thing(""))]
+        );
         assert_eq!(verbs("go to Salt and Pepper Grill"), [(Verb::Go, thing("to salt and pepper grill"))]);
     }
 

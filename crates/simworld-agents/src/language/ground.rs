@@ -33,7 +33,9 @@ pub(super) fn ground(
         Phrase::Point(point) => Ok(Grounding::Point(*point)),
         Phrase::Id(id) => match scene.entity(*id) {
             Some(entity) if fits(&entity) => Ok(Grounding::Entity(*id)),
-            Some(entity) => Err(not_found(&format!("such use of {} {id}", entity.label()), scene, who, me.planar())),
+            Some(entity) => {
+                Err(not_found(&format!("such use of {} {id}", entity.label()), scene, who, me.planar()))
+            }
             None => Err(not_found(&format!("entity {id}"), scene, who, me.planar())),
         },
         Phrase::Thing { words, beside } => {
@@ -67,7 +69,9 @@ impl Wanted<'_> {
     ) -> Option<EntityId> {
         let mut best: Option<((u32, f64), EntityId)> = None;
         let _ = scene.visit(&Aabb::column_around(from, SIGHT), &mut |entity| {
-            if entity.id != self.who && fits(&entity) && self.stands_right(scene, &entity)
+            if entity.id != self.who
+                && fits(&entity)
+                && self.stands_right(scene, &entity)
                 && let Some(doubt) = self.doubt(&entity)
             {
                 let rank = (doubt, (entity.access().xy() - from).norm());
@@ -95,7 +99,9 @@ impl Wanted<'_> {
     }
 
     fn stands_right(&self, scene: &dyn Scene, entity: &EntityRef<'_>) -> bool {
-        self.anchor.is_none_or(|(relation, id)| scene.entity(id).is_some_and(|anchor| relation.holds(entity, &anchor)))
+        self.anchor.is_none_or(|(relation, id)| {
+            scene.entity(id).is_some_and(|anchor| relation.holds(entity, &anchor))
+        })
     }
 }
 
@@ -103,14 +109,19 @@ impl Wanted<'_> {
 fn not_found(wanted: &str, scene: &dyn Scene, who: EntityId, from: Point2) -> PlanError {
     let mut near: Vec<(f64, EntityId, String)> = Vec::new();
     let _ = scene.visit(&Aabb::column_around(from, 100.0), &mut |entity| {
-        if entity.id != who && (entity.info.name.is_some() || entity.info.place.is_some() || entity.kind.is_seat()) {
+        if entity.id != who
+            && (entity.info.name.is_some() || entity.info.place.is_some() || entity.kind.is_seat())
+        {
             near.push(((entity.access().xy() - from).norm(), entity.id, entity.label().to_owned()));
         }
         ControlFlow::Continue(())
     });
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let named: Vec<String> =
-        near.iter().take(NAMED).map(|(distance, id, label)| format!("{label} {id} at {distance:.0} m")).collect();
+    let named: Vec<String> = near
+        .iter()
+        .take(NAMED)
+        .map(|(distance, id, label)| format!("{label} {id} at {distance:.0} m"))
+        .collect();
     let near = if named.is_empty() { "nothing with a name is near".to_owned() } else { named.join(", ") };
     let wanted = if wanted.is_empty() { "such thing".to_owned() } else { wanted.chars().take(80).collect() };
     PlanError::NotFound { wanted, near }

@@ -68,7 +68,9 @@ pub(super) fn meaning(noun: &str) -> Option<Meaning> {
         let kinds = EntityKind::ALL.iter().map(|kind| (kind.as_str(), Meaning::Kind(*kind)));
         let places = Place::ALL.iter().map(|place| (place.as_str(), Meaning::Place(*place)));
         let all = SYNONYMS.iter().copied().chain(places).chain(kinds);
-        all.map(|(name, meaning)| (name.replace('_', " "), meaning)).find(|(name, _)| name == word).map(|found| found.1)
+        all.map(|(name, meaning)| (name.replace('_', " "), meaning))
+            .find(|(name, _)| name == word)
+            .map(|found| found.1)
     };
     let close = || {
         let kinds = EntityKind::ALL.iter().map(|kind| (kind.as_str(), Meaning::Kind(*kind)));

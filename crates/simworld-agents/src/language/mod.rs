@@ -14,7 +14,7 @@ mod phrase;
 use simworld_core::action::Action;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::scene::{ARM_REACH, Role, Scene};
+use simworld_core::scene::{ARM_REACH, EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::{Goal, Plan, PlanError, PlanStep, Planner};
 
 use clause::{Clause, Verb, clauses};
@@ -102,28 +102,27 @@ struct Draft<'a> {
 impl Draft<'_> {
     fn add(&mut self, clause: &Clause) -> Result<(), Fault> {
         match clause.verb {
-            Verb::Go | Verb::Run => self.go(clause),
-            Verb::PickUp => self.use_thing(clause, |kind| kind == simworld_core::scene::EntityKind::Parcel, |item| Action::PickUp { item }),
-            Verb::Sit => self.use_thing(clause, simworld_core::scene::EntityKind::is_seat, |seat| Action::SitDown { seat }),
+            Verb::Go | Verb::Run => self.go(clause)?,
+            Verb::PickUp => {
+                self.use_thing(clause, |kind| kind == EntityKind::Parcel, |item| Action::PickUp { item })?
+            }
+            Verb::Sit => self.use_thing(clause, EntityKind::is_seat, |seat| Action::SitDown { seat })?,
             Verb::Ride => self.use_thing(
                 clause,
-                |kind| kind == simworld_core::scene::EntityKind::Scooter,
+                |kind| kind == EntityKind::Scooter,
                 |scooter| Action::RideScooter { scooter },
-            ),
-            Verb::DropOff => self.drop_off(clause),
+            )?,
+            Verb::DropOff => self.drop_off(clause)?,
             Verb::StandUp => self.act(Action::StandUp),
             Verb::GetOff => self.act(Action::GetOffScooter),
             Verb::Stop => self.act(Action::Stop),
-            Verb::Wait => {
-                self.plan.steps.push(PlanStep::Wait { seconds: clause.seconds()? });
-                Ok(())
-            }
+            Verb::Wait => self.plan.steps.push(PlanStep::Wait { seconds: clause.seconds()? }),
         }
+        Ok(())
     }
 
-    fn act(&mut self, action: Action) -> Result<(), Fault> {
+    fn act(&mut self, action: Action) {
         self.plan.steps.push(PlanStep::Act(action));
-        Ok(())
     }
 
     fn go(&mut self, clause: &Clause) -> Result<(), Fault> {
@@ -143,7 +142,7 @@ impl Draft<'_> {
     fn use_thing(
         &mut self,
         clause: &Clause,
-        fits: fn(simworld_core::scene::EntityKind) -> bool,
+        fits: fn(EntityKind) -> bool,
         action: impl Fn(EntityId) -> Action,
     ) -> Result<(), Fault> {
         let known = self.topic.filter(|id| self.scene.entity(*id).is_some_and(|entity| fits(entity.kind)));
@@ -156,7 +155,8 @@ impl Draft<'_> {
         };
         self.topic = Some(id);
         self.approach(Goal::Entity(id));
-        self.act(action(id))
+        self.act(action(id));
+        Ok(())
     }
 
     /// Puts down what the hands hold, at a place if the clause names one.
@@ -169,7 +169,8 @@ impl Draft<'_> {
             self.approach(to);
         }
         let heavy = self.scene.attached(self.who, Role::Carried).is_some();
-        self.act(if heavy { Action::PutDownHeavy } else { Action::DropOff })
+        self.act(if heavy { Action::PutDownHeavy } else { Action::DropOff });
+        Ok(())
     }
 
     /// Navigates within reach; a navigation to the same goal just before is made to end there.
@@ -180,11 +181,7 @@ impl Draft<'_> {
         }
     }
 
-    fn ground(
-        &self,
-        clause: &Clause,
-        fits: &dyn Fn(&simworld_core::scene::EntityRef<'_>) -> bool,
-    ) -> Result<Grounding, Fault> {
+    fn ground(&self, clause: &Clause, fits: &dyn Fn(&EntityRef<'_>) -> bool) -> Result<Grounding, Fault> {
         if clause.means_topic()
             && let Some(id) = self.topic
         {

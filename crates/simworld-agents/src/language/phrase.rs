@@ -19,8 +19,8 @@ pub(super) enum Phrase {
 
 /// Words that lead to a thing and say nothing of it.
 const LEADING: &[&str] = &[
-    "to", "towards", "toward", "at", "on", "onto", "in", "into", "down", "over", "up", "for", "the", "a", "an", "nearest",
-    "closest", "next", "near", "by", "back", "inside", "some", "any", "that", "this", "my",
+    "to", "towards", "toward", "at", "on", "onto", "in", "into", "down", "over", "up", "for", "the", "a",
+    "an", "nearest", "closest", "next", "near", "by", "back", "inside", "some", "any", "that", "this", "my",
 ];
 
 /// Relations by their words, the longer first.
@@ -58,7 +58,9 @@ fn parse_nested(words: &[String], depth: usize) -> Result<Phrase, Fault> {
             return point.map(Phrase::Point);
         }
         if let Some(number) = only.strip_prefix('#') {
-            let id = number.parse::<u64>().map_err(|_| Fault::Unclear("an id is # and a number: #12".to_owned()))?;
+            let id = number
+                .parse::<u64>()
+                .map_err(|_| Fault::Unclear("an id is # and a number: #12".to_owned()))?;
             return Ok(Phrase::Id(EntityId::from(id)));
         }
     }
@@ -69,7 +71,10 @@ fn parse_nested(words: &[String], depth: usize) -> Result<Phrase, Fault> {
         });
         if let Some((pattern, relation)) = relation {
             let beside = parse_nested(&rest[pattern.len()..], depth + 1)?;
-            return Ok(Phrase::Thing { words: words[..at].join(" "), beside: Some((*relation, Box::new(beside))) });
+            return Ok(Phrase::Thing {
+                words: words[..at].join(" "),
+                beside: Some((*relation, Box::new(beside))),
+            });
         }
     }
     Ok(Phrase::Thing { words: words.join(" "), beside: None })

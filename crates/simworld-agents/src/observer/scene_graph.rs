@@ -106,7 +106,12 @@ impl SceneGraphObserver {
 impl Observer for SceneGraphObserver {
     type Observation = SceneGraph;
 
-    fn observe(&mut self, scene: &dyn Scene, who: EntityId, out: &mut SceneGraph) -> Result<(), ObserveError> {
+    fn observe(
+        &mut self,
+        scene: &dyn Scene,
+        who: EntityId,
+        out: &mut SceneGraph,
+    ) -> Result<(), ObserveError> {
         let me = scene.entity(who).ok_or(ObserveError::Missing { id: who })?;
         out.sightings.clear();
         let here = me.planar();
