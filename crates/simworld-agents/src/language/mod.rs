@@ -104,7 +104,7 @@ impl Draft<'_> {
         match clause.verb {
             Verb::Go | Verb::Run => self.go(clause)?,
             Verb::PickUp => {
-                self.use_thing(clause, |kind| kind == EntityKind::Parcel, |item| Action::PickUp { item })?
+                self.use_thing(clause, |kind| kind == EntityKind::Parcel, |item| Action::PickUp { item })?;
             }
             Verb::Sit => self.use_thing(clause, EntityKind::is_seat, |seat| Action::SitDown { seat })?,
             Verb::Ride => self.use_thing(
