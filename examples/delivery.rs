@@ -105,11 +105,6 @@ fn configure(arguments: &Arguments) -> Result<RunConfig, Fault> {
         Some(path) => RunConfig::read(path)?,
         None => RunConfig::default(),
     };
-    fn set<T: Clone>(place: &mut T, argument: Option<&T>) {
-        if let Some(value) = argument {
-            place.clone_from(value);
-        }
-    }
     set(&mut config.seed, arguments.seed.as_ref());
     set(&mut config.seeds, arguments.seeds.as_ref());
     set(&mut config.agents, arguments.agents.as_ref());
@@ -122,6 +117,13 @@ fn configure(arguments: &Arguments) -> Result<RunConfig, Fault> {
     }
     config.validate()?;
     Ok(config)
+}
+
+/// Takes over what the command line says, if it says anything.
+fn set<T: Clone>(place: &mut T, argument: Option<&T>) {
+    if let Some(value) = argument {
+        place.clone_from(value);
+    }
 }
 
 /// Ctrl-C asks the run to stop after its step; the log is then whole.

@@ -14,7 +14,7 @@ fn steps() -> u64 {
 fn trail(steps: u64) -> Vec<(Tick, StateDigest)> {
     let (_, mut assembly) = assembled(&small(steps));
     while !assembly.episode.is_over() {
-        assembly.episode.step().unwrap();
+        assembly.episode.step().expect("a sound run steps");
     }
     assembly.episode.trail().to_vec()
 }

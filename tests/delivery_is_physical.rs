@@ -22,7 +22,7 @@ fn crossing_under(network: &RoadNetwork, at: &nalgebra::Point2<f64>) -> Option<C
 fn couriers_stay_out_of_walls_and_wait_at_red() {
     let (city, mut assembly) = assembled(&small(2500));
     let network = &city.network;
-    let houses: Vec<Obb> = city.buildings.iter().map(|building| building.obb()).collect();
+    let houses: Vec<Obb> = city.buildings.iter().map(simworld_citygen::building::Building::obb).collect();
     let mut on: Vec<Option<CrossingId>> = vec![None; assembly.couriers.len()];
     let mut recent: Vec<Vec<Aspect>> = Vec::new();
     let (mut walked, mut begun) = (0.0, 0);

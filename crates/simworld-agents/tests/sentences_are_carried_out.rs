@@ -24,8 +24,8 @@ fn at(x: f64, y: f64) -> Pose {
 fn square() -> (World, EntityId) {
     let mut world = World::new();
     let person = Shape::Capsule { radius: 0.25, height: 1.8 };
-    let me = world.spawn(EntityDesc::new(EntityKind::Person, at(0.0, 0.0), person)).unwrap();
-    let mut put = |desc: EntityDesc| world.spawn(desc).unwrap();
+    let me = world.spawn(EntityDesc::new(EntityKind::Person, at(0.0, 0.0), person)).expect("a sound person");
+    let mut put = |desc: EntityDesc| world.spawn(desc).expect("a sound entity");
     put(EntityDesc::new(EntityKind::Chair, at(20.0, 0.0), Shape::cuboid(0.5, 0.5, 0.9)));
     put(EntityDesc::new(EntityKind::Chair, at(8.0, 3.0), Shape::cuboid(0.5, 0.5, 0.9)));
     put(EntityDesc::new(EntityKind::Parcel, at(-6.0, 0.0), Shape::cuboid(0.3, 0.3, 0.3)));

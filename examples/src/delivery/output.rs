@@ -52,7 +52,7 @@ impl OutputFolder {
     /// # Errors
     /// None can be made.
     pub fn create_numbered(stem: &str) -> Result<Self, OutputError> {
-        let path = (1_u32..).map(|n| PathBuf::from(format!("{stem}-{n}"))).find(|path| !path.exists());
+        let path = (1..u32::MAX).map(|n| PathBuf::from(format!("{stem}-{n}"))).find(|path| !path.exists());
         Self::create(&path.unwrap_or_else(|| PathBuf::from(stem)))
     }
 

@@ -1,5 +1,6 @@
 //! Plays a configuration, all its seeds, and writes what happened.
 
+use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Mutex;
 
@@ -147,7 +148,7 @@ pub fn run_seed(
     let mut trails: Vec<Vec<Point2>> = vec![Vec::new(); assembly.couriers.len()];
     let mut written = Written::default();
     if let Some(log) = &mut log {
-        written.log_events(&assembly, log)?;
+        Written::log_events(&assembly, log)?;
     }
     while !assembly.episode.is_over() && !watch.is_stopped() {
         let stepped = assembly.episode.step().map(|_| ());
@@ -217,7 +218,7 @@ impl Written {
             log.write(&LogRecord::Command(command.clone()))?;
         }
         self.commands = commands.len();
-        self.log_events(assembly, log)?;
+        Self::log_events(assembly, log)?;
         let trail = assembly.episode.trail();
         for (tick, digest) in &trail[self.digests..] {
             log.write(&LogRecord::Digest { tick: *tick, digest: *digest })?;
@@ -226,7 +227,7 @@ impl Written {
         Ok(())
     }
 
-    fn log_events(&self, assembly: &Assembly, log: &mut LogWriter) -> Result<(), LogError> {
+    fn log_events(assembly: &Assembly, log: &mut LogWriter) -> Result<(), LogError> {
         for event in assembly.episode.events() {
             log.write(&LogRecord::Event(event.clone()))?;
         }
@@ -238,7 +239,8 @@ impl Written {
 fn write_trail(folder: &Path, assembly: &Assembly) -> Result<(), RunError> {
     let mut text = String::from("tick,digest\n");
     for (tick, digest) in assembly.episode.trail() {
-        text.push_str(&format!("{tick},{digest}\n"));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{tick},{digest}");
     }
     let path = folder.join("hashes.csv");
     std::fs::write(&path, text).map_err(|source| OutputError::NotWritable { path, source })?;
