@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let world = street()?;
     let intrinsics = Intrinsics::from_fov(1280, 720, 1.15)?;
     let views = [
-        ("street", Point3::new(-9.0, -2.2, 3.4), Point3::new(40.0, 2.5, 3.2)),
+        ("street", Point3::new(1.0, -2.6, 3.3), Point3::new(30.0, 1.8, 3.4)),
         ("sidewalk", Point3::new(6.0, 6.6, 1.6), Point3::new(30.0, 6.2, 1.8)),
         ("above", Point3::new(-30.0, -42.0, 46.0), Point3::new(45.0, 6.0, 0.0)),
     ];
@@ -190,16 +190,16 @@ fn furniture(world: &mut World) -> Result<(), WorldError> {
 fn traffic(world: &mut World) -> Result<(), WorldError> {
     let road = -0.08;
     let car = Shape::cuboid(4.5, 1.8, 1.5);
-    for x in [4.0, 17.0, 33.5, 78.0, 104.0] {
+    for x in [13.5, 24.0, 33.5, 78.0, 104.0] {
         put(world, EntityKind::Car, [x, -1.9, road], 0.0, car)?;
     }
-    for x in [-4.0, 12.5, 60.0, 84.0, 92.0] {
+    for x in [-4.0, 15.5, 60.0, 84.0, 92.0] {
         put(world, EntityKind::Car, [x, 1.9, road], std::f64::consts::PI, car)?;
     }
     put(world, EntityKind::Bus, [26.0, 1.9, road], std::f64::consts::PI, Shape::cuboid(11.0, 2.5, 3.0))?;
     put(world, EntityKind::Truck, [62.0, -1.9, road], 0.0, Shape::cuboid(5.6, 2.0, 2.5))?;
     put(world, EntityKind::Car, [45.0, 11.0, road], -QUARTER, car)?;
-    put(world, EntityKind::Bicycle, [10.0, -3.4, road], 0.0, Shape::cuboid(1.75, 0.5, 1.1))?;
+    put(world, EntityKind::Bicycle, [10.5, -3.2, road], 0.0, Shape::cuboid(1.75, 0.5, 1.1))?;
     put(world, EntityKind::Scooter, [9.0, 4.6, 0.0], 0.8, Shape::cuboid(1.1, 0.45, 1.1))?;
     put(world, EntityKind::Motorcycle, [24.0, -4.6, 0.0], 0.5, Shape::cuboid(2.1, 0.75, 1.15))
 }

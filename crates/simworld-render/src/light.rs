@@ -67,10 +67,10 @@ impl Light {
         let clouds = weather.cloud_cover;
         let day = smooth(-0.02, 0.05, height);
         let direct = sun.illuminance * day * (1.0 - 0.93 * clouds * clouds);
-        // Diffuse light: about a sixth of the beam in clear weather, a third of what clouds take, twilight, city glow.
+        // Diffuse light: about a fifth of the beam in clear weather, a third of what clouds take, twilight, city glow.
         let scattered = sun.illuminance
             * day
-            * (0.17 * (0.35 + 0.65 * height.max(0.0)) + 0.22 * clouds * height.max(0.0));
+            * (0.22 * (0.35 + 0.65 * height.max(0.0)) + 0.22 * clouds * height.max(0.0));
         let twilight =
             400.0 * ops::exp(0.9 * sun.elevation.to_degrees().min(0.0)) * smooth(0.0, 1.0, sun.illuminance);
         let diffuse = scattered + twilight + 3.0;
@@ -80,20 +80,20 @@ impl Light {
         let exposure = grey / (0.18 * ground) * ops::pow(2.0, compensation);
 
         let warm = smooth(0.35, 0.0, height) * day;
-        let clear = tint(0.5, 0.72, 1.12);
+        let clear = tint(0.74, 0.84, 1.04);
         let grey_sky = tint(0.9, 0.96, 1.04);
         let sky = clear.lerp(&grey_sky, clouds) * (diffuse * exposure);
         let dusk = tint(1.25, 0.85, 0.62);
-        let horizon = tint(0.78, 0.9, 1.1).lerp(&grey_sky, clouds).lerp(&dusk, warm * 0.6 * (1.0 - clouds));
-        let zenith = tint(0.26, 0.5, 1.25).lerp(&grey_sky, clouds * 0.9);
+        let horizon = tint(0.8, 0.94, 1.06).lerp(&grey_sky, clouds).lerp(&dusk, warm * 0.6 * (1.0 - clouds));
+        let zenith = tint(0.26, 0.58, 1.12).lerp(&grey_sky, clouds * 0.9);
         let sun_color = sunlight(sun.elevation);
         Self {
             sun_direction: sun.direction(),
             sun: sun_color * (direct * exposure),
             sky,
             bounce: (sun_color * (direct * height.max(0.0)) + clear * diffuse) * (GROUND_ALBEDO * exposure),
-            zenith: zenith * (diffuse * exposure * 1.25),
-            horizon: horizon * (diffuse * exposure * 2.6),
+            zenith: zenith * (diffuse * exposure * 1.15),
+            horizon: horizon * (diffuse * exposure * 2.5),
             extinction: -ops::ln(CONTRAST) / weather.visibility,
             night: 1.0 - smooth(-0.08, 0.1, height),
             clouds,

@@ -69,7 +69,7 @@ const PAINT: [[f32; 3]; 10] = [
     [0.45, 0.3, 0.12],
 ];
 const LEAVES: [[f32; 3]; 5] =
-    [[0.08, 0.2, 0.035], [0.11, 0.24, 0.04], [0.06, 0.16, 0.045], [0.15, 0.25, 0.045], [0.09, 0.18, 0.06]];
+    [[0.085, 0.17, 0.045], [0.12, 0.2, 0.05], [0.065, 0.14, 0.05], [0.16, 0.22, 0.055], [0.1, 0.16, 0.065]];
 const ROOFS: [[f32; 3]; 4] = [[0.3, 0.09, 0.05], [0.22, 0.07, 0.05], [0.09, 0.09, 0.1], [0.2, 0.13, 0.09]];
 const WALLS: [[f32; 3]; 6] = [
     [0.6, 0.52, 0.42],
@@ -193,7 +193,7 @@ fn tree(look: &mut Look, bits: u64) {
     let [x, y, z] = look.scale;
     // A thin solid is the trunk alone; a wide one holds the crown.
     let crown = if x.max(y) > 0.3 * z { x.max(y) * 0.5 } else { CROWN_RADIUS * z };
-    look.mesh = if bits & 3 == 0 { MeshId::Slender } else { MeshId::Broadleaf };
+    look.mesh = if bits.is_multiple_of(4) { MeshId::Slender } else { MeshId::Broadleaf };
     look.unit = (crown / CROWN_RADIUS).min(z * 1.4).max(z);
     look.color = pick(&LEAVES, bits >> 8);
     look.reach = f64::from(crown) * 1.2;
@@ -243,7 +243,7 @@ fn vehicle(look: &mut Look, kind: EntityKind, bits: u64) {
 fn furniture(look: &mut Look, kind: EntityKind, bits: u64) {
     let round = |look: &Look, mesh| Look { mesh, unit: look.scale[0] * 0.5, ..*look };
     let (made, color, second) = match kind {
-        EntityKind::Ground => (Look { mesh: MeshId::Ground, ..metric(look) }, [0.13, 0.19, 0.06], [0.2; 3]),
+        EntityKind::Ground => (Look { mesh: MeshId::Ground, ..metric(look) }, [0.15, 0.19, 0.085], [0.2; 3]),
         EntityKind::Road => (Look { mesh: MeshId::Road, ..metric(look) }, [0.072, 0.074, 0.08], [0.2; 3]),
         EntityKind::Sidewalk => {
             (Look { mesh: MeshId::Sidewalk, ..metric(look) }, [0.36, 0.35, 0.33], [0.2; 3])

@@ -37,7 +37,7 @@ impl std::fmt::Debug for Renderer {
         f.debug_struct("Renderer")
             .field("adapter", &self.gpu.info.name)
             .field("config", &self.config)
-            .finish()
+            .finish_non_exhaustive()
     }
 }
 
@@ -247,6 +247,7 @@ fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
 type Attachment<'a> = Option<wgpu::RenderPassColorAttachment<'a>>;
 
 /// A target that starts at zero: the number of no instance.
+#[expect(clippy::unnecessary_wraps, reason = "wgpu takes every attachment as an option")]
 fn attachment<'a>(view: &'a wgpu::TextureView, resolve: Option<&'a wgpu::TextureView>) -> Attachment<'a> {
     let store = if resolve.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
     Some(wgpu::RenderPassColorAttachment {

@@ -88,6 +88,7 @@ impl Pipelines {
     }
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]
 fn target(format: wgpu::TextureFormat, write_mask: wgpu::ColorWrites) -> Option<wgpu::ColorTargetState> {
     Some(wgpu::ColorTargetState { format, blend: None, write_mask })
 }

@@ -25,16 +25,16 @@ pub(crate) fn person(stance: Stance) -> Builder {
         legs(&mut mesh, stance, side, hip, stride);
         let swing = -stride * side;
         let (shoulder, hand) = match stance {
-            Stance::Sitting => (up(0.0, 0.105 * side, 0.3), up(0.18, 0.09 * side, 0.07)),
-            _ => (up(0.0, 0.105 * side, 0.3), up(swing + 0.03, 0.125 * side, 0.0)),
+            Stance::Sitting => (up(0.0, 0.088 * side, 0.29), up(0.18, 0.09 * side, 0.07)),
+            _ => (up(0.0, 0.088 * side, 0.29), up(swing + 0.03, 0.115 * side, 0.0)),
         };
-        let elbow = up((shoulder.o[0] + hand.o[0]) * 0.5 - 0.025, 0.125 * side, 0.15);
+        let elbow = up((shoulder.o[0] + hand.o[0]) * 0.5 - 0.025, 0.115 * side, 0.15);
         mesh.limb([shoulder, elbow], [0.029, 0.025], Material::Body);
         mesh.limb([elbow, hand], [0.024, 0.018], Material::Skin);
     }
     // The torso, from the hips to the shoulders, wider than deep.
     let (waist, chest) = (up(0.0, 0.0, 0.05), up(0.0, 0.0, 0.24));
-    mesh.ball([waist, chest], [0.062, 0.1, 0.085], 10, 12, Material::Body);
+    mesh.ball([waist, chest], [0.06, 0.093, 0.085], 12, 16, Material::Body);
     let seat = up(0.0, 0.0, 0.015);
     mesh.ball([seat, seat], [0.064, 0.088, 0.06], 8, 12, Material::Second);
     mesh.tube([up(0.0, 0.0, 0.3), up(0.008, 0.0, 0.36)], [0.032, 0.028], 8, Material::Skin);
@@ -48,12 +48,11 @@ pub(crate) fn person(stance: Stance) -> Builder {
 fn legs(mesh: &mut Builder, stance: Stance, side: f32, hip: f32, stride: f32) {
     let y = 0.05 * side;
     let joint = unit(0.0, y, hip);
-    let (knee, ankle) = match stance {
-        Stance::Sitting => (unit(0.24, y, hip), unit(0.25, y, -0.215)),
-        _ => {
-            let bend = if side * stride < 0.0 { 0.02 } else { 0.035 };
-            (unit(stride * side * 0.55 + bend, y, hip * 0.54), unit(stride * side - bend, y, 0.035))
-        }
+    let (knee, ankle) = if let Stance::Sitting = stance {
+        (unit(0.24, y, hip), unit(0.25, y, -0.215))
+    } else {
+        let bend = if side * stride < 0.0 { 0.02 } else { 0.035 };
+        (unit(stride * side * 0.55 + bend, y, hip * 0.54), unit(stride * side - bend, y, 0.035))
     };
     mesh.limb([joint, knee], [0.045, 0.034], Material::Second);
     mesh.limb([knee, ankle], [0.033, 0.023], Material::Second);

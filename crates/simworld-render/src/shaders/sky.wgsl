@@ -38,13 +38,11 @@ fn sky_with_clouds(direction: vec3f) -> vec3f {
     return color;
 }
 
-// Khronos PBR Neutral tone mapping (Khronos Group, 2024): colours below 0.76 keep their hue and value.
-fn tone_map(linear: vec3f) -> vec3f {
-    let least = min(linear.r, min(linear.g, linear.b));
-    let toe = select(0.04, least - 6.25 * least * least, least < 0.08);
-    let color = linear - toe;
+// The shoulder of Khronos PBR Neutral (Khronos Group, 2024): colours below 0.8 keep their hue and value, brighter ones
+// are pressed together and fade to white. Its toe makes up for reflections that surfaces here do not have.
+fn tone_map(color: vec3f) -> vec3f {
     let peak = max(color.r, max(color.g, color.b));
-    let start = 0.76;
+    let start = 0.8;
     if (peak < start) {
         return color;
     }
