@@ -1,5 +1,5 @@
 //! What the tests of the renderer share.
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub)]
 
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point3, pose_facing};
@@ -9,7 +9,7 @@ use simworld_render::{Frame, RenderConfig, RenderError, Renderer};
 
 /// A renderer, or `None` with the reason printed where there is no adapter; with `SIMWORLD_REQUIRE_ADAPTER=1` a
 /// missing adapter is a failure.
-pub fn renderer(config: &RenderConfig) -> Option<Renderer> {
+pub(crate) fn renderer(config: &RenderConfig) -> Option<Renderer> {
     match Renderer::new(config) {
         Ok(renderer) => Some(renderer),
         Err(error @ RenderError::NoAdapter { .. }) => {
@@ -23,27 +23,27 @@ pub fn renderer(config: &RenderConfig) -> Option<Renderer> {
 }
 
 /// Puts an entity into the world.
-pub fn put(world: &mut World, kind: EntityKind, at: [f64; 3], yaw: f64, shape: Shape) -> EntityId {
+pub(crate) fn put(world: &mut World, kind: EntityKind, at: [f64; 3], yaw: f64, shape: Shape) -> EntityId {
     let pose = pose_facing(Point3::new(at[0], at[1], at[2]), yaw);
     world.spawn(EntityDesc::new(kind, pose, shape)).expect("a solid in the world")
 }
 
 /// A camera `height` m over the origin that looks east.
-pub fn looking_east(height: f64, width: u32, image_height: u32) -> Camera {
+pub(crate) fn looking_east(height: f64, width: u32, image_height: u32) -> Camera {
     let intrinsics =
         Intrinsics::from_fov(width, image_height, std::f64::consts::FRAC_PI_2).expect("a size in range");
     Camera::looking_along(&pose_facing(Point3::new(0.0, 0.0, height), 0.0), intrinsics)
 }
 
 /// Draws one frame.
-pub fn draw(renderer: &mut Renderer, world: &World, camera: &Camera) -> Frame {
+pub(crate) fn draw(renderer: &mut Renderer, world: &World, camera: &Camera) -> Frame {
     let mut frame = Frame::new();
     renderer.render(world, camera, &mut frame).unwrap_or_else(|error| panic!("not drawn: {error}"));
     frame
 }
 
 /// A small place with one of everything, `shift` m east and north of the origin.
-pub fn square(shift: f64) -> World {
+pub(crate) fn square(shift: f64) -> World {
     let mut world = World::new();
     let mut place = |kind, [x, y, z]: [f64; 3], yaw, shape| {
         put(&mut world, kind, [x + shift, y + shift, z], yaw, shape);
@@ -66,14 +66,14 @@ pub fn square(shift: f64) -> World {
 }
 
 /// The camera of [`square`].
-pub fn square_camera(shift: f64, width: u32, height: u32) -> Camera {
+pub(crate) fn square_camera(shift: f64, width: u32, height: u32) -> Camera {
     let intrinsics = Intrinsics::from_fov(width, height, 1.3).expect("a size in range");
     let eye = Point3::new(shift, shift, 2.4);
     Camera::looking_at(eye, Point3::new(shift + 14.0, shift + 0.4, 1.9), intrinsics)
 }
 
 /// Mean absolute difference of two byte buffers, and the share of bytes that differ by more than `limit`.
-pub fn difference(a: &[u8], b: &[u8], limit: u8) -> (f64, f64) {
+pub(crate) fn difference(a: &[u8], b: &[u8], limit: u8) -> (f64, f64) {
     assert_eq!(a.len(), b.len(), "pictures of two sizes");
     let (mut sum, mut count) = (0_u64, 0_usize);
     for (x, y) in a.iter().zip(b) {
