@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let world = street()?;
     let intrinsics = Intrinsics::from_fov(1280, 720, 1.15)?;
     let views = [
-        ("street", Point3::new(1.0, -2.6, 3.3), Point3::new(30.0, 1.8, 3.4)),
+        ("street", Point3::new(-1.0, 0.3, 4.0), Point3::new(30.0, 0.9, 3.3)),
         ("sidewalk", Point3::new(6.0, 6.6, 1.6), Point3::new(30.0, 6.2, 1.8)),
         ("above", Point3::new(-30.0, -42.0, 46.0), Point3::new(45.0, 6.0, 0.0)),
     ];
@@ -45,7 +45,7 @@ fn street() -> Result<World, WorldError> {
     let mut world = World::new();
     let mut environment = Environment::default();
     environment.sun.azimuth = 3.9;
-    environment.sun.elevation = 0.72;
+    environment.sun.elevation = 0.98;
     environment.weather.cloud_cover = 0.35;
     // The numbers are in range, so this cannot fail.
     let _ = world.set_environment(environment);

@@ -75,8 +75,8 @@ impl Light {
             400.0 * ops::exp(0.9 * sun.elevation.to_degrees().min(0.0)) * smooth(0.0, 1.0, sun.illuminance);
         let diffuse = scattered + twilight + 3.0;
         let ground = direct * height.max(0.0) + diffuse;
-        // Bright noon puts grey at 18 %; darker scenes stay darker, but readable.
-        let grey = 0.2 * ops::pow((ground / 60_000.0).min(1.5), 0.09);
+        // At 60 000 lux an 18 % grey is drawn at 22 %; darker scenes stay darker, but readable.
+        let grey = 0.22 * ops::pow((ground / 60_000.0).min(1.5), 0.15);
         let exposure = grey / (0.18 * ground) * ops::pow(2.0, compensation);
 
         let warm = smooth(0.35, 0.0, height) * day;
@@ -87,15 +87,18 @@ impl Light {
         let horizon = tint(0.8, 0.94, 1.06).lerp(&grey_sky, clouds).lerp(&dusk, warm * 0.6 * (1.0 - clouds));
         let zenith = tint(0.26, 0.58, 1.12).lerp(&grey_sky, clouds * 0.9);
         let sun_color = sunlight(sun.elevation);
+        let night = 1.0 - smooth(-0.08, 0.1, height);
+        // A clear sky is brightest near the horizon, an overcast one is even (CIE), a night sky is dark.
+        let sky_radiance = diffuse * exposure * (1.0 - 0.6 * night);
         Self {
             sun_direction: sun.direction(),
             sun: sun_color * (direct * exposure),
             sky,
             bounce: (sun_color * (direct * height.max(0.0)) + clear * diffuse) * (GROUND_ALBEDO * exposure),
-            zenith: zenith * (diffuse * exposure * 1.15),
-            horizon: horizon * (diffuse * exposure * 2.5),
+            zenith: zenith * (sky_radiance * 1.15),
+            horizon: horizon * (sky_radiance * (2.5 - 1.3 * clouds)),
             extinction: -ops::ln(CONTRAST) / weather.visibility,
-            night: 1.0 - smooth(-0.08, 0.1, height),
+            night,
             clouds,
         }
     }

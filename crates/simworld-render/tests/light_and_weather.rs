@@ -36,7 +36,8 @@ fn fog_and_night_change_colours_alone() {
 /// Koschmieder: at the visibility, 5 % of the contrast between a dark wall and the haze is left.
 #[test]
 fn contrast_falls_with_distance_in_fog() {
-    let config = RenderConfig { shadow_resolution: 0, ..RenderConfig::default() };
+    let config =
+        RenderConfig { shadow_resolution: 0, exposure_compensation: -0.5, ..RenderConfig::default() };
     let Some(mut renderer) = renderer(&config) else { return };
     let mut contrast_at = |distance: f64| {
         let mut world = World::new();
@@ -50,7 +51,7 @@ fn contrast_falls_with_distance_in_fog() {
             EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(1.0, size, size)).colored(color)
         };
         world.spawn(wall(1.0, [0.0; 3])).expect("a wall");
-        world.spawn(wall(-1.0, [0.4; 3])).expect("a wall");
+        world.spawn(wall(-1.0, [1.0; 3])).expect("a wall");
         let frame = draw(&mut renderer, &world, &looking_east(0.0, 65, 65));
         let linear = |x| {
             let srgb = f64::from(frame.rgb_at(x, 33).expect("in the picture")[1]) / 255.0;
@@ -58,10 +59,10 @@ fn contrast_falls_with_distance_in_fog() {
         };
         linear(38) - linear(26)
     };
-    let (near, far) = (contrast_at(2.0), contrast_at(100.0));
-    // Half the visibility: the square root of 5 %, over the little lost at 2 m.
+    let (near, far) = (contrast_at(12.0), contrast_at(50.0));
+    // 38 m more of 200: 0.05 to the power 0.19.
     let share = far / near;
-    assert!((share - 0.2304).abs() < 0.03, "{share}");
+    assert!((share - 0.566).abs() < 0.02, "{share}");
 }
 
 #[test]

@@ -35,7 +35,7 @@ fn balls_are_drawn_where_they_project() {
     let cameras = [
         Intrinsics { width: 320, height: 240, fx: 200.0, fy: 200.0, cx: 160.0, cy: 120.0 },
         Intrinsics { width: 320, height: 240, fx: 260.0, fy: 170.0, cx: 95.5, cy: 181.25 },
-        Intrinsics { width: 200, height: 333, fx: 150.0, fy: 240.0, cx: 120.0, cy: -10.0 },
+        Intrinsics { width: 200, height: 333, fx: 150.0, fy: 240.0, cx: 120.0, cy: 340.0 },
     ];
     let roll = nalgebra::UnitQuaternion::from_euler_angles(0.3, 0.12, -0.1);
     for intrinsics in cameras {
