@@ -20,7 +20,11 @@ fn every_kind_is_drawn_under_its_id_and_class() {
             match slot {
                 0 => assert_eq!(*class, classes::SKY.id),
                 _ => {
-                    assert_eq!((*slot as usize, *class), (id.index() + 1, classes::class_of(*kind)), "{kind}")
+                    assert_eq!(
+                        (*slot as usize, *class),
+                        (id.index() + 1, classes::class_of(*kind)),
+                        "{kind}"
+                    );
                 }
             }
         }
