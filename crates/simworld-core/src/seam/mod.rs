@@ -11,7 +11,7 @@
 //!
 //! Beside them stand [`Dynamics`], the glue by which traffic and physics move a world, and the Gym contract
 //! [`Env`] and [`ParallelEnv`]. All are object-safe; each is also implemented for boxes and mutable references
-//! of its implementors, and has a conformance check in [`testing`](crate::testing).
+//! of its implementors, and has a conformance check in the module `testing` (feature `testing`).
 
 mod dynamics;
 mod embodiment;
