@@ -1,6 +1,6 @@
 //! The main job: couriers at work in a generated city with traffic and physics.
 //!
-//! [`RunConfig`] says what to run, [`assemble`] puts a world and an episode together, [`run`] plays it and writes
+//! [`RunConfig`] says what to run, [`assemble`] puts a world and an episode together, [`play`] plays it and writes
 //! the log, [`replay`] plays the log again and confirms every hash.
 
 mod assemble;
@@ -18,7 +18,7 @@ mod watch;
 pub use assemble::{AssembleError, Assembly, assemble, make_city};
 pub use config::{ConfigError, RunConfig};
 pub use frames::{FrameError, FrameTaker};
-pub use log::{LogError, LogRecord, LogWriter, read_log};
+pub use log::{LogError, LogRecord, LogWriter, ReadLog, read_log};
 pub use map::draw_map;
 pub use output::{OutputError, OutputFolder};
 pub use replay::{ReplayError, ReplayReport, replay};
