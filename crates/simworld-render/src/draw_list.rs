@@ -52,6 +52,9 @@ pub(crate) struct Batch {
     pub instances: Range<u32>,
 }
 
+/// One instance to sort: mesh, then rank, then position among the found.
+type Entry = (MeshId, u32, u32);
+
 /// Instances in the order in which they are drawn, first those on the picture, then those that cast shadows.
 #[derive(Default)]
 pub(crate) struct DrawList {
@@ -61,8 +64,8 @@ pub(crate) struct DrawList {
     pub visible: Vec<Batch>,
     pub casters: Vec<Batch>,
     found: Vec<(MeshId, Instance, EntityId, u8)>,
-    seen: Vec<(MeshId, u32)>,
-    shading: Vec<(MeshId, u32)>,
+    seen: Vec<Entry>,
+    shading: Vec<Entry>,
 }
 
 impl DrawList {
@@ -117,14 +120,14 @@ impl DrawList {
         let instance = Instance::new(entity, &relative, &look);
         self.found.push((look.mesh, instance, entity.id, class_of(entity.kind)));
         if seen {
-            self.seen.push((look.mesh, index));
+            self.seen.push((look.mesh, rank(look.mesh, &center), index));
         }
         if shading {
-            self.shading.push((look.mesh, index));
+            self.shading.push((look.mesh, 0, index));
         }
     }
 
-    /// Sorts by mesh, in the order of the visit within a mesh.
+    /// Sorts by mesh and rank, in the order of the visit within a rank.
     fn arrange(&mut self) {
         self.seen.sort_unstable();
         self.shading.sort_unstable();
@@ -132,23 +135,30 @@ impl DrawList {
         self.entities.clear();
         batch(&mut self.visible, &self.seen, 0);
         batch(&mut self.casters, &self.shading, self.seen.len() as u32);
-        for (_, index) in &self.seen {
+        for (_, _, index) in &self.seen {
             let (_, instance, id, class) = self.found[*index as usize];
             self.instances.push(instance);
             self.entities.push((id, class));
         }
-        self.instances.extend(self.shading.iter().map(|(_, index)| self.found[*index as usize].1));
+        self.instances.extend(self.shading.iter().map(|(_, _, index)| self.found[*index as usize].1));
     }
 }
 
-fn batch(batches: &mut Vec<Batch>, sorted: &[(MeshId, u32)], first: u32) {
+fn batch(batches: &mut Vec<Batch>, sorted: &[Entry], first: u32) {
     batches.clear();
-    for (position, (mesh, _)) in (first..).zip(sorted) {
+    for (position, (mesh, ..)) in (first..).zip(sorted) {
         match batches.last_mut() {
             Some(last) if last.mesh == *mesh => last.instances.end = position + 1,
             _ => batches.push(Batch { mesh: *mesh, instances: position..position + 1 }),
         }
     }
+}
+
+/// Near ones first, so that what they hide is not shaded; flat surfaces keep the order of the visit, because where two
+/// lie in one plane the first is seen, and that must not change with the camera.
+fn rank(mesh: MeshId, center: &Vector3) -> u32 {
+    // The bits of positive floats sort as the floats do.
+    if mesh.pattern().is_flat() { 0 } else { (center.norm_squared() as f32).to_bits() }
 }
 
 /// The ball around a box; its centre is relative to the eye.

@@ -30,6 +30,11 @@ pub(crate) enum Pattern {
 }
 
 impl Pattern {
+    /// Whether it paints surfaces that one walks and drives on.
+    pub(crate) const fn is_flat(self) -> bool {
+        matches!(self, Self::Road | Self::Sidewalk | Self::Crosswalk | Self::Ground)
+    }
+
     pub(crate) const ALL: [Self; 7] =
         [Self::Plain, Self::Facade, Self::Road, Self::Sidewalk, Self::Crosswalk, Self::Ground, Self::Foliage];
 }
