@@ -13,8 +13,16 @@ use crate::mind::MindError;
 #[non_exhaustive]
 pub enum EpisodeError {
     /// The episode came to its end before.
-    #[error("the episode is over: begin another")]
+    #[error("the episode is over, or something in it failed: begin another")]
     Over,
+    /// An agent that cannot take part.
+    #[error("{id} cannot be an agent: {reason}")]
+    Agent {
+        /// Its body.
+        id: EntityId,
+        /// Why.
+        reason: &'static str,
+    },
     /// A mind failed.
     #[error(transparent)]
     Mind(#[from] MindError),

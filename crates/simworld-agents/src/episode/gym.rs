@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use simworld_core::command::Command;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::seam::{EnvError, Observer, ParallelEnv, ParallelStep, Space, Task, Transition};
+use simworld_core::scene::Scene;
+use simworld_core::seam::{
+    EnvError, Observer, ParallelEnv, ParallelStep, Space, SpaceError, SpaceValue, Task, Transition,
+};
 use simworld_core::seed::Seed;
 
 use super::{Episode, EpisodeError};
@@ -36,17 +39,41 @@ impl<T: Task, O: Observer<Observation: Default>> GymEpisode<T, O> {
         self.episode.as_ref()
     }
 
+    /// What everybody perceives who is still in the world.
     fn observe_all(&mut self) -> Result<BTreeMap<EntityId, O::Observation>, EnvError> {
         let episode = self.episode.as_ref().ok_or(EnvError::NotReset)?;
+        let world = episode.simulation().world();
         let mut all = BTreeMap::new();
-        for id in episode.agents() {
+        for id in episode.agents().iter().filter(|id| world.entity(**id).is_some()) {
             let mut observation = O::Observation::default();
-            let observed = self.observer.observe(episode.simulation().world(), *id, &mut observation);
+            let observed = self.observer.observe(world, *id, &mut observation);
             observed.map_err(|error| EnvError::Simulation(error.to_string()))?;
             all.insert(*id, observation);
         }
         Ok(all)
     }
+
+    /// An action of a stranger, or one that is too long, is refused before anything happens.
+    fn check_actions(&self, actions: &BTreeMap<EntityId, Intent>) -> Result<(), EnvError> {
+        let episode = self.episode.as_ref().ok_or(EnvError::NotReset)?;
+        for (who, intent) in actions {
+            let text = match intent {
+                Intent::Words(words) => words.clone(),
+                Intent::Call { .. } => intent.to_string(),
+            };
+            let checked = if episode.agents().contains(who) {
+                action_space().check(&SpaceValue::Text(text))
+            } else {
+                Err(SpaceError { path: who.to_string(), reason: "is no agent of this episode".to_owned() })
+            };
+            checked.map_err(|source| EnvError::Action { who: *who, source })?;
+        }
+        Ok(())
+    }
+}
+
+const fn action_space() -> Space {
+    Space::Text { max_length: LONGEST_SENTENCE }
 }
 
 impl<T: Task, O: Observer<Observation: Default>> ParallelEnv for GymEpisode<T, O> {
@@ -65,10 +92,13 @@ impl<T: Task, O: Observer<Observation: Default>> ParallelEnv for GymEpisode<T, O
         &mut self,
         actions: &BTreeMap<EntityId, Intent>,
     ) -> Result<ParallelStep<Self::Observation>, EnvError> {
+        self.check_actions(actions)?;
         let episode = self.episode.as_mut().ok_or(EnvError::NotReset)?;
         if episode.is_over() {
             return Err(EnvError::NotReset);
         }
+        let acted: Vec<bool> =
+            episode.agents().iter().map(|id| episode.simulation().world().entity(*id).is_some()).collect();
         for (who, intent) in actions {
             episode.submit(Command::Intend { who: *who, intent: intent.clone() });
         }
@@ -76,16 +106,19 @@ impl<T: Task, O: Observer<Observation: Default>> ParallelEnv for GymEpisode<T, O
         let ids = episode.agents().to_vec();
         let mut observations = self.observe_all()?;
         let transition = |(index, id): (usize, &EntityId)| {
-            let observation = observations.remove(id)?;
+            let seen = observations.remove(id);
+            // Who left the world in this step is told so once, and perceives nothing; then it is gone for good.
+            let terminated = outcome.terminated || seen.is_none();
+            let (observation, truncated) = (seen.unwrap_or_default(), outcome.truncated);
             let reward = outcome.rewards.get(index).copied().unwrap_or(0.0);
-            let (terminated, truncated) = (outcome.terminated, outcome.truncated);
-            Some((*id, Transition { observation, reward, terminated, truncated, info: BTreeMap::new() }))
+            (*id, Transition { observation, reward, terminated, truncated, info: BTreeMap::new() })
         };
-        Ok(ids.iter().enumerate().filter_map(transition).collect())
+        let present = ids.iter().enumerate().filter(|(index, _)| acted[*index]);
+        Ok(present.map(transition).collect())
     }
 
     fn spaces(&self, _agent: EntityId) -> (Space, Space) {
         let observations = self.observer.space().unwrap_or(Space::Text { max_length: usize::MAX });
-        (observations, Space::Text { max_length: LONGEST_SENTENCE })
+        (observations, action_space())
     }
 }

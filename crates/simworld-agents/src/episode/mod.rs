@@ -51,6 +51,7 @@ pub struct Episode<T: Task> {
     agents: Vec<Agent<T>>,
     ids: Vec<EntityId>,
     outcome: Outcome,
+    failed: bool,
     returns: Vec<f64>,
     trail: Vec<(Tick, StateDigest)>,
     trail_interval: u64,
@@ -60,6 +61,7 @@ pub struct Episode<T: Task> {
     // Buffers kept from step to step.
     output: TaskOutput,
     wanted: Vec<Intent>,
+    decided: Vec<Command>,
     actions: Vec<Action>,
     intents: Vec<(EntityId, Intent)>,
 }
@@ -68,7 +70,8 @@ impl<T: Task> Episode<T> {
     /// Begins an episode: the task is reset with the seed, and what it puts into the world takes effect.
     ///
     /// # Errors
-    /// The task refuses the scene, or the world refuses what the task wants in it.
+    /// An agent without a body, or two with the same; the task refuses the scene, or the world refuses what the task
+    /// wants in it.
     pub fn new(
         simulation: Simulation,
         task: T,
@@ -76,6 +79,7 @@ impl<T: Task> Episode<T> {
         seed: Seed,
     ) -> Result<Self, EpisodeError> {
         let ids: Vec<EntityId> = agents.iter().map(|agent| agent.id).collect();
+        check_bodies(&ids, simulation.world())?;
         let mut episode = Self {
             returns: vec![0.0; ids.len()],
             simulation,
@@ -83,12 +87,14 @@ impl<T: Task> Episode<T> {
             agents,
             ids,
             outcome: Outcome::default(),
+            failed: false,
             trail: Vec::new(),
             trail_interval: 10,
             seen: Vec::new(),
             spawned: Vec::new(),
             output: TaskOutput::default(),
             wanted: Vec::new(),
+            decided: Vec::new(),
             actions: Vec::new(),
             intents: Vec::new(),
         };
@@ -106,18 +112,11 @@ impl<T: Task> Episode<T> {
     ///
     /// # Errors
     /// A mind, the task, an executor or the dynamics failed: the episode is over, and its state is as it was when the
-    /// fault occurred.
+    /// fault occurred. If a mind failed, that is the state of the last finished step.
     pub fn step(&mut self) -> Result<&Outcome, EpisodeError> {
         self.check_running()?;
-        for index in 0..self.agents.len() {
-            self.wanted.clear();
-            let agent = &mut self.agents[index];
-            agent.mind.decide(&self.task, self.simulation.world(), agent.id, &mut self.wanted)?;
-            for intent in self.wanted.drain(..) {
-                self.simulation.submit(Command::Intend { who: agent.id, intent });
-            }
-        }
-        self.step_inside()
+        let stepped = self.ask_minds().and_then(|()| self.step_inside());
+        self.conclude(stepped)
     }
 
     /// One step without minds: what they wanted, and whatever else came from outside, is taken from the recording.
@@ -130,7 +129,8 @@ impl<T: Task> Episode<T> {
         for command in recording.commands_at(tick) {
             self.simulation.submit(command.clone());
         }
-        self.step_inside()
+        let stepped = self.step_inside();
+        self.conclude(stepped)
     }
 
     /// Asks for a change from outside, beside the minds; it takes effect in the next step and is recorded.
@@ -138,9 +138,9 @@ impl<T: Task> Episode<T> {
         self.simulation.submit(command);
     }
 
-    /// Whether the task came to an end or ran out of time.
+    /// Whether the task came to an end, ran out of time, or something failed.
     pub fn is_over(&self) -> bool {
-        self.outcome.terminated || self.outcome.truncated
+        self.outcome.terminated || self.outcome.truncated || self.failed
     }
 
     /// The task.
@@ -182,7 +182,28 @@ impl<T: Task> Episode<T> {
         if self.is_over() { Err(EpisodeError::Over) } else { Ok(()) }
     }
 
-    fn step_inside(&mut self) -> Result<&Outcome, EpisodeError> {
+    fn conclude(&mut self, stepped: Result<(), EpisodeError>) -> Result<&Outcome, EpisodeError> {
+        self.failed = stepped.is_err();
+        stepped.map(|()| &self.outcome)
+    }
+
+    /// All minds decide on the same frozen world; only when all have is anything submitted.
+    fn ask_minds(&mut self) -> Result<(), EpisodeError> {
+        let world = self.simulation.world();
+        self.decided.clear();
+        for agent in self.agents.iter_mut().filter(|agent| world.entity(agent.id).is_some()) {
+            self.wanted.clear();
+            agent.mind.decide(&self.task, world, agent.id, &mut self.wanted)?;
+            let intents = self.wanted.drain(..).map(|intent| Command::Intend { who: agent.id, intent });
+            self.decided.extend(intents);
+        }
+        for command in self.decided.drain(..) {
+            self.simulation.submit(command);
+        }
+        Ok(())
+    }
+
+    fn step_inside(&mut self) -> Result<(), EpisodeError> {
         self.seen.clear();
         self.seen.extend_from_slice(self.simulation.world().events());
         self.simulation.begin_step();
@@ -194,7 +215,7 @@ impl<T: Task> Episode<T> {
         if self.trail_interval > 0 && now.0.is_multiple_of(self.trail_interval) {
             self.trail.push((now, self.digest()));
         }
-        Ok(&self.outcome)
+        Ok(())
     }
 
     /// Intents that the task does not answer are planned at once.
@@ -274,15 +295,23 @@ impl<T: Task> Episode<T> {
 
     fn start(&mut self, who: EntityId, plan: Plan) {
         let world = self.simulation.world();
-        let Some(agent) = self.agents.iter_mut().find(|agent| agent.id == who) else { return };
-        if let Err(error) = agent.executor.start(plan, world, who) {
-            self.simulation.emit(EventKind::PlanFailed { who, reason: error.to_string() });
+        let reason = match self.agents.iter_mut().find(|agent| agent.id == who) {
+            Some(agent) => agent.executor.start(plan, world, who).err().map(|error| error.to_string()),
+            None => Some(format!("{who} is no agent of this episode")),
+        };
+        if let Some(reason) = reason {
+            self.simulation.emit(EventKind::PlanFailed { who, reason });
         }
     }
 
     fn run_executors(&mut self) -> Result<(), EpisodeError> {
         for agent in &mut self.agents {
             self.actions.clear();
+            if self.simulation.world().entity(agent.id).is_none() {
+                // Whoever was taken out of the world has nothing left to do; its plan ends in silence with it.
+                agent.executor.cancel(&mut self.actions);
+                continue;
+            }
             let progress = agent.executor.advance(self.simulation.world(), agent.id, &mut self.actions)?;
             let who = agent.id;
             for action in self.actions.drain(..) {
@@ -300,6 +329,21 @@ impl<T: Task> Episode<T> {
         }
         Ok(())
     }
+}
+
+/// Every agent has a body of its own.
+fn check_bodies(ids: &[EntityId], scene: &dyn Scene) -> Result<(), EpisodeError> {
+    for (index, id) in ids.iter().enumerate() {
+        let reason = if scene.entity(*id).is_none() {
+            "there is no such entity: spawn its body before the episode"
+        } else if ids[..index].contains(id) {
+            "it was given twice: one agent a body"
+        } else {
+            continue;
+        };
+        return Err(EpisodeError::Agent { id: *id, reason });
+    }
+    Ok(())
 }
 
 impl<T: Task> StateHash for Episode<T> {

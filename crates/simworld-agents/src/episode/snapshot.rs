@@ -68,6 +68,7 @@ impl<T: Task> Episode<T> {
         }
         self.spawned = snapshot.spawned;
         self.returns = snapshot.returns;
+        self.failed = false;
         self.outcome.terminated = snapshot.terminated;
         self.outcome.truncated = snapshot.truncated;
         self.trail.clear();

@@ -23,7 +23,7 @@ impl RuleExecutor {
             };
         }
         if matches!(action, Action::Stop) {
-            self.state.told_speed = 0.0;
+            self.state.told_speed = Some(0.0);
         }
         let visible = is_visible(&action);
         out.push(action);

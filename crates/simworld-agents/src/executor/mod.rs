@@ -18,25 +18,63 @@ use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::net::{Route, RouteScratch, WaypointGraph};
 use simworld_core::scene::Scene;
-use simworld_core::seam::{Executor, ExecutorError, Plan, PlanStep, Progress};
+use simworld_core::seam::{Executor, ExecutorError, Goal, Plan, PlanStep, Progress};
+use thiserror::Error;
 
 /// How a rule-based executor behaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ExecutorConfig {
-    /// Walking speed where a plan names none, m/s.
+    /// Walking speed where a plan names none, m/s, 0.1 to 20.
     pub speed: f64,
-    /// How far it looks ahead for people and obstacles, m.
+    /// How far it looks ahead for people and obstacles, m, 0 to 50; 0 turns avoidance off.
     pub look_ahead: f64,
-    /// Time without progress after which it counts as stuck, s.
+    /// Time without progress after which it counts as stuck, s, 0.5 to 600.
     pub patience: f64,
-    /// Ways tried when stuck before it gives up.
+    /// Ways tried when stuck before it gives up, 0 to 1000.
     pub attempts: u32,
+    /// Time at one kerb after which it gives up, s, 1 to 86 400: longer than any red, so that only a crossing that
+    /// never clears exhausts it.
+    pub kerb_patience: f64,
 }
 
 impl Default for ExecutorConfig {
     fn default() -> Self {
-        Self { speed: 1.4, look_ahead: 2.0, patience: 3.0, attempts: 12 }
+        Self { speed: 1.4, look_ahead: 2.0, patience: 3.0, attempts: 12, kerb_patience: 300.0 }
+    }
+}
+
+/// A setting that no executor can work with.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{field} = {value} is out of range: give {allowed}")]
+pub struct ExecutorConfigError {
+    /// The setting.
+    pub field: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What is allowed.
+    pub allowed: &'static str,
+}
+
+impl ExecutorConfig {
+    /// Checks every field against its range; NaN is in none.
+    ///
+    /// # Errors
+    /// The first field out of range.
+    pub fn validate(&self) -> Result<(), ExecutorConfigError> {
+        let checks = [
+            ("speed", self.speed, 0.1..=20.0, "0.1 to 20 m/s"),
+            ("look_ahead", self.look_ahead, 0.0..=50.0, "0 to 50 m"),
+            ("patience", self.patience, 0.5..=600.0, "0.5 to 600 s"),
+            ("attempts", f64::from(self.attempts), 0.0..=1000.0, "0 to 1000"),
+            ("kerb_patience", self.kerb_patience, 1.0..=86_400.0, "1 to 86 400 s"),
+        ];
+        for (field, value, range, allowed) in checks {
+            if !range.contains(&value) {
+                return Err(ExecutorConfigError { field, value, allowed });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -58,8 +96,8 @@ struct State {
     /// The step under way.
     step: usize,
     stage: Stage,
-    /// What the body was told last.
-    told_speed: f64,
+    /// The speed the body was told last, m/s; unknown after anybody else may have told it something.
+    told_speed: Option<f64>,
 }
 
 /// How far the step under way has come.
@@ -79,16 +117,27 @@ enum Stage {
 impl RuleExecutor {
     /// An executor on a walkable graph, shared between agents.
     pub fn new(ways: Arc<WaypointGraph>) -> Self {
-        Self::with_config(Some(ways), ExecutorConfig::default())
+        Self::made_of(Some(ways), ExecutorConfig::default())
     }
 
     /// An executor that goes straight to its goals: for open ground.
     pub fn straight() -> Self {
-        Self::with_config(None, ExecutorConfig::default())
+        Self::made_of(None, ExecutorConfig::default())
     }
 
-    /// An executor with settings of one's own.
-    pub fn with_config(ways: Option<Arc<WaypointGraph>>, config: ExecutorConfig) -> Self {
+    /// An executor with settings of one's own, on a walkable graph or, without one, straight to its goals.
+    ///
+    /// # Errors
+    /// A setting out of range.
+    pub fn with_config(
+        ways: Option<Arc<WaypointGraph>>,
+        config: ExecutorConfig,
+    ) -> Result<Self, ExecutorConfigError> {
+        config.validate()?;
+        Ok(Self::made_of(ways, config))
+    }
+
+    fn made_of(ways: Option<Arc<WaypointGraph>>, config: ExecutorConfig) -> Self {
         Self {
             config,
             ways,
@@ -115,10 +164,10 @@ impl RuleExecutor {
     }
 
     fn tell_speed(&mut self, speed: f64, out: &mut Vec<Action>) {
-        if speed == self.state.told_speed {
+        if self.state.told_speed == Some(speed) {
             return;
         }
-        self.state.told_speed = speed;
+        self.state.told_speed = Some(speed);
         out.push(if speed > 0.0 { Action::MoveForward { speed } } else { Action::Stop });
     }
 }
@@ -128,11 +177,10 @@ impl Executor for RuleExecutor {
         if scene.entity(who).is_none() {
             return Err(ExecutorError::Missing { id: who });
         }
-        if let Some(step) = plan.steps.iter().find(|step| !is_known(step)) {
+        if let Some(step) = plan.steps.iter().find(|step| !can_be_done(step)) {
             return Err(ExecutorError::Unsupported { step: format!("{step:?}") });
         }
-        // What the body was told last stays true: it goes on moving until the new plan says otherwise.
-        self.state = State { plan, told_speed: self.state.told_speed, ..State::default() };
+        self.state = State { plan, ..State::default() };
         Ok(())
     }
 
@@ -149,7 +197,7 @@ impl Executor for RuleExecutor {
         Ok(match self.state.plan.steps[self.state.step].clone() {
             PlanStep::Navigate { to, within, speed } => {
                 let wanted = speed.unwrap_or(self.config.speed);
-                match self.navigate(scene, &me, &to, within, wanted, out) {
+                match self.navigate(scene, &me, to, within, wanted, out) {
                     Arrival::Underway => Progress::Running,
                     Arrival::There => {
                         self.tell_speed(0.0, out);
@@ -185,16 +233,27 @@ impl Executor for RuleExecutor {
     }
 
     fn state_hash(&self, hasher: &mut StateHasher) {
-        hasher.u64(self.state.step as u64).u64(self.state.plan.steps.len() as u64).f64(self.state.told_speed);
-        match &self.state.stage {
-            Stage::Fresh => hasher.u64(0),
-            Stage::Navigating(navigation) => navigation.state_hash(hasher.u64(1)),
-            Stage::Acted => hasher.u64(2),
-            Stage::Waiting(left) => hasher.u64(3).u64(*left),
-        };
+        // The saved bytes are the whole state; what else the executor holds is memory of searches.
+        hasher.bytes(&self.save());
     }
 }
 
-fn is_known(step: &PlanStep) -> bool {
-    matches!(step, PlanStep::Navigate { .. } | PlanStep::Act(_) | PlanStep::Wait { .. })
+/// Whether the step is of a known kind, and its numbers are ones that an execution can come to the end of.
+fn can_be_done(step: &PlanStep) -> bool {
+    match step {
+        PlanStep::Navigate { to, within, speed } => {
+            let place = match to {
+                Goal::Point(point) => point.iter().all(|number| number.is_finite()),
+                Goal::Entity(_) => true,
+                _ => false,
+            };
+            place
+                && within.is_finite()
+                && *within >= 0.0
+                && speed.is_none_or(|speed| speed.is_finite() && speed > 0.0)
+        }
+        PlanStep::Act(_) => true,
+        PlanStep::Wait { seconds } => seconds.is_finite() && *seconds >= 0.0,
+        _ => false,
+    }
 }

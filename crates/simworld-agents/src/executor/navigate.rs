@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
 use simworld_core::geometry::{Point2, heading, yaw_of};
-use simworld_core::hash::StateHasher;
-use simworld_core::id::{CrossingId, WaypointId};
+use simworld_core::id::{CrossingId, EntityId, WaypointId};
 use simworld_core::net::WaypointGraph;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Scene};
@@ -12,6 +11,8 @@ use simworld_core::seam::Goal;
 
 use super::{RuleExecutor, Stage, avoid, crossing};
 
+/// A goal that moves farther than this is looked for anew on the roads, m.
+const FOLLOWED: f64 = 10.0;
 /// A waypoint counts as passed within this distance, m.
 const PASSED: f64 = 0.7;
 /// Heading errors below this are left alone, radians.
@@ -38,14 +39,26 @@ struct Leg {
 pub(super) struct Navigation {
     legs: Vec<Leg>,
     next: usize,
-    /// Whether the crossing on the leg under way was begun.
+    /// Where the goal was when the way was found.
+    goal: Point2,
+    /// Whether the crossing on the leg under way was begun, and the time at its kerb so far, s.
     crossing_begun: bool,
+    at_kerb: f64,
     /// The least distance to the next place so far, m, and how long ago that was, s.
     least: f64,
     idle: f64,
     /// How often it was stuck, and what is left of the evasion, s.
     stuck: u32,
     evading: f64,
+}
+
+/// Where a goal is by now.
+struct Destination {
+    point: Point2,
+    /// How far it still is, m.
+    distance: f64,
+    /// The thing itself, if one goes up to it and not to its door.
+    thing: Option<EntityId>,
 }
 
 /// How a navigation stands.
@@ -56,21 +69,29 @@ pub(super) enum Arrival {
 }
 
 impl Navigation {
-    fn along(legs: Vec<Leg>) -> Self {
-        Self { legs, next: 0, crossing_begun: false, least: f64::INFINITY, idle: 0.0, stuck: 0, evading: 0.0 }
-    }
-
-    pub(super) fn state_hash<'a>(&self, hasher: &'a mut StateHasher) -> &'a mut StateHasher {
-        hasher.u64(self.legs.len() as u64).u64(self.next as u64).u64(u64::from(self.crossing_begun));
-        hasher.f64(self.least).f64(self.idle).u64(u64::from(self.stuck)).f64(self.evading)
+    fn along(legs: Vec<Leg>, goal: Point2) -> Self {
+        Self {
+            legs,
+            next: 0,
+            goal,
+            crossing_begun: false,
+            at_kerb: 0.0,
+            least: f64::INFINITY,
+            idle: 0.0,
+            stuck: 0,
+            evading: 0.0,
+        }
     }
 
     /// Moves on to the next place.
     fn pass(&mut self) {
         self.next += 1;
         self.crossing_begun = false;
+        self.at_kerb = 0.0;
         self.least = f64::INFINITY;
         self.idle = 0.0;
+        // Progress makes up for an earlier jam, but not for all of them: who goes in circles gives up some day.
+        self.stuck = self.stuck.saturating_sub(1);
     }
 }
 
@@ -79,24 +100,31 @@ impl RuleExecutor {
         &mut self,
         scene: &dyn Scene,
         me: &EntityRef<'_>,
-        to: &Goal,
+        to: Goal,
         within: f64,
         speed: f64,
         out: &mut Vec<Action>,
     ) -> Arrival {
-        let Some(goal) = place_of(scene, to) else { return Arrival::Lost(format!("{to:?} is gone")) };
         let here = me.planar();
-        if (goal - here).norm() <= within {
+        let Some(destination) = Destination::of(scene, to, here) else {
+            return Arrival::Lost(format!("{to:?} is gone"));
+        };
+        if destination.distance <= within {
             return Arrival::There;
         }
+        if let Some(bond) = me.attachment {
+            return Arrival::Lost(format!("cannot walk off {}: get up or out first", bond.parent));
+        }
+        let goal = destination.point;
         let mut way = match std::mem::take(&mut self.state.stage) {
-            Stage::Navigating(way) => way,
-            _ => Navigation::along(self.find_way(here, goal)),
+            // Who walked on is followed on the roads as well.
+            Stage::Navigating(way) if way.crossing_begun || (goal - way.goal).norm() <= FOLLOWED => way,
+            _ => Navigation::along(self.find_way(here, goal), goal),
         };
         if let Some(last) = way.legs.last_mut() {
-            last.point = goal; // the goal may move
+            last.point = goal;
         }
-        let arrival = self.follow(scene, me, &mut way, speed, out);
+        let arrival = self.follow(scene, me, &mut way, &destination, speed, out);
         self.state.stage = Stage::Navigating(way);
         arrival
     }
@@ -106,6 +134,7 @@ impl RuleExecutor {
         scene: &dyn Scene,
         me: &EntityRef<'_>,
         way: &mut Navigation,
+        destination: &Destination,
         speed: f64,
         out: &mut Vec<Action>,
     ) -> Arrival {
@@ -116,9 +145,7 @@ impl RuleExecutor {
         let leg = way.legs[way.next];
         if let Some(id) = leg.crossing.filter(|_| !way.crossing_begun) {
             if !crossing::may_begin(scene, me, id, leg.point, speed) {
-                face(me, leg.point, 0.0, out);
-                self.tell_speed(0.0, out);
-                return Arrival::Underway;
+                return self.wait_at_kerb(way, me, leg.point, dt, out);
             }
             way.crossing_begun = true;
         }
@@ -139,12 +166,33 @@ impl RuleExecutor {
             // Alternate sides from one evasion to the next.
             if way.stuck.is_multiple_of(2) { EVASION_ANGLE } else { -EVASION_ANGLE }
         } else {
-            avoid::detour(scene, me, leg.point, self.config.look_ahead)
+            avoid::detour(scene, me, leg.point, destination.thing, self.config.look_ahead)
         };
         let error = face(me, leg.point, aside, out);
         // Turning on the spot beats a wide circle round the waypoint.
         let pace = if error.abs() > FACING { 0.0 } else { speed };
-        self.tell_speed(slow_for_arrival(pace, distance, way.next + 1 == way.legs.len()), out);
+        let is_last = way.next + 1 == way.legs.len();
+        self.tell_speed(if is_last { slow_for_arrival(pace, destination.distance) } else { pace }, out);
+        Arrival::Underway
+    }
+
+    /// Stands and looks across.
+    fn wait_at_kerb(
+        &mut self,
+        way: &mut Navigation,
+        me: &EntityRef<'_>,
+        across: Point2,
+        dt: f64,
+        out: &mut Vec<Action>,
+    ) -> Arrival {
+        way.at_kerb += dt;
+        if way.at_kerb > self.config.kerb_patience {
+            let (here, waited) = (me.planar(), self.config.kerb_patience);
+            let reason = format!("could not cross at ({:.1}, {:.1}) for {waited:.0} s", here.x, here.y);
+            return Arrival::Lost(reason);
+        }
+        face(me, across, 0.0, out);
+        self.tell_speed(0.0, out);
         Arrival::Underway
     }
 
@@ -153,15 +201,13 @@ impl RuleExecutor {
         way.stuck += 1;
         way.idle = 0.0;
         way.least = f64::INFINITY;
+        self.state.told_speed = None; // somebody may have told the body to stop
         if way.stuck > self.config.attempts {
             return Some(Arrival::Lost(format!("stuck at ({:.1}, {:.1})", here.x, here.y)));
         }
-        if way.stuck.is_multiple_of(3)
-            && !way.crossing_begun
-            && let Some(goal) = way.legs.last().map(|leg| leg.point)
-        {
-            let legs = self.find_way(here, goal);
-            *way = Navigation { stuck: way.stuck, ..Navigation::along(legs) };
+        if way.stuck.is_multiple_of(3) && !way.crossing_begun {
+            let goal = way.goal;
+            *way = Navigation { stuck: way.stuck, ..Navigation::along(self.find_way(here, goal), goal) };
         }
         way.evading = EVASION;
         None
@@ -221,21 +267,33 @@ fn trimmed<'a>(
     route
 }
 
-fn place_of(scene: &dyn Scene, goal: &Goal) -> Option<Point2> {
-    match goal {
-        Goal::Point(point) => Some(point.xy()),
-        Goal::Entity(id) => scene.entity(*id).map(|entity| entity.access().xy()),
-        _ => None,
+impl Destination {
+    /// Where a goal is, seen from `here`; `None` if it is gone.
+    fn of(scene: &dyn Scene, goal: Goal, here: Point2) -> Option<Self> {
+        let at = |point: Point2| Self { point, distance: (point - here).norm(), thing: None };
+        match goal {
+            Goal::Point(point) => Some(at(point.xy())),
+            Goal::Entity(id) => {
+                let entity = scene.entity(id)?;
+                Some(match entity.info.access {
+                    Some(access) => at(access.xy()),
+                    // Without a door one goes up to the thing, from whatever side.
+                    None => Self {
+                        point: entity.planar(),
+                        distance: entity.info.shape.planar_distance(entity.pose, &here),
+                        thing: Some(id),
+                    },
+                })
+            }
+            _ => None,
+        }
     }
 }
 
 /// Riders brake before the goal; walkers stop at once.
-fn slow_for_arrival(speed: f64, distance: f64, is_last: bool) -> f64 {
+fn slow_for_arrival(speed: f64, distance: f64) -> f64 {
     /// Comfortable braking, m/s².
     const BRAKING: f64 = 1.5;
-    if !is_last {
-        return speed;
-    }
     let arriving = (2.0 * BRAKING * distance).sqrt();
     // In quarters of a metre a second, so that the body is not told anew every step.
     speed.min(((arriving * 4.0).ceil() * 0.25).max(0.5))

@@ -1,85 +1,327 @@
-//! Words for kinds and uses.
+//! The words of the grammar: what things are called, what one can be told to do, and the words around them.
 
-use simworld_core::scene::{EntityKind, EntityRef, Place};
+use simworld_core::scene::{EntityKind, EntityRef, Place, Relation};
 
-/// What a noun may mean.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Meaning {
-    Kind(EntityKind),
-    Place(Place),
-    Vehicle,
-    Seat,
+use super::lexer::{Lexeme, Token};
+
+/// A class of things that people have words for.
+#[derive(Debug, PartialEq)]
+pub(super) struct Category {
+    /// What it is called; the first is used in answers. Several words are separated by one blank.
+    pub(super) words: &'static [&'static str],
+    kinds: &'static [EntityKind],
+    place: Option<Place>,
 }
 
-impl Meaning {
-    pub(super) fn fits(self, entity: &EntityRef<'_>) -> bool {
-        match self {
-            Self::Kind(kind) => entity.kind == kind,
-            Self::Place(place) => entity.info.place == Some(place),
-            Self::Vehicle => entity.kind.is_vehicle(),
-            Self::Seat => entity.kind.is_seat(),
-        }
+impl Category {
+    /// Anything to sit on: the first class.
+    pub(super) const fn seat() -> &'static Self {
+        &CATEGORIES[0]
+    }
+
+    /// Whether an entity is of this class.
+    pub(super) fn holds(&self, entity: &EntityRef<'_>) -> bool {
+        self.kinds.contains(&entity.kind) || self.place.is_some_and(|place| entity.info.place == Some(place))
     }
 }
 
-/// Synonyms beside the names of kinds and uses themselves.
-const SYNONYMS: &[(&str, Meaning)] = &[
-    ("house", Meaning::Place(Place::Home)),
-    ("apartment", Meaning::Place(Place::Home)),
-    ("cafe", Meaning::Place(Place::Restaurant)),
-    ("café", Meaning::Place(Place::Restaurant)),
-    ("diner", Meaning::Place(Place::Restaurant)),
-    ("bistro", Meaning::Place(Place::Restaurant)),
-    ("shop", Meaning::Place(Place::Store)),
-    ("supermarket", Meaning::Place(Place::Store)),
-    ("clinic", Meaning::Place(Place::Hospital)),
-    ("gallery", Meaning::Place(Place::Museum)),
-    ("academy", Meaning::Place(Place::School)),
-    ("warehouse", Meaning::Place(Place::Factory)),
-    ("charger", Meaning::Place(Place::ChargingStation)),
-    ("pavilion", Meaning::Place(Place::RestArea)),
-    ("seat", Meaning::Seat),
-    ("vehicle", Meaning::Vehicle),
-    ("automobile", Meaning::Kind(EntityKind::Car)),
-    ("taxi", Meaning::Kind(EntityKind::Car)),
-    ("lorry", Meaning::Kind(EntityKind::Truck)),
-    ("van", Meaning::Kind(EntityKind::Truck)),
-    ("bike", Meaning::Kind(EntityKind::Bicycle)),
-    ("package", Meaning::Kind(EntityKind::Parcel)),
-    ("box", Meaning::Kind(EntityKind::Parcel)),
-    ("order", Meaning::Kind(EntityKind::Parcel)),
-    ("pedestrian", Meaning::Kind(EntityKind::Person)),
-    ("man", Meaning::Kind(EntityKind::Person)),
-    ("woman", Meaning::Kind(EntityKind::Person)),
-    ("human", Meaning::Kind(EntityKind::Person)),
-    ("lamp", Meaning::Kind(EntityKind::StreetLamp)),
-    ("lamppost", Meaning::Kind(EntityKind::StreetLamp)),
-    ("traffic light", Meaning::Kind(EntityKind::TrafficSignal)),
-    ("bin", Meaning::Kind(EntityKind::TrashBin)),
-    ("trash can", Meaning::Kind(EntityKind::TrashBin)),
-    ("crossing", Meaning::Kind(EntityKind::Crosswalk)),
-    ("street", Meaning::Kind(EntityKind::Road)),
+const fn things(words: &'static [&'static str], kinds: &'static [EntityKind]) -> Category {
+    Category { words, kinds, place: None }
+}
+
+const fn places(words: &'static [&'static str], place: Place) -> Category {
+    Category { words, kinds: &[], place: Some(place) }
+}
+
+/// Every class. Plurals follow from the singular.
+pub(super) const CATEGORIES: &[Category] = &[
+    things(&["seat"], &[EntityKind::Chair, EntityKind::Bench]),
+    things(&["chair", "armchair", "stool"], &[EntityKind::Chair]),
+    things(&["bench", "park bench"], &[EntityKind::Bench]),
+    things(&["table", "desk"], &[EntityKind::Table]),
+    things(&["parcel", "package", "packet", "box", "order"], &[EntityKind::Parcel]),
+    things(&["tree"], &[EntityKind::Tree]),
+    things(&["shrub", "bush", "hedge", "flower bed"], &[EntityKind::Shrub]),
+    things(
+        &["street lamp", "street light", "streetlight", "lamp post", "lamppost", "lamp"],
+        &[EntityKind::StreetLamp],
+    ),
+    things(&["traffic light", "traffic signal", "stoplight"], &[EntityKind::TrafficSignal]),
+    things(&["sign", "street sign", "traffic sign"], &[EntityKind::Sign]),
+    things(
+        &["trash bin", "bin", "trash can", "garbage can", "litter bin", "dustbin", "waste bin"],
+        &[EntityKind::TrashBin],
+    ),
+    things(
+        &["mailbox", "letterbox", "letter box", "postbox", "post box", "mail box"],
+        &[EntityKind::Mailbox],
+    ),
+    things(&["hydrant", "fire hydrant"], &[EntityKind::Hydrant]),
+    things(&["cone", "traffic cone"], &[EntityKind::Cone]),
+    things(&["bus stop", "bus shelter"], &[EntityKind::BusStop]),
+    things(&["prop", "object"], &[EntityKind::Prop]),
+    things(
+        &["vehicle"],
+        &[
+            EntityKind::Car,
+            EntityKind::Truck,
+            EntityKind::Bus,
+            EntityKind::Motorcycle,
+            EntityKind::Bicycle,
+            EntityKind::Scooter,
+        ],
+    ),
+    things(&["car", "automobile", "taxi"], &[EntityKind::Car]),
+    things(&["truck", "lorry", "van"], &[EntityKind::Truck]),
+    things(&["bus"], &[EntityKind::Bus]),
+    things(&["motorcycle", "motorbike"], &[EntityKind::Motorcycle]),
+    things(&["bicycle", "bike"], &[EntityKind::Bicycle]),
+    things(&["scooter", "kick scooter", "e scooter", "electric scooter"], &[EntityKind::Scooter]),
+    things(
+        &["person", "people", "human", "pedestrian", "man", "woman", "passer by", "somebody", "someone"],
+        &[EntityKind::Person],
+    ),
+    things(&["dog", "robot dog"], &[EntityKind::Dog]),
+    things(&["robot"], &[EntityKind::Robot]),
+    things(&["building"], &[EntityKind::Building]),
+    things(&["road", "street"], &[EntityKind::Road]),
+    things(&["sidewalk", "pavement", "walkway"], &[EntityKind::Sidewalk]),
+    things(&["crosswalk", "crossing", "zebra crossing"], &[EntityKind::Crosswalk]),
+    places(&["home", "house", "apartment", "flat", "residence"], Place::Home),
+    places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery"], Place::Restaurant),
+    places(&["store", "shop", "supermarket", "grocery", "grocery store", "market"], Place::Store),
+    places(&["hospital", "clinic"], Place::Hospital),
+    places(&["museum", "gallery"], Place::Museum),
+    places(&["school", "academy"], Place::School),
+    places(&["office", "office building"], Place::Office),
+    places(&["factory", "warehouse"], Place::Factory),
+    places(&["charging station", "charging point", "charger"], Place::ChargingStation),
+    places(&["rest area", "rest stop", "resting place", "pavilion"], Place::RestArea),
 ];
 
-/// What a noun means, typos of one letter in long words included.
-pub(super) fn meaning(noun: &str) -> Option<Meaning> {
-    let singular = noun.strip_suffix('s').filter(|rest| rest.len() > 2).unwrap_or(noun);
-    let exact = |word: &str| {
-        let kinds = EntityKind::ALL.iter().map(|kind| (kind.as_str(), Meaning::Kind(*kind)));
-        let places = Place::ALL.iter().map(|place| (place.as_str(), Meaning::Place(*place)));
-        let all = SYNONYMS.iter().copied().chain(places).chain(kinds);
-        all.map(|(name, meaning)| (name.replace('_', " "), meaning))
-            .find(|(name, _)| name == word)
-            .map(|found| found.1)
-    };
-    let close = || {
-        let kinds = EntityKind::ALL.iter().map(|kind| (kind.as_str(), Meaning::Kind(*kind)));
-        let places = Place::ALL.iter().map(|place| (place.as_str(), Meaning::Place(*place)));
-        let long = kinds.chain(places).chain(SYNONYMS.iter().copied()).filter(|(name, _)| name.len() >= 5);
-        long.map(|(name, meaning)| (strsim::osa_distance(&name.replace('_', " "), singular), meaning))
-            .filter(|(distance, _)| *distance == 1)
-            .map(|(_, meaning)| meaning)
-            .next()
-    };
-    exact(noun).or_else(|| exact(singular)).or_else(close)
+/// What one can be told to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verb {
+    Go,
+    Run,
+    Take,
+    Deliver,
+    Drop,
+    PutDown,
+    Sit,
+    StandUp,
+    Stop,
+    Wait,
+    Board,
+    Alight,
+    Step,
+    Turn,
+    Wave,
+    Photo,
+}
+
+/// Verbs with their words; the longest that fits is taken.
+pub(super) const VERBS: &[(&[&str], Verb)] = &[
+    (
+        &[
+            "go",
+            "walk",
+            "head",
+            "navigate",
+            "move",
+            "come",
+            "travel",
+            "proceed",
+            "get to",
+            "make your way",
+            "go back",
+            "return",
+        ],
+        Verb::Go,
+    ),
+    (&["run", "hurry", "rush", "sprint", "jog"], Verb::Run),
+    (&["pick up", "pick", "take", "grab", "fetch", "collect", "get", "lift", "carry"], Verb::Take),
+    (&["deliver", "bring"], Verb::Deliver),
+    (&["drop off", "drop", "leave", "release", "hand over"], Verb::Drop),
+    (&["put down", "set down", "put", "place", "lay down"], Verb::PutDown),
+    (&["sit down", "sit", "take a seat", "have a seat", "be seated"], Verb::Sit),
+    (&["stand up", "stand", "get up", "rise"], Verb::StandUp),
+    (&["stop", "halt", "freeze", "stand still", "stay", "stay here", "stay there", "stop there"], Verb::Stop),
+    (&["wait", "pause", "rest"], Verb::Wait),
+    (&["ride", "get on", "get onto", "get in", "get into", "enter", "board", "mount", "hop on"], Verb::Board),
+    (&["get off", "get out", "get out of", "exit", "dismount", "alight", "hop off"], Verb::Alight),
+    (&["step"], Verb::Step),
+    (&["turn", "rotate"], Verb::Turn),
+    (&["wave", "wave at", "wave to"], Verb::Wave),
+    (&["take a photo", "take a picture", "take photo", "photograph"], Verb::Photo),
+];
+
+/// Ways to join two orders.
+pub(super) const JOINTS: &[&str] =
+    &["and", "then", "next", "after that", "afterwards", "finally", "also", "first", "lastly"];
+
+/// Politeness around an order.
+pub(super) const FILLERS: &[&str] = &[
+    "please",
+    "kindly",
+    "could you",
+    "can you",
+    "would you",
+    "will you",
+    "i want you to",
+    "i would like you to",
+    "id like you to",
+    "you should",
+    "you must",
+    "try to",
+    "lets",
+    "just",
+    "now",
+    "hey",
+    "hi",
+    "hello",
+    "ok",
+    "okay",
+    "thanks",
+    "thank you",
+    "for me",
+    "so",
+];
+
+/// Words before a noun that say nothing about which.
+pub(super) const DETERMINERS: &[&str] =
+    &["the", "a", "an", "that", "this", "some", "any", "my", "your", "one of", "one"];
+
+/// Words that say which of several.
+pub(super) const NEAREST: &[&str] = &["nearest", "closest", "nearby", "near by"];
+/// The contrary.
+pub(super) const FARTHEST: &[&str] = &["farthest", "furthest", "most distant"];
+
+/// How two things may stand to each other; the longest phrase that fits is taken.
+pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
+    (&["next to", "beside", "by", "right next to", "adjacent to", "at the side of"], Relation::NextTo),
+    (&["near", "near to", "close to", "not far from"], Relation::Near),
+    (&["in front of", "outside", "outside of"], Relation::InFrontOf),
+    (&["behind", "at the back of", "in back of"], Relation::Behind),
+    (&["left of", "to the left of", "on the left of"], Relation::LeftOf),
+    (&["right of", "to the right of", "on the right of"], Relation::RightOf),
+    (&["on top of"], Relation::OnTopOf),
+    (&["inside", "inside of"], Relation::Inside),
+];
+
+/// Words between a noun and how it stands to another.
+pub(super) const COPULAS: &[&str] =
+    &["that is", "thats", "which is", "that stands", "which stands", "standing", "located", "placed"];
+
+/// Numbers in words.
+pub(super) const NUMERALS: &[(&str, f64)] = &[
+    ("a", 1.0),
+    ("an", 1.0),
+    ("one", 1.0),
+    ("two", 2.0),
+    ("three", 3.0),
+    ("four", 4.0),
+    ("five", 5.0),
+    ("six", 6.0),
+    ("seven", 7.0),
+    ("eight", 8.0),
+    ("nine", 9.0),
+    ("ten", 10.0),
+    ("fifteen", 15.0),
+    ("twenty", 20.0),
+    ("thirty", 30.0),
+    ("sixty", 60.0),
+];
+
+/// How many tokens at the start of `lexemes` are the words of the phrase; `None` if they are others.
+pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
+    let mut count = 0;
+    for word in phrase.split(' ') {
+        match lexemes.get(count).map(|lexeme| &lexeme.token) {
+            Some(Token::Word(said)) if said == word => count += 1,
+            _ => return None,
+        }
+    }
+    Some(count)
+}
+
+/// As [`fits`], with the last word in the singular or the plural.
+fn fits_noun(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
+    let (head, last) = phrase.rsplit_once(' ').map_or((None, phrase), |(head, last)| (Some(head), last));
+    let before = head.map_or(Some(0), |head| fits(lexemes, head))?;
+    match lexemes.get(before).map(|lexeme| &lexeme.token) {
+        Some(Token::Word(said)) if said == last || is_plural(said, last) => Some(before + 1),
+        _ => None,
+    }
+}
+
+fn is_plural(said: &str, noun: &str) -> bool {
+    match said.strip_prefix(noun) {
+        Some(ending) => matches!(ending, "s" | "es"),
+        None => noun.strip_suffix('y').is_some_and(|stem| said.strip_prefix(stem) == Some("ies")),
+    }
+}
+
+/// The entry whose phrase is the longest at the start of `lexemes`, with the number of its words.
+pub(super) fn longest<T: Copy>(lexemes: &[Lexeme], table: &[(&[&str], T)]) -> Option<(T, usize)> {
+    let hits = table.iter().flat_map(|(phrases, entry)| {
+        phrases.iter().filter_map(|phrase| fits(lexemes, phrase).map(|count| (*entry, count)))
+    });
+    longer(hits)
+}
+
+/// The number of words of the longest of the phrases at the start of `lexemes`.
+pub(super) fn longest_phrase(lexemes: &[Lexeme], phrases: &[&str]) -> Option<usize> {
+    phrases.iter().filter_map(|phrase| fits(lexemes, phrase)).max()
+}
+
+/// The class named at the start of `lexemes` with the most words, with their number.
+pub(super) fn category(lexemes: &[Lexeme]) -> Option<(&'static Category, usize)> {
+    longer(CATEGORIES.iter().filter_map(|category| {
+        let count = category.words.iter().filter_map(|word| fits_noun(lexemes, word)).max()?;
+        Some((category, count))
+    }))
+}
+
+/// The first of the longest hits.
+fn longer<T: Copy>(hits: impl Iterator<Item = (T, usize)>) -> Option<(T, usize)> {
+    hits.fold(None, |best, hit| match best {
+        Some((_, count)) if count >= hit.1 => best,
+        _ => Some(hit),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::lexer::lex;
+    use super::*;
+
+    #[test]
+    fn every_kind_and_place_has_a_word() {
+        let is_named = |kind: &EntityKind| CATEGORIES.iter().any(|category| category.kinds.contains(kind));
+        let nameless: Vec<_> = EntityKind::ALL.iter().filter(|kind| !is_named(kind)).collect();
+        assert_eq!(nameless, [&EntityKind::Ground]); // nobody goes to "the ground"
+        for place in Place::ALL {
+            assert!(CATEGORIES.iter().any(|category| category.place == Some(*place)), "{place}");
+        }
+    }
+
+    #[test]
+    fn no_word_has_two_meanings() {
+        let mut words: Vec<&str> = CATEGORIES.iter().flat_map(|category| category.words).copied().collect();
+        words.sort_unstable();
+        assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
+        let mut verbs: Vec<&str> = VERBS.iter().flat_map(|(phrases, _)| *phrases).copied().collect();
+        verbs.sort_unstable();
+        assert!(verbs.windows(2).all(|pair| pair[0] != pair[1]), "{verbs:?}");
+    }
+
+    #[test]
+    fn the_longest_name_wins() {
+        let first = |text: &str| category(&lex(text)).map(|(category, count)| (category.words[0], count));
+        assert_eq!(first("bus stop"), Some(("bus stop", 2)));
+        assert_eq!(first("buses"), Some(("bus", 1)));
+        assert_eq!(first("factories here"), Some(("factory", 1)));
+        assert_eq!(first("busy"), None);
+    }
 }

@@ -1,193 +1,91 @@
-//! The grammar: sentences and calls to plans, without any model.
+//! The grammar planner: sentences and function calls to plans, by rules and without a model.
 //!
-//! A sentence is cut into clauses ("go to the nearest chair", "sit down"); each clause is a verb and, for most verbs, a thing.
-//! Things are grounded in the scene: by kind or use ("the nearest bench", "the café near the museum"), by name with a few
-//! typos ("Harbor Museum"), by id ("#12") or by coordinates ("(10, -3)"). What is not understood, or not there, is an
-//! error that says so; nothing is dropped in silence.
+//! A sentence is read from left to right into orders, and each order is worked out in the scene from where the
+//! earlier ones leave the agent. What is not understood is never dropped: it gives a
+//! [`PlanError`] that quotes the words, says what would be understood and what is near. The planner keeps nothing
+//! between sentences, so "it" and "there" refer to words of the same sentence.
+//!
+//! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
 mod call;
 mod clause;
-mod ground;
+mod draft;
+mod lexer;
 mod lexicon;
-mod phrase;
+mod names;
+mod parser;
+mod reference;
+mod resolve;
 
-use simworld_core::action::Action;
+use draft::Draft;
+use names::Names;
+use parser::{Parser, shortened};
+use resolve::View;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::scene::{ARM_REACH, EntityKind, EntityRef, Role, Scene};
-use simworld_core::seam::{Goal, Plan, PlanError, PlanStep, Planner};
+use simworld_core::scene::Scene;
+use simworld_core::seam::{Plan, PlanError, Planner};
 
-use clause::{Clause, Verb, clauses};
-use ground::Grounding;
+/// The longest sentence that is read, in characters.
+const LONGEST_SENTENCE: usize = 2000;
 
-/// Sentences longer than this are refused, bytes.
-const LONGEST: usize = 4000;
-/// How near one goes to use a thing, m: within the arm's reach, with a step to spare.
-const USE_DISTANCE: f64 = ARM_REACH - 0.6;
-/// How near one goes to a place, m.
-const PLACE_DISTANCE: f64 = 1.5;
-/// A jog, m/s.
-const RUNNING_SPEED: f64 = 2.5;
+/// How far away things may be that a sentence is about, m.
+const RANGE: f64 = 5000.0;
 
-/// Plans by a fixed grammar; it holds no state.
+/// Understands a small language, the same way every time.
 ///
 /// ```
 /// use simworld_agents::language::GrammarPlanner;
+/// use simworld_core::action::Action;
 /// use simworld_core::geometry::{Point3, pose_facing};
 /// use simworld_core::intent::Intent;
 /// use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
-/// use simworld_core::seam::{PlanStep, Planner};
+/// use simworld_core::seam::{Goal, PlanStep, Planner};
 ///
 /// let mut world = World::new();
 /// let at = |x| pose_facing(Point3::new(x, 0.0, 0.0), 0.0);
-/// let me = world.spawn(EntityDesc::new(EntityKind::Person, at(0.0), Shape::Capsule { radius: 0.25, height: 1.8 }))?;
-/// world.spawn(EntityDesc::new(EntityKind::Chair, at(12.0), Shape::cuboid(0.5, 0.5, 0.9)))?;
-/// let sentence = Intent::Words("Please go to the nearest chair and sit down.".into());
-/// let plan = GrammarPlanner.plan(&sentence, &world, me)?;
-/// assert!(matches!(plan.steps[..], [PlanStep::Navigate { .. }, PlanStep::Act(_)]));
+/// let person = Shape::Capsule { radius: 0.25, height: 1.8 };
+/// let me = world.spawn(EntityDesc::new(EntityKind::Person, at(0.0), person))?;
+/// let chair = world.spawn(EntityDesc::new(EntityKind::Chair, at(9.0), Shape::cuboid(0.5, 0.5, 0.9)))?;
+///
+/// let words = Intent::Words("go to the nearest chair and sit down".into());
+/// let plan = GrammarPlanner.plan(&words, &world, me)?;
+/// let [PlanStep::Navigate { to, .. }, PlanStep::Act(action)] = &plan.steps[..] else { panic!("two steps") };
+/// assert_eq!(*to, Goal::Entity(chair));
+/// assert_eq!(*action, Action::SitDown { seat: chair });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GrammarPlanner;
 
+impl GrammarPlanner {
+    /// The calls that are understood, each with its arguments; a question mark follows those that may be left out.
+    pub const fn calls() -> &'static [(&'static str, &'static [&'static str])] {
+        call::CALLS
+    }
+}
+
 impl Planner for GrammarPlanner {
     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
-        if scene.entity(who).is_none() {
-            return Err(PlanError::Missing { id: who });
-        }
-        match intent {
-            Intent::Words(words) => plan_words(words, scene, who),
-            Intent::Call { name, args } => call::plan_call(name, args, scene, who),
-        }
-    }
-}
-
-fn plan_words(words: &str, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
-    let not_understood = |fragment: &str, hint: &str| PlanError::NotUnderstood {
-        words: words.chars().take(200).collect(),
-        fragment: fragment.chars().take(80).collect(),
-        hint: hint.to_owned(),
-    };
-    if words.len() > LONGEST {
-        return Err(not_understood("", "say it in at most 4000 bytes"));
-    }
-    let clauses = clauses(words).map_err(|fragment| not_understood(&fragment, clause::UNDERSTOOD))?;
-    if clauses.is_empty() {
-        return Err(not_understood("", clause::UNDERSTOOD));
-    }
-    let mut draft = Draft { scene, who, plan: Plan::default(), topic: None };
-    for clause in &clauses {
-        draft.add(clause).map_err(|fault| match fault {
-            Fault::Unclear(hint) => not_understood(&clause.text, &hint),
-            Fault::Plan(error) => error,
-        })?;
-    }
-    Ok(draft.plan)
-}
-
-/// Why a clause gives no steps.
-pub(crate) enum Fault {
-    Unclear(String),
-    Plan(PlanError),
-}
-
-/// A plan under construction, with the thing that "it" and "there" refer to.
-struct Draft<'a> {
-    scene: &'a dyn Scene,
-    who: EntityId,
-    plan: Plan,
-    topic: Option<EntityId>,
-}
-
-impl Draft<'_> {
-    fn add(&mut self, clause: &Clause) -> Result<(), Fault> {
-        match clause.verb {
-            Verb::Go | Verb::Run => self.go(clause)?,
-            Verb::PickUp => {
-                self.use_thing(clause, |kind| kind == EntityKind::Parcel, |item| Action::PickUp { item })?;
+        let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
+        let view = View { scene, who, from: me.planar(), range: RANGE, it: None };
+        let names = Names::read(scene, me.planar(), RANGE);
+        let clauses = match intent {
+            Intent::Words(words) if words.chars().count() > LONGEST_SENTENCE => {
+                let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
+                return Err(PlanError::NotUnderstood {
+                    words: shortened(words),
+                    fragment: String::new(),
+                    hint,
+                });
             }
-            Verb::Sit => self.use_thing(clause, EntityKind::is_seat, |seat| Action::SitDown { seat })?,
-            Verb::Ride => self.use_thing(
-                clause,
-                |kind| kind == EntityKind::Scooter,
-                |scooter| Action::RideScooter { scooter },
-            )?,
-            Verb::DropOff => self.drop_off(clause)?,
-            Verb::StandUp => self.act(Action::StandUp),
-            Verb::GetOff => self.act(Action::GetOffScooter),
-            Verb::Stop => self.act(Action::Stop),
-            Verb::Wait => self.plan.steps.push(PlanStep::Wait { seconds: clause.seconds()? }),
-        }
-        Ok(())
-    }
-
-    fn act(&mut self, action: Action) {
-        self.plan.steps.push(PlanStep::Act(action));
-    }
-
-    fn go(&mut self, clause: &Clause) -> Result<(), Fault> {
-        let speed = (clause.verb == Verb::Run).then_some(RUNNING_SPEED);
-        let to = match self.ground(clause, &|_| true)? {
-            Grounding::Point(point) => Goal::Point(point),
-            Grounding::Entity(id) => {
-                self.topic = Some(id);
-                Goal::Entity(id)
-            }
+            Intent::Words(words) => Parser::new(words, &lexer::lex(words), &names, &view).sentence()?,
+            Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
         };
-        self.plan.steps.push(PlanStep::Navigate { to, within: PLACE_DISTANCE, speed });
-        Ok(())
-    }
-
-    /// Goes within reach of a thing, unless one is on the way there already, and uses it.
-    fn use_thing(
-        &mut self,
-        clause: &Clause,
-        fits: fn(EntityKind) -> bool,
-        action: impl Fn(EntityId) -> Action,
-    ) -> Result<(), Fault> {
-        let known = self.topic.filter(|id| self.scene.entity(*id).is_some_and(|entity| fits(entity.kind)));
-        let id = match known.filter(|_| clause.thing.is_empty() || clause.means_topic()) {
-            Some(id) => id,
-            None => match self.ground(clause, &|entity| fits(entity.kind))? {
-                Grounding::Entity(id) => id,
-                Grounding::Point(_) => return Err(Fault::Unclear("name a thing, not a place".to_owned())),
-            },
-        };
-        self.topic = Some(id);
-        self.approach(Goal::Entity(id));
-        self.act(action(id));
-        Ok(())
-    }
-
-    /// Puts down what the hands hold, at a place if the clause names one.
-    fn drop_off(&mut self, clause: &Clause) -> Result<(), Fault> {
-        if let Some(place) = clause.destination() {
-            let to = match self.ground(&place, &|_| true)? {
-                Grounding::Point(point) => Goal::Point(point),
-                Grounding::Entity(id) => Goal::Entity(id),
-            };
-            self.approach(to);
+        let mut draft = Draft::new(view, &me);
+        for clause in &clauses {
+            draft.add(clause)?;
         }
-        let heavy = self.scene.attached(self.who, Role::Carried).is_some();
-        self.act(if heavy { Action::PutDownHeavy } else { Action::DropOff });
-        Ok(())
-    }
-
-    /// Navigates within reach; a navigation to the same goal just before is made to end there.
-    fn approach(&mut self, to: Goal) {
-        match self.plan.steps.last_mut() {
-            Some(PlanStep::Navigate { to: before, within, .. }) if *before == to => *within = USE_DISTANCE,
-            _ => self.plan.steps.push(PlanStep::Navigate { to, within: USE_DISTANCE, speed: None }),
-        }
-    }
-
-    fn ground(&self, clause: &Clause, fits: &dyn Fn(&EntityRef<'_>) -> bool) -> Result<Grounding, Fault> {
-        if clause.means_topic()
-            && let Some(id) = self.topic
-        {
-            return Ok(Grounding::Entity(id));
-        }
-        let phrase = phrase::parse(&clause.thing)?;
-        ground::ground(&phrase, self.scene, self.who, fits).map_err(Fault::Plan)
+        Ok(draft.finish())
     }
 }

@@ -1,0 +1,175 @@
+//! Sentences to tokens: lower-case words, numbers, entity ids and the little punctuation that has a meaning.
+
+use simworld_core::id::EntityId;
+
+/// The smallest piece of a sentence.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Token {
+    /// A word in lower case without its apostrophes; a symbol that means nothing here is a word nobody knows.
+    Word(String),
+    /// A finite number.
+    Number(f64),
+    /// An entity, written `#12` or `#12.1`.
+    Id(EntityId),
+    /// An opening bracket.
+    Open,
+    /// A closing bracket.
+    Close,
+    /// A comma.
+    Comma,
+    /// The end of a sentence or of a part of it.
+    Break,
+}
+
+/// A token and the bytes it was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Lexeme {
+    pub(super) token: Token,
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+/// Reads the tokens of a text, in order.
+pub(super) fn lex(text: &str) -> Vec<Lexeme> {
+    let mut lexemes = Vec::new();
+    let mut at = 0;
+    while let Some(first) = text[at..].chars().next() {
+        let rest = &text[at..];
+        let (token, length) = if let Some(found) = id(rest) {
+            (Some(found.0), found.1)
+        } else if let Some(found) = number(rest, follows_word(text, at)) {
+            (Some(found.0), found.1)
+        } else if first.is_alphanumeric() {
+            let (word, length) = word(rest);
+            (Some(Token::Word(word)), length)
+        } else {
+            (symbol(first), first.len_utf8())
+        };
+        if let Some(token) = token {
+            lexemes.push(Lexeme { token, start: at, end: at + length });
+        }
+        at += length;
+    }
+    lexemes
+}
+
+fn symbol(symbol: char) -> Option<Token> {
+    match symbol {
+        '(' | '[' => Some(Token::Open),
+        ')' | ']' => Some(Token::Close),
+        ',' => Some(Token::Comma),
+        '.' | ';' | ':' | '!' | '?' | '\n' => Some(Token::Break),
+        '&' => Some(Token::Word("and".to_owned())),
+        '"' | '\'' | '`' | '“' | '”' | '„' | '‘' | '’' | '«' | '»' | '-' | '–' | '—' | '_' => {
+            None
+        }
+        blank if blank.is_whitespace() => None,
+        other => Some(Token::Word(other.to_string())),
+    }
+}
+
+/// Whether the text just before the byte is part of a word: then a dash is a hyphen and not a sign.
+fn follows_word(text: &str, at: usize) -> bool {
+    text[..at].chars().next_back().is_some_and(char::is_alphanumeric)
+}
+
+fn digits(text: &str) -> usize {
+    text.bytes().take_while(u8::is_ascii_digit).count()
+}
+
+fn number(text: &str, follows_word: bool) -> Option<(Token, usize)> {
+    let sign = text.chars().next().filter(|sign| matches!(sign, '-' | '+' | '−') && !follows_word);
+    let signed = sign.map_or(0, char::len_utf8);
+    let mut length = digits(&text[signed..]);
+    if length == 0 {
+        return None;
+    }
+    if let Some(fraction) = text[signed + length..].strip_prefix('.') {
+        let places = digits(fraction);
+        length += if places > 0 { 1 + places } else { 0 };
+    }
+    // More digits than a number holds make infinity, which no rule takes for a place or a time.
+    let value: f64 = text[signed..signed + length].parse().ok()?;
+    let value = if matches!(sign, Some('-' | '−')) { -value } else { value };
+    Some((Token::Number(value), signed + length))
+}
+
+fn id(text: &str) -> Option<(Token, usize)> {
+    let rest = text.strip_prefix('#')?;
+    let length = digits(rest);
+    let index = rest[..length].parse().ok()?;
+    let generation = rest[length..].strip_prefix('.').map(|rest| &rest[..digits(rest)]);
+    match generation.filter(|digits| !digits.is_empty()) {
+        Some(digits) => {
+            let id = EntityId::new(index, digits.parse().ok()?);
+            Some((Token::Id(id), 1 + length + 1 + digits.len()))
+        }
+        None => Some((Token::Id(EntityId::new(index, 0)), 1 + length)),
+    }
+}
+
+fn word(text: &str) -> (String, usize) {
+    let mut word = String::new();
+    let mut length = 0;
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        if letter.is_alphanumeric() {
+            word.extend(letter.to_lowercase());
+        } else if !(matches!(letter, '\'' | '’') && letters.peek().is_some_and(|next| next.is_alphanumeric()))
+        {
+            break;
+        }
+        length += letter.len_utf8();
+    }
+    (word, length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tokens(text: &str) -> Vec<Token> {
+        lex(text).into_iter().map(|lexeme| lexeme.token).collect()
+    }
+
+    #[test]
+    fn words_numbers_and_ids_are_told_apart() {
+        let word = |text: &str| Token::Word(text.to_owned());
+        assert_eq!(
+            tokens("Pick-up St. Mary’s #12.1, then (10, -3.5)"),
+            [
+                word("pick"),
+                word("up"),
+                word("st"),
+                Token::Break,
+                word("marys"),
+                Token::Id(EntityId::new(12, 1)),
+                Token::Comma,
+                word("then"),
+                Token::Open,
+                Token::Number(10.0),
+                Token::Comma,
+                Token::Number(-3.5),
+                Token::Close,
+            ]
+        );
+    }
+
+    #[test]
+    fn a_full_stop_after_an_id_ends_the_sentence() {
+        assert_eq!(
+            tokens("go to #4."),
+            [
+                Token::Word("go".into()),
+                Token::Word("to".into()),
+                Token::Id(EntityId::new(4, 0)),
+                Token::Break
+            ]
+        );
+    }
+
+    #[test]
+    fn an_impossible_id_is_a_word_nobody_knows() {
+        assert_eq!(tokens("#99999999999999999999")[0], Token::Word("#".into()));
+    }
+}
