@@ -229,21 +229,14 @@ fn routes_follow_sidewalks_where_there_are_roads() {
     use std::sync::Arc;
 
     use simworld_core::geometry::Point2;
-    use simworld_core::net::{NetworkConfig, RoadClass, RoadNetwork, Street, StreetPlan};
+    use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
     use simworld_core::seam::TaskOutput;
     use simworld_core::seed::Seed;
 
-    let street = |from, to| Street {
-        from,
-        to,
-        via: Vec::new(),
-        class: RoadClass::Local,
-        forward_lanes: 1,
-        backward_lanes: 1,
-    };
     // A corner: from the restaurants west and south of it to the homes, the way is round the corner.
     let nodes = [(-150.0, 0.0), (150.0, 0.0), (150.0, -200.0)].map(|(x, y)| Point2::new(x, y)).to_vec();
-    let plan = StreetPlan { nodes, streets: vec![street(0, 1), street(1, 2)] };
+    let streets = vec![Street::simple(0, 1), Street::simple(1, 2)];
+    let plan = StreetPlan { nodes, streets, ..StreetPlan::default() };
     let roads = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
     let mut config = quiet();
     config.orders.initial = 30;

@@ -143,7 +143,7 @@ impl City {
             ))?);
         }
         for road in &network.roads {
-            let half = lane_reach(network, road);
+            let half = lane_reach(road);
             // Beyond its ends a road reaches as far as it is wide, and so covers its junctions.
             for piece in road.centerline.windows(2) {
                 let stripe = Stripe { a: piece[0], b: piece[1], half, extend: half };

@@ -1,7 +1,7 @@
 //! What a city is to be like.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::net::NetworkConfig;
+use simworld_core::net::{LANE_WIDTH, NetworkConfig, SIDEWALK_WIDTH};
 
 use crate::CityError;
 
@@ -35,6 +35,10 @@ pub struct RoadConfig {
     pub bends: f64,
     /// Lanes each way of an arterial, in [1, 4].
     pub arterial_lanes: u8,
+    /// Width of a driving lane, m, in [2, 6].
+    pub lane_width: f64,
+    /// Width of a sidewalk, m, in [1, 20].
+    pub sidewalk_width: f64,
 }
 
 impl Default for RoadConfig {
@@ -52,6 +56,8 @@ impl Default for RoadConfig {
             compactness: 1.2,
             bends: 0.3,
             arterial_lanes: 1,
+            lane_width: LANE_WIDTH,
+            sidewalk_width: SIDEWALK_WIDTH,
         }
     }
 }
@@ -102,7 +108,7 @@ pub struct CityConfig {
     pub buildings: BuildingConfig,
     /// How much stands along the streets.
     pub elements: ElementConfig,
-    /// Widths, limits and signals.
+    /// Limits and signals.
     pub network: NetworkConfig,
 }
 
@@ -131,6 +137,8 @@ impl CityConfig {
             ("roads.compactness", roads.compactness, 0.0, 10.0, "0 to 10"),
             ("roads.bends", roads.bends, 0.0, 1.0, "0 to 1"),
             ("roads.arterial_lanes", f64::from(roads.arterial_lanes), 1.0, 4.0, "1 to 4"),
+            ("roads.lane_width", roads.lane_width, 2.0, 6.0, "2 to 6 m"),
+            ("roads.sidewalk_width", roads.sidewalk_width, 1.0, 20.0, "1 to 20 m"),
             ("buildings.setback", buildings.setback, 0.5, 50.0, "0.5 to 50 m"),
             ("buildings.gap", buildings.gap, 0.0, 50.0, "0 to 50 m"),
             ("buildings.density", buildings.density, 0.0, 1.0, "0 to 1"),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use simworld_core::geometry::{Obb, Point2, Point3, Vector3, heading, pose_facing};
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::{Road, RoadNetwork};
 
 /// Width of a grid cell, m.
 const CELL: f64 = 40.0;
@@ -58,10 +58,10 @@ pub(crate) fn strip(a: Point2, b: Point2, left: f64, right: f64, extend: f64) ->
 /// again as half its width beyond its ends.
 pub(crate) fn road_land(network: &RoadNetwork) -> Taken {
     let mut taken = Taken::default();
-    let walk = network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
+    let walk = network.sidewalks.iter().map(|sidewalk| sidewalk.width).fold(0.0, f64::max);
     for road in &network.roads {
-        // Half the width on both sides also covers one-way roads, whose lanes lie on one side of the line.
-        let reach = lane_reach(network, road) + walk;
+        // The wider side on both covers one-way roads, whose lanes lie on one side of the line.
+        let reach = lane_reach(road) + walk;
         for piece in road.centerline.windows(2) {
             taken.add(strip(piece[0], piece[1], reach, reach, reach));
         }
@@ -70,12 +70,6 @@ pub(crate) fn road_land(network: &RoadNetwork) -> Taken {
 }
 
 /// How far the carriageway reaches to the wider side of the centreline, m.
-pub(crate) fn lane_reach(network: &RoadNetwork, road: &simworld_core::net::Road) -> f64 {
-    let width = road
-        .forward
-        .iter()
-        .chain(&road.backward)
-        .next()
-        .map_or(0.0, |lane| network.lanes[lane.index()].width);
-    width * road.forward.len().max(road.backward.len()) as f64
+pub(crate) fn lane_reach(road: &Road) -> f64 {
+    road.left_kerb.max(road.right_kerb)
 }

@@ -93,6 +93,10 @@ index_type!(
     LaneId
 );
 index_type!(
+    /// A sidewalk: the walkway along one side of a road.
+    SidewalkId
+);
+index_type!(
     /// A connection: the path from one lane to another across an intersection.
     ConnectionId
 );

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use simworld_core::geometry::{Point2, direction};
-use simworld_core::id::{LaneId, WaypointId};
+use simworld_core::id::{LaneId, RoadId, WaypointId};
 use simworld_core::net::{
-    Aspect, Control, NetworkConfig, NetworkError, RoadNetwork, Route, RouteScratch, Street, StreetPlan, Turn,
-    WaypointConfig, WaypointGraph, polyline,
+    Aspect, Control, CrossSection, LaneDirection, LaneKind, LaneSpec, NetworkConfig, NetworkError,
+    RoadNetwork, Route, RouteScratch, Side, Street, StreetPlan, Turn, WaypointConfig, WaypointGraph,
+    polyline,
 };
 use simworld_core::ops;
 
@@ -38,19 +39,41 @@ fn shaken_grid() -> impl Strategy<Value = StreetPlan> {
 /// A star of streets with at least 30° between them.
 fn star() -> impl Strategy<Value = StreetPlan> {
     prop::collection::vec((0.55..1.2_f64, 80.0..160.0_f64, 1_u8..3), 1..6).prop_map(|arms| {
-        let mut plan = StreetPlan { nodes: vec![Point2::origin()], streets: Vec::new() };
+        let mut plan = StreetPlan { nodes: vec![Point2::origin()], ..StreetPlan::default() };
         let mut heading = 0.0;
         for (gap, length, lanes) in arms {
             heading += gap;
             plan.nodes.push(Point2::origin() + direction(heading) * length);
             let to = plan.nodes.len() - 1;
-            plan.streets.push(Street {
-                forward_lanes: lanes,
-                backward_lanes: lanes,
-                ..Street::simple(0, to)
-            });
+            let section = plan.add_section(CrossSection::two_way(lanes, lanes));
+            plan.streets.push(Street { section, ..Street::simple(0, to) });
         }
         plan
+    })
+}
+
+/// Sections with parking, medians, bus and cycle lanes, and a sidewalk on both sides, one or none.
+fn section() -> impl Strategy<Value = CrossSection> {
+    use LaneDirection::{Backward, Both, Forward};
+    let some = any::<[bool; 7]>();
+    (some, 1_usize..4, 1_usize..4, 2.5..4.0_f64).prop_map(|(some, backward, forward, width)| {
+        let mut lanes = Vec::new();
+        let mut add = |wanted: bool, kind, direction, width| {
+            if wanted {
+                lanes.push(LaneSpec { kind, direction, width });
+            }
+        };
+        add(some[0], LaneKind::Sidewalk, Both, width);
+        add(some[1], LaneKind::Verge, Both, 1.0);
+        add(some[2], LaneKind::Parking, Backward, 2.0);
+        (0..backward).for_each(|_| add(true, LaneKind::Driving, Backward, width));
+        add(some[3], LaneKind::Median, Both, 2.0);
+        (0..forward).for_each(|_| add(true, LaneKind::Driving, Forward, width));
+        add(some[4], LaneKind::Bus, Forward, 3.5);
+        add(some[5], LaneKind::Cycle, Forward, 1.5);
+        add(some[6], LaneKind::Sidewalk, Both, 2.0);
+        let reference = lanes.iter().map(|lane| lane.width).sum::<f64>() * 0.5;
+        CrossSection { lanes, reference }
     })
 }
 
@@ -188,21 +211,63 @@ proptest! {
     }
 
     #[test]
+    fn every_strip_has_its_place(sections in prop::collection::vec(section(), 4)) {
+        let mut plan = StreetPlan::crossroads(150.0);
+        for (street, section) in sections.iter().enumerate() {
+            plan.streets[street].section = plan.add_section(section.clone());
+        }
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("the plan is sound");
+        check_paths(&network)?;
+        check_lanes_reach_all(&network)?;
+        check_signals(&network)?;
+        check_right_of_way(&network)?;
+        for (index, (road, section)) in network.roads.iter().zip(&sections).enumerate() {
+            let id = RoadId::from_index(index);
+            prop_assert_eq!((road.forward.len(), road.backward.len()), section.driven());
+            let walks = section.lanes.iter().filter(|lane| lane.kind == LaneKind::Sidewalk).count();
+            prop_assert_eq!(road.sidewalks.iter().flatten().count(), walks);
+            for side in [Side::Left, Side::Right] {
+                if let Some(sidewalk) = network.sidewalk(id, side) {
+                    prop_assert_eq!((sidewalk.road, sidewalk.side), (id, side));
+                }
+            }
+            let crossed = network.crossings.iter().any(|crossing| crossing.road == id);
+            prop_assert_eq!(crossed, walks == 2, "a crossing joins two sidewalks");
+            // Traffic keeps right, and the lanes of a road lie between its kerbs.
+            for (lanes, sign) in [(&road.forward, 1.0), (&road.backward, -1.0)] {
+                let offsets: Vec<f64> = lanes
+                    .iter()
+                    .map(|lane| {
+                        let lane = &network.lanes[lane.index()];
+                        let middle = polyline::at(&lane.path, lane.length * 0.5).0;
+                        polyline::closest(&road.centerline, &middle).unwrap().lateral
+                    })
+                    .collect();
+                prop_assert!(offsets.windows(2).all(|pair| (pair[0] - pair[1]) * sign > 1.0), "{offsets:?}");
+                prop_assert!(offsets.iter().all(|o| *o < road.left_kerb && -*o < road.right_kerb));
+            }
+        }
+    }
+
+    #[test]
     fn no_plan_makes_it_panic(
         nodes in prop::collection::vec((any::<f64>(), any::<f64>()), 0..6),
         streets in prop::collection::vec((0_usize..8, 0_usize..8, any::<u8>(), any::<u8>()), 0..8),
         lane_width in any::<f64>(),
+        reference in any::<f64>(),
     ) {
-        let plan = StreetPlan {
+        let mut plan = StreetPlan {
             nodes: nodes.into_iter().map(|(x, y)| Point2::new(x, y)).collect(),
-            streets: streets
-                .into_iter()
-                .map(|(from, to, forward_lanes, backward_lanes)| Street {
-                    forward_lanes, backward_lanes, ..Street::simple(from, to)
-                })
-                .collect(),
+            ..StreetPlan::default()
         };
-        let _ = RoadNetwork::derive(&plan, &NetworkConfig { lane_width, ..NetworkConfig::default() });
+        for (from, to, forward, backward) in streets {
+            let mut section = CrossSection::plain(forward % 10, backward % 10, lane_width, 2.0);
+            section.reference = reference;
+            let section = plan.add_section(section);
+            plan.streets.push(Street { section, ..Street::simple(from, to) });
+        }
+        let _ = RoadNetwork::derive(&plan, &NetworkConfig { green: lane_width, ..NetworkConfig::default() });
+        let _ = RoadNetwork::derive(&plan, &NetworkConfig::default());
     }
 }
 

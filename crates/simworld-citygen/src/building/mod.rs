@@ -235,7 +235,7 @@ impl Front<'_> {
     /// A bent road may come nearer than its strip says; the carriageway itself is tested once more.
     fn reaches_a_road(&self, obb: &Obb) -> bool {
         let road = &self.site.network.roads[self.road.index()];
-        let reach = lane_reach(self.site.network, road);
+        let reach = lane_reach(road);
         obb.footprint().iter().any(|corner| {
             polyline::closest(&road.centerline, corner).is_some_and(|closest| closest.distance < reach)
         })

@@ -12,7 +12,7 @@ use std::collections::BinaryHeap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use simworld_core::geometry::{Point2, Vector2, heading};
-use simworld_core::net::{RoadClass, Street, StreetPlan};
+use simworld_core::net::{CrossSection, RoadClass, Street, StreetPlan};
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::RoadConfig;
@@ -190,21 +190,26 @@ impl Growth<'_> {
     fn plan(&self, seed: Seed) -> StreetPlan {
         let bends = seed.stream("citygen/bends");
         let nodes: Vec<Point2> = (0..self.fabric.node_count()).map(|node| self.fabric.node(node)).collect();
+        let mut plan = StreetPlan { sections: vec![self.section(1)], ..StreetPlan::default() };
+        let arterial = plan.add_section(self.section(self.config.arterial_lanes));
         let street = |(index, segment): (usize, &fabric::Segment)| {
-            let lanes = if segment.class == RoadClass::Arterial { self.config.arterial_lanes } else { 1 };
+            let section = if segment.class == RoadClass::Arterial { arterial } else { 0 };
             let mut rng = bends.indexed(index as u64).rng();
             let (from, to) = (nodes[segment.from], nodes[segment.to]);
             Street {
-                from: segment.from,
-                to: segment.to,
                 via: if rng.chance(self.config.bends) { bend(from, to, &mut rng) } else { Vec::new() },
                 class: segment.class,
-                forward_lanes: lanes,
-                backward_lanes: lanes,
+                section,
+                ..Street::simple(segment.from, segment.to)
             }
         };
-        let streets = self.fabric.segments().iter().enumerate().map(street).collect();
-        StreetPlan { nodes, streets }
+        plan.streets = self.fabric.segments().iter().enumerate().map(street).collect();
+        plan.nodes = nodes;
+        plan
+    }
+
+    fn section(&self, lanes: u8) -> CrossSection {
+        CrossSection::plain(lanes, lanes, self.config.lane_width, self.config.sidewalk_width)
     }
 }
 

@@ -2,14 +2,18 @@
 
 mod derive;
 mod network;
+mod plan;
 pub mod polyline;
+mod section;
 mod signal;
 mod waypoint;
 
-pub use derive::{NetworkConfig, NetworkError, Street, StreetPlan};
+pub use derive::{NetworkConfig, NetworkError};
 pub use network::{
     Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Turn,
 };
+pub use plan::{SHORTEST_STREET, Street, StreetPlan};
+pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use waypoint::{
     Route, RouteScratch, Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind,

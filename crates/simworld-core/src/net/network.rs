@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{SignalGroup, SignalPlan};
+use super::{LaneKind, SignalGroup, SignalPlan};
 use crate::geometry::Point2;
-use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId};
+use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
 
 /// The rank of a road.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -31,12 +31,20 @@ pub struct Road {
     pub to: IntersectionId,
     /// The centreline from junction centre to junction centre, at least two points, m.
     pub centerline: Vec<Point2>,
-    /// Width of the carriageway, m.
+    /// Index of its name in [`RoadNetwork::names`], if it has one.
+    pub name: Option<u32>,
+    /// Width of the carriageway from kerb to kerb, m.
     pub width: f64,
-    /// Lanes along the centreline, from the middle outwards.
+    /// How far the carriageway reaches to the left of the centreline, m.
+    pub left_kerb: f64,
+    /// How far it reaches to the right, m.
+    pub right_kerb: f64,
+    /// Lanes driven along the centreline, from the middle outwards.
     pub forward: Vec<LaneId>,
-    /// Lanes against the centreline, from the middle outwards.
+    /// Lanes driven against the centreline, from the middle outwards.
     pub backward: Vec<LaneId>,
+    /// The sidewalks on its left and on its right.
+    pub sidewalks: [Option<SidewalkId>; 2],
 }
 
 /// A directed strip of road, for one file of vehicles. Traffic keeps right.
@@ -44,6 +52,8 @@ pub struct Road {
 pub struct Lane {
     /// The road it belongs to.
     pub road: RoadId,
+    /// What it is for.
+    pub kind: LaneKind,
     /// Its middle, from the line where it leaves an intersection to its stop line, m.
     pub path: Vec<Point2>,
     /// Length of the path, m.
@@ -127,7 +137,7 @@ pub struct Intersection {
     /// The crossings on its legs.
     pub crossings: Vec<CrossingId>,
     /// The walkways round its corners: the i-th leads from the left sidewalk of `roads[i]`, seen from here, to the
-    /// right sidewalk of the next road, ends included; empty without sidewalks.
+    /// right sidewalk of the next road, ends included; without points where one of the two is missing.
     pub corners: Vec<Vec<Point2>>,
 }
 
@@ -182,12 +192,14 @@ pub struct RoadNetwork {
     pub connections: Vec<Connection>,
     /// Indexed by [`IntersectionId`].
     pub intersections: Vec<Intersection>,
-    /// Two a road, where it has any.
+    /// Indexed by [`SidewalkId`]; at most two a road.
     pub sidewalks: Vec<Sidewalk>,
     /// Indexed by [`CrossingId`].
     pub crossings: Vec<Crossing>,
     /// One a signalised intersection.
     pub signals: Vec<SignalPlan>,
+    /// Names of roads.
+    pub names: Vec<String>,
 }
 
 impl RoadNetwork {
@@ -198,8 +210,14 @@ impl RoadNetwork {
 
     /// The sidewalk on one side of a road, if it has one.
     pub fn sidewalk(&self, road: RoadId, side: Side) -> Option<&Sidewalk> {
-        // Derived networks keep them in this order; a missing entry means that there are none at all.
-        self.sidewalks.get(2 * road.index() + usize::from(side == Side::Right))
+        let id = self.roads.get(road.index())?.sidewalks[usize::from(side == Side::Right)]?;
+        self.sidewalks.get(id.index())
+    }
+
+    /// The name of a road, if it has one.
+    pub fn road_name(&self, road: RoadId) -> Option<&str> {
+        let name = self.roads.get(road.index())?.name?;
+        self.names.get(name as usize).map(String::as_str)
     }
 
     /// The rectangle around all centrelines, least and greatest corner; `None` without roads.

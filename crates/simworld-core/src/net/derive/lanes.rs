@@ -1,61 +1,68 @@
-//! Lanes: strips right of the centreline, from stop line to stop line.
+//! Lanes: the driven strips of every cross-section, from stop line to stop line.
 
 use super::NetworkConfig;
 use super::legs::Leg;
 use crate::geometry::Point2;
-use crate::id::{IntersectionId, LaneId, RoadId};
-use crate::net::{Lane, RoadNetwork, polyline};
+use crate::id::{LaneId, RoadId};
+use crate::net::{Lane, LaneDirection, LaneSpec, RoadNetwork, StreetPlan, polyline};
 
 /// Cuts both ends off every centreline and lays the lanes beside what is left.
-pub(super) fn add(network: &mut RoadNetwork, legs: &[Vec<Leg>], config: &NetworkConfig) {
+pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], config: &NetworkConfig) {
     let mut stops = vec![(0.0, 0.0); network.roads.len()];
-    let mut counts = vec![(0_usize, 0_usize); network.roads.len()];
     for leg in legs.iter().flatten() {
-        let lanes = |width: f64| (width / config.lane_width).round() as usize;
-        if leg.at_start {
-            stops[leg.street].0 = leg.stop;
-            counts[leg.street] = (lanes(leg.right), lanes(leg.left));
-        } else {
-            stops[leg.street].1 = leg.stop;
-        }
+        let (start, end) = &mut stops[leg.street];
+        *if leg.at_start { start } else { end } = leg.stop;
     }
-    for (index, ((start, end), (forward, backward))) in stops.into_iter().zip(counts).enumerate() {
-        let road = &network.roads[index];
-        let length = polyline::length(&road.centerline);
-        let middle = polyline::slice(&road.centerline, start, length - end);
-        let back = polyline::reversed(&middle);
-        let (from, to) = (road.from, road.to);
-        for rank in 0..forward {
-            let id = lay(network, index, &middle, rank, (from, to), config);
-            network.roads[index].forward.push(id);
+    for (index, (street, (start, end))) in plan.streets.iter().zip(stops).enumerate() {
+        let centerline = &network.roads[index].centerline;
+        let middle = polyline::slice(centerline, start, polyline::length(centerline) - end);
+        let speed_limit = street.speed_limit.unwrap_or_else(|| config.speed_limit(street.class));
+        for (offset, spec) in plan.section(street).strips().filter(|(_, spec)| spec.kind.is_driven()) {
+            lay(network, RoadId::from_index(index), &middle, offset, spec, speed_limit);
         }
-        for rank in 0..backward {
-            let id = lay(network, index, &back, rank, (to, from), config);
-            network.roads[index].backward.push(id);
+        let road = &mut network.roads[index];
+        // Strips run from left to right; the innermost lane of each direction is the one next to the other.
+        let forward_is_right = match (road.forward.first(), road.backward.first()) {
+            (Some(forward), Some(backward)) => forward > backward,
+            _ => true,
+        };
+        if forward_is_right {
+            road.backward.reverse();
+        } else {
+            road.forward.reverse();
         }
     }
 }
 
-/// Lays the lane of that rank, counted from the middle, to the right of a directed line.
+/// Lays one lane beside a line that runs along the centreline.
 fn lay(
     network: &mut RoadNetwork,
-    road: usize,
+    road: RoadId,
     line: &[Point2],
-    rank: usize,
-    (from, to): (IntersectionId, IntersectionId),
-    config: &NetworkConfig,
-) -> LaneId {
+    offset: f64,
+    spec: LaneSpec,
+    speed_limit: f64,
+) {
     let id = LaneId::from_index(network.lanes.len());
-    let path = polyline::offset(line, -(rank as f64 + 0.5) * config.lane_width);
+    let owner = &mut network.roads[road.index()];
+    let mut path = polyline::offset(line, offset);
+    let (from, to) = if spec.direction == LaneDirection::Backward {
+        path.reverse();
+        owner.backward.push(id);
+        (owner.to, owner.from)
+    } else {
+        owner.forward.push(id);
+        (owner.from, owner.to)
+    };
     network.lanes.push(Lane {
-        road: RoadId::from_index(road),
+        road,
+        kind: spec.kind,
         length: polyline::length(&path),
         path,
-        width: config.lane_width,
-        speed_limit: config.speed_limit(network.roads[road].class),
+        width: spec.width,
+        speed_limit,
         from,
         to,
         outgoing: Vec::new(),
     });
-    id
 }

@@ -27,6 +27,10 @@ pub(super) struct Leg {
     pub(super) left: f64,
     /// Carriageway to the right, m.
     pub(super) right: f64,
+    /// Width of all that lies beyond the left kerb, m.
+    pub(super) left_walk: f64,
+    /// Width of all that lies beyond the right kerb, m.
+    pub(super) right_walk: f64,
     /// How far the paved junction reaches into the leg, m.
     pub(super) reach: f64,
     /// Where lanes end and begin, m from the node.
@@ -56,18 +60,27 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>
     for (index, street) in plan.streets.iter().enumerate() {
         let line = plan.centerline(street);
         lengths.push(polyline::length(&line));
-        let forward = f64::from(street.forward_lanes) * config.lane_width;
-        let backward = f64::from(street.backward_lanes) * config.lane_width;
-        let leaving = |node: usize, towards: Point2, at_start: bool| Leg {
-            street: index,
-            at_start,
-            heading: heading(&(towards - plan.nodes[node])),
-            left: if at_start { backward } else { forward },
-            right: if at_start { forward } else { backward },
-            reach: 0.0,
-            stop: 0.0,
-            walk: 0.0,
-            node: plan.nodes[node],
+        let section = plan.section(street);
+        let (left, right) = section.kerbs();
+        let (left_walk, right_walk) =
+            (section.left_of_reference() - left, section.right_of_reference() - right);
+        let swap = |at_start: bool, (a, b): (f64, f64)| if at_start { (a, b) } else { (b, a) };
+        let leaving = |node: usize, towards: Point2, at_start: bool| {
+            let (left, right) = swap(at_start, (left, right));
+            let (left_walk, right_walk) = swap(at_start, (left_walk, right_walk));
+            Leg {
+                street: index,
+                at_start,
+                heading: heading(&(towards - plan.nodes[node])),
+                left,
+                right,
+                left_walk,
+                right_walk,
+                reach: 0.0,
+                stop: 0.0,
+                walk: 0.0,
+                node: plan.nodes[node],
+            }
         };
         legs[street.from].push(leaving(street.from, line[1], true));
         legs[street.to].push(leaving(street.to, line[line.len() - 2], false));
@@ -91,9 +104,9 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     for index in 0..count {
         let (before, after) = (&legs[(index + count - 1) % count], &legs[(index + 1) % count]);
         let leg = &legs[index];
-        let walk = config.sidewalk_width;
-        let on_left = edge_meeting(leg.left + walk, after.right + walk, angle_between(leg, after));
-        let on_right = edge_meeting(leg.right + walk, before.left + walk, angle_between(before, leg));
+        let (left, right) = (leg.left + leg.left_walk, leg.right + leg.right_walk);
+        let on_left = edge_meeting(left, after.right + after.right_walk, angle_between(leg, after));
+        let on_right = edge_meeting(right, before.left + before.left_walk, angle_between(before, leg));
         let reach = if count == 1 { DEAD_END_REACH } else { LEAST_REACH.max(on_left).max(on_right) };
         let leg = &mut legs[index];
         leg.reach = reach;
@@ -144,22 +157,22 @@ pub(super) fn outline(center: Point2, legs: &[Leg]) -> Vec<Point2> {
             for (index, leg) in legs.iter().enumerate() {
                 outline.push(leg.point(leg.reach, -leg.right));
                 outline.push(leg.point(leg.reach, leg.left));
-                outline.extend(corner(leg, &legs[(index + 1) % legs.len()], 0.0));
+                outline.extend(corner(leg, &legs[(index + 1) % legs.len()], (0.0, 0.0)));
             }
             outline
         }
     }
 }
 
-/// Where the left edge of `leg` meets the right edge of the next one, both moved outwards by `margin` m; `None` where
-/// the two run nearly parallel or meet far away.
-pub(super) fn corner(leg: &Leg, next: &Leg, margin: f64) -> Option<Point2> {
+/// Where the left kerb of `leg` meets the right kerb of the next one, each moved outwards by its margin, m; `None`
+/// where the two run nearly parallel or meet far away.
+pub(super) fn corner(leg: &Leg, next: &Leg, margins: (f64, f64)) -> Option<Point2> {
     let met = polyline::meet(
-        leg.point(0.0, leg.left + margin),
+        leg.point(0.0, leg.left + margins.0),
         leg.direction(),
-        next.point(0.0, -next.right - margin),
+        next.point(0.0, -next.right - margins.1),
         next.direction(),
     )?;
-    let farthest = leg.reach.max(next.reach) + leg.left + next.right + margin;
+    let farthest = leg.reach.max(next.reach) + leg.left + next.right + margins.0.max(margins.1);
     ((met - leg.node).norm() <= farthest).then_some(met)
 }

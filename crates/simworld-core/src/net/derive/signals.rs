@@ -3,7 +3,7 @@
 use super::NetworkConfig;
 use super::legs::Leg;
 use crate::geometry::Point2;
-use crate::id::IntersectionId;
+use crate::id::{CrossingId, IntersectionId};
 use crate::net::{Control, Phase, RoadNetwork, SignalGroup, SignalPlan};
 use crate::ops::wrap_angle;
 
@@ -24,20 +24,28 @@ pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg], c
     let vehicles = |leg: usize| SignalGroup(first + leg as u32);
     let walkers = |leg: usize| SignalGroup(first + count + leg as u32);
     let crossings = network.intersections[id.index()].crossings.clone();
-    for (leg, crossing) in crossings.iter().enumerate() {
-        network.crossings[crossing.index()].signal = Some(walkers(leg));
+    // Not every leg has a crossing: only those with a sidewalk on either side.
+    let leg_of = |crossing: &CrossingId| {
+        let road = network.crossings[crossing.index()].road;
+        legs.iter().position(|leg| leg.street == road.index())
+    };
+    let crossed_legs: Vec<(usize, CrossingId)> =
+        crossings.iter().filter_map(|crossing| Some((leg_of(crossing)?, *crossing))).collect();
+    for (leg, crossing) in &crossed_legs {
+        network.crossings[crossing.index()].signal = Some(walkers(*leg));
     }
     let mut phases = Vec::new();
     for stage in stages(legs) {
         // People cross the legs whose own vehicles stand; those who turn into them give way.
-        let crossed: Vec<usize> = (0..crossings.len()).filter(|leg| !stage.contains(leg)).collect();
-        let width = |leg: &usize| {
-            let crossing = &network.crossings[crossings[*leg].index()];
+        let crossed: Vec<(usize, CrossingId)> =
+            crossed_legs.iter().copied().filter(|(leg, _)| !stage.contains(leg)).collect();
+        let width = |(_, crossing): &(usize, CrossingId)| {
+            let crossing = &network.crossings[crossing.index()];
             distance(crossing.start, crossing.end)
         };
         let clearance = crossed.iter().map(width).fold(0.0, f64::max) / CLEARANCE_SPEED;
         let go: Vec<SignalGroup> = stage.iter().map(|leg| vehicles(*leg)).collect();
-        let walk: Vec<SignalGroup> = crossed.iter().map(|leg| walkers(*leg)).collect();
+        let walk: Vec<SignalGroup> = crossed.iter().map(|(leg, _)| walkers(*leg)).collect();
         let both = [go.clone(), walk.clone()].concat();
         let walking_time = (config.green - clearance).max(LEAST_WALK);
         phases.push(Phase { duration: walking_time, green: both, yellow: Vec::new() });

@@ -3,46 +3,51 @@
 use super::NetworkConfig;
 use super::legs::{self, Leg};
 use crate::geometry::Point2;
-use crate::id::{CrossingId, IntersectionId, RoadId};
-use crate::net::{Crossing, RoadNetwork, Side, Sidewalk, polyline};
+use crate::id::{CrossingId, IntersectionId, RoadId, SidewalkId};
+use crate::net::{Crossing, LaneKind, RoadNetwork, Side, Sidewalk, StreetPlan, polyline};
 
-/// Adds sidewalks, corners and crossings; none if the sidewalk has no width.
-pub(super) fn add(network: &mut RoadNetwork, legs: &[Vec<Leg>], config: &NetworkConfig) {
-    if config.sidewalk_width <= 0.0 {
-        return;
-    }
-    add_sidewalks(network, legs, config);
+/// Adds the sidewalks that the cross-sections have, the corners between them, and the crossings that join them.
+pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], config: &NetworkConfig) {
+    add_sidewalks(network, plan, legs);
     for (node, legs) in legs.iter().enumerate() {
         let id = IntersectionId::from_index(node);
-        if legs.len() >= 3 {
-            for leg in legs {
+        for leg in legs.iter().filter(|_| legs.len() >= 3) {
+            if joins_two_sidewalks(network, leg) {
                 add_crossing(network, id, leg, config);
             }
         }
-        network.intersections[node].corners = corners(network, legs, config);
+        network.intersections[node].corners = corners(network, legs);
     }
 }
 
-fn add_sidewalks(network: &mut RoadNetwork, legs: &[Vec<Leg>], config: &NetworkConfig) {
-    let mut ends = vec![(0.0, 0.0, 0.0, 0.0); network.roads.len()];
+fn joins_two_sidewalks(network: &RoadNetwork, leg: &Leg) -> bool {
+    network.roads[leg.street].sidewalks.iter().all(Option::is_some)
+}
+
+fn add_sidewalks(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>]) {
+    let mut ends = vec![(0.0, 0.0); network.roads.len()];
     for leg in legs.iter().flatten() {
-        let (start, end, left, right) = &mut ends[leg.street];
-        if leg.at_start {
-            (*start, *left, *right) = (leg.walk, leg.left, leg.right);
-        } else {
-            *end = leg.walk;
-        }
+        let (start, end) = &mut ends[leg.street];
+        *if leg.at_start { start } else { end } = leg.walk;
     }
-    for (index, (start, end, left, right)) in ends.into_iter().enumerate() {
+    for (index, (street, (start, end))) in plan.streets.iter().zip(ends).enumerate() {
+        let section = plan.section(street);
         let centerline = &network.roads[index].centerline;
         let middle = polyline::slice(centerline, start, polyline::length(centerline) - end);
-        let half = config.sidewalk_width * 0.5;
-        for (side, offset) in [(Side::Left, left + half), (Side::Right, -right - half)] {
+        let strips = || section.strips().filter(|(_, spec)| spec.kind == LaneKind::Sidewalk);
+        let kerb = section.kerbs().0;
+        // The outermost on either side; one that lies between the kerbs is no sidewalk of either.
+        let left = strips().next().filter(|(offset, _)| *offset > kerb);
+        let right = strips().last().filter(|(offset, _)| *offset < -section.kerbs().1);
+        for (side, strip) in [(Side::Left, left), (Side::Right, right)] {
+            let Some((offset, spec)) = strip else { continue };
+            let id = SidewalkId::from_index(network.sidewalks.len());
+            network.roads[index].sidewalks[usize::from(side == Side::Right)] = Some(id);
             network.sidewalks.push(Sidewalk {
                 road: RoadId::from_index(index),
                 side,
                 path: polyline::offset(&middle, offset),
-                width: config.sidewalk_width,
+                width: spec.width,
             });
         }
     }
@@ -61,32 +66,38 @@ fn add_crossing(network: &mut RoadNetwork, intersection: IntersectionId, leg: &L
     network.intersections[intersection.index()].crossings.push(id);
 }
 
-/// The end, at this junction, of the sidewalk on the left or right of a leg, seen leaving.
-fn sidewalk_end(network: &RoadNetwork, leg: &Leg, side: Side) -> Option<Point2> {
+/// The end, at this junction, of the sidewalk on the left or right of a leg, seen leaving, and how far its middle lies
+/// from the kerb, m.
+fn sidewalk_end(network: &RoadNetwork, leg: &Leg, side: Side) -> Option<(Point2, f64)> {
     let seen_along = match (leg.at_start, side) {
         (true, side) => side,
         (false, Side::Left) => Side::Right,
         (false, Side::Right) => Side::Left,
     };
     let path = &network.sidewalk(RoadId::from_index(leg.street), seen_along)?.path;
-    if leg.at_start { path.first().copied() } else { path.last().copied() }
+    let end = if leg.at_start { *path.first()? } else { *path.last()? };
+    let ahead = leg.direction();
+    let from_centerline = ahead.perp(&(end - leg.node)).abs();
+    let kerb = if side == Side::Left { leg.left } else { leg.right };
+    Some((end, (from_centerline - kerb).max(0.0)))
 }
 
-/// The walkway from each leg's left sidewalk to the next leg's right one.
-fn corners(network: &RoadNetwork, legs: &[Leg], config: &NetworkConfig) -> Vec<Vec<Point2>> {
-    let half = config.sidewalk_width * 0.5;
+/// The walkway from each leg's left sidewalk to the next leg's right one; without points where one is missing.
+fn corners(network: &RoadNetwork, legs: &[Leg]) -> Vec<Vec<Point2>> {
     let between = |index: usize| -> Option<Vec<Point2>> {
         let (leg, next) = (&legs[index], &legs[(index + 1) % legs.len()]);
-        let mut walkway = vec![sidewalk_end(network, leg, Side::Left)?];
+        let (start, left_margin) = sidewalk_end(network, leg, Side::Left)?;
+        let (end, right_margin) = sidewalk_end(network, next, Side::Right)?;
+        let mut walkway = vec![start];
         if legs.len() == 1 {
             // Round the back of a dead end.
-            walkway.push(leg.point(-half, leg.left + half));
-            walkway.push(leg.point(-half, -leg.right - half));
+            walkway.push(leg.point(-left_margin, leg.left + left_margin));
+            walkway.push(leg.point(-right_margin, -leg.right - right_margin));
         } else {
-            walkway.extend(legs::corner(leg, next, half));
+            walkway.extend(legs::corner(leg, next, (left_margin, right_margin)));
         }
-        walkway.push(sidewalk_end(network, next, Side::Right)?);
+        walkway.push(end);
         Some(walkway)
     };
-    (0..legs.len()).filter_map(between).collect()
+    (0..legs.len()).map(|index| between(index).unwrap_or_default()).collect()
 }

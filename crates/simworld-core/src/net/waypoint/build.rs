@@ -128,9 +128,11 @@ fn walk_end(
     side: Side,
     ends: &[Ends],
 ) -> Option<WaypointId> {
-    let at_start = network.roads[road.index()].from == at;
+    let road = &network.roads[road.index()];
+    let at_start = road.from == at;
     let on_left = (side == Side::Left) == at_start;
-    let (first, last) = ends.get(2 * road.index() + usize::from(!on_left))?;
+    let sidewalk = road.sidewalks[usize::from(!on_left)]?;
+    let (first, last) = ends.get(sidewalk.index())?;
     Some(if at_start { *first } else { *last })
 }
 

@@ -1,0 +1,207 @@
+//! Streets as they are planned: nodes, centrelines and cross-sections. What every source of roads makes.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Control, CrossSection, NetworkError, RoadClass, polyline};
+use crate::geometry::Point2;
+
+/// The shortest street that can hold two junctions and a lane between them, m.
+pub const SHORTEST_STREET: f64 = 15.0;
+
+/// A street of a plan: a centreline between two nodes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Street {
+    /// Index of the node where it begins.
+    pub from: usize,
+    /// Index of the node where it ends.
+    pub to: usize,
+    /// Points between the two, for bends; m.
+    pub via: Vec<Point2>,
+    /// Its rank.
+    pub class: RoadClass,
+    /// Index of its cross-section in [`StreetPlan::sections`].
+    pub section: u32,
+    /// Index of its name in [`StreetPlan::names`], if it has one.
+    pub name: Option<u32>,
+    /// Its speed limit, m/s; that of its class if there is none.
+    pub speed_limit: Option<f64>,
+}
+
+impl Street {
+    /// A straight local street of the first cross-section.
+    pub fn simple(from: usize, to: usize) -> Self {
+        Self { from, to, via: Vec::new(), class: RoadClass::Local, section: 0, name: None, speed_limit: None }
+    }
+}
+
+/// A plan of streets: nodes where they meet or end, and centrelines between. What every source of roads makes:
+/// growth, a file, a hand.
+///
+/// ```
+/// use simworld_core::geometry::Point2;
+/// use simworld_core::net::{CrossSection, Street, StreetPlan};
+/// let mut plan = StreetPlan::default();
+/// plan.nodes = vec![Point2::new(0.0, 0.0), Point2::new(200.0, 0.0)];
+/// let avenue = plan.add_section(CrossSection::two_way(2, 2));
+/// let name = plan.add_name("Avenue of the Sea");
+/// plan.streets.push(Street { section: avenue, name: Some(name), ..Street::simple(0, 1) });
+/// assert!(plan.validate().is_ok());
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StreetPlan {
+    /// Where streets meet or end, m.
+    pub nodes: Vec<Point2>,
+    /// The streets; they meet only at nodes.
+    pub streets: Vec<Street>,
+    /// The cross-sections in use; the first is that of simple streets.
+    pub sections: Vec<CrossSection>,
+    /// The names in use.
+    pub names: Vec<String>,
+    /// Who may go, at nodes where that is known; elsewhere the number of streets says.
+    pub controls: BTreeMap<usize, Control>,
+}
+
+impl Default for StreetPlan {
+    /// No streets yet; one cross-section, of one lane each way between sidewalks.
+    fn default() -> Self {
+        Self {
+            nodes: Vec::new(),
+            streets: Vec::new(),
+            sections: vec![CrossSection::default()],
+            names: Vec::new(),
+            controls: BTreeMap::new(),
+        }
+    }
+}
+
+impl StreetPlan {
+    /// The index of a cross-section, which is added if it is new.
+    pub fn add_section(&mut self, section: CrossSection) -> u32 {
+        let index = self.sections.iter().position(|known| *known == section).unwrap_or_else(|| {
+            self.sections.push(section);
+            self.sections.len() - 1
+        });
+        index as u32
+    }
+
+    /// The index of a new name; the same name twice has two.
+    pub fn add_name(&mut self, name: impl Into<String>) -> u32 {
+        self.names.push(name.into());
+        (self.names.len() - 1) as u32
+    }
+
+    /// The cross-section of a street of a valid plan.
+    pub fn section(&self, street: &Street) -> &CrossSection {
+        &self.sections[street.section as usize]
+    }
+
+    /// The name of a street, if it has one.
+    pub fn name(&self, street: &Street) -> Option<&str> {
+        self.names.get(street.name? as usize).map(String::as_str)
+    }
+
+    /// The centreline of a street, ends included.
+    pub fn centerline(&self, street: &Street) -> Vec<Point2> {
+        let ends = [self.nodes[street.from], self.nodes[street.to]];
+        let mut line = Vec::with_capacity(street.via.len() + 2);
+        line.push(ends[0]);
+        line.extend(&street.via);
+        line.push(ends[1]);
+        line
+    }
+
+    /// Checks that every node is somewhere and every street can be built.
+    ///
+    /// # Errors
+    /// The first node, cross-section or street at fault.
+    pub fn validate(&self) -> Result<(), NetworkError> {
+        if let Some(node) = self.nodes.iter().position(|point| !is_near(point)) {
+            return Err(NetworkError::Node { node, x: self.nodes[node].x, y: self.nodes[node].y });
+        }
+        let faults: Vec<Option<String>> = self.sections.iter().map(CrossSection::fault).collect();
+        let mut pairs: Vec<(usize, usize, usize)> = Vec::with_capacity(self.streets.len());
+        for (index, street) in self.streets.iter().enumerate() {
+            self.check_street(street, &faults)
+                .map_err(|reason| NetworkError::Street { street: index, reason })?;
+            pairs.push((street.from.min(street.to), street.from.max(street.to), index));
+        }
+        pairs.sort_unstable();
+        match pairs.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
+            Some(pair) => Err(NetworkError::Street {
+                street: pair[1].2,
+                reason: format!(
+                    "joins the same nodes as street {}: remove one, or put a node on it",
+                    pair[0].2
+                ),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_street(&self, street: &Street, faults: &[Option<String>]) -> Result<(), String> {
+        let count = self.nodes.len();
+        if street.from >= count || street.to >= count {
+            return Err(format!("joins nodes {} and {}, but there are {count}", street.from, street.to));
+        }
+        if street.from == street.to {
+            return Err(format!("begins and ends at node {}: put a node on the loop", street.from));
+        }
+        match faults.get(street.section as usize) {
+            None => {
+                return Err(format!(
+                    "has cross-section {}, but there are {}: add it first",
+                    street.section,
+                    faults.len()
+                ));
+            }
+            Some(Some(fault)) => return Err(fault.clone()),
+            Some(None) => {}
+        }
+        if street.name.is_some_and(|name| name as usize >= self.names.len()) {
+            return Err("has a name that is not among the names: add it first".to_owned());
+        }
+        if let Some(limit) = street.speed_limit.filter(|limit| !(1.0..=70.0).contains(limit)) {
+            return Err(format!("has a speed limit of {limit} m/s: give 1 to 70 m/s"));
+        }
+        if !street.via.iter().all(is_near) {
+            return Err("has a point of its course that is not within ±1e7 m".to_owned());
+        }
+        let length = polyline::length(&self.centerline(street));
+        if length < SHORTEST_STREET {
+            return Err(format!(
+                "is {length:.1} m long: give at least {SHORTEST_STREET} m, or merge its nodes"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Four streets of `arm` m that meet at the origin, with one lane each way: the smallest city.
+    pub fn crossroads(arm: f64) -> Self {
+        let ends = [(arm, 0.0), (0.0, arm), (-arm, 0.0), (0.0, -arm)];
+        let nodes = [(0.0, 0.0)].into_iter().chain(ends).map(|(x, y)| Point2::new(x, y)).collect();
+        Self { nodes, streets: (1..=4).map(|to| Street::simple(0, to)).collect(), ..Self::default() }
+    }
+
+    /// A rectangular grid of `columns` x `rows` nodes, `spacing` m apart, with one lane each way.
+    pub fn grid(columns: usize, rows: usize, spacing: f64) -> Self {
+        let position =
+            |index: usize| ((index % columns) as f64 * spacing, (index / columns) as f64 * spacing);
+        let nodes = (0..columns * rows).map(position).map(|(x, y)| Point2::new(x, y)).collect();
+        let mut streets = Vec::new();
+        for index in 0..columns * rows {
+            if (index + 1) % columns != 0 {
+                streets.push(Street::simple(index, index + 1));
+            }
+            if index + columns < columns * rows {
+                streets.push(Street::simple(index, index + columns));
+            }
+        }
+        Self { nodes, streets, ..Self::default() }
+    }
+}
+
+fn is_near(point: &Point2) -> bool {
+    point.x.abs() <= 1e7 && point.y.abs() <= 1e7
+}
