@@ -11,7 +11,7 @@ use simworld_core::seed::Seed;
 use crate::building::{self, Building};
 use crate::element::{self, Element};
 use crate::strips::{self, lane_reach, strip};
-use crate::{CityConfig, CityError, CityReport, growth};
+use crate::{CityConfig, CityError, CityReport, Provenance, growth};
 
 /// Tops of the flat layers, m: a hair apart, so that each covers the one below; people stand on the sidewalk's.
 const GROUND_TOP: f64 = -0.03;
@@ -30,6 +30,8 @@ const MARGIN: f64 = 120.0;
 pub struct City {
     /// What it was made from.
     pub config: CityConfig,
+    /// Its seed, and the place that it is, if it is one.
+    pub provenance: Provenance,
     /// Centrelines and junctions.
     pub plan: StreetPlan,
     /// Lanes, crossings, signals and all else that follows from the plan.
@@ -38,8 +40,8 @@ pub struct City {
     pub buildings: Vec<Building>,
     /// Street elements, sidewalk by sidewalk.
     pub elements: Vec<Element>,
-    frontage: f64,
-    frontage_used: f64,
+    pub(crate) frontage: f64,
+    pub(crate) frontage_used: f64,
 }
 
 /// The entities that a city became.
@@ -86,6 +88,7 @@ impl City {
         let elements = element::furnish(&network, &config.elements, seed, &mut taken);
         Ok(Self {
             config: config.clone(),
+            provenance: Provenance::of_seed(seed),
             plan,
             network: Arc::new(network),
             buildings: built.buildings,

@@ -3,6 +3,7 @@
 //! The middle of the sidewalk stays free: kerb-side elements stand within 0.6 m of the kerb, building-side ones behind
 //! the sidewalk, and none near a corner or a crossing.
 
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, pose_facing};
 use simworld_core::net::{RoadNetwork, Side, Sidewalk, polyline};
 use simworld_core::ops;
@@ -20,7 +21,7 @@ const KERB_DISTANCE: f64 = 0.35;
 const BACK_GAP: f64 = 0.15;
 
 /// A thing that stands in the street.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Element {
     /// What it is.
     pub kind: EntityKind,

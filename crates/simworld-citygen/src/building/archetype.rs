@@ -123,8 +123,48 @@ pub const ARCHETYPES: &[Archetype] = &[
 ];
 
 impl Archetype {
+    /// The kind of that name.
+    pub fn from_name(name: &str) -> Option<&'static Self> {
+        ARCHETYPES.iter().find(|kind| kind.name == name)
+    }
+
     /// How often it is tried at a place whose centrality is between 0 (edge) and 1 (centre).
     pub(crate) fn weight(&self, centrality: f64) -> f64 {
         self.central * centrality + self.peripheral * (1.0 - centrality)
+    }
+}
+
+/// A kind in a file: its name.
+pub(crate) mod by_name {
+    use std::fmt;
+
+    use serde::de::{Error, Visitor};
+    use serde::{Deserializer, Serializer};
+
+    use super::Archetype;
+
+    pub(crate) fn serialize<S: Serializer>(kind: &Archetype, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(kind.name)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<&'static Archetype, D::Error> {
+        deserializer.deserialize_str(Name)
+    }
+
+    struct Name;
+
+    impl Visitor<'_> for Name {
+        type Value = &'static Archetype;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("the name of a kind of building")
+        }
+
+        fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+            Archetype::from_name(name)
+                .ok_or_else(|| E::invalid_value(serde::de::Unexpected::Str(name), &self))
+        }
     }
 }

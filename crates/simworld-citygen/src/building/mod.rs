@@ -6,6 +6,7 @@ mod names;
 use std::collections::BTreeSet;
 
 pub use archetype::{ARCHETYPES, Archetype, STOREY};
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, Vector3, direction, pose_facing};
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side, polyline};
@@ -17,9 +18,10 @@ use crate::BuildingConfig;
 use crate::strips::{Taken, lane_reach};
 
 /// A building of a city.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Building {
-    /// Its kind.
+    /// Its kind; in files, its name.
+    #[serde(with = "archetype::by_name")]
     pub archetype: &'static Archetype,
     /// What it is used for; by default its kind's use.
     pub place: Place,

@@ -1,0 +1,4 @@
+//! Files of a city: what others read and write.
+
+pub mod atomic;
+pub mod save;

@@ -1,0 +1,68 @@
+//! What a loaded city must fulfil so that nothing built on it can fail: the checks that types cannot make.
+
+use simworld_core::geometry::Point2;
+use simworld_core::net::{RoadNetwork, StreetPlan};
+use simworld_core::scene::Shape;
+
+use super::SaveError;
+use crate::building::Building;
+use crate::element::Element;
+
+/// Streets at one node: the work at a junction grows with the square of its streets.
+const MOST_STREETS_A_NODE: u32 = 32;
+/// Farthest coordinate, m.
+const FARTHEST: f64 = 1e7;
+/// Largest building, m, and most storeys.
+const LARGEST: f64 = 2000.0;
+const MOST_STOREYS: u32 = 500;
+
+pub(super) fn plan(plan: &StreetPlan) -> Result<(), SaveError> {
+    let mut degree = vec![0_u32; plan.nodes.len()];
+    for end in plan.streets.iter().flat_map(|street| [street.from, street.to]) {
+        // Ends that are no nodes are refused when the roads are derived.
+        if let Some(degree) = degree.get_mut(end) {
+            *degree += 1;
+        }
+    }
+    let crowded = degree.iter().position(|degree| *degree > MOST_STREETS_A_NODE);
+    fail("node", crowded, "joins more than 32 streets")
+}
+
+pub(super) fn buildings(buildings: &[Building], network: &RoadNetwork) -> Result<(), SaveError> {
+    let size = |x: f64| x > 0.0 && x <= LARGEST;
+    let is_sound = |building: &Building| {
+        is_near(&building.center)
+            && is_near(&building.access)
+            && building.facing.is_finite()
+            && size(building.width)
+            && size(building.depth)
+            && building.storeys <= MOST_STOREYS
+    };
+    fail(
+        "building",
+        buildings.iter().position(|building| !is_sound(building)),
+        "has no possible place or size",
+    )?;
+    let lost = buildings.iter().position(|building| building.road.index() >= network.roads.len());
+    fail("building", lost, "stands at a road that is not there")
+}
+
+pub(super) fn elements(elements: &[Element]) -> Result<(), SaveError> {
+    let is_sound = |element: &Element| {
+        is_near(&element.position) && element.facing.is_finite() && is_solid(&element.shape)
+    };
+    fail("element", elements.iter().position(|element| !is_sound(element)), "has no possible place or size")
+}
+
+fn is_solid(shape: &Shape) -> bool {
+    let size = shape.size();
+    (0..3).all(|axis| size[axis] > 0.0 && size[axis] <= LARGEST)
+}
+
+fn is_near(point: &Point2) -> bool {
+    point.x.abs() <= FARTHEST && point.y.abs() <= FARTHEST
+}
+
+fn fail(what: &'static str, at: Option<usize>, fault: &'static str) -> Result<(), SaveError> {
+    at.map_or(Ok(()), |index| Err(SaveError::Unsound { what, index, fault }))
+}
