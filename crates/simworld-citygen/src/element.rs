@@ -11,7 +11,7 @@ use simworld_core::scene::{EntityKind, Shape};
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::ElementConfig;
-use crate::strips::Taken;
+use crate::occupancy::Occupancy;
 
 /// Distance kept from the ends of a sidewalk, where people turn and cross, m.
 const CORNER_CLEARANCE: f64 = 5.0;
@@ -81,12 +81,12 @@ pub(crate) fn furnish(
     network: &RoadNetwork,
     config: &ElementConfig,
     seed: Seed,
-    taken: &mut Taken,
+    taken: &mut Occupancy,
 ) -> Vec<Element> {
     let streams = seed.stream("citygen/elements");
     let mut elements = Vec::new();
     // Kerb-side elements stand on road land, so they are tested among themselves and against buildings by place.
-    let mut kerb = Taken::default();
+    let mut kerb = Occupancy::default();
     for (index, sidewalk) in network.sidewalks.iter().enumerate() {
         let mut rng = streams.indexed(index as u64).rng();
         let walk = Walk { sidewalk, length: polyline::length(&sidewalk.path) };
@@ -109,10 +109,10 @@ fn count(mean: f64, rng: &mut StreamRng) -> u64 {
     (mean + rng.unit()).floor() as u64
 }
 
-fn add_if_free(element: Element, land: &mut Taken, elements: &mut Vec<Element>) {
+fn add_if_free(element: Element, land: &mut Occupancy, elements: &mut Vec<Element>) {
     let obb = element.obb();
-    if !land.overlaps(&obb) {
-        land.add(obb);
+    if land.is_free_box(&obb) {
+        land.add_box(&obb);
         elements.push(element);
     }
 }
@@ -133,7 +133,7 @@ impl Walk<'_> {
         kind: EntityKind,
         density: f64,
         rng: &mut StreamRng,
-        land: &mut Taken,
+        land: &mut Occupancy,
         elements: &mut Vec<Element>,
     ) {
         let number = count(self.usable() * density, rng);

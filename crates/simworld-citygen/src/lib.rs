@@ -10,6 +10,7 @@ pub mod files;
 mod geo;
 pub mod growth;
 pub mod map;
+pub mod occupancy;
 mod provenance;
 pub mod python;
 mod report;

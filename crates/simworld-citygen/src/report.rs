@@ -7,7 +7,7 @@ use simworld_core::net::polyline;
 
 use crate::City;
 use crate::city::street_length;
-use crate::strips::Taken;
+use crate::occupancy::Occupancy;
 
 /// Statistics of a city. Junctions are nodes where other than two streets meet; segments run between those.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,12 +92,12 @@ fn commonest_kind(city: &City) -> f64 {
 
 /// Counted anew from the footprints, not from what the generator believes.
 fn overlaps(city: &City) -> usize {
-    let mut standing = Taken::default();
+    let mut standing = Occupancy::default();
     let mut count = 0;
     for building in &city.buildings {
         let obb = building.obb();
-        count += usize::from(standing.overlaps(&obb));
-        standing.add(obb);
+        count += usize::from(!standing.is_free_box(&obb));
+        standing.add_box(&obb);
     }
     count
 }

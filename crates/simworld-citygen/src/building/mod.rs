@@ -15,7 +15,8 @@ use simworld_core::scene::Place;
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::BuildingConfig;
-use crate::strips::{Taken, lane_reach};
+use crate::occupancy::Occupancy;
+use crate::strips::lane_reach;
 
 /// A building of a city.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,7 +74,12 @@ pub(crate) struct Built {
 }
 
 /// Builds along all streets. `taken` holds the land of the roads and receives the buildings.
-pub(crate) fn build(network: &RoadNetwork, config: &BuildingConfig, seed: Seed, taken: &mut Taken) -> Built {
+pub(crate) fn build(
+    network: &RoadNetwork,
+    config: &BuildingConfig,
+    seed: Seed,
+    taken: &mut Occupancy,
+) -> Built {
     let streams = seed.stream("citygen/buildings");
     let (low, high) = network.bounds().unwrap_or((Point2::origin(), Point2::origin()));
     let site = Site {
@@ -118,7 +124,7 @@ struct Candidate {
 
 impl Front<'_> {
     /// Samples from one end of the sidewalk to the other, then fills the gaps with what is small enough.
-    fn build(&self, mut rng: StreamRng, taken: &mut Taken, built: &mut Built) {
+    fn build(&self, mut rng: StreamRng, taken: &mut Occupancy, built: &mut Built) {
         let length = self.length();
         if length <= 0.0 {
             return;
@@ -145,7 +151,7 @@ impl Front<'_> {
     }
 
     /// Greedy filling: at each station of a gap the largest kind that still fits.
-    fn fill(&self, start: f64, end: f64, rng: &mut StreamRng, taken: &mut Taken, built: &mut Built) {
+    fn fill(&self, start: f64, end: f64, rng: &mut StreamRng, taken: &mut Occupancy, built: &mut Built) {
         let mut station = start;
         while station + 5.0 <= end && rng.chance(self.site.config.density) {
             let room = end - station;
@@ -198,7 +204,7 @@ impl Front<'_> {
         station: f64,
         candidate: &Candidate,
         rng: &mut StreamRng,
-        taken: &mut Taken,
+        taken: &mut Occupancy,
         built: &mut Built,
     ) -> bool {
         let sidewalk = self.line();
@@ -225,10 +231,10 @@ impl Front<'_> {
             side: self.side,
         };
         let obb = building.obb();
-        if taken.overlaps(&obb) || self.reaches_a_road(&obb) {
+        if !taken.is_free_box(&obb) || self.reaches_a_road(&obb) {
             return false;
         }
-        taken.add(obb);
+        taken.add_box(&obb);
         built.frontage_used += candidate.width;
         built.buildings.push(building);
         true
