@@ -70,6 +70,14 @@ pub enum TrafficError {
     /// The world refused an entity.
     #[error(transparent)]
     World(#[from] WorldError),
+    /// A signal plan that is not for the intersection or the groups it was given for.
+    #[error(
+        "signal plan {plan} does not fit: keep its intersection and groups, and give every phase a positive duration"
+    )]
+    Plan {
+        /// Its index.
+        plan: usize,
+    },
     /// The world has no roads.
     #[error(
         "the world has no roads: call World::set_roads, or populate it from a city, before adding traffic"

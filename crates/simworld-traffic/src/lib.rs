@@ -5,12 +5,11 @@ mod config;
 pub mod control;
 mod dynamics;
 mod pedestrian;
-mod signal;
+pub mod signal;
 mod traffic;
 pub mod vehicle;
 
 pub use config::{TrafficConfig, TrafficError};
 pub use dynamics::TrafficDynamics;
 pub use pedestrian::Pedestrian;
-pub use signal::{Demand, FixedTime, SignalPolicy};
 pub use traffic::{Body, Counters, Foreign, Placed, Traffic};

@@ -9,11 +9,11 @@ pub use foreign::Foreign;
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Pose, Twist, Vector3, direction, heading, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
-use simworld_core::net::{Aspect, RoadNetwork, WaypointConfig, WaypointGraph, polyline};
+use simworld_core::net::{Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, polyline};
 use simworld_core::seed::{Seed, Stream};
 
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
-use crate::signal::{Demand, IntersectionManager, SignalPolicy};
+use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
 use crate::{TrafficConfig, TrafficError};
 
@@ -79,7 +79,6 @@ pub struct Traffic {
     // Buffers kept from step to step.
     walkers: Vec<u32>,
     obstacles: Vec<(u32, f64)>,
-    approaching: Vec<u32>,
 }
 
 /// Everything that changes, for snapshots.
@@ -87,6 +86,8 @@ pub struct Traffic {
 pub(crate) struct State {
     vehicles: VehicleManager,
     pedestrians: PedestrianManager,
+    controllers: Controllers,
+    detectors: Detectors,
     aspects: Vec<Aspect>,
     /// How long each group has shown its aspect, s.
     shown: Vec<f64>,
@@ -103,10 +104,12 @@ impl Traffic {
     pub fn new(network: Arc<RoadNetwork>, config: &TrafficConfig, seed: Seed) -> Result<Self, TrafficError> {
         config.validate()?;
         let streams = seed.stream("traffic");
-        let tracks = Tracks::new(Arc::clone(&network), config);
+        let signals = IntersectionManager::new(&network);
+        let (crossings, groups) = (network.crossings.len(), network.signal_groups());
         let ways = WaypointGraph::walkable(&network, &WaypointConfig { step: 25.0, offset: 0.0 })?;
-        let mut vehicles = VehicleManager::new(&tracks);
         let mut pedestrians = PedestrianManager::new(&network);
+        let tracks = Tracks::new(network, config);
+        let mut vehicles = VehicleManager::new(&tracks);
         let placed = Placed {
             vehicles: vehicles.spawn(&tracks, config, streams.named("vehicles")),
             pedestrians: pedestrians.spawn(&ways, config, streams.named("pedestrians")),
@@ -115,23 +118,48 @@ impl Traffic {
             config: config.clone(),
             streams,
             finder: Finder::new(&tracks),
-            walkers: vec![0; network.crossings.len()],
-            approaching: vec![0; network.signal_groups()],
-            signals: IntersectionManager::new(network),
+            walkers: vec![0; crossings],
+            signals,
             tracks,
             ways,
             state: State { vehicles, pedestrians, ..State::default() },
             placed,
             obstacles: Vec::new(),
         };
-        traffic.state.shown = vec![0.0; traffic.signals.aspects.len()];
-        traffic.update_signals(0.0);
+        traffic.state.detectors = Detectors::new(groups);
+        traffic.restart_signals();
         Ok(traffic)
     }
 
-    /// Gives the signals another policy than the fixed plans; it decides from the next step on.
+    /// Gives the signals another policy than [`FixedTime`](crate::signal::FixedTime); it decides from the next step on.
     pub fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
         self.signals.set_policy(policy);
+    }
+
+    /// The plans of the signals.
+    pub fn plans(&self) -> &[SignalPlan] {
+        self.signals.plans()
+    }
+
+    /// Gives the signals other plans, for the same groups; they begin at once, where their clocks stand now.
+    ///
+    /// # Errors
+    /// Plans that are not for the same intersections and groups, or that have a phase without duration.
+    pub fn set_plans(&mut self, plans: Vec<SignalPlan>) -> Result<(), TrafficError> {
+        let own = self.signals.plans();
+        let differs = |(old, new): (&SignalPlan, &SignalPlan)| {
+            old.intersection != new.intersection
+                || old.groups != new.groups
+                || !new.offset.is_finite()
+                || new.phases.iter().any(|phase| !(phase.duration > 0.0 && phase.duration.is_finite()))
+        };
+        let other = own.iter().zip(&plans).position(differs);
+        if let Some(plan) = other.or((own.len() != plans.len()).then_some(own.len().min(plans.len()))) {
+            return Err(TrafficError::Plan { plan });
+        }
+        self.signals.set_plans(plans);
+        self.restart_signals();
+        Ok(())
     }
 
     /// One step of `dt` s.
@@ -178,29 +206,21 @@ impl Traffic {
     }
 
     fn update_signals(&mut self, dt: f64) {
-        self.count_approaching();
-        let demand = Demand { approaching: &self.approaching, waiting: &self.state.pedestrians.waiting };
-        self.signals.step(self.state.seconds, &demand);
+        let State { vehicles, pedestrians, controllers, detectors, seconds, .. } = &mut self.state;
+        detectors.look(&self.tracks, vehicles, &pedestrians.waiting, &self.tracks.network, dt);
+        self.signals.step(controllers, *seconds, detectors.demand(), dt);
         let State { aspects, shown, .. } = &mut self.state;
-        aspects.resize(self.signals.aspects.len(), Aspect::Red);
         for ((old, new), shown) in aspects.iter_mut().zip(&self.signals.aspects).zip(shown) {
             *shown = if old == new { *shown + dt } else { 0.0 };
             *old = *new;
         }
     }
 
-    fn count_approaching(&mut self) {
-        /// Detectors see so far, m.
-        const SEEN: f64 = 50.0;
-        self.approaching.fill(0);
-        for (track, vehicle) in self.state.vehicles.iter() {
-            let next = self.tracks.network.connections.get(vehicle.next as usize);
-            let near = self.tracks.connection(track).is_none()
-                && self.tracks.length[track as usize] - vehicle.s < SEEN;
-            if let Some(group) = next.filter(|_| near).and_then(|connection| connection.signal) {
-                self.approaching[group.index()] += 1;
-            }
-        }
+    fn restart_signals(&mut self) {
+        self.state.controllers = self.signals.start(self.state.seconds);
+        self.signals.show(&self.state.controllers);
+        self.state.aspects.clone_from(&self.signals.aspects);
+        self.state.shown = vec![0.0; self.signals.aspects.len()];
     }
 
     /// How many found a place at the start.
@@ -285,6 +305,8 @@ impl Traffic {
             && people == self.placed.pedestrians as usize
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()
+            && state.detectors.gap.len() == state.aspects.len()
+            && self.signals.fits(&state.controllers)
             && state.pedestrians.fits(&self.ways, self.walkers.len());
         if fits {
             self.signals.aspects.clone_from(&state.aspects);
@@ -301,6 +323,12 @@ impl StateHash for Traffic {
         self.state.pedestrians.state_hash(hasher);
         for aspect in &self.state.aspects {
             hasher.u64(*aspect as u64);
+        }
+        for controller in &self.state.controllers {
+            controller.state_hash(hasher);
+        }
+        for gap in &self.state.detectors.gap {
+            hasher.f64(*gap);
         }
     }
 }

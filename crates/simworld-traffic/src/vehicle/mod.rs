@@ -9,5 +9,5 @@ mod tracks;
 
 pub use idm::{HARDEST_BRAKING, Idm};
 pub use kinds::VehicleKind;
-pub(crate) use manager::{Sight, VehicleManager};
+pub(crate) use manager::{STANDING, Sight, VehicleManager};
 pub(crate) use tracks::Tracks;

@@ -1,0 +1,173 @@
+//! The intersection manager: one controller a signalised intersection, which carries out what a policy chooses.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use simworld_core::hash::StateHasher;
+use simworld_core::net::{Aspect, RoadNetwork, SignalPlan};
+
+use super::stage::{Stage, stages};
+use super::{Demand, FixedTime, JunctionView, SignalPolicy};
+
+/// Sums of steps are compared with this much tolerance, s.
+const ROUNDING: f64 = 1e-6;
+
+/// Where a controller is in its plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Controller {
+    stage: u32,
+    next: u32,
+    /// How many intervals of its ending have begun; none while it shows green.
+    ending: u32,
+    /// Time in the interval, s.
+    elapsed: f64,
+}
+
+/// All controllers, one a plan.
+pub(crate) type Controllers = Vec<Controller>;
+
+/// All signals of a network.
+pub(crate) struct IntersectionManager {
+    plans: Vec<SignalPlan>,
+    stages: Vec<Vec<Stage>>,
+    policy: Box<dyn SignalPolicy + Send>,
+    pub(crate) aspects: Vec<Aspect>,
+}
+
+impl IntersectionManager {
+    pub(crate) fn new(network: &Arc<RoadNetwork>) -> Self {
+        let mut manager = Self {
+            plans: Vec::new(),
+            stages: Vec::new(),
+            policy: Box::new(FixedTime),
+            aspects: vec![Aspect::Red; network.signal_groups()],
+        };
+        manager.set_plans(network.signals.clone());
+        manager
+    }
+
+    pub(crate) fn plans(&self) -> &[SignalPlan] {
+        &self.plans
+    }
+
+    pub(crate) fn set_plans(&mut self, plans: Vec<SignalPlan>) {
+        self.stages = plans.iter().map(stages).collect();
+        self.plans = plans;
+    }
+
+    pub(crate) fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
+        self.policy = policy;
+    }
+
+    /// Controllers as they stand when the clock of the plans shows `seconds`.
+    pub(crate) fn start(&self, seconds: f64) -> Controllers {
+        let at = |(plan, stages): (&SignalPlan, &Vec<Stage>)| {
+            let Some((phase, elapsed)) = phase_at(plan, seconds) else { return Controller::default() };
+            let place = |index: usize, stage: &Stage| {
+                let step = if stage.phase == phase {
+                    0
+                } else {
+                    1 + stage.ending.iter().position(|ending| *ending == phase)?
+                };
+                let next = (index + 1) % stages.len();
+                Some(Controller { stage: index as u32, next: next as u32, ending: step as u32, elapsed })
+            };
+            stages.iter().enumerate().find_map(|(index, stage)| place(index, stage)).unwrap_or_default()
+        };
+        self.plans.iter().zip(&self.stages).map(at).collect()
+    }
+
+    /// Whether saved controllers are those of these plans.
+    pub(crate) fn fits(&self, controllers: &Controllers) -> bool {
+        let fits = |(controller, stages): (&Controller, &Vec<Stage>)| {
+            let stage = stages.get(controller.stage as usize);
+            stages.is_empty()
+                || ((controller.next as usize) < stages.len()
+                    && controller.elapsed.is_finite()
+                    && stage.is_some_and(|stage| controller.ending as usize <= stage.ending.len()))
+        };
+        controllers.len() == self.plans.len() && controllers.iter().zip(&self.stages).all(fits)
+    }
+
+    /// Moves every controller on by `dt` s and shows what it says.
+    pub(crate) fn step(&mut self, controllers: &mut Controllers, seconds: f64, demand: Demand<'_>, dt: f64) {
+        let Self { plans, stages, policy, .. } = self;
+        for ((plan, stages), controller) in plans.iter().zip(stages).zip(controllers.iter_mut()) {
+            if stages.is_empty() {
+                continue;
+            }
+            controller.elapsed += dt;
+            let stage = &stages[controller.stage as usize];
+            if controller.ending == 0 && controller.elapsed + ROUNDING >= stage.least_green {
+                let junction = JunctionView {
+                    plan,
+                    stages,
+                    current: controller.stage as usize,
+                    elapsed: controller.elapsed,
+                    seconds,
+                    demand,
+                };
+                let wish = policy.next_stage(&junction);
+                if wish < stages.len() && wish != controller.stage as usize {
+                    controller.next = wish as u32;
+                    controller.ending = 1;
+                    controller.elapsed = 0.0;
+                }
+            }
+            controller.go_through_ending(plan, stages);
+        }
+        self.show(controllers);
+    }
+
+    /// Writes the aspects that the controllers show.
+    pub(crate) fn show(&mut self, controllers: &Controllers) {
+        for ((plan, stages), controller) in self.plans.iter().zip(&self.stages).zip(controllers) {
+            let Some(stage) = stages.get(controller.stage as usize) else { continue };
+            let phase = match controller.ending {
+                0 => stage.phase,
+                step => stage.ending[step as usize - 1],
+            };
+            for group in &plan.groups {
+                self.aspects[group.index()] = plan.phases[phase].aspect(*group);
+            }
+        }
+    }
+}
+
+impl Controller {
+    pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
+        hasher.u64(u64::from(self.stage)).u64(u64::from(self.next)).u64(u64::from(self.ending));
+        hasher.f64(self.elapsed);
+    }
+
+    /// Passes the intervals of an ending that are over; what is left of the time counts for the next.
+    fn go_through_ending(&mut self, plan: &SignalPlan, stages: &[Stage]) {
+        while self.ending > 0 {
+            let ending = &stages[self.stage as usize].ending;
+            let Some(phase) = ending.get(self.ending as usize - 1) else {
+                self.stage = self.next;
+                self.ending = 0;
+                return;
+            };
+            let duration = plan.phases[*phase].duration;
+            if self.elapsed + ROUNDING < duration {
+                return;
+            }
+            self.elapsed -= duration;
+            self.ending += 1;
+        }
+    }
+}
+
+/// The phase that a plan's clock shows, and for how long it has; `None` for a plan without phases.
+pub(super) fn phase_at(plan: &SignalPlan, seconds: f64) -> Option<(usize, f64)> {
+    let mut into = (seconds + plan.offset).rem_euclid(plan.cycle());
+    for (index, phase) in plan.phases.iter().enumerate() {
+        if into < phase.duration {
+            return Some((index, into));
+        }
+        into -= phase.duration;
+    }
+    // Rounding may leave nothing of the cycle: then the first phase begins again.
+    (!plan.phases.is_empty()).then_some((0, 0.0))
+}

@@ -1,0 +1,127 @@
+//! Detectors: what is seen before every stop line with a signal, once a step.
+
+use serde::{Deserialize, Serialize};
+use simworld_core::id::CrossingId;
+use simworld_core::net::{RoadNetwork, SignalGroup};
+
+use super::Demand;
+use crate::vehicle::{STANDING, Tracks, VehicleManager};
+
+/// Video detection sees so far from the stop line, m.
+const SEEN: f64 = 50.0;
+/// The advance detector lies so far before the stop line at the speed limit, s.
+const ADVANCE: f64 = 2.0;
+
+/// What detectors remember: the time since each advance detector was last passed, s, by group.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Detectors {
+    pub(crate) gap: Vec<f64>,
+    #[serde(skip)]
+    approaching: Vec<u32>,
+    #[serde(skip)]
+    queued: Vec<u32>,
+    #[serde(skip)]
+    pressure: Vec<f64>,
+    #[serde(skip)]
+    waiting: Vec<u32>,
+    /// Share of each lane that is taken, and of it by those who want each connection.
+    #[serde(skip)]
+    taken: Vec<f64>,
+    #[serde(skip)]
+    wanted: Vec<f64>,
+    /// Lanes and connections with an entry.
+    #[serde(skip)]
+    lanes: Vec<u32>,
+    #[serde(skip)]
+    ways: Vec<u32>,
+}
+
+impl Detectors {
+    pub(crate) fn new(groups: usize) -> Self {
+        Self { gap: vec![f64::INFINITY; groups], ..Self::default() }
+    }
+
+    pub(crate) fn demand(&self) -> Demand<'_> {
+        Demand {
+            approaching: &self.approaching,
+            queued: &self.queued,
+            gap: &self.gap,
+            pressure: &self.pressure,
+            waiting: &self.waiting,
+        }
+    }
+
+    /// Looks at all vehicles that may be before a stop line, and at all who wait at kerbs.
+    pub(crate) fn look(
+        &mut self,
+        tracks: &Tracks,
+        vehicles: &VehicleManager,
+        waiting: &[u32],
+        network: &RoadNetwork,
+        dt: f64,
+    ) {
+        let groups = self.gap.len();
+        for counts in [&mut self.approaching, &mut self.queued, &mut self.waiting] {
+            counts.clear();
+            counts.resize(groups, 0);
+        }
+        self.pressure.clear();
+        self.pressure.resize(groups, 0.0);
+        for gap in &mut self.gap {
+            *gap += dt;
+        }
+        self.clear_shares(tracks);
+        for lane in vehicles.active.iter().copied().filter(|track| (*track as usize) < tracks.lanes) {
+            self.look_at_lane(tracks, vehicles, lane, dt);
+        }
+        self.press(tracks);
+        for (index, count) in waiting.iter().enumerate() {
+            if let Some(group) = network.crossings[CrossingId::from_index(index).index()].signal {
+                self.waiting[group.index()] += count;
+            }
+        }
+    }
+
+    fn clear_shares(&mut self, tracks: &Tracks) {
+        self.taken.resize(tracks.lanes, 0.0);
+        self.wanted.resize(tracks.count() - tracks.lanes, 0.0);
+        self.lanes.drain(..).for_each(|lane| self.taken[lane as usize] = 0.0);
+        self.ways.drain(..).for_each(|way| self.wanted[way as usize] = 0.0);
+    }
+
+    /// The pressure of a movement is what is before it less what is behind it, and never less than nothing.
+    fn press(&mut self, tracks: &Tracks) {
+        for way in &self.ways {
+            let connection = &tracks.network.connections[*way as usize];
+            if let Some(group) = connection.signal {
+                let behind = self.taken[connection.to.index()];
+                self.pressure[group.index()] += (self.wanted[*way as usize] - behind).max(0.0);
+            }
+        }
+    }
+
+    fn look_at_lane(&mut self, tracks: &Tracks, vehicles: &VehicleManager, lane: u32, dt: f64) {
+        let end = tracks.length[lane as usize];
+        self.lanes.push(lane);
+        let advance = (end - ADVANCE * tracks.speed[lane as usize]).max(0.0);
+        for vehicle in &vehicles.queues[lane as usize] {
+            let Some(connection) = tracks.network.connections.get(vehicle.next as usize) else { continue };
+            let Some(group) = connection.signal.map(SignalGroup::index) else { continue };
+            // A vehicle at rest takes its length and the gap before it.
+            let share = (vehicle.kind.length() + 2.0) / end;
+            self.taken[lane as usize] += share;
+            if self.wanted[vehicle.next as usize] == 0.0 {
+                self.ways.push(vehicle.next);
+            }
+            self.wanted[vehicle.next as usize] += share;
+            if end - vehicle.s < SEEN {
+                self.approaching[group] += 1;
+                self.queued[group] += u32::from(vehicle.v < STANDING);
+            }
+            let moved = vehicle.v * dt;
+            if vehicle.s >= advance && vehicle.s - moved - vehicle.kind.length() <= advance {
+                self.gap[group] = 0.0;
+            }
+        }
+    }
+}

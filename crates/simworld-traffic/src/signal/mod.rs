@@ -1,0 +1,107 @@
+//! Signals: stages that follow one another safely, policies that choose among them, and what detectors see.
+//!
+//! A policy says which stage comes next; the controller alone lets it come, through the pedestrian clearance, the
+//! yellow and the all-red of the plan. No policy can therefore show two conflicting greens or a green cut short.
+
+mod actuated;
+mod controller;
+mod detect;
+mod fixed;
+mod max_pressure;
+mod stage;
+
+pub use actuated::Actuated;
+pub(crate) use controller::{Controllers, IntersectionManager};
+pub(crate) use detect::Detectors;
+pub use fixed::{FixedTime, Webster, green_wave};
+pub use max_pressure::MaxPressure;
+use simworld_core::net::SignalPlan;
+pub use stage::Stage;
+
+/// What detectors tell, by signal group: index with [`SignalGroup::index`](simworld_core::net::SignalGroup::index).
+#[derive(Clone, Copy, Debug)]
+pub struct Demand<'a> {
+    /// Vehicles that stand or approach within 50 m of the stop line.
+    pub approaching: &'a [u32],
+    /// Those of them that stand.
+    pub queued: &'a [u32],
+    /// Time since a vehicle passed the advance detector, two seconds before the stop line, s; zero while one is over it.
+    pub gap: &'a [f64],
+    /// Vehicles that want to pass, less those that stand in their way behind the junction, each as a share of the lane.
+    pub pressure: &'a [f64],
+    /// Pedestrians at the kerbs that the group governs.
+    pub waiting: &'a [u32],
+}
+
+/// One signalised intersection at the moment of a decision.
+#[derive(Clone, Copy, Debug)]
+pub struct JunctionView<'a> {
+    /// Its plan.
+    pub plan: &'a SignalPlan,
+    /// Its stages, at least one.
+    pub stages: &'a [Stage],
+    /// The stage that shows green.
+    pub current: usize,
+    /// How long it has shown green, s: at least its least green.
+    pub elapsed: f64,
+    /// Time since the start of the simulation, s.
+    pub seconds: f64,
+    /// What detectors tell of the whole network.
+    pub demand: Demand<'a>,
+}
+
+impl JunctionView<'_> {
+    /// The stage after the current one in the order of the plan.
+    pub fn successor(&self) -> usize {
+        (self.current + 1) % self.stages.len()
+    }
+
+    /// Vehicles and people who want a stage.
+    pub fn demand_of(&self, stage: usize) -> u32 {
+        let groups = &self.stages[stage].green;
+        groups
+            .iter()
+            .map(|group| {
+                let index = group.index();
+                self.demand.approaching[index] + self.demand.waiting[index]
+            })
+            .sum()
+    }
+}
+
+/// Chooses the stages of signalised intersections.
+///
+/// # Implementing it
+///
+/// A policy is asked at every step at which the current stage may end, and answers with the stage to show next; the
+/// current one goes on. One that always serves those who are most:
+///
+/// ```
+/// use std::sync::Arc;
+/// use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
+/// use simworld_core::seed::Seed;
+/// use simworld_traffic::{Traffic, TrafficConfig};
+/// use simworld_traffic::signal::{JunctionView, SignalPolicy};
+///
+/// struct Most;
+///
+/// impl SignalPolicy for Most {
+///     fn next_stage(&mut self, junction: &JunctionView<'_>) -> usize {
+///         let most = (0..junction.stages.len()).max_by_key(|stage| junction.demand_of(*stage));
+///         most.filter(|_| junction.elapsed >= 10.0).unwrap_or(junction.current)
+///     }
+/// }
+///
+/// let network = Arc::new(RoadNetwork::derive(&StreetPlan::crossroads(100.0), &NetworkConfig::default())?);
+/// let mut traffic = Traffic::new(network, &TrafficConfig::default(), Seed(1))?;
+/// traffic.set_policy(Box::new(Most));
+/// for _ in 0..600 { traffic.step(0.1); }
+/// assert!(traffic.counters().crossings > 5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait SignalPolicy {
+    /// The stage to show next, an index into [`JunctionView::stages`]; one out of range counts as the current one.
+    ///
+    /// A policy without memory survives a snapshot as it is: what it sees of time and demand is saved.
+    fn next_stage(&mut self, junction: &JunctionView<'_>) -> usize;
+}

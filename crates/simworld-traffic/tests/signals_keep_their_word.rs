@@ -1,0 +1,171 @@
+//! Whatever a policy wants: no conflicting greens, no green cut short, yellow and clearance in full; and the policies do
+//! what their names say.
+
+use std::sync::{Arc, Mutex};
+
+use simworld_core::id::ConnectionId;
+use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::seed::{Seed, StreamRng};
+use simworld_traffic::signal::{Actuated, FixedTime, JunctionView, MaxPressure, SignalPolicy};
+use simworld_traffic::{Traffic, TrafficConfig};
+
+const DT: f64 = 0.1;
+
+fn grid() -> Arc<RoadNetwork> {
+    Arc::new(
+        RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default())
+            .expect("a grid is a network"),
+    )
+}
+
+fn traffic(vehicles: u32, pedestrians: u32) -> Traffic {
+    let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
+    Traffic::new(grid(), &config, Seed(2)).expect("the settings are in range")
+}
+
+/// Wants any stage at any time, and now and then one that does not exist.
+struct Whim(StreamRng);
+
+impl SignalPolicy for Whim {
+    fn next_stage(&mut self, junction: &JunctionView<'_>) -> usize {
+        self.0.below(junction.stages.len() + 1)
+    }
+}
+
+#[test]
+fn no_policy_can_make_signals_unsafe() {
+    let mut traffic = traffic(30, 60);
+    traffic.set_policy(Box::new(Whim(Seed(9).stream("whim").rng())));
+    let network = Arc::clone(traffic.network());
+    let is_walker = |index: usize| {
+        network.crossings.iter().any(|crossing| crossing.signal.is_some_and(|group| group.index() == index))
+    };
+    let mut shown = vec![(Aspect::Red, 1e9); network.signal_groups()];
+    let mut changes = 0;
+    for step in 0..20_000 {
+        traffic.step(DT);
+        for (index, (aspect, now)) in shown.iter_mut().zip(traffic.signals()).enumerate() {
+            aspect.1 += DT;
+            if aspect.0 == *now {
+                continue;
+            }
+            let (old, lasted) = (aspect.0, aspect.1);
+            *aspect = (*now, 0.0);
+            changes += 1;
+            if step < 1000 {
+                continue; // the first stage may have begun before the start
+            }
+            assert!((old, *now) != (Aspect::Green, Aspect::Red), "group {index}: no yellow at step {step}");
+            assert!(old != Aspect::Green || lasted > 4.9, "group {index}: green of {lasted} s");
+            // Three seconds of yellow for vehicles; a strip of 7 m at 1 m/s for people.
+            let least = if is_walker(index) { 6.9 } else { 2.9 };
+            assert!(old != Aspect::Yellow || lasted > least, "group {index}: yellow of {lasted} s");
+        }
+        let green = |id: ConnectionId| {
+            let signal = network.connections[id.index()].signal;
+            signal.is_some_and(|group| traffic.signals()[group.index()] == Aspect::Green)
+        };
+        for (index, connection) in network.connections.iter().enumerate() {
+            let own = ConnectionId::from_index(index);
+            for other in connection.conflicts.iter().filter(|other| green(own) && green(**other)) {
+                let settled = connection.yields_to.contains(other)
+                    || network.connections[other.index()].yields_to.contains(&own);
+                assert!(settled, "conflicting greens at step {step}");
+            }
+        }
+    }
+    assert!(changes > 2000, "the whims were carried out: {changes}");
+}
+
+#[test]
+fn fixed_time_keeps_to_the_clock() {
+    let mut traffic = traffic(10, 10);
+    traffic.set_policy(Box::new(FixedTime));
+    let plan = traffic.plans()[1].clone();
+    let mut off = 0;
+    for step in 1..6000 {
+        traffic.step(DT);
+        let mut into = (f64::from(step) * DT + plan.offset).rem_euclid(plan.cycle());
+        let phase = plan
+            .phases
+            .iter()
+            .find(|phase| {
+                into -= phase.duration;
+                into < 0.0
+            })
+            .unwrap_or(&plan.phases[0]);
+        off += i32::from(plan.groups.iter().any(|g| traffic.signals()[g.index()] != phase.aspect(*g)));
+    }
+    // At most two steps late at each of the eight changes of a cycle: intervals end on steps, the clock does not.
+    assert!(off < 2 * 8 * (600.0 / plan.cycle()).ceil() as i32, "{off} of 6000 steps differ from the clock");
+}
+
+type Ends = Arc<Mutex<Vec<(f64, f64, bool)>>>;
+
+/// Records each stage that a policy ends: how long it was green, the longest gap, and whether others waited.
+struct Recorded<P>(P, Ends);
+
+impl<P: SignalPolicy> SignalPolicy for Recorded<P> {
+    fn next_stage(&mut self, junction: &JunctionView<'_>) -> usize {
+        let next = self.0.next_stage(junction);
+        let gap = junction.stages[junction.current]
+            .green
+            .iter()
+            .map(|group| junction.demand.gap[group.index()])
+            .fold(f64::INFINITY, f64::min);
+        let wanted = (0..junction.stages.len()).any(|s| s != junction.current && junction.demand_of(s) > 0);
+        if next != junction.current {
+            self.1.lock().expect("nobody panics with the lock").push((junction.elapsed, gap, wanted));
+        } else if wanted {
+            assert!(
+                junction.elapsed < 45.1,
+                "green beyond its longest while others wait: {}",
+                junction.elapsed
+            );
+            assert!(junction.elapsed < 5.1 || gap <= 3.0 + DT, "a gap of {gap} s did not end the green");
+        }
+        next
+    }
+}
+
+#[test]
+fn actuated_greens_end_on_a_gap_or_at_their_longest() {
+    let ends = Ends::default();
+    let mut traffic = traffic(50, 40);
+    traffic.set_policy(Box::new(Recorded(Actuated::default(), Arc::clone(&ends))));
+    for _ in 0..12_000 {
+        traffic.step(DT);
+    }
+    let ends = ends.lock().expect("nobody panics with the lock");
+    assert!(ends.len() > 100, "{}", ends.len());
+    for (green, gap, wanted) in ends.iter() {
+        assert!(*green > 4.9 && *wanted, "ended after {green} s for nobody");
+        assert!(*gap > 3.0 || *green > 44.9, "ended after {green} s with a gap of {gap} s");
+    }
+    let by_gap = ends.iter().filter(|(green, _, _)| *green < 44.9).count();
+    assert!(by_gap * 2 > ends.len(), "at moderate demand most greens end on a gap");
+}
+
+/// Crossings of intersections in half an hour with a policy.
+fn throughput(policy: Box<dyn SignalPolicy + Send>, vehicles: u32) -> u64 {
+    // Most go straight on, and the long sides of the grid have twice the lanes' length of the short ones.
+    let network = RoadNetwork::derive(&StreetPlan::grid(5, 3, 150.0), &NetworkConfig::default())
+        .expect("a grid is a network");
+    let config =
+        TrafficConfig { vehicles, pedestrians: 20, turns: [0.8, 0.1, 0.1], ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::new(network), &config, Seed(4)).expect("the settings are in range");
+    traffic.set_policy(policy);
+    for _ in 0..18_000 {
+        traffic.step(DT);
+    }
+    traffic.counters().crossings
+}
+
+#[test]
+fn policies_that_look_do_better_than_the_clock() {
+    let fixed = throughput(Box::new(FixedTime), 90);
+    let actuated = throughput(Box::new(Actuated::default()), 90);
+    let pressure = throughput(Box::new(MaxPressure::default()), 90);
+    assert!(actuated > fixed * 105 / 100, "actuated {actuated}, fixed {fixed}");
+    assert!(pressure > fixed * 105 / 100, "max-pressure {pressure}, fixed {fixed}");
+}
