@@ -1,0 +1,91 @@
+//! Colours and widths of the map: muted inks on warm paper. Widths in millimetres on paper.
+
+use simworld_core::net::RoadClass;
+use simworld_core::scene::Place;
+
+/// The sheet.
+pub(super) const PAPER: &str = "#faf7f0";
+/// Ground between the streets.
+pub(super) const LAND: &str = "#efebdf";
+/// Raised walkways.
+pub(super) const SIDEWALK: &str = "#e2ddd0";
+/// Crowns of trees.
+pub(super) const TREE: &str = "#8fb07a";
+/// Lettering and frames.
+pub(super) const INK: &str = "#33352f";
+/// Lesser lettering.
+pub(super) const FAINT: &str = "#7c7a70";
+/// Cast by buildings.
+pub(super) const SHADOW: &str = "#4a4436";
+/// Edges of buildings.
+pub(super) const EDGE: &str = "#8d8271";
+/// The letters everything is set in; the first is the one that PNG maps have.
+pub(super) const FONT: &str = "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif";
+
+/// The colour of a building by its use.
+pub const fn place_color(place: Place) -> &'static str {
+    match place {
+        Place::Home => "#d9c7ad",
+        Place::Restaurant => "#d9835f",
+        Place::Store => "#e2b75e",
+        Place::Hospital => "#d77f8d",
+        Place::Museum => "#a68cbd",
+        Place::School => "#86a9c9",
+        Place::Office => "#aab6bf",
+        Place::Factory => "#9b9186",
+        Place::ChargingStation => "#62aaa6",
+        Place::RestArea => "#93b878",
+        _ => "#cdc6b8",
+    }
+}
+
+/// How a class of road is drawn.
+pub(super) struct RoadStyle {
+    pub(super) class: RoadClass,
+    pub(super) id: &'static str,
+    pub(super) label: &'static str,
+    pub(super) fill: &'static str,
+    pub(super) casing: &'static str,
+    /// Narrower roads are drawn this wide.
+    pub(super) least: f64,
+    /// Size of the letters of its names.
+    pub(super) lettering: f64,
+}
+
+/// From the lowest class to the highest, in the order in which they are drawn.
+pub(super) const ROADS: [RoadStyle; 3] = [
+    RoadStyle {
+        class: RoadClass::Local,
+        id: "local",
+        label: "Street",
+        fill: "#ffffff",
+        casing: "#cbc3b2",
+        least: 0.42,
+        lettering: 2.1,
+    },
+    RoadStyle {
+        class: RoadClass::Arterial,
+        id: "arterial",
+        label: "Arterial",
+        fill: "#fbe6b4",
+        casing: "#cfa95f",
+        least: 0.9,
+        lettering: 2.6,
+    },
+    RoadStyle {
+        class: RoadClass::Highway,
+        id: "highway",
+        label: "Highway",
+        fill: "#f3b884",
+        casing: "#bd7a46",
+        least: 1.3,
+        lettering: 2.9,
+    },
+];
+
+/// Casing on each side of a road.
+pub(super) const CASING: f64 = 0.11;
+
+pub(super) fn road_style(class: RoadClass) -> &'static RoadStyle {
+    ROADS.iter().find(|style| style.class == class).unwrap_or(&ROADS[0])
+}
