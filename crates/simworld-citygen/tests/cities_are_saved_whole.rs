@@ -6,12 +6,12 @@ use simworld_citygen::{City, CityConfig, GeoOrigin};
 use simworld_core::seed::Seed;
 
 fn city(roads: u32, seed: u64) -> City {
-    City::generate(&CityConfig::with_roads(roads), Seed(seed)).unwrap()
+    City::generate(&CityConfig::with_roads(roads), Seed(seed)).expect("defaults are valid")
 }
 
 fn bytes(city: &City) -> Vec<u8> {
     let mut bytes = Vec::new();
-    city.write_to(&mut bytes).unwrap();
+    city.write_to(&mut bytes).expect("memory takes all");
     bytes
 }
 
@@ -74,8 +74,9 @@ fn forge(saved: &[u8], tag: u32, change: impl Fn(&mut [u8])) -> Vec<u8> {
     let mut forged = saved.to_vec();
     let mut at = 12;
     while at < forged.len() {
-        let number = u32::from_le_bytes(forged[at..at + 4].try_into().unwrap());
-        let length = u64::from_le_bytes(forged[at + 4..at + 12].try_into().unwrap()) as usize;
+        let number = u32::from_le_bytes(forged[at..at + 4].try_into().expect("four or eight bytes"));
+        let length =
+            u64::from_le_bytes(forged[at + 4..at + 12].try_into().expect("four or eight bytes")) as usize;
         if number == tag {
             let content = at + 20..at + 20 + length;
             change(&mut forged[content.clone()]);

@@ -7,7 +7,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::seed::Seed;
 
 fn city(roads: u32) -> City {
-    City::generate(&CityConfig::with_roads(roads), Seed(11)).unwrap()
+    City::generate(&CityConfig::with_roads(roads), Seed(11)).expect("defaults are valid")
 }
 
 fn has_group(document: &Document<'_>, id: &str) -> bool {

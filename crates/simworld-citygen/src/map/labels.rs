@@ -8,7 +8,7 @@ use chains::Chain;
 use simworld_core::geometry::Point2;
 use simworld_core::scene::Place;
 
-use super::page::{Frame, Page, escaped};
+use super::page::{Frame, Page, escaped, path_data};
 use super::style::{INK, PAPER, place_color, road_style};
 use crate::City;
 use crate::building::Building;
@@ -124,11 +124,7 @@ fn streets(f: &mut fmt::Formatter<'_>, page: &Page, city: &City, room: &mut Room
         let length = width_of(name, size) * 1.06;
         let Some(line) = stretch(page, &chain, length) else { continue };
         if room.take(page, &boxes_along(&line, size)) {
-            let data: String = line
-                .iter()
-                .enumerate()
-                .map(|(index, (x, y))| format!("{}{x:.2} {y:.2}", if index == 0 { 'M' } else { 'L' }))
-                .collect();
+            let data = path_data(line.iter().copied());
             writeln!(
                 f,
                 r##"<path id="street-{drawn}" d="{data}" fill="none" stroke="none"/><text font-size="{size}" dy="{:.2}"><textPath xlink:href="#street-{drawn}" startOffset="50%">{}</textPath></text>"##,

@@ -117,11 +117,12 @@ impl fmt::Display for MapDrawing<'_> {
         page.begin_city(f)?;
         streets::draw(f, &page, self.city)?;
         buildings::draw(f, &page, self.city)?;
-        page.end_city(f)?;
+        // The group of the city.
+        writeln!(f, "</g>")?;
         self.draw_trails(f, &page)?;
         labels::draw(f, &page, self.city)?;
         furniture::draw(f, &page, self)?;
-        page.end(f)
+        writeln!(f, "</svg>")
     }
 }
 

@@ -87,14 +87,7 @@ impl Page {
 
     /// Path data of a line of the city, on paper.
     pub(super) fn line(&self, points: &[Point2]) -> String {
-        let mut data = String::new();
-        for (index, point) in points.iter().enumerate() {
-            let (x, y) = self.place(point);
-            let letter = if index == 0 { 'M' } else { 'L' };
-            // Writing to a string never fails.
-            let _ = write!(data, "{letter}{x:.2} {y:.2}");
-        }
-        data
+        path_data(points.iter().map(|point| self.place(point)))
     }
 
     /// So many millimetres on paper, in the decimetres in which the city is drawn.
@@ -122,14 +115,17 @@ impl Page {
         let scale = self.scale * 0.1;
         writeln!(f, r#"<g id="city" transform="matrix({scale:.8} 0 0 -{scale:.8} {x:.3} {y:.3})">"#)
     }
+}
 
-    pub(super) fn end_city(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "</g>")
+/// Path data of a line on paper, mm.
+pub(super) fn path_data(points: impl Iterator<Item = (f64, f64)>) -> String {
+    let mut data = String::new();
+    for (index, (x, y)) in points.enumerate() {
+        let letter = if index == 0 { 'M' } else { 'L' };
+        // Writing to a string never fails.
+        let _ = write!(data, "{letter}{x:.2} {y:.2}");
     }
-
-    pub(super) fn end(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "</svg>")
-    }
+    data
 }
 
 /// Text that may stand in XML.

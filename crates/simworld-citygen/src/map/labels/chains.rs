@@ -1,6 +1,6 @@
 //! Streets of one name, joined road to road into lines long enough to letter.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadClass, polyline};
@@ -38,10 +38,10 @@ fn longest(city: &City, roads: &[usize]) -> Option<Chain> {
         ends.entry(road.from.0).or_default().push(*index);
         ends.entry(road.to.0).or_default().push(*index);
     }
-    let mut used: BTreeMap<usize, ()> = BTreeMap::new();
+    let mut used: BTreeSet<usize> = BTreeSet::new();
     let mut best: Option<Vec<Point2>> = None;
     for start in roads {
-        if used.insert(*start, ()).is_some() {
+        if !used.insert(*start) {
             continue;
         }
         let road = &city.network.roads[*start];
@@ -64,12 +64,12 @@ fn grow(
     ends: &BTreeMap<u32, Vec<usize>>,
     mut node: u32,
     line: &mut Vec<Point2>,
-    used: &mut BTreeMap<usize, ()>,
+    used: &mut BTreeSet<usize>,
 ) {
     loop {
         let [.., before, last] = line.as_slice() else { return };
         let ahead = (last - before).normalize();
-        let next = ends.get(&node).into_iter().flatten().filter(|road| !used.contains_key(road));
+        let next = ends.get(&node).into_iter().flatten().filter(|road| !used.contains(road));
         let straightness = |index: &usize| {
             let (_, line) = leaving(city, *index, node);
             (line[1] - line[0]).normalize().dot(&ahead)
@@ -82,7 +82,7 @@ fn grow(
         if straightness(&road) < 0.7 {
             return;
         }
-        used.insert(road, ());
+        used.insert(road);
         let (to, path) = leaving(city, road, node);
         line.extend_from_slice(&path[1..]);
         node = to;
