@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 use simworld_core::net::{LANE_WIDTH, NetworkConfig, SIDEWALK_WIDTH};
 
 use crate::CityError;
+use crate::lot::LotConfig;
+use crate::zoning::ZoningConfig;
 
 /// How streets grow.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,6 +106,10 @@ impl Default for ElementConfig {
 pub struct CityConfig {
     /// How streets grow.
     pub roads: RoadConfig,
+    /// What the land is used for.
+    pub zoning: ZoningConfig,
+    /// How blocks are divided.
+    pub lots: LotConfig,
     /// How buildings stand.
     pub buildings: BuildingConfig,
     /// How much stands along the streets.
@@ -123,7 +129,7 @@ impl CityConfig {
     /// # Errors
     /// The first field out of range; NaN always is.
     pub fn validate(&self) -> Result<(), CityError> {
-        let Self { roads, buildings, elements, network } = self;
+        let Self { roads, zoning, lots, buildings, elements, network } = self;
         let checks = [
             ("roads.count", f64::from(roads.count), 2.0, 1e6, "2 to 1 000 000"),
             ("roads.length", roads.length, 60.0, 1000.0, "60 to 1000 m"),
@@ -146,11 +152,20 @@ impl CityConfig {
             ("elements.lamps", elements.lamps, 0.0, 1.0, "0 to 1 per m"),
             ("elements.furniture", elements.furniture, 0.0, 1.0, "0 to 1 per m"),
         ];
-        for (field, value, low, high, allowed) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(CityError::Config { field, value, allowed });
-            }
-        }
+        check(&checks)?;
+        zoning.validate()?;
+        lots.validate()?;
         Ok(network.validate()?)
+    }
+}
+
+/// A setting: its path, its value, the least and the greatest that is allowed, and both in words.
+pub(crate) type Check = (&'static str, f64, f64, f64, &'static str);
+
+/// The first setting out of its range is the error; NaN always is.
+pub(crate) fn check(checks: &[Check]) -> Result<(), CityError> {
+    match checks.iter().find(|(_, value, low, high, _)| !(*low..=*high).contains(value)) {
+        Some((field, value, _, _, allowed)) => Err(CityError::Config { field, value: *value, allowed }),
+        None => Ok(()),
     }
 }

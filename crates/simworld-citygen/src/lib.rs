@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+pub mod block;
 pub mod building;
 mod city;
 mod config;
@@ -9,12 +10,14 @@ mod error;
 pub mod files;
 mod geo;
 pub mod growth;
+pub mod lot;
 pub mod map;
 pub mod occupancy;
 mod provenance;
 pub mod python;
 mod report;
 mod strips;
+pub mod zoning;
 
 pub use city::{City, CityEntities};
 pub use config::{BuildingConfig, CityConfig, ElementConfig, RoadConfig};

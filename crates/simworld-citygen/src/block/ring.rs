@@ -1,0 +1,173 @@
+//! A polygon whose edges know what they border, and its cuts by straight lines.
+
+use simworld_core::geometry::{Point2, Vector2};
+
+use super::Border;
+
+/// A polygon; the i-th border belongs to the edge from corner i to the next.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Ring {
+    pub(crate) corners: Vec<Point2>,
+    pub(crate) borders: Vec<Border>,
+}
+
+/// Polygons of more corners are not tested for simplicity, which takes the square of their number; they are ragged
+/// outskirts, and treated as if they were not simple.
+const MOST_TESTED: usize = 600;
+
+impl Ring {
+    pub(crate) fn len(&self) -> usize {
+        self.corners.len()
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.corners.clear();
+        self.borders.clear();
+    }
+
+    pub(crate) fn push(&mut self, corner: Point2, border: Border) {
+        self.corners.push(corner);
+        self.borders.push(border);
+    }
+
+    /// The corner after the i-th.
+    pub(crate) fn next(&self, index: usize) -> Point2 {
+        self.corners[if index + 1 == self.corners.len() { 0 } else { index + 1 }]
+    }
+
+    /// The i-th edge as a vector.
+    pub(crate) fn edge(&self, index: usize) -> Vector2 {
+        self.next(index) - self.corners[index]
+    }
+
+    /// Area, m²; positive counter-clockwise.
+    pub(crate) fn area(&self) -> f64 {
+        // Relative to the first corner, so that nothing cancels far from the origin.
+        let Some(origin) = self.corners.first() else { return 0.0 };
+        let doubled: f64 =
+            self.corners.windows(2).map(|pair| (pair[0] - origin).perp(&(pair[1] - origin))).sum();
+        doubled * 0.5
+    }
+
+    /// The mean of the corners.
+    pub(crate) fn middle(&self) -> Point2 {
+        let sum = self.corners.iter().fold(Vector2::zeros(), |sum, corner| sum + corner.coords);
+        (sum / self.len().max(1) as f64).into()
+    }
+
+    /// Whether no two edges meet but neighbours in their common corner.
+    pub(crate) fn is_simple(&self) -> bool {
+        let count = self.len();
+        if !(3..=MOST_TESTED).contains(&count) {
+            return false;
+        }
+        (0..count).all(|a| {
+            // The last edge is a neighbour of the first.
+            let last = if a == 0 { count - 1 } else { count };
+            (a + 2..last).all(|b| !touch(self.corners[a], self.next(a), self.corners[b], self.next(b)))
+        })
+    }
+
+    /// Cuts a convex ring by the line through `at` across `normal`: what lies behind goes to `behind`, what lies in the
+    /// direction of the normal goes to `ahead`. Both cuts have the same corners to the bit.
+    pub(crate) fn split(&self, at: Point2, normal: Vector2, behind: &mut Ring, ahead: &mut Ring) -> Split {
+        behind.clear();
+        ahead.clear();
+        let height = |corner: Point2| {
+            let height = (corner - at).dot(&normal);
+            // A corner on the line is no reason for a sliver.
+            if height.abs() < 1e-7 { 0.0 } else { height }
+        };
+        let mut here = self.corners.first().map_or(0.0, |corner| height(*corner));
+        for index in 0..self.len() {
+            let (corner, next, border) = (self.corners[index], self.next(index), self.borders[index]);
+            let there = height(next);
+            if here <= 0.0 {
+                behind.push(corner, if here == 0.0 && there > 0.0 { Border::LAND } else { border });
+            }
+            if here >= 0.0 {
+                ahead.push(corner, if here == 0.0 && there < 0.0 { Border::LAND } else { border });
+            }
+            if (here < 0.0 && there > 0.0) || (here > 0.0 && there < 0.0) {
+                let cut = corner + (next - corner) * (here / (here - there));
+                let (behind_border, ahead_border) =
+                    if here < 0.0 { (Border::LAND, border) } else { (border, Border::LAND) };
+                behind.push(cut, behind_border);
+                ahead.push(cut, ahead_border);
+            }
+            here = there;
+        }
+        match (behind.len() >= 3, ahead.len() >= 3) {
+            (true, true) => Split::Both,
+            (_, false) => Split::Behind,
+            (false, true) => Split::Ahead,
+        }
+    }
+}
+
+/// Where a ring lies that was to be cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Split {
+    /// On both sides.
+    Both,
+    /// All of it behind the line.
+    Behind,
+    /// All of it ahead.
+    Ahead,
+}
+
+/// Whether two segments share a point.
+fn touch(a: Point2, b: Point2, c: Point2, d: Point2) -> bool {
+    let (low, high) = (a.inf(&b), a.sup(&b));
+    if c.x.min(d.x) > high.x || c.x.max(d.x) < low.x || c.y.min(d.y) > high.y || c.y.max(d.y) < low.y {
+        return false;
+    }
+    let side = |p: Point2, q: Point2, r: Point2| (q - p).perp(&(r - p));
+    side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Ring {
+        let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(x, y)| Point2::new(x, y));
+        let street = |road| {
+            Border::street(simworld_core::id::RoadId::from_index(road), simworld_core::net::Side::Left)
+        };
+        Ring { corners: corners.to_vec(), borders: (0..4).map(street).collect() }
+    }
+
+    #[test]
+    fn a_cut_keeps_the_area_and_the_borders() {
+        let (mut west, mut east) = (Ring::default(), Ring::default());
+        let ring = square();
+        assert_eq!(ring.split(Point2::new(4.0, 0.0), Vector2::x(), &mut west, &mut east), Split::Both);
+        assert_eq!((west.area(), east.area()), (40.0, 60.0));
+        assert_eq!(west.borders, [ring.borders[0], Border::LAND, ring.borders[2], ring.borders[3]]);
+        let streets = |ring: &Ring| ring.borders.iter().filter(|border| border.is_street()).count();
+        assert_eq!((streets(&west), streets(&east)), (3, 3));
+        assert!(east.borders.contains(&ring.borders[1]) && !east.borders.contains(&ring.borders[3]));
+    }
+
+    #[test]
+    fn a_line_that_misses_cuts_nothing() {
+        let (mut behind, mut ahead) = (Ring::default(), Ring::default());
+        assert_eq!(
+            square().split(Point2::new(10.0, 0.0), Vector2::x(), &mut behind, &mut ahead),
+            Split::Behind
+        );
+        assert_eq!(
+            square().split(Point2::new(0.0, 0.0), Vector2::x(), &mut behind, &mut ahead),
+            Split::Ahead
+        );
+    }
+
+    #[test]
+    fn a_bow_is_not_simple() {
+        assert!(square().is_simple());
+        let mut bow = square();
+        bow.corners.swap(1, 2);
+        assert!(!bow.is_simple());
+    }
+}

@@ -1,0 +1,143 @@
+//! The boundaries of the faces of a network: sidewalk, corner, sidewalk ... with the face on the left.
+
+use simworld_core::geometry::Point2;
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, Side, polyline};
+
+use super::Border;
+
+/// A closed line along the middles of sidewalks. The i-th piece leads from point i to the next.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Boundary {
+    pub(super) points: Vec<Point2>,
+    pub(super) pieces: Vec<Piece>,
+}
+
+/// What a piece of a boundary is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) border: Border,
+    /// How far the land begins to the left of the piece, m.
+    pub(super) offset: f64,
+}
+
+/// The boundary of every face, each once, in the order of its first road.
+pub(super) fn boundaries(network: &RoadNetwork) -> Vec<Boundary> {
+    let tracer = Tracer { network, ranks: ranks(network) };
+    let mut seen = vec![false; network.roads.len() * 2];
+    let mut found = Vec::new();
+    for start in 0..seen.len() {
+        if seen[start] {
+            continue;
+        }
+        let mut boundary = Boundary::default();
+        let mut half = start;
+        while !seen[half] {
+            seen[half] = true;
+            half = tracer.follow(half, &mut boundary);
+        }
+        if boundary.points.len() >= 3 {
+            found.push(boundary);
+        }
+    }
+    found
+}
+
+/// The place of each road among the roads of the intersections where it begins and where it ends.
+fn ranks(network: &RoadNetwork) -> Vec<[u32; 2]> {
+    let mut ranks = vec![[0; 2]; network.roads.len()];
+    for (index, intersection) in network.intersections.iter().enumerate() {
+        for (rank, road) in intersection.roads.iter().enumerate() {
+            let ends = &network.roads[road.index()];
+            if ends.from.index() == index {
+                ranks[road.index()][0] = rank as u32;
+            } else {
+                ranks[road.index()][1] = rank as u32;
+            }
+        }
+    }
+    ranks
+}
+
+/// Whether a side is walked along its road.
+const fn is_forward(half: usize) -> bool {
+    half.is_multiple_of(2)
+}
+
+struct Tracer<'a> {
+    network: &'a RoadNetwork,
+    ranks: Vec<[u32; 2]>,
+}
+
+impl Tracer<'_> {
+    /// Adds one side of a road, seen with the face on its left, and the corner at its end; gives the side that
+    /// follows. Side 2i is walked along road i, side 2i + 1 against it.
+    fn follow(&self, half: usize, boundary: &mut Boundary) -> usize {
+        let road = &self.network.roads[half / 2];
+        let (side, node, rank) = if is_forward(half) {
+            (Side::Left, road.to, self.ranks[half / 2][1])
+        } else {
+            (Side::Right, road.from, self.ranks[half / 2][0])
+        };
+        let id = RoadId::from_index(half / 2);
+        let sidewalk = self.network.sidewalk(id, side);
+        if let Some(sidewalk) = sidewalk {
+            let piece = Piece { border: Border::street(id, side), offset: sidewalk.width * 0.5 };
+            boundary.extend(&sidewalk.path, side == Side::Right, piece);
+        } else {
+            let piece = Piece { border: Border::CORNER, offset: 0.0 };
+            boundary.extend(&self.kerb(half), side == Side::Right, piece);
+        }
+        // The corner leads from the left of one road to the right of the next, this one: it is walked against.
+        let intersection = &self.network.intersections[node.index()];
+        let count = intersection.roads.len();
+        let before = (rank as usize + count - 1) % count;
+        if let Some(corner) = intersection.corners.get(before).filter(|corner| corner.len() >= 2) {
+            let offset = sidewalk.map_or(0.0, |sidewalk| sidewalk.width * 0.5);
+            boundary.extend(corner, true, Piece { border: Border::CORNER, offset });
+        }
+        let next = intersection.roads[before];
+        let leaves_forward =
+            self.network.roads[next.index()].from == node && self.ranks[next.index()][0] as usize == before;
+        2 * next.index() + usize::from(!leaves_forward)
+    }
+
+    /// The kerb of a road without a sidewalk, kept clear of the junctions at its ends.
+    fn kerb(&self, half: usize) -> Vec<Point2> {
+        let road = &self.network.roads[half / 2];
+        let offset = if is_forward(half) { road.left_kerb } else { -road.right_kerb };
+        let length = polyline::length(&road.centerline);
+        let reach = |node: usize| {
+            let intersection = &self.network.intersections[node];
+            let widest = intersection
+                .roads
+                .iter()
+                .map(|road| self.network.roads[road.index()].width)
+                .fold(0.0, f64::max);
+            if intersection.roads.len() == 1 { 0.0 } else { widest.min(length * 0.3) }
+        };
+        let middle =
+            polyline::slice(&road.centerline, reach(road.from.index()), length - reach(road.to.index()));
+        polyline::offset(&middle, offset)
+    }
+}
+
+impl Boundary {
+    /// Goes on along a path, or against it; the way to its first point is a corner.
+    fn extend(&mut self, path: &[Point2], against: bool, piece: Piece) {
+        if let Some(last) = self.pieces.last_mut() {
+            // What joins two paths: usually nothing, for a corner begins where the sidewalk ends.
+            *last = Piece { border: Border::CORNER, offset: last.offset.min(piece.offset) };
+        }
+        let count = path.len();
+        for index in 0..count {
+            let point = path[if against { count - 1 - index } else { index }];
+            if self.points.last().is_none_or(|last| (point - last).norm() > 1e-3) {
+                self.points.push(point);
+                self.pieces.push(piece);
+            } else if let Some(last) = self.pieces.last_mut() {
+                *last = piece;
+            }
+        }
+    }
+}

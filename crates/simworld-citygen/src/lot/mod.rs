@@ -1,0 +1,159 @@
+//! Lots: blocks divided into pieces of land that each have a front to a street, and the greens between them.
+
+mod config;
+mod divide;
+mod ribbon;
+mod slabs;
+
+pub use config::{LotConfig, LotSize, LotStyle};
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, Side};
+use simworld_core::seed::{Seed, Stream};
+
+use crate::block::{Block, Border, Ring};
+use crate::occupancy::Occupancy;
+use crate::zoning::{Zone, Zoning};
+use divide::Divider;
+
+/// A piece of land with a front to a street; convex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lot {
+    /// Its corners and borders in [`Land`]: the first, and how many.
+    start: u32,
+    count: u32,
+    /// The block it is a part of, an index into [`Land::blocks`].
+    pub block: u32,
+    /// What it is used for.
+    pub zone: Zone,
+    /// How densely people live there, in [0, 1].
+    pub density: f64,
+    /// Area, m².
+    pub area: f64,
+    /// The road at its front.
+    pub road: RoadId,
+    /// The side of that road.
+    pub side: Side,
+}
+
+/// Why a piece of land is not built on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum GreenKind {
+    /// A park.
+    Park,
+    /// The inside of a block, behind its lots.
+    Courtyard,
+    /// A corner too small or too narrow for a lot.
+    Leftover,
+}
+
+/// A piece of land without a building.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Green {
+    start: u32,
+    count: u32,
+    /// The block it is a part of, an index into [`Land::blocks`].
+    pub block: u32,
+    /// Why it is green.
+    pub kind: GreenKind,
+    /// Area, m².
+    pub area: f64,
+}
+
+/// All land between the streets: blocks, lots and greens.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Land {
+    /// The blocks.
+    pub blocks: Vec<Block>,
+    /// The lots, block by block, along the streets.
+    pub lots: Vec<Lot>,
+    /// The greens, block by block.
+    pub greens: Vec<Green>,
+    /// Length of the edges of blocks along sidewalks where buildings may stand, m.
+    pub frontage: f64,
+    corners: Vec<Point2>,
+    borders: Vec<Border>,
+}
+
+impl Land {
+    /// Divides the land between the streets of a network. `taken` is what no lot of an open block may touch: the land
+    /// of the roads.
+    pub fn of_network(
+        network: &RoadNetwork,
+        zoning: &Zoning,
+        config: &LotConfig,
+        seed: Seed,
+        taken: &Occupancy,
+    ) -> Self {
+        let mut land = Self { blocks: Block::of_network(network), ..Self::default() };
+        let streams = seed.stream("citygen/lots");
+        let mut ribbons = Occupancy::default();
+        let blocks = std::mem::take(&mut land.blocks);
+        for (index, block) in blocks.iter().enumerate() {
+            let mut divider =
+                Divider::new(&mut land, index as u32, zoning, config, stream_of(block, streams));
+            if block.area.is_some() {
+                divider.divide(block.ring());
+            } else {
+                ribbon::line(&mut divider, block, taken, &mut ribbons);
+            }
+        }
+        land.blocks = blocks;
+        land
+    }
+
+    /// Divides one closed block by itself; an open one has no lots.
+    ///
+    /// ```
+    /// use simworld_citygen::block::{Block, Border};
+    /// use simworld_citygen::lot::{Land, LotConfig};
+    /// use simworld_citygen::zoning::{Zoning, ZoningConfig};
+    /// use simworld_core::{geometry::Point2, id::RoadId, net::Side, seed::Seed};
+    /// let corners = [(0.0, 0.0), (90.0, 0.0), (90.0, 80.0), (0.0, 80.0)].map(|(x, y)| Point2::new(x, y));
+    /// let streets = (0..4).map(|road| Border::street(RoadId::from_index(road), Side::Left)).collect();
+    /// let block = Block::closed(corners.to_vec(), streets).expect("a rectangle is simple");
+    /// let zoning = Zoning::new(&ZoningConfig::default(), Seed(1));
+    /// let land = Land::of_block(block, &zoning, &LotConfig::default(), Seed(1));
+    /// let area: f64 = land.lots.iter().map(|lot| lot.area).chain(land.greens.iter().map(|green| green.area)).sum();
+    /// assert!((area - 90.0 * 80.0).abs() < 1e-6);
+    /// ```
+    pub fn of_block(block: Block, zoning: &Zoning, config: &LotConfig, seed: Seed) -> Self {
+        let mut land = Self::default();
+        if block.area.is_some() {
+            let stream = stream_of(&block, seed.stream("citygen/lots"));
+            Divider::new(&mut land, 0, zoning, config, stream).divide(block.ring());
+        }
+        land.blocks.push(block);
+        land
+    }
+
+    /// The corners of a lot, counter-clockwise; its front leads from the first to the second.
+    pub fn outline(&self, lot: &Lot) -> &[Point2] {
+        &self.corners[lot.start as usize..(lot.start + lot.count) as usize]
+    }
+
+    /// What lies beyond each edge of a lot, the front first.
+    pub fn borders(&self, lot: &Lot) -> &[Border] {
+        &self.borders[lot.start as usize..(lot.start + lot.count) as usize]
+    }
+
+    /// The corners of a green, counter-clockwise.
+    pub fn green_outline(&self, green: &Green) -> &[Point2] {
+        &self.corners[green.start as usize..(green.start + green.count) as usize]
+    }
+
+    fn store(&mut self, ring: &Ring, first: usize) -> (u32, u32) {
+        let start = self.corners.len() as u32;
+        self.corners.extend(ring.corners[first..].iter().chain(&ring.corners[..first]));
+        self.borders.extend(ring.borders[first..].iter().chain(&ring.borders[..first]));
+        (start, ring.len() as u32)
+    }
+}
+
+/// The stream of a block is a function of where it lies, so that a change elsewhere in the city changes no lot here.
+fn stream_of(block: &Block, streams: Stream) -> Stream {
+    let low =
+        block.outline.iter().fold(Vector2::repeat(f64::INFINITY), |low, corner| low.inf(&corner.coords));
+    let key = |x: f64| (x * 10.0).round() as i64 as u64;
+    streams.indexed(key(low.x)).indexed(key(low.y))
+}

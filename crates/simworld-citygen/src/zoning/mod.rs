@@ -1,0 +1,184 @@
+//! Zoning: what the land is used for, from seeded fields that can be asked at any point.
+//!
+//! Two fields of value noise, the density of people and the character of the place, are functions of the seed and the
+//! point alone. So a tile, a thread or an edit far away sees the same zones.
+
+mod noise;
+
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::Point2;
+use simworld_core::seed::Seed;
+
+use crate::CityError;
+use noise::ValueNoise;
+
+/// What a piece of land is used for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Zone {
+    /// Dwellings, with a shop here and there.
+    #[default]
+    Residential,
+    /// Shops, restaurants and offices.
+    Commercial,
+    /// Factories and warehouses.
+    Industrial,
+    /// Schools, hospitals, museums.
+    Civic,
+    /// Green, without buildings but for a pavilion.
+    Park,
+}
+
+impl Zone {
+    /// Every zone.
+    pub const ALL: [Self; 5] =
+        [Self::Residential, Self::Commercial, Self::Industrial, Self::Civic, Self::Park];
+
+    /// The name in files.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Residential => "residential",
+            Self::Commercial => "commercial",
+            Self::Industrial => "industrial",
+            Self::Civic => "civic",
+            Self::Park => "park",
+        }
+    }
+}
+
+/// How the land is divided among its uses.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ZoningConfig {
+    /// Distance over which the density of people changes, m, in [50, 20 000].
+    pub density_scale: f64,
+    /// Distance over which the use of the land changes, m, in [50, 20 000].
+    pub use_scale: f64,
+    /// Radius of the densest quarter, round the origin, m, in [0, 50 000]; 0 for none.
+    pub center_radius: f64,
+    /// Share of the land that is industrial where few people live, in [0, 1].
+    pub industry: f64,
+    /// Share of the land for schools, hospitals and museums, in [0, 0.5].
+    pub civic: f64,
+    /// Share of the land that is park, in [0, 0.5].
+    pub parks: f64,
+}
+
+impl Default for ZoningConfig {
+    fn default() -> Self {
+        Self {
+            density_scale: 700.0,
+            use_scale: 220.0,
+            center_radius: 450.0,
+            industry: 0.2,
+            civic: 0.07,
+            parks: 0.05,
+        }
+    }
+}
+
+impl ZoningConfig {
+    pub(crate) fn validate(&self) -> Result<(), CityError> {
+        crate::config::check(&[
+            ("zoning.density_scale", self.density_scale, 50.0, 2e4, "50 to 20 000 m"),
+            ("zoning.use_scale", self.use_scale, 50.0, 2e4, "50 to 20 000 m"),
+            ("zoning.center_radius", self.center_radius, 0.0, 5e4, "0 to 50 000 m"),
+            ("zoning.industry", self.industry, 0.0, 1.0, "0 to 1"),
+            ("zoning.civic", self.civic, 0.0, 0.5, "0 to 0.5"),
+            ("zoning.parks", self.parks, 0.0, 0.5, "0 to 0.5"),
+        ])
+    }
+}
+
+/// The fields of a city; asks no other state.
+///
+/// ```
+/// use simworld_citygen::zoning::{Zone, Zoning, ZoningConfig};
+/// use simworld_core::{geometry::Point2, seed::Seed};
+/// let zoning = Zoning::new(&ZoningConfig::default(), Seed(7));
+/// let here = Point2::new(120.0, -40.0);
+/// assert_eq!(zoning.zone(here), Zoning::new(&ZoningConfig::default(), Seed(7)).zone(here));
+/// assert!((0.0..=1.0).contains(&zoning.density(here)));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Zoning {
+    config: ZoningConfig,
+    density: ValueNoise,
+    character: ValueNoise,
+}
+
+impl Zoning {
+    /// The fields of a seed; the configuration is taken as valid.
+    pub fn new(config: &ZoningConfig, seed: Seed) -> Self {
+        let streams = seed.stream("citygen/zoning");
+        Self {
+            config: config.clone(),
+            density: ValueNoise::new(streams.named("density"), config.density_scale),
+            character: ValueNoise::new(streams.named("character"), config.use_scale),
+        }
+    }
+
+    /// How densely people live and work at a point, from 0 (fields) to 1 (the middle of a metropolis).
+    pub fn density(&self, point: Point2) -> f64 {
+        let wild = self.density.uniform_at(point);
+        let radius = self.config.center_radius;
+        if radius <= 0.0 {
+            return wild;
+        }
+        // A bell without exponentials: 1 in the middle, 1/2 at the radius, 1/5 at twice the radius.
+        let bell = 1.0 / (1.0 + point.coords.norm_squared() / (radius * radius));
+        (0.62 * wild + 0.55 * bell).min(1.0)
+    }
+
+    /// What the land at a point is used for.
+    pub fn zone(&self, point: Point2) -> Zone {
+        let (density, character) = (self.density(point), self.character.uniform_at(point));
+        let Self { config, .. } = self;
+        // The character of the land is spread evenly over [0, 1]: each use takes its share of it, from either end.
+        if character < config.parks {
+            Zone::Park
+        } else if character < config.parks + config.civic {
+            Zone::Civic
+        } else if density < 0.42 && character > 1.0 - config.industry {
+            Zone::Industrial
+        } else if character > 1.0 - (density * 1.35 - 0.4).clamp(0.0, 0.8) {
+            Zone::Commercial
+        } else {
+            Zone::Residential
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_use_has_about_its_share() {
+        let config = ZoningConfig::default();
+        let zoning = Zoning::new(&config, Seed(5));
+        let mut counts = [0_usize; 5];
+        let side = 400_usize;
+        for index in 0..side * side {
+            let at = Point2::new((index % side) as f64 * 97.0, (index / side) as f64 * 97.0);
+            counts[zoning.zone(at) as usize] += 1;
+        }
+        let share = |zone: Zone| counts[zone as usize] as f64 / (side * side) as f64;
+        assert!((share(Zone::Park) - config.parks).abs() < 0.015, "parks {}", share(Zone::Park));
+        assert!((share(Zone::Civic) - config.civic).abs() < 0.015, "civic {}", share(Zone::Civic));
+        assert!((0.03..0.2).contains(&share(Zone::Industrial)), "industry {}", share(Zone::Industrial));
+        assert!((0.05..0.4).contains(&share(Zone::Commercial)), "commerce {}", share(Zone::Commercial));
+        assert!((0.4..0.85).contains(&share(Zone::Residential)), "homes {}", share(Zone::Residential));
+    }
+
+    #[test]
+    fn the_middle_is_dense_and_commercial() {
+        let mut commercial = 0;
+        for seed in 0..200 {
+            let zoning = Zoning::new(&ZoningConfig::default(), Seed(seed));
+            assert!(zoning.density(Point2::origin()) >= 0.55);
+            commercial += usize::from(zoning.zone(Point2::origin()) == Zone::Commercial);
+        }
+        assert!(commercial > 80, "{commercial} of 200 city centres are commercial");
+    }
+}
