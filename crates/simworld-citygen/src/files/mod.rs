@@ -1,4 +1,6 @@
 //! Files of a city: what others read and write.
 
 pub mod atomic;
+pub mod geojson;
+pub mod gltf;
 pub mod save;

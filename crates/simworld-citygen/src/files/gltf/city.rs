@@ -1,0 +1,243 @@
+//! What of a city becomes which mesh.
+
+use std::collections::BTreeMap;
+
+use simworld_core::geometry::Point2;
+use simworld_core::net::{Lane, Road, polyline};
+use simworld_core::scene::{EntityKind, Place, Shape};
+
+use super::mesh::{Builder, Mesh};
+use crate::City;
+use crate::building::STOREY;
+use crate::element::Element;
+
+/// Heights of the surfaces, m: people stand at zero, on the sidewalk. Farther apart than in a world, because viewers
+/// see cities from afar and must not mix the layers up.
+const GROUND: f64 = -0.25;
+const ROAD: f64 = -0.15;
+const PAINT: f64 = -0.13;
+const SIDEWALK: f64 = 0.0;
+/// Ground beyond the outermost street, m.
+const SURROUND: f64 = 120.0;
+/// Width of a line of paint and of a stop line, m.
+const LINE: f64 = 0.12;
+const STOP_LINE: f64 = 0.4;
+/// A dash and the gap behind it, m.
+const DASH: (f64, f64) = (3.0, 6.0);
+/// A stripe of a crossing and the gap behind it, m.
+const STRIPE: (f64, f64) = (0.5, 0.5);
+
+/// A colour, linear, and how rough the surface is.
+#[derive(Clone, Copy)]
+pub(super) struct Material {
+    pub(super) name: &'static str,
+    pub(super) color: [f32; 3],
+    pub(super) roughness: f32,
+}
+
+/// The parts of one node.
+pub(super) struct Node {
+    pub(super) name: &'static str,
+    pub(super) parts: Vec<(Material, Mesh)>,
+}
+
+/// A city as meshes about its middle.
+pub(super) struct Model {
+    pub(super) name: String,
+    pub(super) middle: Point2,
+    pub(super) nodes: Vec<Node>,
+}
+
+const fn material(name: &'static str, color: [f32; 3], roughness: f32) -> Material {
+    Material { name, color, roughness }
+}
+
+const EARTH: Material = material("ground", [0.34, 0.38, 0.24], 1.0);
+const ASPHALT: Material = material("asphalt", [0.075, 0.077, 0.082], 0.95);
+const PAVING: Material = material("paving", [0.42, 0.41, 0.39], 0.9);
+const WHITE: Material = material("paint", [0.82, 0.82, 0.8], 0.7);
+const ROOF: Material = material("roof", [0.3, 0.27, 0.25], 0.95);
+
+pub(super) fn model(city: &City) -> Model {
+    let (low, high) = city.network.bounds().unwrap_or((Point2::origin(), Point2::origin()));
+    let middle = nalgebra::center(&low, &high);
+    let mut builder = Builder::at(middle);
+    let nodes = vec![
+        ground(&mut builder, low, high),
+        roads(&mut builder, city),
+        sidewalks(&mut builder, city),
+        markings(&mut builder, city),
+        buildings(&mut builder, city),
+        elements(&mut builder, city),
+    ];
+    let name = city.provenance.title.clone().unwrap_or_else(|| format!("City {}", city.provenance.seed.0));
+    Model { name, middle, nodes }
+}
+
+fn ground(builder: &mut Builder, low: Point2, high: Point2) -> Node {
+    let (low, high) = (low.map(|x| x - SURROUND), high.map(|x| x + SURROUND));
+    let mut mesh = Mesh::default();
+    builder.plate(&mut mesh, &[low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)], GROUND);
+    Node { name: "ground", parts: vec![(EARTH, mesh)] }
+}
+
+fn roads(builder: &mut Builder, city: &City) -> Node {
+    let mut mesh = Mesh::default();
+    for road in &city.network.roads {
+        builder.ribbon(&mut mesh, &road.centerline, (road.left_kerb, road.right_kerb), ROAD);
+    }
+    for intersection in &city.network.intersections {
+        builder.plate(&mut mesh, &intersection.outline, ROAD);
+    }
+    Node { name: "roads", parts: vec![(ASPHALT, mesh)] }
+}
+
+fn sidewalks(builder: &mut Builder, city: &City) -> Node {
+    let mut mesh = Mesh::default();
+    for sidewalk in &city.network.sidewalks {
+        builder.kerb(&mut mesh, &sidewalk.path, sidewalk.width, (GROUND, SIDEWALK));
+    }
+    let usual = city.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
+    for corner in city.network.intersections.iter().flat_map(|intersection| &intersection.corners) {
+        builder.kerb(&mut mesh, corner, usual, (GROUND, SIDEWALK));
+    }
+    Node { name: "sidewalks", parts: vec![(PAVING, mesh)] }
+}
+
+fn markings(builder: &mut Builder, city: &City) -> Node {
+    let network = &city.network;
+    let mut mesh = Mesh::default();
+    for crossing in &network.crossings {
+        dashes(builder, &mut mesh, &[crossing.start, crossing.end], STRIPE, crossing.width);
+    }
+    for road in &network.roads {
+        let lanes = |ids: &[simworld_core::id::LaneId]| -> Vec<&Lane> {
+            ids.iter().map(|id| &network.lanes[id.index()]).collect()
+        };
+        let (forward, backward) = (lanes(&road.forward), lanes(&road.backward));
+        if let (Some(lane), false) = (forward.first(), backward.is_empty()) {
+            builder.ribbon(&mut mesh, &between_stops(road, lane), (LINE * 0.5, LINE * 0.5), PAINT);
+        }
+        for lanes in [&forward, &backward] {
+            for pair in lanes.windows(2) {
+                let edge = polyline::offset(&pair[0].path, -pair[0].width * 0.5);
+                dashes(builder, &mut mesh, &edge, DASH, LINE);
+            }
+            for lane in
+                lanes.iter().filter(|lane| !network.intersections[lane.to.index()].crossings.is_empty())
+            {
+                stop_line(builder, &mut mesh, lane);
+            }
+        }
+    }
+    Node { name: "markings", parts: vec![(WHITE, mesh)] }
+}
+
+/// The centreline from where lanes begin to where they end.
+fn between_stops(road: &Road, lane: &Lane) -> Vec<Point2> {
+    let station = |point: Option<&Point2>| {
+        point.and_then(|point| polyline::closest(&road.centerline, point)).map_or(0.0, |near| near.station)
+    };
+    polyline::slice(&road.centerline, station(lane.path.first()), station(lane.path.last()))
+}
+
+fn stop_line(builder: &mut Builder, mesh: &mut Mesh, lane: &Lane) {
+    let length = polyline::length(&lane.path);
+    let last = polyline::slice(&lane.path, length - STOP_LINE, length);
+    builder.ribbon(mesh, &last, (lane.width * 0.46, lane.width * 0.46), PAINT);
+}
+
+/// Pieces of a line with gaps between.
+fn dashes(builder: &mut Builder, mesh: &mut Mesh, line: &[Point2], (dash, gap): (f64, f64), width: f64) {
+    let length = polyline::length(line);
+    let count = ((length + gap) / (dash + gap)).floor();
+    let start = (length - count * (dash + gap) + gap) * 0.5;
+    for index in 0..count as u32 {
+        let from = start + f64::from(index) * (dash + gap);
+        let piece = polyline::slice(line, from, from + dash);
+        if let [first, .., last] = piece.as_slice() {
+            builder.stripe(mesh, *first, *last, width, PAINT);
+        }
+    }
+}
+
+fn buildings(builder: &mut Builder, city: &City) -> Node {
+    let mut walls: BTreeMap<Place, Mesh> = BTreeMap::new();
+    let mut roofs = Mesh::default();
+    for building in &city.buildings {
+        let (outline, height) = (building.obb().footprint(), building.height());
+        builder.walls(walls.entry(building.place).or_default(), &outline, GROUND, height);
+        // A parapet: the roof lies a little below the top of the walls of tall houses.
+        let roof = if building.storeys > 3 { height - STOREY * 0.2 } else { height };
+        builder.plate(&mut roofs, &outline, roof);
+    }
+    let mut parts: Vec<(Material, Mesh)> =
+        walls.into_iter().map(|(place, mesh)| (facade(place), mesh)).collect();
+    parts.push((ROOF, roofs));
+    Node { name: "buildings", parts }
+}
+
+fn facade(place: Place) -> Material {
+    let color = match place {
+        Place::Home => [0.62, 0.5, 0.38],
+        Place::Restaurant => [0.55, 0.22, 0.14],
+        Place::Store => [0.66, 0.46, 0.16],
+        Place::Hospital => [0.78, 0.76, 0.75],
+        Place::Museum => [0.5, 0.44, 0.56],
+        Place::School => [0.3, 0.42, 0.55],
+        Place::Office => [0.36, 0.42, 0.47],
+        Place::Factory => [0.3, 0.28, 0.26],
+        Place::ChargingStation => [0.18, 0.42, 0.4],
+        Place::RestArea => [0.3, 0.42, 0.22],
+        _ => [0.5, 0.48, 0.45],
+    };
+    material(place.as_str(), color, 0.85)
+}
+
+fn elements(builder: &mut Builder, city: &City) -> Node {
+    let mut crowns = Mesh::default();
+    let mut solids: BTreeMap<EntityKind, Mesh> = BTreeMap::new();
+    for element in &city.elements {
+        let mesh = solids.entry(element.kind).or_default();
+        match element.kind {
+            EntityKind::Tree => tree(builder, mesh, &mut crowns, element),
+            _ => solid(builder, mesh, element),
+        }
+    }
+    let mut parts: Vec<(Material, Mesh)> =
+        solids.into_iter().map(|(kind, mesh)| (substance(kind), mesh)).collect();
+    parts.push((material("leaves", [0.12, 0.24, 0.07], 1.0), crowns));
+    Node { name: "elements", parts }
+}
+
+fn tree(builder: &mut Builder, trunk: &mut Mesh, crowns: &mut Mesh, element: &Element) {
+    let Shape::Cylinder { radius, height } = element.shape else {
+        return solid(builder, trunk, element);
+    };
+    builder.column(trunk, element.position, radius, (GROUND, height * 0.5));
+    builder.crown(crowns, element.position, height * 0.3, (height * 0.35, height));
+}
+
+fn solid(builder: &mut Builder, mesh: &mut Mesh, element: &Element) {
+    let height = element.shape.size().z;
+    match element.shape {
+        Shape::Cylinder { radius, .. } => builder.column(mesh, element.position, radius, (GROUND, height)),
+        _ => builder.prism(mesh, &element.obb().footprint(), GROUND, height),
+    }
+}
+
+fn substance(kind: EntityKind) -> Material {
+    let (color, roughness) = match kind {
+        EntityKind::Tree => ([0.16, 0.1, 0.06], 1.0),
+        EntityKind::StreetLamp | EntityKind::Sign => ([0.2, 0.21, 0.22], 0.5),
+        EntityKind::Bench | EntityKind::Table | EntityKind::Chair => ([0.33, 0.2, 0.1], 0.8),
+        EntityKind::Hydrant => ([0.55, 0.05, 0.03], 0.5),
+        EntityKind::Cone => ([0.85, 0.25, 0.03], 0.7),
+        EntityKind::Mailbox => ([0.05, 0.12, 0.4], 0.5),
+        EntityKind::TrashBin => ([0.08, 0.16, 0.1], 0.7),
+        EntityKind::BusStop => ([0.35, 0.45, 0.5], 0.3),
+        EntityKind::Car => ([0.3, 0.32, 0.36], 0.4),
+        _ => ([0.4, 0.4, 0.4], 0.8),
+    };
+    material(kind.as_str(), color, roughness)
+}

@@ -1,0 +1,200 @@
+//! Triangles: prisms, plates and ribbons, in metres, z up, about the middle of the city.
+
+use earcut::Earcut;
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::polyline;
+
+/// Triangles of one material, counter-clockwise seen from outside.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Mesh {
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) indices: Vec<u32>,
+}
+
+/// Adds shapes to meshes; keeps what the triangulation needs between shapes.
+pub(super) struct Builder {
+    origin: Point2,
+    earcut: Earcut<f64>,
+    corners: Vec<[f64; 2]>,
+    triangles: Vec<u32>,
+}
+
+impl Mesh {
+    fn vertex(&mut self, origin: Point2, point: Point2, z: f64) -> u32 {
+        let local = point - origin;
+        self.positions.push([local.x as f32, local.y as f32, z as f32]);
+        (self.positions.len() - 1) as u32
+    }
+
+    fn quad(&mut self, a: u32, b: u32, c: u32, d: u32) {
+        self.indices.extend([a, b, c, a, c, d]);
+    }
+}
+
+impl Builder {
+    pub(super) fn at(origin: Point2) -> Self {
+        Self { origin, earcut: Earcut::new(), corners: Vec::new(), triangles: Vec::new() }
+    }
+
+    /// A level polygon that looks up, counter-clockwise or not.
+    pub(super) fn plate(&mut self, mesh: &mut Mesh, outline: &[Point2], z: f64) {
+        self.corners.clear();
+        // About the origin, where the triangulation keeps the most digits.
+        self.corners.extend(outline.iter().map(|point| [point.x - self.origin.x, point.y - self.origin.y]));
+        self.earcut.earcut_slice(&self.corners, &[], &mut self.triangles);
+        let first = mesh.positions.len() as u32;
+        for point in outline {
+            mesh.vertex(self.origin, *point, z);
+        }
+        for triangle in self.triangles.chunks_exact(3) {
+            let [a, b, c] = [triangle[0], triangle[1], triangle[2]];
+            let corner = |index: u32| outline[index as usize];
+            let up = (corner(b) - corner(a)).perp(&(corner(c) - corner(a))) > 0.0;
+            let (b, c) = if up { (b, c) } else { (c, b) };
+            mesh.indices.extend([first + a, first + b, first + c]);
+        }
+    }
+
+    /// The upright faces round a polygon, looking outwards, from one height to another.
+    pub(super) fn walls(&mut self, mesh: &mut Mesh, outline: &[Point2], low: f64, high: f64) {
+        if outline.len() < 3 {
+            return;
+        }
+        let first = mesh.positions.len() as u32;
+        for point in outline {
+            mesh.vertex(self.origin, *point, low);
+            mesh.vertex(self.origin, *point, high);
+        }
+        let count = outline.len() as u32;
+        let counter_clockwise = area(outline) > 0.0;
+        for index in 0..count {
+            let (a, b) = (first + 2 * index, first + 2 * ((index + 1) % count));
+            if counter_clockwise {
+                mesh.quad(a, b, b + 1, a + 1);
+            } else {
+                mesh.quad(b, a, a + 1, b + 1);
+            }
+        }
+    }
+
+    /// Walls and a lid.
+    pub(super) fn prism(&mut self, mesh: &mut Mesh, outline: &[Point2], low: f64, high: f64) {
+        self.walls(mesh, outline, low, high);
+        self.plate(mesh, outline, high);
+    }
+
+    /// An upright prism on a regular polygon about a point.
+    pub(super) fn column(&mut self, mesh: &mut Mesh, at: Point2, radius: f64, heights: (f64, f64)) {
+        self.prism(mesh, &hexagon(at, radius), heights.0, heights.1);
+    }
+
+    /// Two pyramids base to base: the crown of a tree.
+    pub(super) fn crown(&mut self, mesh: &mut Mesh, at: Point2, radius: f64, (low, high): (f64, f64)) {
+        let waist = low + (high - low) * 0.4;
+        let first = mesh.positions.len() as u32;
+        for corner in hexagon(at, radius) {
+            mesh.vertex(self.origin, corner, waist);
+        }
+        let (top, bottom) = (mesh.vertex(self.origin, at, high), mesh.vertex(self.origin, at, low));
+        for index in 0..6 {
+            let (a, b) = (first + index, first + (index + 1) % 6);
+            mesh.indices.extend([a, b, top, b, a, bottom]);
+        }
+    }
+
+    /// A level band along a line, so far to its left and so far to its right, m.
+    pub(super) fn ribbon(&mut self, mesh: &mut Mesh, line: &[Point2], (left, right): (f64, f64), z: f64) {
+        if line.len() < 2 {
+            return;
+        }
+        let first = mesh.positions.len() as u32;
+        let (left, right) = (polyline::offset(line, left), polyline::offset(line, -right));
+        for (left, right) in left.iter().zip(&right) {
+            mesh.vertex(self.origin, *right, z);
+            mesh.vertex(self.origin, *left, z);
+        }
+        for index in 0..line.len() as u32 - 1 {
+            let at = first + 2 * index;
+            mesh.quad(at, at + 2, at + 3, at + 1);
+        }
+    }
+
+    /// A band that stands out of the ground: a level top with both of its edges.
+    pub(super) fn kerb(&mut self, mesh: &mut Mesh, line: &[Point2], width: f64, (low, high): (f64, f64)) {
+        if line.len() < 2 {
+            return;
+        }
+        let half = width * 0.5;
+        self.ribbon(mesh, line, (half, half), high);
+        for (side, looks_left) in [(half, true), (-half, false)] {
+            let first = mesh.positions.len() as u32;
+            for point in polyline::offset(line, side) {
+                mesh.vertex(self.origin, point, low);
+                mesh.vertex(self.origin, point, high);
+            }
+            for index in 0..line.len() as u32 - 1 {
+                let (a, b) = (first + 2 * index, first + 2 * index + 2);
+                if looks_left { mesh.quad(b, a, a + 1, b + 1) } else { mesh.quad(a, b, b + 1, a + 1) }
+            }
+        }
+    }
+
+    /// A rectangle across a line: a stripe of paint.
+    pub(super) fn stripe(&mut self, mesh: &mut Mesh, from: Point2, to: Point2, width: f64, z: f64) {
+        self.ribbon(mesh, &[from, to], (width * 0.5, width * 0.5), z);
+    }
+}
+
+/// Six corners about a point, counter-clockwise.
+fn hexagon(at: Point2, radius: f64) -> [Point2; 6] {
+    let (half, height) = (0.5, 0.75_f64.sqrt());
+    [(1.0, 0.0), (half, height), (-half, height), (-1.0, 0.0), (-half, -height), (half, -height)]
+        .map(|(x, y)| at + Vector2::new(x, y) * radius)
+}
+
+/// Positive for a counter-clockwise polygon, m².
+fn area(outline: &[Point2]) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    outline.iter().zip(next).map(|(a, b)| (a.x - b.x) * (a.y + b.y) * 0.5).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn volume(mesh: &Mesh) -> f64 {
+        mesh.indices
+            .chunks_exact(3)
+            .map(|t| {
+                let [a, b, c] = [t[0], t[1], t[2]].map(|i| mesh.positions[i as usize].map(f64::from));
+                let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+                (a[0] * cross[0] + a[1] * cross[1] + a[2] * cross[2]) / 6.0
+            })
+            .sum()
+    }
+
+    #[test]
+    fn faces_look_outwards() {
+        let mut square = [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (0.0, 3.0)].map(|(x, y)| Point2::new(x, y));
+        // From the ground plane up, the open bottom adds nothing to the volume.
+        for _ in 0..2 {
+            let mut mesh = Mesh::default();
+            Builder::at(Point2::origin()).prism(&mut mesh, &square, 0.0, 4.0);
+            assert!((volume(&mesh) - 24.0).abs() < 1e-4);
+            square.reverse();
+        }
+        let mut mesh = Mesh::default();
+        Builder::at(Point2::origin()).crown(&mut mesh, Point2::new(5.0, 5.0), 1.0, (2.0, 5.0));
+        let hexagon = 1.5 * 3f64.sqrt();
+        assert!((volume(&mesh) - hexagon * 3.0 / 3.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_kerb_closes_on_both_sides() {
+        let line = [Point2::new(0.0, 0.0), Point2::new(10.0, 0.0)];
+        let mut mesh = Mesh::default();
+        Builder::at(Point2::origin()).kerb(&mut mesh, &line, 2.0, (0.0, 0.5));
+        // All but the two ends, which are 1 m² each and reach 10 m from the origin at the far one.
+        assert!((volume(&mesh) - (10.0 - 10.0 / 3.0)).abs() < 1e-4, "{}", volume(&mesh));
+    }
+}
