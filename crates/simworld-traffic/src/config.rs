@@ -5,7 +5,7 @@ use simworld_core::net::NetworkError;
 use simworld_core::scene::WorldError;
 use thiserror::Error;
 
-use crate::vehicle::Idm;
+use crate::vehicle::{Idm, Mobil};
 
 /// How much traffic there is, and how it behaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,6 +17,8 @@ pub struct TrafficConfig {
     pub pedestrians: u32,
     /// Car following.
     pub idm: Idm,
+    /// Lane changes.
+    pub mobil: Mobil,
     /// Share of buses among the vehicles, in [0, 1].
     pub buses: f64,
     /// Share of vans, in [0, 1].
@@ -39,6 +41,7 @@ impl Default for TrafficConfig {
             vehicles: 40,
             pedestrians: 80,
             idm: Idm::default(),
+            mobil: Mobil::default(),
             buses: 0.04,
             vans: 0.1,
             lateral_acceleration: 2.5,
@@ -78,6 +81,14 @@ pub enum TrafficError {
         /// Its index.
         plan: usize,
     },
+    /// A route that cannot be driven.
+    #[error("leg {leg} of the route: {reason}")]
+    Route {
+        /// Its index.
+        leg: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// The world has no roads.
     #[error(
         "the world has no roads: call World::set_roads, or populate it from a city, before adding traffic"
@@ -101,6 +112,9 @@ impl TrafficConfig {
             ("idm.gap", gap, 0.5, 10.0, "0.5 to 10 m"),
             ("idm.acceleration", acceleration, 0.2, 6.0, "0.2 to 6 m/s²"),
             ("idm.deceleration", deceleration, 0.5, 6.0, "0.5 to 6 m/s²"),
+            ("mobil.politeness", self.mobil.politeness, 0.0, 2.0, "0 to 2"),
+            ("mobil.threshold", self.mobil.threshold, 0.0, 5.0, "0 to 5 m/s²"),
+            ("mobil.safe_braking", self.mobil.safe_braking, 0.5, 8.0, "0.5 to 8 m/s²"),
             ("buses", self.buses, 0.0, 1.0, "0 to 1"),
             ("vans", self.vans, 0.0, 1.0, "0 to 1"),
             ("lateral_acceleration", self.lateral_acceleration, 0.5, 6.0, "0.5 to 6 m/s²"),

@@ -7,9 +7,10 @@ use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::{Dynamics, DynamicsError};
-use simworld_core::seed::Seed;
+use simworld_core::seed::{Seed, Stream, StreamRng};
 
-use crate::{Foreign, Traffic, TrafficConfig, TrafficError};
+use crate::traffic::State;
+use crate::{Body, Foreign, Traffic, TrafficConfig, TrafficError};
 
 /// Colours of cars, linear-light sRGB.
 const PAINTS: [[f32; 3]; 7] = [
@@ -30,7 +31,7 @@ const PAINTS: [[f32; 3]; 7] = [
 /// use std::sync::Arc;
 /// use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 /// use simworld_core::scene::World;
-/// use simworld_core::seed::Seed;
+/// use simworld_core::seed::{Seed, Stream, StreamRng};
 /// use simworld_core::simulation::Simulation;
 /// use simworld_traffic::{TrafficConfig, TrafficDynamics};
 /// let mut world = World::new();
@@ -44,7 +45,9 @@ const PAINTS: [[f32; 3]; 7] = [
 /// ```
 pub struct TrafficDynamics {
     traffic: Traffic,
+    /// By number; a number that nobody has keeps its last entity, which is gone.
     vehicles: Vec<EntityId>,
+    paint: Stream,
     pedestrians: Vec<EntityId>,
     /// Bodies of others, found anew when entities come or go.
     others: Vec<EntityId>,
@@ -61,13 +64,12 @@ impl TrafficDynamics {
         let network = Arc::clone(world.roads().ok_or(TrafficError::NoRoads)?);
         let traffic = Traffic::new(network, config, seed)?;
         let mut vehicles = vec![EntityId::default(); traffic.placed().vehicles as usize];
-        let mut paint = seed.stream("traffic/paint").rng();
+        let stream = seed.stream("traffic/paint");
+        let mut paint = stream.rng();
         let mut bodies: Vec<_> = traffic.vehicles().collect();
         bodies.sort_by_key(|body| body.id);
         for body in bodies {
-            let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.kind.shape());
-            let color = PAINTS[paint.below(PAINTS.len())];
-            vehicles[body.id as usize] = world.spawn(desc.colored(color))?;
+            vehicles[body.id as usize] = world.spawn(describe(&body, &mut paint))?;
         }
         let mut pedestrians = Vec::new();
         for walker in traffic.pedestrians() {
@@ -78,7 +80,15 @@ impl TrafficDynamics {
             pedestrians.push(world.spawn(desc.colored(coat))?);
         }
         world.signals_mut().copy_from_slice(traffic.signals());
-        Ok(Self { traffic, vehicles, pedestrians, others: Vec::new(), revision: None, foreign: Vec::new() })
+        Ok(Self {
+            traffic,
+            vehicles,
+            paint: stream.named("entered"),
+            pedestrians,
+            others: Vec::new(),
+            revision: None,
+            foreign: Vec::new(),
+        })
     }
 
     /// The traffic itself.
@@ -91,7 +101,7 @@ impl TrafficDynamics {
         &mut self.traffic
     }
 
-    /// The entities of the vehicles, by number.
+    /// The entities of the vehicles, by number; those of numbers that nobody has any more are gone from the world.
     pub fn vehicles(&self) -> &[EntityId] {
         &self.vehicles
     }
@@ -121,6 +131,36 @@ impl TrafficDynamics {
         }
     }
 
+    /// Removes the entities of those who left.
+    fn clear_away(&self, world: &mut World) -> Result<(), DynamicsError> {
+        for trip in self.traffic.ended() {
+            let id = self.vehicles[trip.id as usize];
+            if world.entity(id).is_some() {
+                world.remove(id)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes an entity for everybody who entered.
+    fn welcome(&mut self, world: &mut World) -> Result<(), DynamicsError> {
+        if self.traffic.entered().is_empty() {
+            return Ok(());
+        }
+        let entered: Vec<u32> = self.traffic.entered().to_vec();
+        let bodies: Vec<_> = self.traffic.vehicles().filter(|body| entered.contains(&body.id)).collect();
+        for body in bodies {
+            let index = body.id as usize;
+            if self.vehicles.len() <= index {
+                self.vehicles.resize(index + 1, EntityId::default());
+            }
+            let mut paint =
+                self.paint.indexed(self.traffic.counters().entered).indexed(u64::from(body.id)).rng();
+            self.vehicles[index] = world.spawn(describe(&body, &mut paint))?;
+        }
+        Ok(())
+    }
+
     fn write(&self, world: &mut World) -> Result<(), DynamicsError> {
         for body in self.traffic.vehicles() {
             let id = self.vehicles[body.id as usize];
@@ -142,6 +182,11 @@ impl TrafficDynamics {
     }
 }
 
+fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
+    let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.kind.shape());
+    desc.colored(PAINTS[paint.below(PAINTS.len())])
+}
+
 /// Tells damaged bytes from whole ones: state that merely reads well may still contradict itself.
 fn checksum(bytes: &[u8]) -> [u8; 8] {
     StateHasher::new().bytes(bytes).finish().0.to_le_bytes()
@@ -155,12 +200,16 @@ impl Dynamics for TrafficDynamics {
             return Err(DynamicsError::Other(message.to_owned()));
         }
         self.look_around(world);
+        // Those who were taken out between two steps, and those who left in this one.
+        self.clear_away(world)?;
         self.traffic.step_among(&self.foreign, dt);
+        self.clear_away(world)?;
+        self.welcome(world)?;
         self.write(world)
     }
 
     fn save(&self) -> Result<Vec<u8>, DynamicsError> {
-        let saved = (self.traffic.state(), &self.vehicles, &self.pedestrians);
+        let saved = (self.traffic.config(), self.traffic.state(), &self.vehicles, &self.pedestrians);
         let mut bytes =
             postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
         bytes.extend(checksum(&bytes));
@@ -173,10 +222,12 @@ impl Dynamics for TrafficDynamics {
         if checksum(bytes) != *sum {
             return Err(refused("its checksum does not fit its bytes, so it is damaged"));
         }
-        let (state, vehicles, pedestrians): (_, Vec<EntityId>, Vec<EntityId>) =
+        let (config, state, vehicles, pedestrians): (TrafficConfig, State, Vec<EntityId>, Vec<EntityId>) =
             postcard::from_bytes(bytes).map_err(|error| refused(&error.to_string()))?;
-        let as_many = (vehicles.len(), pedestrians.len()) == (self.vehicles.len(), self.pedestrians.len());
-        if !as_many || !self.traffic.set_state(state) {
+        let named = config == *self.traffic.config()
+            && vehicles.len() >= state.numbers()
+            && pedestrians.len() == self.pedestrians.len();
+        if !named || !self.traffic.set_state(state) {
             return Err(refused("it belongs to another network or configuration"));
         }
         (self.vehicles, self.pedestrians) = (vehicles, pedestrians);

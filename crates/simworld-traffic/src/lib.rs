@@ -3,13 +3,17 @@
 
 mod config;
 pub mod control;
+mod demand;
 mod dynamics;
 mod pedestrian;
+mod route;
 pub mod signal;
 mod traffic;
 pub mod vehicle;
 
 pub use config::{TrafficConfig, TrafficError};
+pub use demand::{Arrivals, Flow, Trip, TripEnd};
 pub use dynamics::TrafficDynamics;
 pub use pedestrian::Pedestrian;
+pub use route::{Leg, Route, Router};
 pub use traffic::{Body, Counters, Foreign, Placed, Traffic};

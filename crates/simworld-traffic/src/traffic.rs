@@ -7,15 +7,20 @@ use std::sync::Arc;
 use foreign::Finder;
 pub use foreign::Foreign;
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Point2, Pose, Twist, Vector3, direction, heading, pose_facing};
+use simworld_core::geometry::{Point2, Pose, Twist, Vector2, Vector3, direction, heading, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::net::{Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, polyline};
 use simworld_core::seed::{Seed, Stream};
 
+use crate::demand::{DemandManager, Departure, Flow, Trip};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
-use crate::{TrafficConfig, TrafficError};
+use crate::{Route, TrafficConfig, TrafficError};
+
+/// Where a body is held to its lane, as shares of its length from the front.
+const FRONT_AXLE: f64 = 0.1;
+const REAR_AXLE: f64 = 0.95;
 
 /// What was counted since the start; the first two say how much was done, the others what went less than well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,6 +35,16 @@ pub struct Counters {
     pub forced_stops: u64,
     /// Times that a vehicle had stood for three minutes.
     pub long_waits: u64,
+    /// Lane changes.
+    pub lane_changes: u64,
+    /// Vehicles that took another route because they could not get into the lane of theirs.
+    pub rerouted: u64,
+    /// Vehicles that entered after the start.
+    pub entered: u64,
+    /// Vehicles that came to the end of their route.
+    pub arrived: u64,
+    /// Vehicles that were taken out.
+    pub removed: u64,
 }
 
 /// How many found a place at the start, of those asked for.
@@ -85,6 +100,7 @@ pub struct Traffic {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct State {
     vehicles: VehicleManager,
+    demand: DemandManager,
     pedestrians: PedestrianManager,
     controllers: Controllers,
     detectors: Detectors,
@@ -94,6 +110,13 @@ pub(crate) struct State {
     seconds: f64,
     steps: u64,
     counters: Counters,
+}
+
+impl State {
+    /// How many numbers vehicles have.
+    pub(crate) fn numbers(&self) -> usize {
+        self.vehicles.paths.len()
+    }
 }
 
 impl Traffic {
@@ -134,6 +157,57 @@ impl Traffic {
     /// Gives the signals another policy than [`FixedTime`](crate::signal::FixedTime); it decides from the next step on.
     pub fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
         self.signals.set_policy(policy);
+    }
+
+    /// Adds vehicles that keep coming.
+    ///
+    /// # Errors
+    /// A route that cannot be driven, or a setting out of range.
+    pub fn add_flow(&mut self, flow: Flow) -> Result<(), TrafficError> {
+        let State { vehicles, demand, .. } = &mut self.state;
+        demand.add_flow(flow, &self.tracks, vehicles, self.streams)
+    }
+
+    /// Sends a vehicle on a route; it enters when there is room at the beginning of the first leg.
+    ///
+    /// # Errors
+    /// A route that cannot be driven.
+    pub fn insert(&mut self, route: Route, kind: VehicleKind) -> Result<(), TrafficError> {
+        route.validate(&self.tracks.network)?;
+        let State { vehicles, demand, seconds, .. } = &mut self.state;
+        if let Some(entry) = route.0.first().copied() {
+            let departure = Departure { route: vehicles.add_route(route), kind, scheduled: *seconds };
+            demand.add_trip(entry, departure);
+        }
+        Ok(())
+    }
+
+    /// Takes a vehicle out, wherever it is; false if there is none of that number.
+    pub fn remove(&mut self, id: u32) -> bool {
+        let State { vehicles, counters, seconds, .. } = &mut self.state;
+        let removed = vehicles.remove(&self.tracks, &self.config, id, *seconds);
+        counters.removed += u64::from(removed);
+        removed
+    }
+
+    /// Vehicles that wait outside because there is no room.
+    pub fn outside(&self) -> usize {
+        self.state.demand.outside()
+    }
+
+    /// The vehicles that entered in the last step.
+    pub fn entered(&self) -> &[u32] {
+        &self.state.vehicles.entered
+    }
+
+    /// The trips that ended in the last step, and since then by [`remove`](Self::remove).
+    pub fn ended(&self) -> &[Trip] {
+        &self.state.vehicles.ended
+    }
+
+    /// Time since the start, s.
+    pub fn seconds(&self) -> f64 {
+        self.state.seconds
     }
 
     /// The plans of the signals.
@@ -182,7 +256,10 @@ impl Traffic {
     }
 
     fn update_vehicles(&mut self, dt: f64) {
-        let State { vehicles, pedestrians, counters, shown, .. } = &mut self.state;
+        let State { vehicles, demand, pedestrians, counters, shown, seconds, .. } = &mut self.state;
+        vehicles.entered.clear();
+        vehicles.ended.clear();
+        demand.step(vehicles, &self.tracks, &self.config, self.streams, *seconds, counters);
         let sight = vehicle::Sight {
             aspects: &self.signals.aspects,
             shown,
@@ -191,7 +268,7 @@ impl Traffic {
             obstacles: &self.obstacles,
         };
         let streams = self.streams.named("vehicles");
-        vehicles.step(&self.tracks, &self.config, streams, &sight, dt, counters);
+        vehicles.step(&self.tracks, &self.config, streams, &sight, (*seconds, dt), counters);
     }
 
     fn update_pedestrians(&mut self, dt: f64) {
@@ -223,6 +300,11 @@ impl Traffic {
         self.state.shown = vec![0.0; self.signals.aspects.len()];
     }
 
+    /// The settings it was made with.
+    pub fn config(&self) -> &TrafficConfig {
+        &self.config
+    }
+
     /// How many found a place at the start.
     pub fn placed(&self) -> Placed {
         self.placed
@@ -252,12 +334,15 @@ impl Traffic {
     pub fn vehicles(&self) -> impl Iterator<Item = Body> {
         self.state.vehicles.iter().map(|(track, vehicle)| {
             let length = vehicle.kind.length();
-            // The rear may still be on the track before.
-            let front = self.point(track, vehicle.id, vehicle.s - 0.15 * length);
-            let rear = self.point(track, vehicle.id, vehicle.s - 0.85 * length);
-            let middle = nalgebra::center(&front, &rear);
+            // The rear may still be on the track before. Steered front wheels and a rear that hardly swings out.
+            let front = self.point(track, vehicle.id, vehicle.s - FRONT_AXLE * length);
+            let rear = self.point(track, vehicle.id, vehicle.s - REAR_AXLE * length);
             let yaw = heading(&(front - rear));
-            let ahead = direction(yaw) * vehicle.v;
+            let ahead = direction(yaw);
+            let left = Vector2::new(-ahead.y, ahead.x);
+            let middle =
+                rear + (front - rear) * ((REAR_AXLE - 0.5) / (REAR_AXLE - FRONT_AXLE)) + left * vehicle.shift;
+            let ahead = ahead * vehicle.v;
             Body {
                 id: vehicle.id,
                 kind: vehicle.kind,
@@ -301,7 +386,7 @@ impl Traffic {
         let vehicles = state.vehicles.fits(&self.tracks);
         let people = state.pedestrians.walkers.len();
         let fits = vehicles
-            && state.vehicles.paths.len() == self.placed.vehicles as usize
+            && state.demand.fits(&self.tracks, state.vehicles.route_count())
             && people == self.placed.pedestrians as usize
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()

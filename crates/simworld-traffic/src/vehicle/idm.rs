@@ -41,14 +41,26 @@ impl Idm {
     /// is a free road. Never below minus [`HARDEST_BRAKING`].
     #[inline]
     pub fn acceleration(&self, v: f64, free: f64, gap: f64, leader: f64) -> f64 {
+        self.respond(v, free, self.pressure(v, gap, leader))
+    }
+
+    /// How much a leader presses: the gap that one would like over the gap that there is. Of several leaders, the one that
+    /// presses most decides; that need not be the nearest.
+    #[inline]
+    pub(crate) fn pressure(&self, v: f64, gap: f64, leader: f64) -> f64 {
+        let closing = v * (v - leader) / (2.0 * (self.acceleration * self.deceleration).sqrt());
+        let wanted = self.gap + (v * self.headway + closing).max(0.0);
+        wanted / gap.max(0.01)
+    }
+
+    /// The acceleration under such a pressure.
+    #[inline]
+    pub(crate) fn respond(&self, v: f64, free: f64, pressure: f64) -> f64 {
         let ratio = v / free;
         let square = ratio * ratio;
         // Above its free speed a vehicle brakes comfortably, however far above.
         let road = (self.acceleration * (1.0 - square * square)).max(-self.deceleration);
-        let closing = v * (v - leader) / (2.0 * (self.acceleration * self.deceleration).sqrt());
-        let wanted = self.gap + (v * self.headway + closing).max(0.0);
-        let interaction = wanted / gap.max(0.01);
-        (road - self.acceleration * interaction * interaction).max(-HARDEST_BRAKING)
+        (road - self.acceleration * pressure * pressure).max(-HARDEST_BRAKING)
     }
 
     /// The gap at which one follows at constant speed, m; infinite at the desired speed.

@@ -6,7 +6,7 @@
 
 use simworld_core::net::{Aspect, Turn};
 
-use super::manager::{NONE, STANDING, Sight, Vehicle, VehicleManager, room_for};
+use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager, room_for};
 use super::tracks::{Track, Tracks};
 use super::{HARDEST_BRAKING, VehicleKind};
 use crate::{Counters, TrafficConfig};
@@ -44,7 +44,7 @@ pub(super) fn revoke(
         let end = tracks.length[*track as usize];
         for vehicle in &mut queues[*track as usize] {
             if vehicle.holding == NONE || vehicle.holding != vehicle.next {
-                if vehicle.holding == NONE {
+                if vehicle.holding == NONE && vehicle.next != EXIT {
                     break; // nobody behind has leave either
                 }
                 continue;
@@ -90,7 +90,8 @@ pub(super) fn grant(
         let queue = &manager.queues[request.lane as usize];
         let vehicle = queue[request.rank];
         let before = request.rank.checked_sub(1).map(|rank| &queue[rank]);
-        if before.is_some_and(|before| before.holding != before.next || before.next == NONE) {
+        let stays = |before: &Vehicle| before.next != EXIT && before.holding != before.next;
+        if before.is_some_and(|before| stays(before) || before.next == NONE) {
             continue; // one's turn comes after those before
         }
         if may_enter(manager, tracks, config, sight, request.lane, &vehicle) {
@@ -114,6 +115,9 @@ fn collect(manager: &VehicleManager, tracks: &Tracks, lane: Track, requests: &mu
         if distance > horizon || vehicle.next == NONE {
             break;
         }
+        if vehicle.next == EXIT {
+            continue;
+        }
         if vehicle.holding == NONE {
             requests.push(Request { stood: vehicle.stood, id: vehicle.id, lane, rank });
         } else if vehicle.holding != vehicle.next {
@@ -133,7 +137,8 @@ fn may_enter(
     let way = vehicle.next as usize;
     let connection = &tracks.network.connections[way];
     let distance = tracks.length[lane as usize] - vehicle.s;
-    signal_allows(tracks, sight, way, vehicle, distance)
+    vehicle.shift == 0.0
+        && signal_allows(tracks, sight, way, vehicle, distance)
         && connection.conflicts.iter().all(|other| manager.holders[other.index()] == 0)
         && tracks.tight[way].iter().all(|other| {
             let held = if vehicle.kind.is_long() { &manager.holders } else { &manager.long_holders };

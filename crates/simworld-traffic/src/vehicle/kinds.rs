@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use simworld_core::scene::{EntityKind, Shape};
+use simworld_core::seed::StreamRng;
+
+use crate::TrafficConfig;
 
 /// A type of vehicle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,6 +20,15 @@ pub enum VehicleKind {
 }
 
 impl VehicleKind {
+    /// Draws a type by the shares of a configuration.
+    pub(crate) fn draw(config: &TrafficConfig, rng: &mut StreamRng) -> Self {
+        match rng.unit() {
+            draw if draw < config.buses => Self::Bus,
+            draw if draw < config.buses + config.vans => Self::Van,
+            _ => Self::Car,
+        }
+    }
+
     /// Length, m.
     #[inline]
     pub const fn length(self) -> f64 {

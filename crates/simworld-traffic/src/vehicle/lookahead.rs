@@ -1,6 +1,8 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
-use super::manager::{NONE, STANDING, Sight, Vehicle, VehicleManager};
+use super::Idm;
+use super::lane_change::first_ghost;
+use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::TrafficConfig;
 
@@ -22,9 +24,11 @@ pub(super) fn acceleration(
 ) -> f64 {
     let idm = &config.idm;
     let mut view = View {
+        idm,
         s: vehicle.s,
+        v: vehicle.v,
         gap: f64::INFINITY,
-        speed: 0.0,
+        pressure: 0.0,
         free: idm.desired_speed.min(tracks.speed[track as usize]),
     };
     if let Some(leader) = leader {
@@ -33,14 +37,23 @@ pub(super) fn acceleration(
     let to_end = tracks.length[track as usize] - vehicle.s;
     match tracks.connection(track) {
         Some(way) => view.across(manager, tracks, sight, way, to_end, vehicle.s, leader.is_none()),
+        None if vehicle.next == EXIT => {}
         None if vehicle.next == NONE => view.stop_in(to_end, idm.gap),
         None if vehicle.holding != vehicle.next => view.stop_in(to_end, idm.gap),
         None => view.enter_junction(manager, tracks, sight, vehicle.next as usize, to_end, leader.is_none()),
     }
+    if let Some((gap, speed)) = first_ghost(&manager.ghosts, track, vehicle.s) {
+        view.follow(gap, speed);
+    }
+    if vehicle.shift != 0.0
+        && let Some((gap, speed)) = manager.ahead_in_old_lane(tracks, track, vehicle)
+    {
+        view.follow(gap, speed);
+    }
     if !sight.obstacles.is_empty() {
         view.beware(sight, track, vehicle.s, idm.gap);
     }
-    let mut acceleration = idm.acceleration(vehicle.v, view.free, view.gap, view.speed);
+    let mut acceleration = idm.respond(vehicle.v, view.free, view.pressure);
     if vehicle.v < STANDING && view.gap < idm.gap {
         // Standing close is standing: no creeping on rounding.
         acceleration = acceleration.min(0.0);
@@ -48,20 +61,21 @@ pub(super) fn acceleration(
     acceleration
 }
 
-/// The nearest thing ahead, and the speed that the road allows.
-struct View {
+/// How near the nearest thing ahead is, how much what is ahead presses, and the speed that the road allows.
+struct View<'a> {
+    idm: &'a Idm,
     s: f64,
+    v: f64,
     gap: f64,
-    speed: f64,
+    pressure: f64,
     free: f64,
 }
 
-impl View {
+impl View<'_> {
+    #[inline]
     fn follow(&mut self, gap: f64, speed: f64) {
-        if gap < self.gap {
-            self.gap = gap;
-            self.speed = speed;
-        }
+        self.gap = self.gap.min(gap);
+        self.pressure = self.pressure.max(self.idm.pressure(self.v, gap, speed));
     }
 
     /// Must stand before a line so far ahead.

@@ -10,14 +10,18 @@ use simworld_core::hash::StateHasher;
 use simworld_core::net::Aspect;
 use simworld_core::seed::Stream;
 
+use super::entry::route_way;
 use super::idm::advance;
+use super::lane_change::Ghost;
 use super::lookahead;
 use super::tracks::{Track, Tracks};
 use super::{VehicleKind, junction};
-use crate::{Counters, TrafficConfig};
+use crate::{Counters, Route, TrafficConfig, Trip, TripEnd};
 
 /// No connection.
 pub(crate) const NONE: u32 = u32::MAX;
+/// No connection: the vehicle leaves the network at the end of its lane.
+pub(crate) const EXIT: u32 = u32::MAX - 1;
 /// A vehicle slower than this stands, m/s.
 pub(crate) const STANDING: f64 = 0.1;
 /// Standing longer than this is counted, s.
@@ -38,6 +42,8 @@ pub(crate) struct Vehicle {
     /// The connection it has been granted and not yet cleared.
     pub(crate) holding: u32,
     pub(crate) kind: VehicleKind,
+    /// How far its body is to the left of its lane while it changes, m.
+    pub(crate) shift: f64,
 }
 
 /// What a vehicle was, apart from its motion.
@@ -48,6 +54,31 @@ pub(crate) struct Path {
     pub(crate) before: Track,
     /// Decisions made so far: the index of its next draw.
     decisions: u64,
+    /// Its route, or none if it turns at random.
+    pub(super) route: u32,
+    /// The leg of the route that it is on.
+    pub(super) leg: u32,
+    pub(super) scheduled: f64,
+    pub(super) entered: f64,
+    /// Distance and free travel time of the tracks that it has left, m and s.
+    pub(super) driven: f64,
+    pub(super) free_time: f64,
+}
+
+impl Path {
+    pub(super) fn new(track: Track, route: u32, scheduled: f64, entered: f64) -> Self {
+        Self {
+            track,
+            before: track,
+            decisions: 0,
+            route,
+            leg: 0,
+            scheduled,
+            entered,
+            driven: 0.0,
+            free_time: 0.0,
+        }
+    }
 }
 
 /// What drivers see of people and signals.
@@ -79,6 +110,18 @@ pub(crate) struct VehicleManager {
     pub(crate) inbound: Vec<f64>,
     /// Vehicles that hold a way over each crossing and have not passed it.
     pub(crate) claims: Vec<u32>,
+    pub(super) routes: Vec<Route>,
+    /// Who is changing lanes, and where they still are.
+    pub(super) shifting: Vec<u32>,
+    pub(super) ghosts: Vec<Ghost>,
+    pub(super) changes: u64,
+    /// Numbers that nobody has any more.
+    pub(super) free: Vec<u32>,
+    /// Numbers of those who entered in the last step, and the trips that ended in it.
+    #[serde(skip)]
+    pub(crate) entered: Vec<u32>,
+    #[serde(skip)]
+    pub(crate) ended: Vec<Trip>,
     #[serde(skip)]
     accelerations: Vec<f64>,
     #[serde(skip)]
@@ -115,14 +158,18 @@ impl VehicleManager {
         // Front to back on each lane, so that pushing to the back keeps the order.
         places.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
         for (index, (track, s)) in places.iter().enumerate() {
-            let kind = match rng.unit() {
-                draw if draw < config.buses => VehicleKind::Bus,
-                draw if draw < config.buses + config.vans => VehicleKind::Van,
-                _ => VehicleKind::Car,
+            let kind = VehicleKind::draw(config, &mut rng);
+            self.paths.push(Path::new(*track, NONE, 0.0, 0.0));
+            let mut vehicle = Vehicle {
+                s: *s,
+                v: 0.0,
+                stood: 0.0,
+                id: index as u32,
+                next: NONE,
+                holding: NONE,
+                kind,
+                shift: 0.0,
             };
-            self.paths.push(Path { track: *track, before: *track, decisions: 0 });
-            let mut vehicle =
-                Vehicle { s: *s, v: 0.0, stood: 0.0, id: index as u32, next: NONE, holding: NONE, kind };
             vehicle.next = self.choose(tracks, config, streams, vehicle.id, *track);
             self.queues[*track as usize].push_back(vehicle);
             self.active.push(*track);
@@ -131,7 +178,7 @@ impl VehicleManager {
         places.len() as u32
     }
 
-    /// Draws the way on from a lane.
+    /// The way on from a lane: that of the route, or one drawn at random.
     fn choose(
         &mut self,
         tracks: &Tracks,
@@ -141,6 +188,9 @@ impl VehicleManager {
         lane: Track,
     ) -> u32 {
         let path = &mut self.paths[id as usize];
+        if let Some(route) = self.routes.get(path.route as usize) {
+            return route_way(tracks, route, path, lane);
+        }
         path.decisions += 1;
         let mut rng = streams.indexed(u64::from(id)).indexed(path.decisions).rng();
         let ways = tracks.ways(lane, &config.turns, &mut self.weights);
@@ -156,14 +206,18 @@ impl VehicleManager {
         config: &TrafficConfig,
         streams: Stream,
         sight: &Sight<'_>,
-        dt: f64,
+        (now, dt): (f64, f64),
         counters: &mut Counters,
     ) {
+        self.shift(tracks, dt);
+        self.change_lanes(tracks, config, (now / dt) as u64);
+        self.lose_patience(tracks, counters);
+        counters.lane_changes = self.changes;
         junction::revoke(self, tracks, config, sight, counters);
         junction::grant(self, tracks, config, sight, counters);
         self.accelerate(tracks, config, sight);
         self.integrate(tracks, dt, counters);
-        self.pass_on(tracks, config, streams);
+        self.pass_on(tracks, config, streams, now + dt, counters);
         self.count_claims(tracks);
     }
 
@@ -193,7 +247,7 @@ impl VehicleManager {
                 counters.updates += 1;
                 vehicle.s += way;
                 vehicle.v = v;
-                if is_lane && vehicle.holding == NONE && vehicle.s >= end {
+                if is_lane && vehicle.holding == NONE && vehicle.next != EXIT && vehicle.s >= end {
                     // A stop line is never passed without leave, whatever the brakes would say.
                     vehicle.s = end - 1e-6;
                     vehicle.v = 0.0;
@@ -209,7 +263,14 @@ impl VehicleManager {
     }
 
     /// Moves vehicles whose front left their track to the next, and frees what their rear has cleared.
-    fn pass_on(&mut self, tracks: &Tracks, config: &TrafficConfig, streams: Stream) {
+    fn pass_on(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        streams: Stream,
+        now: f64,
+        counters: &mut Counters,
+    ) {
         let occupied = self.active.len();
         for index in 0..occupied {
             let track = self.active[index];
@@ -218,7 +279,12 @@ impl VehicleManager {
                     break;
                 }
                 self.queues[track as usize].pop_front();
-                self.move_on(tracks, config, streams, track, front);
+                if front.next == EXIT && tracks.connection(track).is_none() {
+                    self.leave(tracks, track, &front, TripEnd::Arrived, now);
+                    counters.arrived += 1;
+                } else {
+                    self.move_on(tracks, config, streams, track, front);
+                }
             }
             if (track as usize) < tracks.lanes {
                 self.release_cleared(track);
@@ -239,10 +305,15 @@ impl VehicleManager {
         mut vehicle: Vehicle,
     ) {
         vehicle.s -= tracks.length[from as usize];
+        let path = &mut self.paths[vehicle.id as usize];
+        path.driven += tracks.length[from as usize];
+        path.free_time +=
+            tracks.length[from as usize] / config.idm.desired_speed.min(tracks.speed[from as usize]);
         let to = match tracks.connection(from) {
             Some(connection) => {
                 let lane = tracks.lane_after(connection);
                 self.inbound[lane as usize] -= room_for(vehicle.kind, config);
+                path.leg += 1;
                 vehicle.next = self.choose(tracks, config, streams, vehicle.id, lane);
                 lane
             }
@@ -303,7 +374,8 @@ impl VehicleManager {
     /// Whether a saved state is one of this network.
     pub(crate) fn fits(&self, tracks: &Tracks) -> bool {
         let ways = tracks.count() - tracks.lanes;
-        let is_way = |way: u32| way == NONE || (way as usize) < ways;
+        let is_way = |way: u32| way >= EXIT || (way as usize) < ways;
+        let is_route = |route: u32| route == NONE || (route as usize) < self.routes.len();
         let count = self.paths.len();
         self.queues.len() == tracks.count()
             && self.holders.len() == ways
@@ -311,12 +383,19 @@ impl VehicleManager {
             && self.inbound.len() == tracks.lanes
             && self.claims.len() == tracks.network.crossings.len()
             && self.active.iter().all(|track| (*track as usize) < tracks.count())
-            && self.paths.iter().all(|p| (p.track.max(p.before) as usize) < tracks.count())
+            && self
+                .paths
+                .iter()
+                .all(|p| (p.track.max(p.before) as usize) < tracks.count() && is_route(p.route))
+            && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
+            && self.shifting.iter().all(|id| (*id as usize) < count)
+            && self.free.iter().all(|id| (*id as usize) < count)
             && self.queues.iter().flatten().all(|v| {
                 (v.id as usize) < count
                     && is_way(v.next)
                     && is_way(v.holding)
                     && v.s.is_finite()
+                    && v.shift.is_finite()
                     && v.v.is_finite()
             })
     }
@@ -326,7 +405,7 @@ impl VehicleManager {
             hasher.u64(u64::from(*track));
             for vehicle in &self.queues[*track as usize] {
                 hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
-                hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding));
+                hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(vehicle.shift);
             }
         }
     }

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
-use simworld_core::net::{RoadNetwork, Turn, polyline};
+use simworld_core::net::{LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::wrap_angle;
 
-use crate::TrafficConfig;
+use super::manager::NONE;
+use crate::{Leg, Router, TrafficConfig};
 
 /// A lane or a connection: lanes come first.
 pub(crate) type Track = u32;
@@ -35,6 +36,9 @@ pub(crate) struct Tracks {
     pub(crate) siblings: Vec<Vec<(u32, f64)>>,
     /// Ways so near to each connection that a long vehicle on either sweeps over the other in the turn.
     pub(crate) tight: Vec<Vec<u32>>,
+    /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
+    pub(crate) beside: Vec<[Track; 2]>,
+    pub(crate) router: Router,
     /// The crossings on each connection, in the order in which it meets them.
     pub(crate) strips: Vec<Vec<Strip>>,
 }
@@ -53,7 +57,9 @@ impl Tracks {
         let strips = (0..network.connections.len()).map(|index| strips(&network, index)).collect();
         let siblings = (0..network.connections.len()).map(|index| siblings(&network, index)).collect();
         let tight = (0..network.connections.len()).map(|index| tight(&network, index)).collect();
-        Self { lanes: network.lanes.len(), length, speed, siblings, tight, strips, network }
+        let beside = beside(&network);
+        let router = Router::new(&network);
+        Self { lanes: network.lanes.len(), length, speed, siblings, tight, beside, router, strips, network }
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -70,6 +76,18 @@ impl Tracks {
     #[inline]
     pub(crate) fn lane_after(&self, connection: usize) -> Track {
         self.network.connections[connection].to.0
+    }
+
+    /// Distance between the middles of two lanes side by side, m.
+    pub(crate) fn apart(&self, a: Track, b: Track) -> f64 {
+        (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
+    }
+
+    /// The way from a lane to a leg, if one leads there.
+    pub(crate) fn way_to(&self, lane: Track, leg: Leg) -> Option<u32> {
+        let ways = &self.network.lanes[lane as usize].outgoing;
+        let to = |way: &ConnectionId| self.network.connections[way.index()].to;
+        ways.iter().find(|way| Leg::of(&self.network, to(way)) == leg).map(|way| way.0)
     }
 
     pub(crate) fn path(&self, track: Track) -> &[Point2] {
@@ -91,6 +109,27 @@ impl Tracks {
         }));
         ways
     }
+}
+
+/// The neighbours of each lane: those next to it in its road's list, and touching it.
+fn beside(network: &RoadNetwork) -> Vec<[Track; 2]> {
+    let mut beside = vec![[NONE; 2]; network.lanes.len()];
+    for lanes in network.roads.iter().flat_map(|road| [&road.forward, &road.backward]) {
+        for pair in lanes.windows(2) {
+            let (a, b) = (&network.lanes[pair[0].index()], &network.lanes[pair[1].index()]);
+            let middle = polyline::at(&b.path, b.length * 0.5).0;
+            let Some(near) = polyline::closest(&a.path, &middle) else { continue };
+            let touching = near.distance < (a.width + b.width) * 0.5 + 0.5;
+            // Only lanes for everybody: a bus lane is left to buses, and a median keeps lanes apart.
+            if !touching || a.kind != LaneKind::Driving || b.kind != LaneKind::Driving {
+                continue;
+            }
+            let side = usize::from(near.lateral < 0.0);
+            beside[pair[0].index()][side] = pair[1].0;
+            beside[pair[1].index()][1 - side] = pair[0].0;
+        }
+    }
+    beside
 }
 
 /// The speed at which the tightest part of a path is taken, m/s.

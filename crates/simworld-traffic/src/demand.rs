@@ -1,0 +1,212 @@
+//! Demand: flows and trips that enter the network, wait outside while there is no room, and leave at the end of their route.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use serde::{Deserialize, Serialize};
+use simworld_core::seed::{Stream, StreamRng};
+
+use crate::vehicle::{Tracks, VehicleKind, VehicleManager};
+use crate::{Counters, Leg, Route, TrafficConfig, TrafficError};
+
+/// How the vehicles of a flow come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Arrivals {
+    /// At even times.
+    Uniform,
+    /// At random, independently of one another.
+    #[default]
+    Poisson,
+}
+
+/// Vehicles that keep coming.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flow {
+    /// Their way; they enter at the beginning of its first leg and leave at the end of its last.
+    pub route: Route,
+    /// How many come, vehicles an hour, in (0, 10 000].
+    pub per_hour: f64,
+    /// How they come.
+    pub arrivals: Arrivals,
+    /// Their type; drawn by the shares of the configuration if there is none.
+    pub kind: Option<VehicleKind>,
+    /// When the first may come, s after the start.
+    pub from: f64,
+    /// When no more come, s after the start.
+    pub until: f64,
+}
+
+impl Flow {
+    /// So many vehicles an hour on a route, at random, for ever.
+    pub fn new(route: Route, per_hour: f64) -> Self {
+        Self { route, per_hour, arrivals: Arrivals::Poisson, kind: None, from: 0.0, until: f64::MAX }
+    }
+}
+
+/// Why a trip ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TripEnd {
+    /// The vehicle came to the end of its route.
+    Arrived,
+    /// Somebody took it out.
+    Removed,
+}
+
+/// A trip that has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trip {
+    /// The vehicle's number, which another may have next.
+    pub id: u32,
+    /// Its type.
+    pub kind: VehicleKind,
+    /// Why it ended.
+    pub end: TripEnd,
+    /// When it was to depart, s after the start.
+    pub scheduled: f64,
+    /// When it entered, s.
+    pub entered: f64,
+    /// When it left, s.
+    pub left: f64,
+    /// Distance driven, m.
+    pub distance: f64,
+    /// How long the same way takes on an empty road with green lights, s.
+    pub free_time: f64,
+}
+
+impl Trip {
+    /// Time lost on the way, s; without what was waited outside.
+    pub fn delay(&self) -> f64 {
+        self.left - self.entered - self.free_time
+    }
+}
+
+/// A vehicle that waits to enter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Departure {
+    pub(crate) route: u32,
+    pub(crate) kind: VehicleKind,
+    pub(crate) scheduled: f64,
+}
+
+/// A flow with its clock.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Source {
+    flow: Flow,
+    route: u32,
+    next: f64,
+    drawn: u64,
+}
+
+/// All that wants to enter.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct DemandManager {
+    sources: Vec<Source>,
+    /// First come, first served, at the beginning of each leg.
+    outside: BTreeMap<Leg, VecDeque<Departure>>,
+}
+
+impl DemandManager {
+    pub(crate) fn add_flow(
+        &mut self,
+        flow: Flow,
+        tracks: &Tracks,
+        vehicles: &mut VehicleManager,
+        streams: Stream,
+    ) -> Result<(), TrafficError> {
+        flow.route.validate(&tracks.network)?;
+        let checks = [
+            ("per_hour", flow.per_hour, 1e-3, 1e4, "more than 0, at most 10 000 vehicles an hour"),
+            ("from", flow.from, 0.0, f64::MAX, "0 s or later"),
+            ("until", flow.until, flow.from, f64::MAX, "a time after from"),
+        ];
+        for (field, value, low, high, allowed) in checks {
+            if !(low..=high).contains(&value) {
+                return Err(TrafficError::Config { field, value, allowed });
+            }
+        }
+        let route = vehicles.add_route(flow.route.clone());
+        let mut source = Source { next: flow.from, flow, route, drawn: 0 };
+        if source.flow.arrivals == Arrivals::Poisson {
+            source.next += source.wait(&mut source.stream(streams, self.sources.len()));
+        }
+        self.sources.push(source);
+        Ok(())
+    }
+
+    pub(crate) fn add_trip(&mut self, entry: Leg, departure: Departure) {
+        self.outside.entry(entry).or_default().push_back(departure);
+    }
+
+    /// Vehicles that wait outside.
+    pub(crate) fn outside(&self) -> usize {
+        self.outside.values().map(VecDeque::len).sum()
+    }
+
+    /// Lets come who is due, and enter who has room.
+    pub(crate) fn step(
+        &mut self,
+        vehicles: &mut VehicleManager,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        streams: Stream,
+        now: f64,
+        counters: &mut Counters,
+    ) {
+        for index in 0..self.sources.len() {
+            self.draw(index, config, streams, now);
+        }
+        for (leg, queue) in &mut self.outside {
+            while let Some(departure) = queue.front() {
+                if !vehicles.enter(tracks, config, *leg, departure, now) {
+                    break;
+                }
+                queue.pop_front();
+                counters.entered += 1;
+            }
+        }
+    }
+
+    fn draw(&mut self, index: usize, config: &TrafficConfig, streams: Stream, now: f64) {
+        let source = &mut self.sources[index];
+        while source.next <= now && source.next < source.flow.until {
+            let mut rng = source.stream(streams, index);
+            let kind = source.flow.kind.unwrap_or_else(|| VehicleKind::draw(config, &mut rng));
+            let departure = Departure { route: source.route, kind, scheduled: source.next };
+            let entry = source.flow.route.0.first().copied();
+            source.drawn += 1;
+            source.next += source.wait(&mut rng);
+            if let Some(entry) = entry {
+                self.outside.entry(entry).or_default().push_back(departure);
+            }
+        }
+    }
+
+    /// Whether a saved state is one of this network.
+    pub(crate) fn fits(&self, tracks: &Tracks, routes: usize) -> bool {
+        let known = |route: u32| (route as usize) < routes;
+        self.sources.iter().all(|source| {
+            known(source.route)
+                && source.next.is_finite()
+                && source.flow.per_hour > 0.0
+                && source.flow.route.validate(&tracks.network).is_ok()
+        }) && self.outside.iter().all(|(leg, queue)| {
+            !leg.lanes(&tracks.network).is_empty() && queue.iter().all(|departure| known(departure.route))
+        })
+    }
+}
+
+impl Source {
+    fn stream(&self, streams: Stream, index: usize) -> StreamRng {
+        streams.named("flows").indexed(index as u64).indexed(self.drawn).rng()
+    }
+
+    fn wait(&self, rng: &mut StreamRng) -> f64 {
+        let rate = self.flow.per_hour / 3600.0;
+        match self.flow.arrivals {
+            Arrivals::Uniform => 1.0 / rate,
+            Arrivals::Poisson => rng.exponential(rate),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Routes: chains of legs, a leg being one direction of a road; and the quickest one between two.
+
+use petgraph::algo::astar;
+use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::visit::EdgeRef;
+use serde::{Deserialize, Serialize};
+use simworld_core::id::{LaneId, RoadId};
+use simworld_core::net::{LaneDirection, RoadNetwork};
+
+use crate::TrafficError;
+
+/// One direction of a road.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Leg(u32);
+
+impl Leg {
+    /// The lanes of a road along its centreline, or against it.
+    pub const fn new(road: RoadId, direction: LaneDirection) -> Self {
+        Self(road.0 * 2 + matches!(direction, LaneDirection::Backward) as u32)
+    }
+
+    /// The leg to which a lane belongs.
+    pub fn of(network: &RoadNetwork, lane: LaneId) -> Self {
+        let lane = &network.lanes[lane.index()];
+        let road = &network.roads[lane.road.index()];
+        let direction = if road.from == lane.from { LaneDirection::Forward } else { LaneDirection::Backward };
+        Self::new(lane.road, direction)
+    }
+
+    /// Its road.
+    pub const fn road(self) -> RoadId {
+        RoadId(self.0 / 2)
+    }
+
+    /// Its lanes, from the middle outwards.
+    pub fn lanes(self, network: &RoadNetwork) -> &[LaneId] {
+        let Some(road) = network.roads.get(self.road().index()) else { return &[] };
+        if self.0.is_multiple_of(2) { &road.forward } else { &road.backward }
+    }
+}
+
+/// A way through the network, as legs that follow one another.
+///
+/// ```
+/// use simworld_core::id::RoadId;
+/// use simworld_core::net::{LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
+/// use simworld_traffic::{Leg, Route, Router};
+/// let network = RoadNetwork::derive(&StreetPlan::crossroads(100.0), &NetworkConfig::default())?;
+/// // The arms lead away from the middle: in on the first, out on the third.
+/// let (from, to) = (Leg::new(RoadId(0), LaneDirection::Backward), Leg::new(RoadId(2), LaneDirection::Forward));
+/// let route = Router::new(&network).quickest(from, to).expect("the arms meet");
+/// assert_eq!(route, Route(vec![from, to]));
+/// # Ok::<(), simworld_core::net::NetworkError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Route(pub Vec<Leg>);
+
+impl Route {
+    /// Checks that every leg has lanes and each leads on to the next.
+    ///
+    /// # Errors
+    /// The first leg from which the route cannot go on.
+    pub fn validate(&self, network: &RoadNetwork) -> Result<(), TrafficError> {
+        let broken = |leg: usize, reason| Err(TrafficError::Route { leg, reason });
+        if self.0.is_empty() {
+            return broken(0, "a route has at least one leg");
+        }
+        for (index, leg) in self.0.iter().enumerate() {
+            if leg.lanes(network).is_empty() {
+                return broken(index, "the road has no lanes that way");
+            }
+            if let Some(next) = self.0.get(index + 1)
+                && !leads_to(network, *leg, *next)
+            {
+                return broken(index, "no way across the intersection leads to the next leg");
+            }
+        }
+        Ok(())
+    }
+}
+
+fn leads_to(network: &RoadNetwork, from: Leg, to: Leg) -> bool {
+    let ways = from.lanes(network).iter().flat_map(|lane| &network.lanes[lane.index()].outgoing);
+    ways.into_iter().any(|way| Leg::of(network, network.connections[way.index()].to) == to)
+}
+
+/// Finds quickest routes by free travel time.
+#[derive(Clone, Debug)]
+pub struct Router {
+    graph: DiGraph<(), f64, u32>,
+}
+
+impl Router {
+    /// Prepares a network.
+    pub fn new(network: &RoadNetwork) -> Self {
+        let mut graph = DiGraph::with_capacity(network.roads.len() * 2, network.connections.len());
+        for _ in 0..network.roads.len() * 2 {
+            graph.add_node(());
+        }
+        let mut known = Vec::new();
+        for connection in &network.connections {
+            let (from, to) = (Leg::of(network, connection.from), Leg::of(network, connection.to));
+            let lane = &network.lanes[connection.to.index()];
+            known.push((from, to, (connection.length + lane.length) / lane.speed_limit));
+        }
+        // One edge a pair of legs, the quickest of the ways between their lanes.
+        known.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
+        known.dedup_by_key(|edge| (edge.0, edge.1));
+        for (from, to, time) in known {
+            graph.add_edge(NodeIndex::new(from.0 as usize), NodeIndex::new(to.0 as usize), time);
+        }
+        Self { graph }
+    }
+
+    /// The quickest route from one leg to another, both included; `None` if there is none.
+    pub fn quickest(&self, from: Leg, to: Leg) -> Option<Route> {
+        let count = self.graph.node_count() as u32;
+        if from.0 >= count || to.0 >= count {
+            return None;
+        }
+        let target = NodeIndex::new(to.0 as usize);
+        let found = astar(
+            &self.graph,
+            NodeIndex::new(from.0 as usize),
+            |node| node == target,
+            |edge| *edge.weight(),
+            |_| 0.0,
+        )?;
+        Some(Route(found.1.into_iter().map(|node| Leg(node.index() as u32)).collect()))
+    }
+
+    /// The legs that follow one, ascending.
+    pub fn after(&self, leg: Leg) -> Vec<Leg> {
+        let mut next: Vec<Leg> = self
+            .graph
+            .edges(NodeIndex::new(leg.0 as usize))
+            .map(|edge| Leg(edge.target().index() as u32))
+            .collect();
+        next.sort_unstable();
+        next
+    }
+}

@@ -1,0 +1,134 @@
+//! How vehicles enter the network, follow their routes and leave it.
+
+use super::manager::{EXIT, NONE, Path, Vehicle, VehicleManager};
+use super::tracks::{Track, Tracks};
+use crate::demand::Departure;
+use crate::{Leg, Route, TrafficConfig, Trip, TripEnd};
+
+impl VehicleManager {
+    /// Keeps a route and returns its number.
+    pub(crate) fn add_route(&mut self, route: Route) -> u32 {
+        self.routes.push(route);
+        (self.routes.len() - 1) as u32
+    }
+
+    pub(crate) fn route_count(&self) -> usize {
+        self.routes.len()
+    }
+
+    /// Puts a vehicle at the beginning of a leg if there is room; it comes at a speed at which it could stop for those
+    /// before it.
+    pub(crate) fn enter(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        leg: Leg,
+        departure: &Departure,
+        now: f64,
+    ) -> bool {
+        let next = self.routes.get(departure.route as usize).and_then(|route| route.0.get(1)).copied();
+        let length = departure.kind.length();
+        let lanes = leg.lanes(&tracks.network).iter().map(|lane| lane.0);
+        let leads_on = |lane: &Track| next.is_none_or(|next| tracks.way_to(*lane, next).is_some());
+        let room = |lane: Track| {
+            let last = self.queues[lane as usize].back();
+            last.map_or(f64::INFINITY, |last| last.s - last.kind.length() - length)
+        };
+        let best = lanes
+            .filter(leads_on)
+            .filter(|lane| self.inbound[*lane as usize] <= 0.0 && tracks.length[*lane as usize] > length)
+            .max_by(|a, b| room(*a).total_cmp(&room(*b)).then(b.cmp(a)));
+        let Some(lane) = best.filter(|lane| room(*lane) > config.idm.gap) else { return false };
+        let limit = config.idm.desired_speed.min(tracks.speed[lane as usize]);
+        let speed = self.queues[lane as usize].back().map_or(limit, |leader| {
+            let spare = room(lane) - config.idm.gap;
+            let stopping = (leader.v * leader.v + 2.0 * config.idm.deceleration * spare).sqrt();
+            limit.min(stopping).min(spare / config.idm.headway)
+        });
+        self.put(tracks, departure, lane, length, speed, now);
+        true
+    }
+
+    fn put(&mut self, tracks: &Tracks, departure: &Departure, lane: Track, s: f64, v: f64, now: f64) {
+        let path = Path::new(lane, departure.route, departure.scheduled, now);
+        let id = if let Some(id) = self.free.pop() {
+            self.paths[id as usize] = path;
+            id
+        } else {
+            self.paths.push(path);
+            (self.paths.len() - 1) as u32
+        };
+        // Its way is not driven up to where its front appears.
+        self.paths[id as usize].driven = -s;
+        self.paths[id as usize].free_time = -s / tracks.speed[lane as usize];
+        let route = self.routes.get(departure.route as usize);
+        let next = route.map_or(NONE, |route| route_way(tracks, route, &self.paths[id as usize], lane));
+        let kind = departure.kind;
+        self.queues[lane as usize].push_back(Vehicle {
+            s,
+            v,
+            stood: 0.0,
+            id,
+            next,
+            holding: NONE,
+            kind,
+            shift: 0.0,
+        });
+        if let Err(place) = self.active.binary_search(&lane) {
+            self.active.insert(place, lane);
+        }
+        self.entered.push(id);
+    }
+
+    /// Ends the trip of a vehicle that is in no queue any more.
+    pub(super) fn leave(&mut self, tracks: &Tracks, track: Track, vehicle: &Vehicle, end: TripEnd, now: f64) {
+        if vehicle.holding != NONE {
+            self.holders[vehicle.holding as usize] -= 1;
+            self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.kind.is_long());
+        }
+        let path = &self.paths[vehicle.id as usize];
+        let (track, s) = (track as usize, vehicle.s.min(tracks.length[track as usize]));
+        // What it drove beyond the end in its last step takes it this long; it left so much earlier.
+        let early = (vehicle.s - s) / vehicle.v.max(0.1);
+        self.ended.push(Trip {
+            id: vehicle.id,
+            kind: vehicle.kind,
+            end,
+            scheduled: path.scheduled,
+            entered: path.entered,
+            left: now - early,
+            distance: path.driven + s,
+            free_time: path.free_time + s / tracks.speed[track],
+        });
+        self.free.push(vehicle.id);
+    }
+
+    /// Takes a vehicle out, wherever it is; false if there is none of that number.
+    pub(crate) fn remove(&mut self, tracks: &Tracks, config: &TrafficConfig, id: u32, now: f64) -> bool {
+        let Some(track) = self.paths.get(id as usize).map(|path| path.track) else { return false };
+        let queue = &mut self.queues[track as usize];
+        let Some(rank) = queue.iter().position(|vehicle| vehicle.id == id) else { return false };
+        let Some(vehicle) = queue.remove(rank) else { return false };
+        // The room that it was to take behind the junction is free again, unless it is there already.
+        let before_lane = vehicle.holding != NONE
+            && (tracks.connection(track).is_some() || vehicle.holding == vehicle.next);
+        if before_lane {
+            let lane = tracks.lane_after(vehicle.holding as usize);
+            self.inbound[lane as usize] -= super::manager::room_for(vehicle.kind, config);
+        }
+        if self.queues[track as usize].is_empty() {
+            self.active.retain(|active| *active != track);
+        }
+        self.leave(tracks, track, &vehicle, TripEnd::Removed, now);
+        true
+    }
+}
+
+/// The way from a lane to the next leg of a route; out of the network at its end.
+pub(super) fn route_way(tracks: &Tracks, route: &Route, path: &Path, lane: Track) -> u32 {
+    match route.0.get(path.leg as usize + 1) {
+        None => EXIT,
+        // A lane that does not lead on is one to leave.
+        Some(next) => tracks.way_to(lane, *next).unwrap_or(NONE),
+    }
+}
