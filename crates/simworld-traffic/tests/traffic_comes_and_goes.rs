@@ -9,6 +9,7 @@ use simworld_core::net::{LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
+use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{Arrivals, Flow, Leg, Route, Traffic, TrafficConfig, TrafficDynamics, TrafficError};
 
 fn crossroads() -> Arc<RoadNetwork> {
