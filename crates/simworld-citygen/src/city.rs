@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::{Point2, Point3, Vector2, heading, pose_facing};
+use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::net::{Crossing, RoadNetwork, StreetPlan, polyline};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
@@ -10,7 +10,9 @@ use simworld_core::seed::Seed;
 
 use crate::building::{self, Building};
 use crate::element::{self, Element};
+use crate::lot::Land;
 use crate::strips::{self, lane_reach, strip};
+use crate::zoning::Zoning;
 use crate::{CityConfig, CityError, CityReport, Provenance, growth};
 
 /// Tops of the flat layers, m: a hair apart, so that each covers the one below; people stand on the sidewalk's.
@@ -49,6 +51,8 @@ pub struct City {
 pub struct CityEntities {
     /// One a building, in the order of [`City::buildings`].
     pub buildings: Vec<EntityId>,
+    /// The other solids of buildings of more than one: rear wings, towers; in the order of [`City::buildings`].
+    pub wings: Vec<EntityId>,
     /// One an element, in the order of [`City::elements`].
     pub elements: Vec<EntityId>,
     /// Ground, roads, sidewalks and crosswalks.
@@ -84,7 +88,9 @@ impl City {
         config.validate()?;
         let network = RoadNetwork::derive(&plan, &config.network)?;
         let mut taken = strips::road_land(&network);
-        let built = building::build(&network, &config.buildings, seed, &mut taken);
+        let zoning = Zoning::new(&config.zoning, seed);
+        let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
+        let built = building::build(&network, &land, &config.buildings, seed, &mut taken);
         let elements = element::furnish(&network, &config.elements, seed, &mut taken);
         Ok(Self {
             config: config.clone(),
@@ -93,7 +99,7 @@ impl City {
             network: Arc::new(network),
             buildings: built.buildings,
             elements,
-            frontage: built.frontage,
+            frontage: land.frontage,
             frontage_used: built.frontage_used,
         })
     }
@@ -101,6 +107,14 @@ impl City {
     /// Share of the frontage that buildings take, in [0, 1].
     pub fn frontage_used(&self) -> f64 {
         if self.frontage > 0.0 { self.frontage_used / self.frontage } else { 0.0 }
+    }
+
+    /// The blocks, lots and greens between its streets. They follow from the streets, the configuration and the seed, and
+    /// are divided anew by each call.
+    pub fn land(&self) -> Land {
+        let seed = self.provenance.seed;
+        let zoning = Zoning::new(&self.config.zoning, seed);
+        Land::of_network(&self.network, &zoning, &self.config.lots, seed, &strips::road_land(&self.network))
     }
 
     /// The statistics of the city.
@@ -122,7 +136,12 @@ impl City {
         let mut entities = CityEntities::default();
         self.spawn_surfaces(world, &mut entities.surfaces)?;
         for building in &self.buildings {
-            entities.buildings.push(world.spawn(describe_building(building))?);
+            let mut solids = building.solids();
+            let Some(front) = solids.next() else { continue };
+            entities.buildings.push(world.spawn(describe_building(building, &front))?);
+            for wing in solids {
+                entities.wings.push(world.spawn(describe_solid(building, &wing))?);
+            }
         }
         for element in &self.elements {
             entities.elements.push(world.spawn(describe_element(element))?);
@@ -186,17 +205,23 @@ fn layer(kind: EntityKind, stripe: &Stripe, top: f64) -> EntityDesc {
     EntityDesc::new(kind, flat.pose, Shape::cuboid(size.x.max(0.01), size.y.max(0.01), LAYER))
 }
 
-fn describe_building(building: &Building) -> EntityDesc {
-    let pose = pose_facing(Point3::new(building.center.x, building.center.y, 0.0), building.facing);
-    let shape = Shape::cuboid(building.depth, building.width, building.height());
-    let mut desc = EntityDesc::new(EntityKind::Building, pose, shape)
+fn describe_building(building: &Building, front: &Obb) -> EntityDesc {
+    let mut desc = describe_solid(building, front)
         .used_as(building.place)
         .accessed_at(Point3::new(building.access.x, building.access.y, 0.0))
-        .colored(building.archetype.color)
         .with("storeys", i64::from(building.storeys))
-        .with("type", building.archetype.name);
+        .with("roof", building.roof.as_str());
     desc.info.name.clone_from(&building.name);
     desc
+}
+
+fn describe_solid(building: &Building, solid: &Obb) -> EntityDesc {
+    let mut pose = solid.pose;
+    pose.translation.z = 0.0;
+    let size = solid.half_extents * 2.0;
+    EntityDesc::new(EntityKind::Building, pose, Shape::cuboid(size.x, size.y, size.z))
+        .colored(building.archetype.color)
+        .with("type", building.archetype.name)
 }
 
 /// A post at the kerb that vehicles pass on their right, beyond the crossing; it looks at those who come.

@@ -1,7 +1,5 @@
 //! Names of places, drawn from word lists.
 
-use std::collections::BTreeSet;
-
 use simworld_core::scene::Place;
 use simworld_core::seed::StreamRng;
 
@@ -46,7 +44,7 @@ const fn noun(place: Place) -> Option<&'static [&'static str]> {
         Place::Hospital => Some(&["Hospital", "Clinic"]),
         Place::Museum => Some(&["Museum", "Gallery"]),
         Place::School => Some(&["School", "Academy"]),
-        Place::Office => Some(&["House", "Tower", "Exchange"]),
+        Place::Office => Some(&["House", "Chambers", "Exchange"]),
         Place::Factory => Some(&["Works", "Warehouse"]),
         Place::ChargingStation => Some(&["Charging Station"]),
         Place::RestArea => Some(&["Pavilion", "Rest Area"]),
@@ -54,19 +52,54 @@ const fn noun(place: Place) -> Option<&'static [&'static str]> {
     }
 }
 
-/// A name that is not yet in use; a number is added when the words run out.
-pub(super) fn draw(place: Place, used: &mut BTreeSet<String>, rng: &mut StreamRng) -> Option<String> {
-    let nouns = noun(place)?;
-    for attempt in 0..64_u32 {
-        let epithet = EPITHETS[rng.below(EPITHETS.len())];
-        let noun = nouns[rng.below(nouns.len())];
-        let name = match attempt {
-            0..8 => format!("{epithet} {noun}"),
-            _ => format!("{epithet} {noun} {}", 2 + rng.below(10_000)),
-        };
-        if used.insert(name.clone()) {
-            return Some(name);
-        }
+/// Gives out names: every one once, in an order that the seed says.
+#[derive(Clone, Debug)]
+pub(super) struct Names {
+    /// Names given out, and where the order begins, by place.
+    places: Vec<(usize, usize)>,
+}
+
+impl Names {
+    pub(super) fn new(rng: &mut StreamRng) -> Self {
+        Self { places: Place::ALL.iter().map(|_| (0, rng.below(EPITHETS.len() * 12))).collect() }
     }
-    None
+
+    /// The next name of a place; a number is added when the words run out. `None` for places that bear no name.
+    pub(super) fn next(&mut self, place: Place) -> Option<String> {
+        let nouns = noun(place)?;
+        let rank = Place::ALL.iter().position(|other| *other == place)?;
+        let (given, start) = &mut self.places[rank];
+        let combinations = EPITHETS.len() * nouns.len();
+        // Steps of a prime that divides no number of combinations visit every one once a round.
+        let index = (*start + *given * STEP) % combinations;
+        let round = *given / combinations;
+        *given += 1;
+        let (epithet, noun) = (EPITHETS[index % EPITHETS.len()], nouns[index / EPITHETS.len()]);
+        Some(if round == 0 { format!("{epithet} {noun}") } else { format!("{epithet} {noun} {}", round + 1) })
+    }
+}
+
+/// Step from one name to the next; a prime greater than any number of words.
+const STEP: usize = 97;
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use simworld_core::seed::Seed;
+
+    use super::*;
+
+    #[test]
+    fn no_name_is_given_twice() {
+        let mut names = Names::new(&mut Seed(3).stream("names").rng());
+        let mut seen = BTreeSet::new();
+        for place in Place::ALL {
+            for _ in 0..1000 {
+                let Some(name) = names.next(*place) else { continue };
+                assert!(seen.insert(name.clone()), "{name} is given twice");
+            }
+        }
+        assert!(seen.len() >= 8000);
+    }
 }

@@ -121,11 +121,18 @@ fn fit(lot: &Ring, site: &Site<'_>, ribbons: &mut Occupancy, lots: &mut Vec<Ring
 
 /// The lot, or as much of its depth as is free; `None` if too little is.
 fn shorten(lot: &Ring, site: &Site<'_>, ribbons: &Occupancy) -> Option<Ring> {
-    let is_free = |lot: &Ring| site.taken.is_free(&lot.corners) && ribbons.is_free(&lot.corners);
+    let inwards = site.street.inwards();
+    // A lot begins where its sidewalk ends, so the test is made a little behind.
+    let mut tested = Vec::with_capacity(lot.len() + 2);
+    let mut is_free = |lot: &Ring| {
+        let middle = lot.middle();
+        tested.clear();
+        tested.extend(lot.corners.iter().map(|corner| middle + (corner - middle) * 0.99));
+        site.taken.is_free(&tested) && ribbons.is_free(&tested)
+    };
     if is_free(lot) {
         return Some(lot.clone());
     }
-    let inwards = site.street.inwards();
     let (mut front, mut rear) = (Ring::default(), Ring::default());
     for share in [0.7, 0.45] {
         let at = site.street.start + inwards * (site.depth * share);

@@ -19,7 +19,12 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt:
     let mut pens: BTreeMap<Place, Pen> = BTreeMap::new();
     for building in &city.buildings {
         let pen = pens.entry(building.place).or_insert_with(|| Pen::at(page.middle));
-        pen.polygon(&building.obb().footprint());
+        pen.polygon(&building.outline());
+        if let Some(mut court) = building.courtyard() {
+            // The other way round, so that it is a hole.
+            court.reverse();
+            pen.polygon(&court);
+        }
     }
     // Each shape is written once and drawn twice: as shadow and as house.
     writeln!(f, "<defs>")?;

@@ -37,6 +37,7 @@ pub(super) fn buildings(buildings: &[Building], network: &RoadNetwork) -> Result
             && size(building.width)
             && size(building.depth)
             && building.storeys <= MOST_STOREYS
+            && building.footprint.fits(building.width, building.depth)
     };
     fail(
         "building",

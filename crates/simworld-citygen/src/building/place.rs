@@ -1,0 +1,343 @@
+//! One lot and what is built on it.
+//!
+//! Lot frame: the origin is the first corner of a street's edge, x runs along the front, y into the lot. A building is a
+//! rectangle in this frame, so that its façade is parallel to the street.
+
+use simworld_core::geometry::{Point2, Vector2, heading};
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, Side};
+use simworld_core::scene::Place;
+use simworld_core::seed::{Stream, StreamRng};
+
+use super::{ARCHETYPES, Archetype, Building, Footprint};
+use crate::BuildingConfig;
+use crate::lot::{Land, Lot};
+use crate::occupancy::overlap;
+use crate::zoning::Zone;
+
+/// Kinds tried at random before the greedy filling.
+const TRIES: usize = 5;
+/// Unused front that ends the search for a kind that fits better, m.
+const TOLERATED: f64 = 1.0;
+/// How far the search moves on along a front where something stands, m.
+const STEP: f64 = 2.5;
+/// Distance kept from the edges of the lot, against rounding, m.
+const CLEARANCE: f64 = 1e-3;
+/// Land kept free behind a building, m.
+const REAR: f64 = 1.0;
+/// The narrowest and the shallowest building, m.
+const LEAST: f64 = 5.0;
+/// A façade farther from a street than its setback and this does not count as standing at it, m.
+const AT_STREET: f64 = 4.0;
+/// Steps of the density for which weights are known beforehand.
+const LEVELS: usize = 16;
+
+/// A building that would like to stand.
+pub(super) struct Plan {
+    pub(super) building: Building,
+    pub(super) corners: [Point2; 4],
+    /// Length of the fronts along which it stands, m.
+    pub(super) frontage: f64,
+}
+
+/// Plans buildings lot by lot.
+pub(super) struct Planner<'a> {
+    network: &'a RoadNetwork,
+    land: &'a Land,
+    config: &'a BuildingConfig,
+    streams: Stream,
+    /// Cumulative weights of the kinds, by zone and level of density.
+    weights: Vec<[f64; ARCHETYPES.len()]>,
+    /// The corners of the lot in its frame.
+    local: Vec<Point2>,
+    pub(super) plans: Vec<Plan>,
+}
+
+/// A lot while it is built on.
+struct Site<'a> {
+    lot: &'a Lot,
+    /// The street at the front.
+    road: RoadId,
+    side: Side,
+    origin: Point2,
+    along: Vector2,
+    inwards: Vector2,
+    facing: f64,
+    /// How far the lot reaches inwards, m.
+    deep: f64,
+}
+
+impl Site<'_> {
+    fn at(&self, x: f64, y: f64) -> Point2 {
+        self.origin + self.along * x + self.inwards * y
+    }
+
+    fn corners(&self, spot: Spot, setback: f64) -> [Point2; 4] {
+        let (left, right) = (spot.x, spot.x + spot.width);
+        let (near, far) = (setback, setback + spot.depth);
+        [self.at(left, near), self.at(right, near), self.at(right, far), self.at(left, far)]
+    }
+}
+
+/// A rectangle in the frame of a lot: from x to x + width, from the setback to the setback and depth.
+#[derive(Clone, Copy)]
+struct Spot {
+    x: f64,
+    width: f64,
+    depth: f64,
+}
+
+impl<'a> Planner<'a> {
+    pub(super) fn new(
+        network: &'a RoadNetwork,
+        land: &'a Land,
+        config: &'a BuildingConfig,
+        streams: Stream,
+    ) -> Self {
+        let mut weights = Vec::with_capacity(Zone::ALL.len() * LEVELS);
+        for zone in Zone::ALL {
+            for level in 0..LEVELS {
+                let density = (level as f64 + 0.5) / LEVELS as f64;
+                let mut sum = 0.0;
+                weights.push(std::array::from_fn(|kind| {
+                    sum += ARCHETYPES[kind].weight(zone, density);
+                    sum
+                }));
+            }
+        }
+        Self { network, land, config, streams, weights, local: Vec::new(), plans: Vec::new() }
+    }
+
+    /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;
+    /// along its other streets what has room next to that.
+    pub(super) fn plan(&mut self, lot: &Lot) {
+        let borders = self.land.borders(lot);
+        let origin = self.land.outline(lot)[0];
+        let key = |x: f64| (x * 100.0).round() as i64 as u64;
+        let mut rng = self.streams.indexed(key(origin.x)).indexed(key(origin.y)).rng();
+        if !rng.chance(self.config.density) {
+            return;
+        }
+        for (edge, border) in borders.iter().enumerate() {
+            if let Some((road, side)) = border.as_street() {
+                self.line(lot, edge, (road, side), &mut rng);
+            }
+        }
+    }
+
+    /// Plans what stands along one street of a lot.
+    fn line(&mut self, lot: &Lot, edge: usize, (road, side): (RoadId, Side), rng: &mut StreamRng) {
+        let outline = self.land.outline(lot);
+        let origin = outline[edge];
+        let Some(along) = (outline[(edge + 1) % outline.len()] - origin).try_normalize(1e-9) else { return };
+        let inwards = Vector2::new(-along.y, along.x);
+        self.local.clear();
+        self.local.extend(outline.iter().map(|corner| {
+            let to = corner - origin;
+            Point2::new(to.dot(&along), to.dot(&inwards))
+        }));
+        let deep = self.local.iter().map(|corner| corner.y).fold(0.0, f64::max);
+        let Some((mut start, end)) = self.room(LEAST) else { return };
+        let site = Site { lot, road, side, origin, along, inwards, facing: heading(&-inwards), deep };
+        let mut is_first = edge == 0;
+        while end - start >= LEAST {
+            let Some((kind, spot)) = self.choose(&site, (start, end), is_first, rng) else { break };
+            if self.is_free(&site, spot) {
+                self.raise(&site, kind, spot, rng);
+                start = spot.x + spot.width + self.config.gap;
+            } else {
+                start += STEP;
+            }
+            is_first = false;
+        }
+    }
+
+    /// Whether a spot keeps its distance from what was planned on the lot so far.
+    fn is_free(&self, site: &Site<'_>, spot: Spot) -> bool {
+        let gap = self.config.gap;
+        let wide = Spot { x: spot.x - gap, width: spot.width + 2.0 * gap, depth: spot.depth + gap };
+        let corners = site.corners(wide, self.config.setback);
+        self.plans.iter().all(|plan| !overlap(&plan.corners, &corners))
+    }
+
+    /// A kind that fits between two stations of the front, and where: of some drawn by their weights the one that
+    /// leaves least of the front unused.
+    fn choose(
+        &self,
+        site: &Site<'_>,
+        room: (f64, f64),
+        is_first: bool,
+        rng: &mut StreamRng,
+    ) -> Option<(&'static Archetype, Spot)> {
+        let mut best: Option<(f64, &'static Archetype, Spot)> = None;
+        if is_first {
+            let level = ((site.lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
+            let weights = &self.weights[site.lot.zone as usize * LEVELS + level];
+            for _ in 0..TRIES {
+                let drawn = rng.unit() * weights[ARCHETYPES.len() - 1];
+                let kind =
+                    &ARCHETYPES[weights.partition_point(|sum| *sum <= drawn).min(ARCHETYPES.len() - 1)];
+                let Some(spot) = self.fit(site, kind, room, rng) else { continue };
+                let unused = self.unused(room, spot);
+                if best.as_ref().is_none_or(|best| unused < best.0) {
+                    best = Some((unused, kind, spot));
+                }
+                if unused < TOLERATED {
+                    break;
+                }
+            }
+        }
+        if let Some((_, kind, spot)) = best {
+            return Some((kind, spot));
+        }
+        // Greedy filling: each kind gets its chance to be first, so that no filler dominates.
+        let first = rng.below(ARCHETYPES.len());
+        (0..ARCHETYPES.len()).find_map(|step| {
+            let kind = &ARCHETYPES[(first + step) % ARCHETYPES.len()];
+            let is_filler = is_filler(kind.place) && kind.weight(site.lot.zone, site.lot.density) > 0.0;
+            is_filler.then(|| self.fit(site, kind, room, rng)).flatten().map(|spot| (kind, spot))
+        })
+    }
+
+    /// How much of the room between two stations a spot leaves to nobody, m.
+    fn unused(&self, (start, end): (f64, f64), spot: Spot) -> f64 {
+        let right = end - (spot.x + spot.width) - self.config.gap;
+        // A neighbour takes what is left, but for what it leaves in turn.
+        if right >= LEAST { spot.x - start + 2.0 } else { end - start - spot.width }
+    }
+
+    /// Where a kind fits between two stations, as wide as it may be.
+    fn fit(
+        &self,
+        site: &Site<'_>,
+        kind: &Archetype,
+        (start, end): (f64, f64),
+        rng: &mut StreamRng,
+    ) -> Option<Spot> {
+        let deepest = (site.deep - self.config.setback - REAR).min(kind.depth.1);
+        if end - start < kind.width.0 || deepest < kind.depth.0 {
+            return None;
+        }
+        for depth in [rng.uniform(kind.depth.0, deepest), kind.depth.0] {
+            let Some((low, high)) = self.room(depth) else { continue };
+            let (low, high) = (low.max(start), high.min(end));
+            let room = high - low;
+            if room >= kind.width.0 {
+                let width = room.min(kind.width.1);
+                // What is too little for a neighbour is left on both sides.
+                let spare = room - width;
+                let x = if spare < LEAST + self.config.gap { low + spare * 0.5 } else { low };
+                return Some(Spot { x, width, depth });
+            }
+        }
+        None
+    }
+
+    /// The stations between which a rectangle of that depth lies within the lot, with half the gap to either side.
+    fn room(&self, depth: f64) -> Option<(f64, f64)> {
+        let front = self.span(self.config.setback)?;
+        let rear = self.span(self.config.setback + depth)?;
+        let margin = self.config.gap * 0.5 + CLEARANCE;
+        let (low, high) = (front.0.max(rear.0) + margin, front.1.min(rear.1) - margin);
+        (low < high).then_some((low, high))
+    }
+
+    /// From where to where the lot reaches at a distance from its front.
+    fn span(&self, y: f64) -> Option<(f64, f64)> {
+        let mut span: Option<(f64, f64)> = None;
+        let count = self.local.len();
+        for index in 0..count {
+            let (a, b) = (self.local[index], self.local[if index + 1 == count { 0 } else { index + 1 }]);
+            if (a.y > y) != (b.y > y) {
+                let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+                span = Some(span.map_or((x, x), |(low, high)| (low.min(x), high.max(x))));
+            }
+        }
+        span
+    }
+
+    fn raise(&mut self, site: &Site<'_>, archetype: &'static Archetype, spot: Spot, rng: &mut StreamRng) {
+        let near = self.config.setback;
+        let corners = site.corners(spot, near);
+        let span = (archetype.storeys.1 - archetype.storeys.0 + 1) as usize;
+        let storeys = archetype.storeys.0 + rng.below(span) as u32;
+        let plan = archetype.plans[rng.below(archetype.plans.len())];
+        let footprint = Footprint::fitted(plan, spot.width, spot.depth, storeys, rng);
+        let roof = archetype.roofs[rng.below(archetype.roofs.len())];
+        let middle = spot.x + spot.width * 0.5;
+        let door = site.at(middle, 0.0);
+        let lot = site.lot;
+        let building = Building {
+            archetype,
+            place: archetype.place,
+            name: None,
+            center: site.at(middle, near + spot.depth * 0.5),
+            facing: site.facing,
+            width: spot.width,
+            depth: spot.depth,
+            footprint,
+            storeys,
+            roof,
+            zone: lot.zone,
+            access: self
+                .network
+                .sidewalk(site.road, site.side)
+                .map_or(door, |walk| nearest(&walk.path, door)),
+            road: site.road,
+            side: site.side,
+        };
+        let frontage = self.frontage(lot, &corners);
+        self.plans.push(Plan { building, corners, frontage });
+    }
+
+    /// Length of the streets of a lot along which a building stands, m: at its front and, on a corner, beside it.
+    fn frontage(&self, lot: &Lot, corners: &[Point2; 4]) -> f64 {
+        let (outline, borders) = (self.land.outline(lot), self.land.borders(lot));
+        let farthest = self.config.setback + AT_STREET;
+        let mut sum = 0.0;
+        for (index, border) in borders.iter().enumerate() {
+            if !border.is_street() {
+                continue;
+            }
+            let start = outline[index];
+            let edge = outline[(index + 1) % outline.len()] - start;
+            let length = edge.norm();
+            let (mut near, mut low, mut high) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
+            for corner in corners {
+                let to = corner - start;
+                near = near.min(edge.perp(&to) / length);
+                let station = to.dot(&edge) / length;
+                (low, high) = (low.min(station), high.max(station));
+            }
+            if near <= farthest {
+                sum += (high.min(length) - low.max(0.0)).max(0.0);
+            }
+        }
+        sum
+    }
+}
+
+/// The point of a path nearest to another.
+fn nearest(path: &[Point2], point: Point2) -> Point2 {
+    let mut best = (f64::INFINITY, point);
+    for pair in path.windows(2) {
+        let step = pair[1] - pair[0];
+        let squared = step.norm_squared();
+        let share =
+            if squared > 0.0 { ((point - pair[0]).dot(&step) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        let at = pair[0] + step * share;
+        let distance = (point - at).norm_squared();
+        if distance < best.0 {
+            best = (distance, at);
+        }
+    }
+    best.1
+}
+
+/// Whether a gap may be filled with such a place; large institutions are sampled, never fillers.
+const fn is_filler(place: Place) -> bool {
+    matches!(
+        place,
+        Place::Home | Place::Store | Place::Restaurant | Place::Office | Place::RestArea | Place::Factory
+    )
+}

@@ -1,0 +1,59 @@
+//! What people need: the places that every city has, and their names.
+
+use simworld_core::scene::Place;
+use simworld_core::seed::StreamRng;
+
+use super::Building;
+use super::names::Names;
+
+/// The places that every city of some size has: one of each for so many buildings, and at least so many.
+const NEEDED: [(Place, usize, usize); 9] = [
+    (Place::Home, 3, 8),
+    (Place::Restaurant, 9, 3),
+    (Place::Store, 20, 2),
+    (Place::ChargingStation, 60, 1),
+    (Place::RestArea, 60, 1),
+    (Place::Hospital, 200, 1),
+    (Place::Museum, 200, 1),
+    (Place::School, 150, 1),
+    (Place::Office, 30, 1),
+];
+
+/// Gives other uses to some buildings where sampling left a needed place out: people live above shops, and a surgery
+/// opens in a villa. Always the use of which there is most to spare gives way.
+pub(super) fn ensure(buildings: &mut [Building], rng: &mut StreamRng) {
+    let total = buildings.len();
+    let needed = |place: Place| {
+        let rule = NEEDED.iter().find(|(other, _, _)| *other == place);
+        rule.map_or(0, |(_, one_in, least)| (total / one_in).max(*least))
+    };
+    for (place, _, _) in NEEDED {
+        let count = |place: Place| buildings.iter().filter(|building| building.place == place).count();
+        let missing = needed(place).saturating_sub(count(place));
+        if missing == 0 {
+            continue;
+        }
+        let spare = |other: Place| count(other).saturating_sub(needed(other));
+        let Some((most, donor)) = Place::ALL
+            .iter()
+            .filter(|other| **other != place)
+            .map(|other| (spare(*other), *other))
+            .reduce(|best, next| if next.0 > best.0 { next } else { best })
+        else {
+            continue;
+        };
+        let mut donors: Vec<usize> = (0..total).filter(|index| buildings[*index].place == donor).collect();
+        rng.shuffle(&mut donors);
+        for index in donors.into_iter().take(missing.min(most)) {
+            buildings[index].place = place;
+        }
+    }
+}
+
+/// Names every place that bears a name.
+pub(super) fn name(buildings: &mut [Building], rng: &mut StreamRng) {
+    let mut names = Names::new(rng);
+    for building in buildings {
+        building.name = names.next(building.place);
+    }
+}
