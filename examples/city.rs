@@ -1,32 +1,89 @@
-//! Citygen alone: a grown city, its map and its statistics.
+//! Citygen alone: a city, its statistics, its map to print, and files for other programs.
 //!
 //! ```sh
-//! cargo run --release --example city -- --roads 200 --out city.svg
+//! cargo run --release --example city
+//! cargo run --release --example city -- --size 3km --seed 7 --out city/
 //! ```
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
-use clap::Parser;
+use clap::{Parser, ValueEnum};
+use indicatif::{HumanBytes, ProgressBar, ProgressStyle};
+use simworld_citygen::map::MapDrawing;
 use simworld_citygen::{City, CityConfig};
 use simworld_core::seed::Seed;
+use simworld_examples::city::{Format, Interrupt, Size, Source, export, make};
 
-/// Grows a city and draws its map.
+/// Makes a city and writes it down: its statistics to the terminal, maps and files to a folder.
+///
+/// The same settings and seed give the same files, byte for byte. Ctrl-C stops; no file is left half-written.
 #[derive(Parser)]
+#[command(version)]
 struct Arguments {
     /// Seed of the city.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 7)]
     seed: u64,
-    /// Number of street segments.
-    #[arg(long, default_value_t = 40)]
-    roads: u32,
-    /// The map to write.
-    #[arg(long, default_value = "out/city.svg")]
+    /// How far the city reaches from one side to the other, such as 800m or 3km.
+    #[arg(long, default_value = "1.5km")]
+    size: Size,
+    /// Roads from a `roads.json` of the Python release instead of grown ones.
+    #[arg(long, value_name = "ROADS.json", group = "source")]
+    roads: Option<PathBuf>,
+    /// A saved city, to write it down anew.
+    #[arg(long, value_name = "FILE.simcity", group = "source")]
+    city: Option<PathBuf>,
+    /// The folder to write to; files of a city there are replaced.
+    #[arg(long, value_name = "DIR", default_value = "out/city")]
     out: PathBuf,
-    /// Also writes the streets as a roads.json of the Python release.
-    #[arg(long, value_name = "ROADS.json")]
-    roads_file: Option<PathBuf>,
+    /// What to write, separated by commas.
+    #[arg(long, value_delimiter = ',', default_value = "svg,png,glb,saved")]
+    formats: Vec<Kind>,
+    /// The title of the map.
+    #[arg(long)]
+    title: Option<String>,
+    /// Width of the PNG map, pixels, in [16, 20000].
+    #[arg(long, value_name = "PIXELS", default_value_t = 2400)]
+    png_width: u32,
 }
+
+/// What can be written.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// map.svg, to print.
+    Svg,
+    /// map.png, to look at.
+    Png,
+    /// city.glb, the city in 3D.
+    Glb,
+    /// city.simcity, the city without loss, for `--city` of this and other examples.
+    Saved,
+    /// city.geojson, for geographic programs.
+    Geojson,
+    /// python/, the layout files of the Python release.
+    Python,
+    /// All of these.
+    All,
+}
+
+impl Kind {
+    fn formats(self) -> Vec<Format> {
+        match self {
+            Self::Svg => vec![Format::Svg],
+            Self::Png => vec![Format::Png],
+            Self::Glb => vec![Format::Glb],
+            Self::Saved => vec![Format::Saved],
+            Self::Geojson => vec![Format::GeoJson],
+            Self::Python => vec![Format::Python],
+            Self::All => Format::ALL.to_vec(),
+        }
+    }
+}
+
+type Fault = Box<dyn std::error::Error>;
 
 fn main() -> ExitCode {
     match job(&Arguments::parse()) {
@@ -38,16 +95,76 @@ fn main() -> ExitCode {
     }
 }
 
-fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
-    let city = City::generate(&CityConfig::with_roads(arguments.roads), Seed(arguments.seed))?;
-    if let Some(folder) = arguments.out.parent() {
-        std::fs::create_dir_all(folder)?;
+fn job(arguments: &Arguments) -> Result<(), Fault> {
+    let (interrupt, writing) = stop_on_interrupt()?;
+    let bar =
+        ProgressBar::new_spinner().with_style(ProgressStyle::with_template("{spinner} {msg} {elapsed}")?);
+    bar.enable_steady_tick(Duration::from_millis(100));
+
+    bar.set_message("making the city");
+    let made = make(&source(arguments), Seed(arguments.seed))?;
+    let mut city = made.city;
+    if arguments.title.is_some() {
+        city.provenance.title.clone_from(&arguments.title);
     }
-    std::fs::write(&arguments.out, city.svg())?;
-    if let Some(path) = &arguments.roads_file {
-        std::fs::write(path, simworld_citygen::python::write(&city.roads_file()))?;
+    bar.suspend(|| tell(&city, &made.warnings));
+
+    writing.store(true, Ordering::Relaxed);
+    let map = MapDrawing::of(&city).to_string();
+    let mut formats: Vec<Format> = arguments.formats.iter().flat_map(|kind| kind.formats()).collect();
+    formats.sort_unstable();
+    formats.dedup();
+    for format in formats {
+        bar.set_message(format!("writing {}", format.files()[0]));
+        let written = export(&city, format, &map, arguments.png_width, &arguments.out, &interrupt)?;
+        bar.suspend(|| {
+            for file in written {
+                println!("{:>10}  {}", HumanBytes(file.bytes).to_string(), file.path.display());
+            }
+        });
     }
-    println!("{}", city.report());
-    println!("drawn to {}", arguments.out.display());
+    bar.finish_and_clear();
     Ok(())
+}
+
+/// Before the first file is begun, Ctrl-C ends the program; after that it leaves out the file that is being written.
+fn stop_on_interrupt() -> Result<(Interrupt, Arc<AtomicBool>), ctrlc::Error> {
+    let (interrupt, writing) = (Interrupt::default(), Arc::new(AtomicBool::new(false)));
+    let (asked, has_begun) = (interrupt.clone(), Arc::clone(&writing));
+    ctrlc::set_handler(move || {
+        if !has_begun.load(Ordering::Relaxed) {
+            // The shell's number for a program ended by Ctrl-C.
+            std::process::exit(130);
+        }
+        asked.ask();
+    })?;
+    Ok((interrupt, writing))
+}
+
+fn source(arguments: &Arguments) -> Source {
+    match (&arguments.city, &arguments.roads) {
+        (Some(path), _) => Source::Saved(path.clone()),
+        (None, Some(path)) => Source::Roads(path.clone()),
+        (None, None) => Source::Grown(Box::new(configure(arguments.size))),
+    }
+}
+
+/// So many street segments that they fill a disc of that size.
+fn configure(size: Size) -> CityConfig {
+    /// Segments a square kilometre of grown city.
+    const DENSITY: f64 = 190.0;
+    let kilometres = size.metres / 1000.0;
+    let disc = std::f64::consts::FRAC_PI_4 * kilometres * kilometres;
+    CityConfig::with_roads((disc * DENSITY).round().max(4.0) as u32)
+}
+
+fn tell(city: &City, warnings: &[String]) {
+    const SHOWN: usize = 10;
+    for warning in warnings.iter().take(SHOWN) {
+        eprintln!("warning: {warning}");
+    }
+    if warnings.len() > SHOWN {
+        eprintln!("warning: and {} more", warnings.len() - SHOWN);
+    }
+    println!("{}\n", city.report());
 }

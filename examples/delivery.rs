@@ -45,6 +45,9 @@ struct Arguments {
     /// Roads from a `roads.json` of the Python release instead of grown ones.
     #[arg(long, value_name = "ROADS.json")]
     roads: Option<PathBuf>,
+    /// A city saved by the `city` example instead of a grown one.
+    #[arg(long, value_name = "FILE.simcity", conflicts_with = "roads")]
+    city: Option<PathBuf>,
     /// The folder to write to; it must be new or empty [default: the first free out/delivery-N].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -114,6 +117,9 @@ fn configure(arguments: &Arguments) -> Result<RunConfig, Fault> {
     set(&mut config.frames, arguments.frames.as_ref());
     if arguments.roads.is_some() {
         config.roads.clone_from(&arguments.roads);
+    }
+    if arguments.city.is_some() {
+        config.city_file.clone_from(&arguments.city);
     }
     config.validate()?;
     Ok(config)

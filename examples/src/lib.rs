@@ -1,8 +1,10 @@
-//! Where the crates meet: the delivery run, assembled from citygen, traffic, physics, render and agents.
+//! Where the crates meet: the delivery run, assembled from citygen, traffic, physics, render and agents; and what the
+//! city example does behind its command line.
 //!
 //! The crates know only simworld-core; this package is unpublished and exists so that the examples and the
 //! workspace's tests put the parts together in the same way.
 
 #![forbid(unsafe_code)]
 
+pub mod city;
 pub mod delivery;

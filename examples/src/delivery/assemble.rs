@@ -7,6 +7,7 @@ use simworld_agents::delivery::{DeliveryConfig, DeliveryTask, Persona};
 use simworld_agents::episode::{Agent, Episode, EpisodeError};
 use simworld_agents::executor::RuleExecutor;
 use simworld_agents::language::GrammarPlanner;
+use simworld_citygen::files::save::SaveError;
 use simworld_citygen::python::{FormatError, Warning, read_roads};
 use simworld_citygen::{City, CityError};
 use simworld_core::geometry::{Point3, pose_facing};
@@ -41,6 +42,14 @@ pub enum AssembleError {
         path: PathBuf,
         /// Why.
         source: FormatError,
+    },
+    /// The saved city cannot be loaded.
+    #[error("{path}: {source}")]
+    Saved {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: SaveError,
     },
     /// No city.
     #[error(transparent)]
@@ -81,6 +90,10 @@ pub struct Assembly {
 /// # Errors
 /// The file of roads cannot be used, or a setting is out of range.
 pub fn make_city(config: &RunConfig) -> Result<(City, Vec<Warning>), AssembleError> {
+    if let Some(path) = &config.city_file {
+        let city = City::load(path).map_err(|source| AssembleError::Saved { path: path.clone(), source })?;
+        return Ok((city, Vec::new()));
+    }
     let seed = Seed(config.seed).stream("city").seed();
     let Some(path) = &config.roads else { return Ok((City::generate(&config.city, seed)?, Vec::new())) };
     let bytes =

@@ -35,6 +35,8 @@ pub struct RunConfig {
     pub policies: Vec<PolicyKind>,
     /// A `roads.json` of the Python release to use instead of grown roads.
     pub roads: Option<PathBuf>,
+    /// A saved city to use instead of a grown one; it comes before roads and settings of a city.
+    pub city_file: Option<PathBuf>,
     /// The city.
     pub city: CityConfig,
     /// The traffic; its numbers of vehicles and pedestrians are those above.
@@ -59,6 +61,7 @@ impl Default for RunConfig {
             digest_interval: 10,
             policies: PolicyKind::ALL.to_vec(),
             roads: None,
+            city_file: None,
             city: CityConfig::default(),
             traffic: TrafficConfig::default(),
             physics: PhysicsConfig::default(),

@@ -1,0 +1,87 @@
+//! Where a city comes from: grown, read from a file of roads, or loaded as it was saved.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use simworld_citygen::files::save::SaveError;
+use simworld_citygen::python::{FormatError, read_roads};
+use simworld_citygen::{City, CityConfig, CityError};
+use simworld_core::seed::Seed;
+use thiserror::Error;
+
+/// Where a city comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// Grown from its seed.
+    Grown(Box<CityConfig>),
+    /// Built on the roads of a `roads.json` of the Python release.
+    Roads(PathBuf),
+    /// Loaded as it was saved.
+    Saved(PathBuf),
+}
+
+/// A city, and what had to be mended in its file.
+pub struct Made {
+    /// The city.
+    pub city: City,
+    /// One line each.
+    pub warnings: Vec<String>,
+}
+
+/// Why there is no city.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// A file that cannot be opened.
+    #[error("{path}: {source}")]
+    Open {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file of roads that cannot be used.
+    #[error("{path}: {source}")]
+    Roads {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: FormatError,
+    },
+    /// A saved city that cannot be loaded.
+    #[error("{path}: {source}")]
+    Saved {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: SaveError,
+    },
+    /// A city that cannot be.
+    #[error(transparent)]
+    City(#[from] CityError),
+}
+
+/// Makes or loads the city.
+///
+/// # Errors
+/// A file that cannot be used, or a setting out of range.
+pub fn make(source: &Source, seed: Seed) -> Result<Made, SourceError> {
+    match source {
+        Source::Grown(config) => Ok(Made { city: City::generate(config, seed)?, warnings: Vec::new() }),
+        Source::Roads(path) => {
+            let (plan, warnings) = read_roads(&read(path)?)
+                .map_err(|source| SourceError::Roads { path: path.clone(), source })?;
+            let city = City::from_plan(plan, &CityConfig::default(), seed)?;
+            Ok(Made { city, warnings: warnings.iter().map(ToString::to_string).collect() })
+        }
+        Source::Saved(path) => {
+            let city =
+                City::load(path).map_err(|source| SourceError::Saved { path: path.clone(), source })?;
+            Ok(Made { city, warnings: Vec::new() })
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, SourceError> {
+    fs::read(path).map_err(|source| SourceError::Open { path: path.to_owned(), source })
+}
