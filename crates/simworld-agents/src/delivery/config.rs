@@ -67,7 +67,7 @@ pub struct OrderConfig {
     pub per_customer_hour: f64,
     /// The share of that rate which is in force, in [0, 1]. Paper: 0.9 in the competition; else open, 0.5 chosen.
     pub hunger_rate: f64,
-    /// Orders that are open at the start, in [0, 10 000]. Chosen so that nobody begins idle.
+    /// Orders that are open at the start, in [0, 10 000]. Chosen as many as there are couriers, so that nobody begins idle.
     pub initial: u32,
     /// Ceiling price before distance, cents, in [0, 10⁷]. Ancestor: prices uniform in $15 to $25.
     pub base: Cents,
@@ -78,7 +78,8 @@ pub struct OrderConfig {
     /// Greatest factor on the ceiling, in [`least_factor`, 100]. Sibling: 1.35.
     pub greatest_factor: f64,
     /// A customer orders from a restaurant within this distance if there is one, and else from the nearest, m, in
-    /// [1, 10⁶]. Chosen so that two orders are a walk of about 500 m each, which the paper's counts imply.
+    /// [1, 10⁶]. Chosen so that an order is a walk of about 500 m, the way to the restaurant included, as the paper's
+    /// counts imply.
     pub radius: f64,
     /// Time allowed for an order over that of walking from where it was won through the restaurant to the home,
     /// in [0.1, 100]. Ancestor: 1.25.
@@ -97,12 +98,12 @@ impl Default for OrderConfig {
             customers: 120,
             per_customer_hour: 7.0,
             hunger_rate: 0.5,
-            initial: 10,
+            initial: 20,
             base: Cents(1000),
             per_kilometre: Cents(1000),
             least_factor: 0.75,
             greatest_factor: 1.35,
-            radius: 500.0,
+            radius: 400.0,
             allowance: 1.25,
             allowance_speed: 1.6,
             late_per_second: Cents(30),

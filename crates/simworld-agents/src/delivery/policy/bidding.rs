@@ -5,6 +5,7 @@ use simworld_core::ops;
 use simworld_core::seed::StreamRng;
 
 use super::PolicyKind;
+use super::pace::{backlog, pending, time_for, working_speed};
 use crate::delivery::{BidResult, Cents, CourierView, OpenOrder};
 
 /// What a second is worth to a courier, $: chosen so that cost-plus bids lie well under the usual ceiling.
@@ -70,12 +71,18 @@ fn nearest_arm(share: f64) -> usize {
     (0..ARMS.len()).min_by(|a, b| gap(a).total_cmp(&gap(b))).unwrap_or(0)
 }
 
-/// What a job costs a courier in time and energy, $.
+/// What a job costs a courier in time, energy and lateness, $.
+///
+/// Who holds orders already comes to this one later, and pays for that what the customer deducts.
 fn cost(view: &CourierView<'_>, order: &OpenOrder) -> f64 {
-    let (length, speed) = (order.approach + order.route, view.speed().max(0.1));
-    let energy = length * view.config().energy.per_metre(speed, view.is_riding());
+    let length = order.approach + order.route;
+    let energy = length * view.config().energy.per_metre(working_speed(view), view.is_riding());
     let drinks = energy / view.config().prices.drink_energy;
-    WAGE * length / speed + DRUNK_SHARE * drinks * view.drink_price().dollars()
+    let orders = &view.config().orders;
+    let late = time_for(view, backlog(view) + length) - orders.allowance * length / orders.allowance_speed;
+    let deducted = (late.max(0.0) * orders.late_per_second.dollars())
+        .min((1.0 - orders.late_floor) * order.ceiling.dollars());
+    WAGE * time_for(view, length) + DRUNK_SHARE * drinks * view.drink_price().dollars() + deducted
 }
 
 /// Chooses an order to bid for and a price, before the persona has its say.
@@ -85,10 +92,13 @@ pub(super) fn choose(
     view: &CourierView<'_>,
     rng: &mut StreamRng,
 ) -> Option<(OpenOrder, f64)> {
-    let left = view.time_left();
-    let in_time =
-        |order: &OpenOrder| order.closes_in + (order.approach + order.route) / view.speed().max(0.1) <= left;
-    let open = view.open_orders().filter(|order| order.own_bid.is_none() && in_time(order));
+    let (left, backlog) = (view.time_left(), backlog(view) + pending(view));
+    // What cannot be finished, or brings less than it costs, is left to others.
+    let worth_it = |order: &OpenOrder| {
+        let work = time_for(view, backlog + order.approach + order.route);
+        order.closes_in + work <= left && cost(view, order) < order.ceiling.dollars()
+    };
+    let open = view.open_orders().filter(|order| order.own_bid.is_none() && worth_it(order));
     let length = |order: &OpenOrder| order.approach + order.route;
     let order = match kind {
         PolicyKind::NearestOnly => {

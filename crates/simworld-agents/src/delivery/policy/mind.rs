@@ -7,6 +7,7 @@ use simworld_core::scene::Scene;
 use simworld_core::seed::{Stream, StreamRng};
 
 use super::bidding::{Learner, admissible, choose};
+use super::pace::{backlog, brisk, time_for, usual_pay, usual_time};
 use super::{Persona, PolicyKind};
 use crate::delivery::{Cents, CourierAction, CourierView, DeliveryTask, Errand, HeldOrder};
 use crate::mind::{Mind, MindError};
@@ -75,16 +76,14 @@ impl CourierMind {
             .unwrap_or(CourierAction::DoNothing)
     }
 
-    /// A scooter pays if what it saves in the time left is worth more than it costs: the time that orders take
-    /// shrinks by the ratio of speeds, and each order brings about the usual ceiling.
+    /// A scooter pays if the orders that it lets one deliver in the time left bring more than it costs.
     fn invest(&self, view: &CourierView<'_>) -> Option<CourierAction> {
         if view.has_scooter() || view.purse() < view.scooter_price() {
             return None;
         }
-        let (speed, orders) = (&view.config().speed, &view.config().orders);
-        let usual = orders.base.dollars() + orders.per_kilometre.dollars() * orders.radius / 1000.0;
-        let each = |speed: f64| 1.5 * orders.radius / speed;
-        let gained = view.time_left() * (1.0 / each(speed.riding) - 1.0 / each(view.speed())) * usual * 0.7;
+        let riding = usual_time(view, view.config().speed.riding);
+        let gained =
+            view.time_left() * (1.0 / riding - 1.0 / usual_time(view, brisk(view))) * usual_pay(view);
         let pays = gained > view.scooter_price().dollars() * self.persona.caution();
         pays.then_some(CourierAction::PurchaseScooter)
     }
@@ -156,34 +155,39 @@ fn work(view: &CourierView<'_>) -> Option<CourierAction> {
     })
 }
 
-/// Drinks when low on energy and able to pay.
+/// Drinks when what is left of the energy does not carry the work in hand to its end; whoever is free rests instead.
 fn drink(view: &CourierView<'_>) -> Option<CourierAction> {
-    let low = view.is_exhausted() || (view.energy() < view.config().energy.low && !view.is_riding());
-    let useful = view.energy() < view.config().energy.capacity;
-    let idle = view.held_orders().next().is_none() && !view.is_exhausted();
-    (low && useful && !idle && view.purse() >= view.drink_price()).then_some(CourierAction::PurchaseDrinks)
+    let energy = &view.config().energy;
+    let needed = backlog(view) * energy.per_metre(view.speed(), view.is_riding());
+    let low = view.is_exhausted() || view.energy() < (0.5 * energy.low).min(needed);
+    let room = energy.capacity - view.energy() >= view.config().prices.drink_energy * 0.5;
+    let works = view.held_orders().next().is_some();
+    let can_pay = view.purse() >= view.drink_price();
+    (low && room && works && can_pay).then_some(CourierAction::PurchaseDrinks)
 }
 
-/// Walks faster when late, and comfortably again with time in hand.
+/// Walks briskly with work in hand, as fast as may be when late, and comfortably when tired or free.
 fn hurry(view: &CourierView<'_>) -> Option<CourierAction> {
+    /// Speeds nearer to each other than this are the same to a walker, m/s.
+    const NOTICED: f64 = 0.25;
     if view.is_riding() {
         return None;
     }
     let limits = &view.config().speed;
-    let short = |held: &HeldOrder| {
-        let left = held.distance * 1.2 + if held.carried { 0.0 } else { held.route };
-        left / view.speed() > held.due_in
+    let late = |held: HeldOrder| {
+        let left = held.distance + if held.carried { 0.0 } else { held.route };
+        time_for(view, left) > held.due_in && held.due_in > -60.0
     };
-    let late = view.held_orders().any(|held| short(&held));
-    let wanted = if late && view.energy() > view.config().energy.low {
-        (limits.walking * 1.4).min(limits.fastest)
-    } else if late {
-        return None;
-    } else {
-        limits.walking
+    let tired = view.energy() < view.config().energy.low && view.purse() < view.drink_price();
+    let wanted = match view.held_orders().next() {
+        Some(_) if tired => limits.walking,
+        Some(_) if view.held_orders().any(late) => limits.fastest,
+        Some(_) => brisk(view),
+        None => limits.walking,
     };
-    let slack = if wanted < view.speed() { view.held_orders().all(|held| held.due_in > 60.0) } else { true };
-    (slack && (wanted - view.speed()).abs() > 0.05).then_some(CourierAction::AdjustSpeed { speed: wanted })
+    // Nobody slows down by little who may have to hurry again soon.
+    let noticed = if wanted < view.speed() { 2.0 * NOTICED } else { NOTICED };
+    ((wanted - view.speed()).abs() > noticed).then_some(CourierAction::AdjustSpeed { speed: wanted })
 }
 
 impl Mind<DeliveryTask> for CourierMind {

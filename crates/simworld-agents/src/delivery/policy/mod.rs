@@ -5,6 +5,7 @@
 
 mod bidding;
 mod mind;
+mod pace;
 mod persona;
 
 use serde::{Deserialize, Serialize};

@@ -73,10 +73,10 @@ impl Persona {
 
     /// Probability of offering an order, or of taking an offer, at one thought.
     pub(super) fn sharing(&self) -> f64 {
-        (0.02 + 0.03 * self.agreeableness + 0.02 * self.extraversion).max(0.0)
+        (0.004 + 0.006 * self.agreeableness + 0.004 * self.extraversion).max(0.0)
     }
 
-    /// How much an investment must promise over its price; lower for the bold.
+    /// How much an investment must promise, as a multiple of its price; less for the bold.
     pub(super) fn caution(&self) -> f64 {
         (1.0 + 0.4 * self.neuroticism - 0.8 * self.openness).max(0.2)
     }

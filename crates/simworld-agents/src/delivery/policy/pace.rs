@@ -1,0 +1,59 @@
+//! What time is worth to a courier, how fast it walks for it, and whether work can be done in time.
+
+use simworld_core::ops;
+
+use crate::delivery::{CourierView, HeldOrder};
+
+/// Share of its length, measured straight or along sidewalks, by which a walk takes longer than at full speed: waits at
+/// crossings, ways round corners. Measured on the default city: couriers cover 0.7 to 0.85 of it.
+const HINDRANCE: f64 = 1.25;
+/// Share of a ceiling that an order usually brings; measured on the default city, where all twelve policies bid.
+const USUAL_SHARE: f64 = 0.55;
+
+/// What an order usually brings, $.
+pub(super) fn usual_pay(view: &CourierView<'_>) -> f64 {
+    let orders = &view.config().orders;
+    let ceiling = orders.base.dollars() + orders.per_kilometre.dollars() * orders.radius / 1000.0;
+    ceiling * (orders.least_factor + orders.greatest_factor) * 0.5 * USUAL_SHARE
+}
+
+/// What an order usually takes at a speed, s: the way to a restaurant and the way to a home.
+pub(super) fn usual_time(view: &CourierView<'_>, speed: f64) -> f64 {
+    1.5 * view.config().orders.radius * HINDRANCE / speed
+}
+
+/// The walking speed at which a metre costs least, time and energy together, m/s.
+///
+/// A second is worth `w` = usual pay / usual time, a metre at speed v costs w / v of time and k vᵍ of energy with the growth g;
+/// the sum is least at v = (w / (g k))^(1 / (g + 1)).
+pub(super) fn brisk(view: &CourierView<'_>) -> f64 {
+    let (limits, energy) = (&view.config().speed, &view.config().energy);
+    let unit = view.drink_price().dollars() / view.config().prices.drink_energy;
+    let growth = energy.growth.max(0.1);
+    let k = energy.walking * unit / ops::pow(energy.walking_speed, growth);
+    let worth = usual_pay(view) / usual_time(view, 0.5 * (limits.walking + limits.fastest));
+    let best = ops::pow(worth / (growth * k).max(1e-9), 1.0 / (growth + 1.0));
+    best.clamp(limits.walking, limits.fastest)
+}
+
+/// The speed at which a courier works, m/s.
+pub(super) fn working_speed(view: &CourierView<'_>) -> f64 {
+    if view.is_riding() { view.speed() } else { brisk(view) }
+}
+
+/// How long a way takes, s.
+pub(super) fn time_for(view: &CourierView<'_>, length: f64) -> f64 {
+    length * HINDRANCE / working_speed(view).max(0.1)
+}
+
+/// What is left to walk for the orders in hand, m.
+pub(super) fn backlog(view: &CourierView<'_>) -> f64 {
+    let left = |held: HeldOrder| held.distance + if held.carried { 0.0 } else { held.route };
+    view.held_orders().map(left).sum()
+}
+
+/// What there may be to walk for the orders that it has bid for, m.
+pub(super) fn pending(view: &CourierView<'_>) -> f64 {
+    let bid_for = view.open_orders().filter(|order| order.own_bid.is_some());
+    bid_for.map(|order| order.approach + order.route).sum()
+}
