@@ -3,4 +3,7 @@
 pub mod atomic;
 pub mod geojson;
 pub mod gltf;
+
 pub mod save;
+pub mod sumo;
+pub(crate) mod xml;

@@ -1,12 +1,12 @@
 //! The sheet: its size in millimetres, where the map lies on it, and how metres become millimetres.
 
-use std::borrow::Cow;
 use std::fmt::{self, Write};
 
 use simworld_core::geometry::Point2;
 
 use super::style::{FONT, INK, LAND, PAPER};
 use crate::City;
+pub(super) use crate::files::xml::escaped;
 
 /// Width of the sheet.
 const WIDTH: f64 = 420.0;
@@ -126,23 +126,4 @@ pub(super) fn path_data(points: impl Iterator<Item = (f64, f64)>) -> String {
         let _ = write!(data, "{letter}{x:.2} {y:.2}");
     }
     data
-}
-
-/// Text that may stand in XML.
-pub(super) fn escaped(text: &str) -> Cow<'_, str> {
-    if !text.contains(|c: char| matches!(c, '<' | '>' | '&' | '"') || c.is_control()) {
-        return Cow::Borrowed(text);
-    }
-    let mut safe = String::with_capacity(text.len() + 16);
-    for c in text.chars() {
-        match c {
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '&' => safe.push_str("&amp;"),
-            '"' => safe.push_str("&quot;"),
-            c if c.is_control() => safe.push(' '),
-            c => safe.push(c),
-        }
-    }
-    Cow::Owned(safe)
 }
