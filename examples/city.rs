@@ -63,6 +63,10 @@ enum Kind {
     Saved,
     /// city.geojson, for geographic programs.
     Geojson,
+    /// city.net.xml, the roads for SUMO.
+    Sumo,
+    /// city.xodr, the roads for driving simulators (OpenDRIVE 1.7).
+    Opendrive,
     /// python/, the layout files of the Python release.
     Python,
     /// All of these.
@@ -77,6 +81,8 @@ impl Kind {
             Self::Glb => vec![Format::Glb],
             Self::Saved => vec![Format::Saved],
             Self::Geojson => vec![Format::GeoJson],
+            Self::Sumo => vec![Format::Sumo],
+            Self::Opendrive => vec![Format::OpenDrive],
             Self::Python => vec![Format::Python],
             Self::All => Format::ALL.to_vec(),
         }

@@ -41,6 +41,10 @@ pub enum Format {
     Saved,
     /// For geographic programs.
     GeoJson,
+    /// The roads for SUMO.
+    Sumo,
+    /// The roads for driving simulators.
+    OpenDrive,
     /// The layout of the Python release.
     Python,
 }
@@ -57,6 +61,8 @@ impl Format {
             Self::Glb => &["city.glb"],
             Self::Saved => &["city.simcity"],
             Self::GeoJson => &["city.geojson"],
+            Self::Sumo => &["city.net.xml"],
+            Self::OpenDrive => &["city.xodr"],
             Self::Python => &["python/roads.json", "python/buildings.json", "python/elements.json"],
         }
     }
@@ -141,6 +147,8 @@ fn fill(city: &City, name: &str, map: &str, png_width: u32, out: &mut impl Write
         "city.glb" => city.write_glb(out)?,
         "city.simcity" => city.write_to(out)?,
         "city.geojson" => city.write_geojson(out)?,
+        "city.net.xml" => city.write_sumo(out)?,
+        "city.xodr" => city.write_opendrive(out)?,
         "python/roads.json" => json(out, &city.roads_file())?,
         "python/buildings.json" => json(out, &city.buildings_file())?,
         _ => json(out, &city.elements_file())?,

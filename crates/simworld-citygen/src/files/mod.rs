@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod geojson;
 pub mod gltf;
+pub mod opendrive;
 
 pub mod save;
 pub mod sumo;

@@ -40,13 +40,6 @@ impl Edges {
         Self { ranks }
     }
 
-    /// The edge of a lane.
-    pub(super) fn edge_of(&self, network: &RoadNetwork, lane: LaneId) -> String {
-        let road = network.lanes[lane.index()].road;
-        let along = network.roads[road.index()].forward.contains(&lane);
-        edge_name(road, if along { Direction::Along } else { Direction::Against })
-    }
-
     /// The index of a lane in its edge.
     pub(super) fn rank(&self, lane: LaneId) -> usize {
         self.ranks[lane.index()]
@@ -125,6 +118,13 @@ impl Edges {
         }
         writeln!(out, "</edge>")
     }
+}
+
+/// The edge of a lane.
+pub(super) fn edge_of(network: &RoadNetwork, lane: LaneId) -> String {
+    let road = network.lanes[lane.index()].road;
+    let along = network.roads[road.index()].forward.contains(&lane);
+    edge_name(road, if along { Direction::Along } else { Direction::Against })
 }
 
 /// `r7`, or `-r7` against the centreline.

@@ -7,7 +7,9 @@ use simworld_core::id::{ConnectionId, CrossingId, IntersectionId};
 use simworld_core::net::{Control, RoadNetwork, Turn, polyline};
 use simworld_core::ops;
 
-use super::edges::{Direction, Edges, WALK, as_line, edge_name, exists, leaving, opposite, sidewalk};
+use super::edges::{
+    Direction, Edges, WALK, as_line, edge_name, edge_of, exists, leaving, opposite, sidewalk,
+};
 use crate::files::xml::{Shape, Two};
 
 /// Lateral acceleration that netconvert allows in a turn, m/s² (its option `junctions.limit-turn-speed`).
@@ -229,7 +231,7 @@ impl Junction {
         let signals = network.intersections[self.id.index()].control == Control::Signals;
         for (link, id) in self.links.iter().enumerate() {
             let connection = &network.connections[id.index()];
-            let (from, to) = (edges.edge_of(network, connection.from), edges.edge_of(network, connection.to));
+            let (from, to) = (edge_of(network, connection.from), edge_of(network, connection.to));
             let (from_rank, to_rank) = (edges.rank(connection.from), edges.rank(connection.to));
             let dir = match connection.turn {
                 Turn::Straight => 's',

@@ -1,0 +1,190 @@
+//! Reference lines: straight pieces joined by arcs, and cubics across junctions.
+
+use std::io::{self, Write};
+
+use simworld_core::geometry::{Point2, Vector2, direction, heading};
+use simworld_core::net::polyline;
+use simworld_core::ops::{self, wrap_angle};
+
+/// Farthest from a corner at which its arc begins, m.
+const CUT: f64 = 6.0;
+/// Bends below this are no bends, radians.
+const STRAIGHT: f64 = 1e-6;
+
+/// One `geometry` element.
+pub(super) struct Piece {
+    start: Point2,
+    heading: f64,
+    length: f64,
+    kind: Kind,
+}
+
+enum Kind {
+    Line,
+    /// Curvature, 1/m, positive to the left.
+    Arc(f64),
+    /// Coefficients of p, p², p³ of u and of v, p in [0, 1].
+    Cubic([f64; 3], [f64; 3]),
+}
+
+/// A line with its corners rounded off.
+pub(super) fn rounded(line: &[Point2]) -> Vec<Piece> {
+    let mut points: Vec<Point2> = line.to_vec();
+    points.dedup_by(|a, b| (*a - *b).norm() < 1e-6);
+    let mut pieces = Vec::new();
+    let mut from = points.first().copied().unwrap_or_else(Point2::origin);
+    for corner in points.windows(3) {
+        let (before, after) = (corner[1] - corner[0], corner[2] - corner[1]);
+        let angle = wrap_angle(heading(&after) - heading(&before));
+        if angle.abs() < STRAIGHT {
+            continue;
+        }
+        // Both neighbours of a piece may take half of it.
+        let cut = CUT.min(before.norm() * 0.5).min(after.norm() * 0.5);
+        let start = corner[1] - before.normalize() * cut;
+        straight(&mut pieces, from, start);
+        let radius = cut / ops::tan(angle.abs() * 0.5);
+        let curvature = angle.signum() / radius;
+        pieces.push(Piece {
+            start,
+            heading: heading(&before),
+            length: angle.abs() * radius,
+            kind: Kind::Arc(curvature),
+        });
+        from = corner[1] + after.normalize() * cut;
+    }
+    if let Some(last) = points.last() {
+        straight(&mut pieces, from, *last);
+    }
+    pieces
+}
+
+fn straight(pieces: &mut Vec<Piece>, from: Point2, to: Point2) {
+    let step = to - from;
+    let length = step.norm();
+    if length > 1e-6 {
+        pieces.push(Piece { start: from, heading: heading(&step), length, kind: Kind::Line });
+    }
+}
+
+/// One cubic along a path that leaves and arrives in given directions, radians: of Hermite's cubics the one that passes
+/// nearest to the points of the path, by least squares over the lengths of its two tangents.
+pub(super) fn cubic(path: &[Point2], length: f64, (leaves, arrives): (f64, f64)) -> Piece {
+    let (start, end) = (polyline::at(path, 0.0).0, polyline::at(path, length).0);
+    let ahead = direction(leaves);
+    let local = |v: Vector2| Vector2::new(v.dot(&ahead), ahead.perp(&v));
+    let (chord, out) = (local(end - start), direction(arrives - leaves));
+    if chord.y.abs() < 1e-3 && wrap_angle(arrives - leaves).abs() < 1e-4 && chord.x > 0.0 {
+        return Piece { start, heading: leaves, length: chord.x, kind: Kind::Line };
+    }
+    let points: Vec<Vector2> = path.iter().map(|point| local(point - start)).collect();
+    let (first, last) = tangents(&points, chord, out, length);
+    let (first, last) = (Vector2::new(first, 0.0), out * last);
+    let second = chord * 3.0 - first * 2.0 - last;
+    let third = first + last - chord * 2.0;
+    let (u, v) = ([first.x, second.x, third.x], [first.y, second.y, third.y]);
+    Piece { start, heading: leaves, length: arc_length(u, v), kind: Kind::Cubic(u, v) }
+}
+
+/// Lengths of the tangents with which the cubic passes nearest to the points; the length of the path where that has no
+/// good answer.
+fn tangents(points: &[Vector2], chord: Vector2, out: Vector2, length: f64) -> (f64, f64) {
+    let (mut aa, mut ab, mut bb, mut ar, mut br) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    let mut station = 0.0;
+    for pair in points.windows(2) {
+        station += (pair[1] - pair[0]).norm();
+        let p = station / length;
+        // Hermite's base: the first tangent, the last tangent, the end.
+        let (a, b) = (Vector2::new(p * (1.0 - p) * (1.0 - p), 0.0), out * (p * p * (p - 1.0)));
+        let rest = pair[1] - chord * (p * p * (3.0 - 2.0 * p));
+        aa += a.dot(&a);
+        ab += a.dot(&b);
+        bb += b.dot(&b);
+        ar += a.dot(&rest);
+        br += b.dot(&rest);
+    }
+    let det = aa * bb - ab * ab;
+    let (first, last) = ((ar * bb - br * ab) / det, (br * aa - ar * ab) / det);
+    let is_good = |tangent: f64| (0.2..=3.0).contains(&(tangent / length));
+    if is_good(first) && is_good(last) { (first, last) } else { (length, length) }
+}
+
+/// Simpson's rule over the speed of the curve.
+fn arc_length(u: [f64; 3], v: [f64; 3]) -> f64 {
+    const STEPS: u32 = 64;
+    let slope = |c: [f64; 3], p: f64| c[0] + 2.0 * c[1] * p + 3.0 * c[2] * p * p;
+    let speed = |index: u32| {
+        let p = f64::from(index) / f64::from(STEPS);
+        let (du, dv) = (slope(u, p), slope(v, p));
+        (du * du + dv * dv).sqrt()
+    };
+    let sum: f64 = (0..=STEPS)
+        .map(|index| match index {
+            0 | STEPS => speed(index),
+            odd if odd % 2 == 1 => 4.0 * speed(index),
+            _ => 2.0 * speed(index),
+        })
+        .sum();
+    sum / (3.0 * f64::from(STEPS))
+}
+
+/// Length of a reference line, m.
+pub(super) fn length(pieces: &[Piece]) -> f64 {
+    pieces.iter().map(|piece| piece.length).sum()
+}
+
+pub(super) fn write(pieces: &[Piece], out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "<planView>")?;
+    let mut s = 0.0;
+    for piece in pieces {
+        let Piece { start, heading, length, kind } = piece;
+        write!(
+            out,
+            r#"<geometry s="{s:.6}" x="{:.6}" y="{:.6}" hdg="{heading:.9}" length="{length:.6}">"#,
+            start.x, start.y
+        )?;
+        match kind {
+            Kind::Line => write!(out, "<line/>")?,
+            Kind::Arc(curvature) => write!(out, r#"<arc curvature="{curvature:.9}"/>"#)?,
+            Kind::Cubic(u, v) => write!(
+                out,
+                r#"<paramPoly3 aU="0" bU="{:.9}" cU="{:.9}" dU="{:.9}" aV="0" bV="{:.9}" cV="{:.9}" dV="{:.9}" pRange="normalized"/>"#,
+                u[0], u[1], u[2], v[0], v[1], v[2]
+            )?,
+        }
+        writeln!(out, "</geometry>")?;
+        s += length;
+    }
+    writeln!(out, "</planView>")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_corner_becomes_an_arc_that_joins_smoothly() {
+        let corner = [Point2::new(0.0, 0.0), Point2::new(20.0, 0.0), Point2::new(20.0, 20.0)];
+        let pieces = rounded(&corner);
+        let lengths: Vec<f64> = pieces.iter().map(|piece| piece.length).collect();
+        assert_eq!(pieces.len(), 3);
+        // A right angle cut at 6 m has a radius of 6 m.
+        assert!((lengths[0] - 14.0).abs() < 1e-9 && (lengths[1] - 9.424_778).abs() < 1e-6);
+        assert!(matches!(pieces[1].kind, Kind::Arc(curvature) if (curvature - 1.0 / 6.0).abs() < 1e-9));
+        assert!((length(&pieces) - (28.0 + 9.424_778)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_quarter_turn_is_as_long_as_its_arc() {
+        let radius = 8.0;
+        let path: Vec<Point2> = (0..=90)
+            .map(|degree| {
+                let (sin, cos) = ops::sin_cos(f64::from(degree).to_radians());
+                Point2::new(radius * sin, radius * (1.0 - cos))
+            })
+            .collect();
+        let along = polyline::length(&path);
+        let piece = cubic(&path, along, (0.0, std::f64::consts::FRAC_PI_2));
+        assert!((piece.length - along).abs() < 0.05, "{} {along}", piece.length);
+    }
+}

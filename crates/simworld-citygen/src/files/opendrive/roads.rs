@@ -1,0 +1,104 @@
+//! Roads between intersections.
+
+use std::io::{self, Write};
+
+use simworld_core::net::{Road, RoadClass, RoadNetwork, polyline};
+
+use super::{Roads, geometry};
+use crate::files::xml::escaped;
+
+/// Where lanes begin and end along the centreline, m.
+pub(super) fn stops(network: &RoadNetwork, road: &Road) -> (f64, f64) {
+    let length = polyline::length(&road.centerline);
+    let lane =
+        road.forward.first().map(|lane| (lane, false)).or(road.backward.first().map(|lane| (lane, true)));
+    let Some((lane, reversed)) = lane else { return (0.0, length) };
+    let path = &network.lanes[lane.index()].path;
+    let station = |point: Option<&simworld_core::geometry::Point2>, otherwise: f64| {
+        point
+            .and_then(|point| polyline::closest(&road.centerline, point))
+            .map_or(otherwise, |near| near.station)
+    };
+    let (first, last) = (path.first(), path.last());
+    let (begin, end) = if reversed { (last, first) } else { (first, last) };
+    (station(begin, 0.0), station(end, length))
+}
+
+impl Roads<'_> {
+    pub(super) fn road(&self, index: usize, out: &mut impl Write) -> io::Result<()> {
+        let (road, layout) = (&self.network.roads[index], &self.layouts[index]);
+        let (begin, end) = self.stops[index];
+        let line = geometry::rounded(&polyline::slice(&road.centerline, begin, end));
+        let name = road.name.and_then(|name| self.network.names.get(name as usize));
+        writeln!(
+            out,
+            r#"<road name="{}" length="{:.6}" id="{index}" junction="-1" rule="{}">"#,
+            escaped(name.map_or("", String::as_str)),
+            geometry::length(&line),
+            layout.rule.as_str()
+        )?;
+        writeln!(out, "<link>")?;
+        for (element, place) in [("predecessor", road.from), ("successor", road.to)] {
+            if !self.network.intersections[place.index()].connections.is_empty() {
+                let junction = self.junction_number(place.index());
+                writeln!(out, r#"<{element} elementType="junction" elementId="{junction}"/>"#)?;
+            }
+        }
+        writeln!(out, "</link>")?;
+        let kind = if road.class == RoadClass::Highway { "motorway" } else { "town" };
+        let lanes = road.forward.iter().chain(&road.backward);
+        let limit = lanes.map(|lane| self.network.lanes[lane.index()].speed_limit).fold(0.0, f64::max);
+        writeln!(out, r#"<type s="0" type="{kind}"><speed max="{limit:.3}" unit="m/s"/></type>"#)?;
+        geometry::write(&line, out)?;
+        writeln!(out, r#"<elevationProfile><elevation s="0" a="0" b="0" c="0" d="0"/></elevationProfile>"#)?;
+        layout.write(out)?;
+        self.signals_of(index, geometry::length(&line), out)?;
+        writeln!(out, "</road>")
+    }
+
+    /// The path of one connection: a road of one lane about it.
+    pub(super) fn connecting_road(&self, index: usize, out: &mut impl Write) -> io::Result<()> {
+        let network = self.network;
+        let connection = &network.connections[index];
+        let (from, to) = (&network.lanes[connection.from.index()], &network.lanes[connection.to.index()]);
+        // It leaves as the one lane ends and arrives as the other begins.
+        let headings =
+            (polyline::at(&from.path, polyline::length(&from.path)).1, polyline::at(&to.path, 0.0).1);
+        let line = [geometry::cubic(&connection.path, connection.length, headings)];
+        let length = geometry::length(&line);
+        let rule = self.layouts[from.road.index()].rule.as_str();
+        writeln!(
+            out,
+            r#"<road name="" length="{length:.6}" id="{}" junction="{}" rule="{rule}">"#,
+            self.connecting(index),
+            self.junction_number(connection.intersection.index())
+        )?;
+        let contact = |along: bool| if along { ("end", "start") } else { ("start", "end") };
+        let goes_along = |lane: simworld_core::id::LaneId| {
+            network.roads[network.lanes[lane.index()].road.index()].forward.contains(&lane)
+        };
+        let (leaves, enters) = (contact(goes_along(connection.from)).0, contact(goes_along(connection.to)).1);
+        writeln!(
+            out,
+            r#"<link><predecessor elementType="road" elementId="{}" contactPoint="{leaves}"/><successor elementType="road" elementId="{}" contactPoint="{enters}"/></link>"#,
+            from.road.0, to.road.0
+        )?;
+        geometry::write(&line, out)?;
+        writeln!(out, r#"<elevationProfile><elevation s="0" a="0" b="0" c="0" d="0"/></elevationProfile>"#)?;
+        // One lane on the right of its left edge, about the path; its width goes from one lane's to the other's.
+        let slope = (to.width - from.width) / length.max(1e-6);
+        let number = |lane, road: simworld_core::id::RoadId| {
+            self.layouts[road.index()].of_lane(&network.roads[road.index()], lane)
+        };
+        writeln!(
+            out,
+            r#"<lanes><laneOffset s="0" a="{:.6}" b="{:.9}" c="0" d="0"/><laneSection s="0"><center><lane id="0" type="none" level="false"/></center><right><lane id="-1" type="driving" level="false"><link><predecessor id="{}"/><successor id="{}"/></link><width sOffset="0" a="{:.6}" b="{slope:.9}" c="0" d="0"/></lane></right></laneSection></lanes>"#,
+            from.width * 0.5,
+            slope * 0.5,
+            number(connection.from, from.road),
+            number(connection.to, to.road),
+            from.width
+        )?;
+        writeln!(out, "</road>")
+    }
+}
