@@ -47,7 +47,7 @@ impl GeoOrigin {
         (prime_vertical * cos * degree, meridian * degree)
     }
 
-    /// Longitude and latitude of a point of the plane, degrees, in the order of `GeoJSON`.
+    /// Longitude and latitude of a point of the plane, degrees, in the order of GeoJSON.
     pub fn to_geographic(&self, point: Point2) -> [f64; 2] {
         let (east, north) = self.metres_per_degree();
         [self.longitude + point.x / east, self.latitude + point.y / north]

@@ -1,4 +1,4 @@
-//! `GeoJSON` is read by another reader, holds everything, and lies where the city lies.
+//! GeoJSON is read by another reader, holds everything, and lies where the city lies.
 
 use std::collections::BTreeMap;
 

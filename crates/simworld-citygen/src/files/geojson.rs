@@ -1,6 +1,6 @@
-//! The city as `GeoJSON` (RFC 7946), a feature a line.
+//! The city as GeoJSON (RFC 7946), a feature a line.
 //!
-//! `GeoJSON` speaks of longitudes and latitudes alone. A city that lies somewhere on Earth is written so: give its
+//! GeoJSON speaks of longitudes and latitudes alone. A city that lies somewhere on Earth is written so: give its
 //! [`GeoOrigin`], or let [`City::write_geojson`] take the one of the city's provenance. A city that lies nowhere is
 //! written in its own metres, x east and y north, which RFC 7946 (section 4) allows between those who agree on it; the
 //! member `frame` of the collection says which of the two it is.
@@ -17,7 +17,7 @@ use simworld_core::net::RoadNetwork;
 use crate::{City, GeoOrigin};
 
 impl City {
-    /// Writes the city as `GeoJSON`: in longitude and latitude if its provenance says where it lies, in metres
+    /// Writes the city as GeoJSON: in longitude and latitude if its provenance says where it lies, in metres
     /// otherwise.
     ///
     /// ```
