@@ -9,9 +9,10 @@ use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
 use simworld_core::seed::Seed;
 
 use crate::building::{self, Building};
-use crate::element::{self, Element};
+use crate::element::{self, Element, Setting};
 use crate::lot::Land;
-use crate::strips::{self, lane_reach, strip};
+use crate::occupancy::Occupancy;
+use crate::strips::{lane_reach, strip};
 use crate::zoning::Zoning;
 use crate::{CityConfig, CityError, CityReport, Provenance, growth};
 
@@ -87,11 +88,18 @@ impl City {
     pub fn from_plan(plan: StreetPlan, config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
         config.validate()?;
         let network = RoadNetwork::derive(&plan, &config.network)?;
-        let mut taken = strips::road_land(&network);
+        let mut taken = Occupancy::of_roads(&network);
         let zoning = Zoning::new(&config.zoning, seed);
         let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
         let built = building::build(&network, &land, &config.buildings, seed, &mut taken);
-        let elements = element::furnish(&network, &config.elements, seed, &mut taken);
+        let setting = Setting {
+            plan: &plan,
+            network: &network,
+            zoning: &zoning,
+            land: &land,
+            buildings: &built.buildings,
+        };
+        let elements = element::furnish(&setting, &config.elements, seed, &mut taken);
         Ok(Self {
             config: config.clone(),
             provenance: Provenance::of_seed(seed),
@@ -114,7 +122,7 @@ impl City {
     pub fn land(&self) -> Land {
         let seed = self.provenance.seed;
         let zoning = Zoning::new(&self.config.zoning, seed);
-        Land::of_network(&self.network, &zoning, &self.config.lots, seed, &strips::road_land(&self.network))
+        Land::of_network(&self.network, &zoning, &self.config.lots, seed, &Occupancy::of_roads(&self.network))
     }
 
     /// The statistics of the city.

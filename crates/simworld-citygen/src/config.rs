@@ -92,11 +92,15 @@ pub struct ElementConfig {
     pub lamps: f64,
     /// Benches, bins, mailboxes, hydrants, signs and the like per metre, in [0, 1].
     pub furniture: f64,
+    /// Share of the parking spaces that are taken, in [0, 1].
+    pub parked: f64,
+    /// Trees per square metre of parks and courtyards, in [0, 0.1].
+    pub green_trees: f64,
 }
 
 impl Default for ElementConfig {
     fn default() -> Self {
-        Self { trees: 0.06, lamps: 0.03, furniture: 0.04 }
+        Self { trees: 0.06, lamps: 0.03, furniture: 0.04, parked: 0.6, green_trees: 0.007 }
     }
 }
 
@@ -151,6 +155,8 @@ impl CityConfig {
             ("elements.trees", elements.trees, 0.0, 1.0, "0 to 1 per m"),
             ("elements.lamps", elements.lamps, 0.0, 1.0, "0 to 1 per m"),
             ("elements.furniture", elements.furniture, 0.0, 1.0, "0 to 1 per m"),
+            ("elements.parked", elements.parked, 0.0, 1.0, "0 to 1"),
+            ("elements.green_trees", elements.green_trees, 0.0, 0.1, "0 to 0.1 per m²"),
         ];
         check(&checks)?;
         zoning.validate()?;

@@ -129,15 +129,17 @@ impl Building {
     }
 }
 
-/// What was built, and how much of the frontage it took, m.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Built {
-    pub(crate) buildings: Vec<Building>,
-    pub(crate) frontage_used: f64,
+/// What was built.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Built {
+    /// The buildings, lot by lot.
+    pub buildings: Vec<Building>,
+    /// Length of the frontage along which they stand, m.
+    pub frontage_used: f64,
 }
 
 /// Builds on all lots. `taken` holds the land of the roads and receives the buildings.
-pub(crate) fn build(
+pub fn build(
     network: &RoadNetwork,
     land: &Land,
     config: &BuildingConfig,

@@ -5,6 +5,8 @@
 //! plane lies near in memory. Cells that share a slot are far apart; their outlines are sorted out by their bounds.
 //! The narrow phase is the separating-axis test on the outlines themselves.
 
+mod roads;
+
 use simworld_core::geometry::{Obb, Point2, Vector2};
 
 /// Width of a grid cell, m: about two houses.

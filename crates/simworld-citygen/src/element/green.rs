@@ -1,0 +1,73 @@
+//! Trees in parks and courtyards: on a jittered lattice, clear of the edges.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::scene::EntityKind;
+use simworld_core::seed::Stream;
+
+use super::kinds::shape_of;
+use super::{Element, Setting};
+use crate::ElementConfig;
+use crate::lot::GreenKind;
+use crate::occupancy::Occupancy;
+
+/// Distance of a tree from the edge of its green, m.
+const EDGE: f64 = 2.0;
+/// Lattice points of one green.
+const MOST_POINTS: f64 = 20_000.0;
+
+/// Plants trees on every park and courtyard.
+pub(super) fn plant(
+    setting: &Setting<'_>,
+    config: &ElementConfig,
+    streams: Stream,
+    taken: &mut Occupancy,
+    elements: &mut Vec<Element>,
+) {
+    if config.green_trees <= 0.0 {
+        return;
+    }
+    let spacing = 1.0 / config.green_trees.sqrt();
+    for green in setting.land.greens.iter().filter(|green| green.kind != GreenKind::Leftover) {
+        let outline = setting.land.green_outline(green);
+        let (low, high) = outline
+            .iter()
+            .fold((outline[0], outline[0]), |(low, high), corner| (low.inf(corner), high.sup(corner)));
+        let size: Vector2 = high - low;
+        let (columns, rows) = ((size.x / spacing).ceil(), (size.y / spacing).ceil());
+        if columns * rows > MOST_POINTS {
+            continue;
+        }
+        let key = |x: f64| (x * 100.0).round() as i64 as u64;
+        let mut rng = streams.indexed(key(low.x)).indexed(key(low.y)).rng();
+        for index in 0..(columns * rows) as u64 {
+            let (column, row) = (index % columns as u64, index / columns as u64);
+            let jitter = Vector2::new(rng.unit(), rng.unit());
+            let position = low + (Vector2::new(column as f64, row as f64) + jitter) * spacing;
+            if !is_inside(outline, position) {
+                continue;
+            }
+            let shape = shape_of(EntityKind::Tree, &mut rng);
+            let element = Element { kind: EntityKind::Tree, position, facing: 0.0, shape };
+            if taken.take(&element.obb().footprint()) {
+                elements.push(element);
+            }
+        }
+    }
+}
+
+/// Whether a point lies within an outline, clear of its edges.
+fn is_inside(outline: &[Point2], point: Point2) -> bool {
+    let mut inside = false;
+    for index in 0..outline.len() {
+        let (a, b) = (outline[index], outline[(index + 1) % outline.len()]);
+        let (edge, to) = (b - a, point - a);
+        let share = (to.dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0);
+        if (to - edge * share).norm_squared() < EDGE * EDGE {
+            return false;
+        }
+        if (a.y > point.y) != (b.y > point.y) && to.x < edge.x * to.y / edge.y {
+            inside = !inside;
+        }
+    }
+    inside
+}

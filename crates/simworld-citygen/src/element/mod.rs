@@ -1,0 +1,78 @@
+//! Street elements by zone: trees, lamps and small things at the kerb, furniture between sidewalk and houses, tables
+//! before restaurants, cars in parking lanes, trees in parks and courtyards.
+//!
+//! A width of [`FREE_WIDTH`] in the middle of every sidewalk stays free for those who walk, and so do the places before
+//! doors, at corners and at crossings. What stands at the kerb stands on the sidewalk, what stands behind it on the land
+//! of the houses: nothing stands in a lane that is driven on.
+
+mod green;
+mod kinds;
+mod parking;
+mod sidewalk;
+mod walk;
+
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::{Obb, Point2, Point3, pose_facing};
+use simworld_core::net::{RoadNetwork, StreetPlan};
+use simworld_core::scene::{EntityKind, Shape};
+use simworld_core::seed::Seed;
+
+use crate::ElementConfig;
+use crate::building::Building;
+use crate::lot::Land;
+use crate::occupancy::Occupancy;
+use crate::zoning::Zoning;
+
+/// Width kept free in the middle of every sidewalk, m: two people who pass, or one in a wheelchair.
+pub const FREE_WIDTH: f64 = 1.5;
+
+/// A thing that stands in the street.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Element {
+    /// What it is.
+    pub kind: EntityKind,
+    /// Where it stands, m.
+    pub position: Point2,
+    /// Where it looks, radians: the street; a parked car the way that it drives.
+    pub facing: f64,
+    /// Its solid; a tree's is its trunk.
+    pub shape: Shape,
+}
+
+impl Element {
+    /// Its solid as an oriented box.
+    pub fn obb(&self) -> Obb {
+        self.shape.obb(&pose_facing(Point3::new(self.position.x, self.position.y, 0.0), self.facing))
+    }
+}
+
+/// What there is before elements are set.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting<'a> {
+    /// The streets, for their cross-sections.
+    pub plan: &'a StreetPlan,
+    /// The roads derived from them.
+    pub network: &'a RoadNetwork,
+    /// The use of the land.
+    pub zoning: &'a Zoning,
+    /// The land between the streets.
+    pub land: &'a Land,
+    /// What stands on it.
+    pub buildings: &'a [Building],
+}
+
+/// Sets elements along every sidewalk, in parking lanes and on greens; `taken` holds the land of the roads and the
+/// buildings, and receives what stands beside them.
+pub fn furnish(
+    setting: &Setting<'_>,
+    config: &ElementConfig,
+    seed: Seed,
+    taken: &mut Occupancy,
+) -> Vec<Element> {
+    let streams = seed.stream("citygen/elements");
+    let mut elements = Vec::with_capacity(setting.network.sidewalks.len() * 12);
+    sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements);
+    parking::park(setting, config, streams.named("parking"), &mut elements);
+    green::plant(setting, config, streams.named("greens"), taken, &mut elements);
+    elements
+}

@@ -1,0 +1,109 @@
+//! Cars in parking lanes: one a space, most spaces taken.
+
+use std::f64::consts::PI;
+
+use simworld_core::geometry::{Point2, heading};
+use simworld_core::id::RoadId;
+use simworld_core::net::{LaneDirection, LaneKind, LaneSpec, Side, polyline};
+use simworld_core::ops;
+use simworld_core::scene::{EntityKind, Shape};
+use simworld_core::seed::Stream;
+
+use super::{Element, Setting};
+use crate::ElementConfig;
+
+/// Length of a parking space along the kerb, m.
+const SPACE: f64 = 6.0;
+/// Distance kept from the ends of the lanes, where crossings and corners must be seen, m.
+const CORNER_CLEARANCE: f64 = 6.0;
+/// Gap kept to both edges of the lane, m.
+const EDGE_GAP: f64 = 0.1;
+/// The narrowest lane in which cars park along the kerb, m.
+const NARROWEST: f64 = 1.8;
+
+/// Parks cars in every parking lane.
+pub(super) fn park(
+    setting: &Setting<'_>,
+    config: &ElementConfig,
+    streams: Stream,
+    elements: &mut Vec<Element>,
+) {
+    // Few plans have more than a handful of cross-sections, and many have none with parking.
+    let strips: Vec<Vec<(f64, LaneSpec)>> = setting
+        .plan
+        .sections
+        .iter()
+        .map(|section| {
+            section
+                .strips()
+                .filter(|(_, lane)| lane.kind == LaneKind::Parking && lane.width >= NARROWEST)
+                .collect()
+        })
+        .collect();
+    for (index, street) in setting.plan.streets.iter().enumerate() {
+        let Some(strips) = strips.get(street.section as usize).filter(|strips| !strips.is_empty()) else {
+            continue;
+        };
+        let Some((from, to)) = clear_span(setting, index) else { continue };
+        let middle = polyline::slice(&setting.network.roads[index].centerline, from, to);
+        let start = middle[0];
+        let key = |x: f64| (x * 100.0).round() as i64 as u64;
+        let mut rng = streams.indexed(key(start.x)).indexed(key(start.y)).rng();
+        for (offset, lane) in strips {
+            let path = polyline::offset(&middle, *offset);
+            let spaces = (polyline::length(&path) / SPACE).floor() as u32;
+            for space in 0..spaces {
+                if !rng.chance(config.parked) {
+                    continue;
+                }
+                let length = rng.uniform(3.7, 4.9);
+                let width = (length * 0.39).min(lane.width - 2.0 * EDGE_GAP);
+                let station = (f64::from(space) + 0.5) * SPACE;
+                elements.extend(car(&path, station, length, width, is_reversed(*offset, lane), lane.width));
+            }
+        }
+    }
+}
+
+/// Whether cars look against the centreline: as traffic beside them goes, on the right.
+fn is_reversed(offset: f64, lane: &LaneSpec) -> bool {
+    match lane.direction {
+        LaneDirection::Forward => false,
+        LaneDirection::Backward => true,
+        LaneDirection::Both => offset > 0.0,
+    }
+}
+
+/// A car at a station of the middle of its lane; `None` where the lane bends too much for it to keep within.
+fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, lane: f64) -> Option<Element> {
+    let front = polyline::at(path, station + length * 0.5).0;
+    let back = polyline::at(path, station - length * 0.5).0;
+    let position = nalgebra::center(&front, &back);
+    let sag = polyline::closest(path, &position)?.distance;
+    if sag + width * 0.5 > lane * 0.5 {
+        return None;
+    }
+    let along = heading(&(front - back));
+    let facing = if reversed { ops::wrap_angle(along + PI) } else { along };
+    let shape = Shape::cuboid(length, width, 0.31 * length);
+    Some(Element { kind: EntityKind::Car, position, facing, shape })
+}
+
+/// Where along a road's centreline cars may park, clear of the junctions at its ends; `None` if nowhere.
+fn clear_span(setting: &Setting<'_>, road: usize) -> Option<(f64, f64)> {
+    let network = setting.network;
+    let line = &network.roads[road].centerline;
+    let (mut from, mut to) = (0.0_f64, polyline::length(line));
+    let lanes = network.roads[road].forward.iter().chain(&network.roads[road].backward);
+    let lanes = lanes.map(|lane| &network.lanes[lane.index()].path);
+    let id = RoadId::from_index(road);
+    let walks = [Side::Left, Side::Right].into_iter().filter_map(|side| network.sidewalk(id, side));
+    for path in lanes.chain(walks.map(|walk| &walk.path)) {
+        let ends =
+            (polyline::closest(line, path.first()?)?.station, polyline::closest(line, path.last()?)?.station);
+        from = from.max(ends.0.min(ends.1));
+        to = to.min(ends.0.max(ends.1));
+    }
+    let (from, to) = (from + CORNER_CLEARANCE, to - CORNER_CLEARANCE);
+    (to - from >= SPACE).then_some((from, to))
+}

@@ -1,0 +1,240 @@
+//! Elements along the sidewalks.
+
+use std::f64::consts::FRAC_PI_2;
+
+use simworld_core::geometry::Point2;
+use simworld_core::id::SidewalkId;
+use simworld_core::net::{RoadClass, Side, Sidewalk};
+use simworld_core::scene::{EntityKind, Place};
+use simworld_core::seed::{Stream, StreamRng};
+
+use super::kinds::{FURNITURE, Row, abundance, shape_of};
+use super::walk::{Walk, turned};
+use super::{Element, FREE_WIDTH, Setting};
+use crate::ElementConfig;
+use crate::occupancy::Occupancy;
+use crate::zoning::Zone;
+
+/// Distance kept from the ends of a sidewalk, where people turn and cross, m.
+const CORNER_CLEARANCE: f64 = 5.0;
+/// Gap between the kerb and what stands at it, m.
+const KERB_GAP: f64 = 0.1;
+/// Gap between the sidewalk and what stands behind it, m.
+const BACK_GAP: f64 = 0.15;
+/// Distance kept from the middle of a door, m.
+const DOOR_CLEARANCE: f64 = 1.0;
+/// Gap between things at the kerb, m.
+const NEIGHBOUR_GAP: f64 = 0.3;
+/// Mean distance of bus stops along one side of an arterial, m.
+const BUS_STOPS: f64 = 350.0;
+
+/// Sets elements along every sidewalk.
+pub(super) fn line(
+    setting: &Setting<'_>,
+    config: &ElementConfig,
+    streams: Stream,
+    taken: &mut Occupancy,
+    elements: &mut Vec<Element>,
+) {
+    let doors = Doors::of(setting);
+    let mut setter = Setter { walk: Walk::default(), busy: Vec::new(), doors: Vec::new(), taken, elements };
+    for (index, sidewalk) in setting.network.sidewalks.iter().enumerate() {
+        setter.begin(sidewalk, doors.at(index), setting);
+        let mut rng = stream_of(sidewalk, streams).rng();
+        let zone = setter.zone(setting);
+        let (trees, furniture) = abundance(zone);
+        let arterial = setting.network.roads[sidewalk.road.index()].class != RoadClass::Local;
+        let usable = setter.usable();
+        if arterial && rng.chance(usable / BUS_STOPS) {
+            setter.set(EntityKind::BusStop, Row::Back, CORNER_CLEARANCE + 4.0 + rng.unit() * 6.0, &mut rng);
+        }
+        setter.terraces(&mut rng);
+        setter.line_up(EntityKind::StreetLamp, config.lamps, &mut rng);
+        setter.line_up(EntityKind::Tree, config.trees * trees, &mut rng);
+        let weights = FURNITURE.map(|(_, _, weights)| weights[zone as usize]);
+        for _ in 0..count(usable * config.furniture * furniture, &mut rng) {
+            let (kind, row, _) = FURNITURE[rng.weighted(&weights).unwrap_or(0)];
+            setter.set(kind, row, CORNER_CLEARANCE + rng.unit() * usable, &mut rng);
+        }
+    }
+}
+
+/// The stream of a sidewalk is a function of where it begins, so that a change elsewhere moves nothing here.
+fn stream_of(sidewalk: &Sidewalk, streams: Stream) -> Stream {
+    let start = sidewalk.path.first().copied().unwrap_or_else(Point2::origin);
+    let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    let side = u64::from(sidewalk.side == Side::Right);
+    streams.indexed(key(start.x)).indexed(key(start.y)).indexed(side)
+}
+
+/// A whole number with that mean.
+pub(super) fn count(mean: f64, rng: &mut StreamRng) -> u64 {
+    (mean + rng.unit()).floor() as u64
+}
+
+/// The buildings at every sidewalk.
+struct Doors {
+    /// The first entry of each sidewalk, and the end of the last.
+    starts: Vec<u32>,
+    buildings: Vec<u32>,
+}
+
+impl Doors {
+    fn of(setting: &Setting<'_>) -> Self {
+        let network = setting.network;
+        let sidewalk = |index: usize| {
+            let building = &setting.buildings[index];
+            let road = network.roads.get(building.road.index())?;
+            road.sidewalks[usize::from(building.side == Side::Right)].map(SidewalkId::index)
+        };
+        let mut starts = vec![0_u32; network.sidewalks.len() + 1];
+        for index in (0..setting.buildings.len()).filter_map(sidewalk) {
+            starts[index + 1] += 1;
+        }
+        for index in 1..starts.len() {
+            starts[index] += starts[index - 1];
+        }
+        let mut next = starts.clone();
+        let mut buildings = vec![0; starts.last().map_or(0, |last| *last as usize)];
+        for building in 0..setting.buildings.len() {
+            if let Some(index) = sidewalk(building) {
+                buildings[next[index] as usize] = building as u32;
+                next[index] += 1;
+            }
+        }
+        Self { starts, buildings }
+    }
+
+    fn at(&self, sidewalk: usize) -> &[u32] {
+        &self.buildings[self.starts[sidewalk] as usize..self.starts[sidewalk + 1] as usize]
+    }
+}
+
+struct Setter<'a> {
+    walk: Walk,
+    /// Stations that are taken at the kerb, from and to.
+    busy: Vec<(f64, f64)>,
+    /// Stations of doors, and what is behind them.
+    doors: Vec<(f64, Place)>,
+    taken: &'a mut Occupancy,
+    elements: &'a mut Vec<Element>,
+}
+
+impl Setter<'_> {
+    fn begin(&mut self, sidewalk: &Sidewalk, buildings: &[u32], setting: &Setting<'_>) {
+        self.walk.set(sidewalk);
+        self.busy.clear();
+        self.doors.clear();
+        for index in buildings {
+            let building = &setting.buildings[*index as usize];
+            self.doors.push((self.walk.station_of(building.access), building.place));
+        }
+    }
+
+    fn usable(&self) -> f64 {
+        (self.walk.length - 2.0 * CORNER_CLEARANCE).max(0.0)
+    }
+
+    /// The use of the land behind the sidewalk.
+    fn zone(&self, setting: &Setting<'_>) -> Zone {
+        self.walk
+            .at(self.walk.length * 0.5, 15.0)
+            .map_or(Zone::default(), |(point, _)| setting.zoning.zone(point))
+    }
+
+    /// Sets elements of one kind along the kerb at even distances.
+    fn line_up(&mut self, kind: EntityKind, density: f64, rng: &mut StreamRng) {
+        let usable = self.usable();
+        let number = count(usable * density, rng);
+        for rank in 0..number {
+            let share = (rank as f64 + 0.5) / number as f64;
+            self.set(kind, Row::Kerb, CORNER_CLEARANCE + share * usable, rng);
+        }
+    }
+
+    /// Sets an element at a station if there is room for it.
+    fn set(&mut self, kind: EntityKind, row: Row, station: f64, rng: &mut StreamRng) {
+        let shape = shape_of(kind, rng);
+        let size = shape.size();
+        let reach = size.y * 0.5;
+        if station - reach < CORNER_CLEARANCE || station + reach > self.walk.length - CORNER_CLEARANCE {
+            return;
+        }
+        let half = self.walk.half;
+        match row {
+            Row::Kerb => {
+                let offset = size.x * 0.5 + KERB_GAP - half;
+                let is_clear = offset + size.x * 0.5 <= -FREE_WIDTH * 0.5;
+                let span = (station - reach - NEIGHBOUR_GAP, station + reach + NEIGHBOUR_GAP);
+                let meets = |other: &(f64, f64)| span.0 < other.1 && other.0 < span.1;
+                if is_clear && !self.busy.iter().any(meets) {
+                    self.busy.push(span);
+                    self.add(kind, shape, station, offset, 0.0);
+                }
+            }
+            Row::Back => {
+                self.set_back(kind, shape, station, half + BACK_GAP + size.x * 0.5, 0.0);
+            }
+        }
+    }
+
+    /// Sets an element behind the sidewalk if nothing stands there and it blocks no door; says whether it did.
+    fn set_back(
+        &mut self,
+        kind: EntityKind,
+        shape: simworld_core::scene::Shape,
+        station: f64,
+        offset: f64,
+        turn: f64,
+    ) -> bool {
+        let reach = shape.size().x.max(shape.size().y) * 0.5;
+        let blocks = |door: &(f64, Place)| (door.0 - station).abs() < DOOR_CLEARANCE + reach;
+        if self.doors.iter().any(blocks) || self.walk.bends(station - reach, station + reach) {
+            return false;
+        }
+        let Some((position, facing)) = self.walk.at(station, offset) else { return false };
+        let element = Element { kind, position, facing: turned(facing, turn), shape };
+        let free = self.taken.take(&element.obb().footprint());
+        if free {
+            self.elements.push(element);
+        }
+        free
+    }
+
+    fn add(
+        &mut self,
+        kind: EntityKind,
+        shape: simworld_core::scene::Shape,
+        station: f64,
+        offset: f64,
+        turn: f64,
+    ) {
+        if let Some((position, facing)) = self.walk.at(station, offset) {
+            self.elements.push(Element { kind, position, facing: turned(facing, turn), shape });
+        }
+    }
+
+    /// A table and two chairs beside the door of every other restaurant.
+    fn terraces(&mut self, rng: &mut StreamRng) {
+        for index in 0..self.doors.len() {
+            let (door, place) = self.doors[index];
+            if place != Place::Restaurant || rng.chance(0.5) {
+                continue;
+            }
+            let station = door + if rng.chance(0.5) { 2.8 } else { -2.8 };
+            let table = shape_of(EntityKind::Table, rng);
+            let offset = self.walk.half + BACK_GAP + table.size().x * 0.5;
+            if station < CORNER_CLEARANCE
+                || station > self.walk.length - CORNER_CLEARANCE
+                || !self.set_back(EntityKind::Table, table, station, offset, 0.0)
+            {
+                continue;
+            }
+            for side in [1.0, -1.0] {
+                // Chairs look at the table, along the street.
+                let chair = shape_of(EntityKind::Chair, rng);
+                self.set_back(EntityKind::Chair, chair, station + side * 0.75, offset, side * FRAC_PI_2);
+            }
+        }
+    }
+}

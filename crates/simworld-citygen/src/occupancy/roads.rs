@@ -1,0 +1,71 @@
+//! The land of the roads.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, Side};
+
+use super::Occupancy;
+
+/// Longest strip of road land, m: shorter ones touch fewer cells in vain.
+const LONGEST_STRIP: f64 = 40.0;
+
+impl Occupancy {
+    /// The land that roads take: carriageways, sidewalks and the walkways round corners.
+    pub fn of_roads(network: &RoadNetwork) -> Self {
+        let mut taken = Self::with_capacity(network.roads.len() * 6);
+        for (index, road) in network.roads.iter().enumerate() {
+            let id = RoadId::from_index(index);
+            let walk = |side| network.sidewalk(id, side);
+            // From the outer edge of a sidewalk to the centreline, or from kerb to kerb.
+            let (left, right) = (walk(Side::Left), walk(Side::Right));
+            for (sidewalk, kerb, sign) in [(left, road.left_kerb, 1.0), (right, road.right_kerb, -1.0)] {
+                if let Some(sidewalk) = sidewalk {
+                    let (out, into) = (sidewalk.width * 0.5, sidewalk.width * 0.5 + kerb.max(0.0));
+                    let (left, right) = if sign > 0.0 { (out, into) } else { (into, out) };
+                    add_path(&mut taken, &sidewalk.path, left, right);
+                } else {
+                    let (left, right) = if sign > 0.0 { (kerb, 0.0) } else { (0.0, kerb) };
+                    add_path(&mut taken, &road.centerline, left, right);
+                }
+            }
+        }
+        for intersection in &network.intersections {
+            for corner in &intersection.corners {
+                let half = intersection_walk(network, &intersection.roads) * 0.5;
+                add_path(&mut taken, corner, half, half);
+            }
+        }
+        taken
+    }
+}
+
+/// Width of the walkways round the corners of an intersection, m: that of the narrowest sidewalk that meets there.
+fn intersection_walk(network: &RoadNetwork, roads: &[RoadId]) -> f64 {
+    let sides =
+        roads.iter().flat_map(|road| [Side::Left, Side::Right].map(|side| network.sidewalk(*road, side)));
+    let least = sides.flatten().map(|sidewalk| sidewalk.width).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+/// Takes a strip along a path, so far to its left and to its right.
+fn add_path(taken: &mut Occupancy, path: &[Point2], left: f64, right: f64) {
+    for pair in path.windows(2) {
+        let along = pair[1] - pair[0];
+        let length = along.norm();
+        if length < 1e-3 || left + right <= 1e-3 {
+            continue;
+        }
+        let across = Vector2::new(-along.y, along.x) / length;
+        let count = (length / LONGEST_STRIP).ceil();
+        for step in 0..count as u32 {
+            let at = |share: f64| pair[0] + along * (share / count);
+            let (start, end) = (at(f64::from(step)), at(f64::from(step) + 1.0));
+            taken.add(&[
+                start - across * right,
+                end - across * right,
+                end + across * left,
+                start + across * left,
+            ]);
+        }
+    }
+}
