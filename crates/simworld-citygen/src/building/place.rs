@@ -290,6 +290,27 @@ impl<'a> Planner<'a> {
         self.plans.push(Plan { building, corners, frontage });
     }
 
+    /// The place on the walkways before a door: the middle of the sidewalk or, where that ends before the corner, of
+    /// the walkway round it.
+    fn access(&self, site: &Site<'_>, door: Point2) -> Point2 {
+        let network = self.network;
+        let Some(walk) = network.sidewalk(site.road, site.side) else { return door };
+        let mut best = nearest(&walk.path, door);
+        if (best - door).norm() < walk.width {
+            return best;
+        }
+        let road = &network.roads[site.road.index()];
+        for intersection in [road.from, road.to] {
+            for corner in &network.intersections[intersection.index()].corners {
+                let at = if corner.len() < 2 { continue } else { nearest(corner, door) };
+                if (at - door).norm_squared() < (best - door).norm_squared() {
+                    best = at;
+                }
+            }
+        }
+        best
+    }
+
     /// Length of the streets of a lot along which a building stands, m: at its front and, on a corner, beside it.
     fn frontage(&self, lot: &Lot, corners: &[Point2; 4]) -> f64 {
         let (outline, borders) = (self.land.outline(lot), self.land.borders(lot));
