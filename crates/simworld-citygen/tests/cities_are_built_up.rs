@@ -1,7 +1,7 @@
 //! At any size: most of the frontage is built on, no kind of building dominates, forms and roofs vary, buildings are as
 //! large as those of real towns.
 
-use simworld_citygen::building::FootprintKind;
+use simworld_citygen::building::{Building, FootprintKind};
 use simworld_citygen::{City, CityConfig};
 use simworld_core::seed::Seed;
 
@@ -43,7 +43,7 @@ fn forms_roofs_and_sizes_are_those_of_a_town() {
     let roofs: std::collections::BTreeSet<_> = city.buildings.iter().map(|building| building.roof).collect();
     assert_eq!(roofs.len(), 4);
     // Median footprint of a quarter of Prague: 261 m², of the middle of Helsinki: 801 m²; a cottage has 80.
-    let mut areas: Vec<f64> = city.buildings.iter().map(|building| building.footprint_area()).collect();
+    let mut areas: Vec<f64> = city.buildings.iter().map(Building::footprint_area).collect();
     areas.sort_by(f64::total_cmp);
     let median = areas[areas.len() / 2];
     assert!((90.0..400.0).contains(&median), "median footprint {median:.0} m²");

@@ -32,7 +32,7 @@ fn every_place_can_be_walked_to() {
         for building in &city.buildings {
             let nearest = ways.nearest(building.access).expect("there are waypoints");
             let away = (ways.waypoint(nearest).position - building.access).norm();
-            assert!(away < 8.0, "seed {seed}: a door {away} m from any waypoint");
+            assert!(away < 6.0, "seed {seed}: a door {away} m from any waypoint");
         }
         let land = city.land();
         assert!(land.lots.len() > 30, "seed {seed} has {} lots", land.lots.len());

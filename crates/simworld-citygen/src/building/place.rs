@@ -279,10 +279,7 @@ impl<'a> Planner<'a> {
             storeys,
             roof,
             zone: lot.zone,
-            access: self
-                .network
-                .sidewalk(site.road, site.side)
-                .map_or(door, |walk| nearest(&walk.path, door)),
+            access: self.access(site, door),
             road: site.road,
             side: site.side,
         };
