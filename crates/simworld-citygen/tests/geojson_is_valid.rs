@@ -41,16 +41,17 @@ fn everything_is_a_feature() {
 }
 
 #[test]
-fn rings_are_closed_and_counter_clockwise() {
+fn rings_are_closed_and_wound_as_they_should() {
     for feature in read(&city()).features {
         let Some(GeometryValue::Polygon { coordinates }) = feature.geometry.map(|geometry| geometry.value)
         else {
             continue;
         };
-        let ring = &coordinates[0];
-        assert_eq!(ring.first(), ring.last());
-        let area: f64 = ring.windows(2).map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1]).sum();
-        assert!(area > 0.0, "RFC 7946, section 3.1.6");
+        for (rank, ring) in coordinates.iter().enumerate() {
+            assert_eq!(ring.first(), ring.last());
+            let area: f64 = ring.windows(2).map(|p| p[0][0] * p[1][1] - p[1][0] * p[0][1]).sum();
+            assert!(if rank == 0 { area > 0.0 } else { area < 0.0 }, "RFC 7946, section 3.1.6");
+        }
     }
 }
 

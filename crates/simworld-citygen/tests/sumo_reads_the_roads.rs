@@ -119,9 +119,11 @@ fn trips(city: &City) -> String {
     let roads = city.network.roads.len();
     for index in 0..roads.min(20) {
         let (from, to) = (index, (index * 7 + 3) % roads);
-        text += &format!(r#"<trip id="t{index}" depart="{index}" from="r{from}" to="-r{to}"/>"#);
-        text +=
-            &format!(r#"<person id="p{index}" depart="{index}"><walk from="-r{from}" to="r{to}"/></person>"#);
+        let trip = format!(r#"<trip id="t{index}" depart="{index}" from="r{from}" to="-r{to}"/>"#);
+        let walk = format!(r#"<walk from="-r{from}" to="r{to}"/>"#);
+        text.push_str(&trip);
+        let person = format!(r#"<person id="p{index}" depart="{index}">{walk}</person>"#);
+        text.push_str(&person);
     }
     text + "</routes>"
 }

@@ -59,6 +59,8 @@ enum Geometry<'a> {
     Line(&'a [Point2]),
     /// Without its last point, which is its first.
     Polygon(&'a [Point2]),
+    /// A polygon with a hole, both counter-clockwise.
+    Ring(&'a [Point2], &'a [Point2]),
 }
 
 impl<W: Write> Features<'_, W> {
@@ -116,10 +118,17 @@ impl<W: Write> Features<'_, W> {
                 "type": building.archetype.name,
                 "use": building.place,
                 "name": building.name,
+                "zone": building.zone.as_str(),
                 "storeys": building.storeys,
+                "roof": building.roof,
                 "height_m": millimetres(building.height()),
             });
-            self.feature("building", index, &Geometry::Polygon(&building.obb().footprint()), properties)?;
+            let (outline, court) = (building.outline(), building.courtyard());
+            let geometry = match &court {
+                Some(court) => Geometry::Ring(&outline, court),
+                None => Geometry::Polygon(&outline),
+            };
+            self.feature("building", index, &geometry, properties)?;
         }
         for (index, element) in city.elements.iter().enumerate() {
             let properties = json!({ "kind": element.kind, "height_m": millimetres(element.shape.size().z) });
@@ -156,12 +165,19 @@ impl<W: Write> Features<'_, W> {
         match geometry {
             Geometry::Point(point) => json!({ "type": "Point", "coordinates": self.position(*point) }),
             Geometry::Line(line) => json!({ "type": "LineString", "coordinates": self.positions(line) }),
-            Geometry::Polygon(ring) => {
-                let mut ring = self.positions(ring);
-                ring.extend(ring.first().copied());
-                json!({ "type": "Polygon", "coordinates": [ring] })
+            Geometry::Polygon(ring) => json!({ "type": "Polygon", "coordinates": [self.ring(ring)] }),
+            Geometry::Ring(ring, hole) => {
+                let mut hole = self.ring(hole);
+                hole.reverse();
+                json!({ "type": "Polygon", "coordinates": [self.ring(ring), hole] })
             }
         }
+    }
+
+    fn ring(&self, points: &[Point2]) -> Vec<[f64; 2]> {
+        let mut ring = self.positions(points);
+        ring.extend(ring.first().copied());
+        ring
     }
 
     fn positions(&self, points: &[Point2]) -> Vec<[f64; 2]> {

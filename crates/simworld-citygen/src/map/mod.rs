@@ -6,6 +6,7 @@
 
 mod buildings;
 mod furniture;
+mod ground;
 mod labels;
 mod page;
 mod path;
@@ -115,6 +116,7 @@ impl fmt::Display for MapDrawing<'_> {
         let page = Page::of(self.city);
         page.begin(f, &furniture::title_of(self))?;
         page.begin_city(f)?;
+        ground::draw(f, &page, self.city)?;
         streets::draw(f, &page, self.city)?;
         buildings::draw(f, &page, self.city)?;
         // The group of the city.

@@ -3,10 +3,15 @@
 use simworld_core::net::RoadClass;
 use simworld_core::scene::Place;
 
+use crate::lot::GreenKind;
+use crate::zoning::Zone;
+
 /// The sheet.
 pub(super) const PAPER: &str = "#faf7f0";
+/// Land beyond the city.
+pub(super) const LAND: &str = "#e7ead7";
 /// Ground between the streets.
-pub(super) const LAND: &str = "#efebdf";
+pub(super) const BLOCK: &str = "#f3efe4";
 /// Raised walkways.
 pub(super) const SIDEWALK: &str = "#e2ddd0";
 /// Crowns of trees.
@@ -36,6 +41,26 @@ pub const fn place_color(place: Place) -> &'static str {
         Place::ChargingStation => "#62aaa6",
         Place::RestArea => "#93b878",
         _ => "#cdc6b8",
+    }
+}
+
+/// The tint of a lot by its zone.
+pub(super) const fn zone_color(zone: Zone) -> &'static str {
+    match zone {
+        Zone::Residential => BLOCK,
+        Zone::Commercial => "#f4e6dc",
+        Zone::Industrial => "#e6e2e4",
+        Zone::Civic => "#f0e9cf",
+        Zone::Park => "#cfdfb2",
+    }
+}
+
+/// The layer and the tint of a green.
+pub(super) const fn green_color(kind: GreenKind) -> (&'static str, &'static str) {
+    match kind {
+        GreenKind::Park => ("parks", "#cbddae"),
+        GreenKind::Courtyard => ("courtyards", "#e3e8cf"),
+        GreenKind::Leftover => ("leftovers", BLOCK),
     }
 }
 

@@ -4,18 +4,21 @@ use std::collections::BTreeMap;
 
 use simworld_core::geometry::Point2;
 use simworld_core::net::{Lane, Road, polyline};
-use simworld_core::scene::{EntityKind, Place, Shape};
+use simworld_core::scene::{EntityKind, Shape};
 
+use super::buildings;
 use super::mesh::{Builder, Mesh};
 use crate::City;
-use crate::building::STOREY;
 use crate::element::Element;
+use crate::lot::GreenKind;
 
 /// Heights of the surfaces, m: people stand at zero, on the sidewalk. Farther apart than in a world, because viewers
 /// see cities from afar and must not mix the layers up.
-const GROUND: f64 = -0.25;
+pub(super) const GROUND: f64 = -0.25;
 const ROAD: f64 = -0.15;
 const PAINT: f64 = -0.13;
+const BLOCK: f64 = -0.04;
+const GREEN: f64 = -0.02;
 const SIDEWALK: f64 = 0.0;
 /// Ground beyond the outermost street, m.
 const SURROUND: f64 = 120.0;
@@ -48,7 +51,7 @@ pub(super) struct Model {
     pub(super) nodes: Vec<Node>,
 }
 
-const fn material(name: &'static str, color: [f32; 3], roughness: f32) -> Material {
+pub(super) const fn material(name: &'static str, color: [f32; 3], roughness: f32) -> Material {
     Material { name, color, roughness }
 }
 
@@ -56,29 +59,39 @@ const EARTH: Material = material("ground", [0.34, 0.38, 0.24], 1.0);
 const ASPHALT: Material = material("asphalt", [0.075, 0.077, 0.082], 0.95);
 const PAVING: Material = material("paving", [0.42, 0.41, 0.39], 0.9);
 const WHITE: Material = material("paint", [0.82, 0.82, 0.8], 0.7);
-const ROOF: Material = material("roof", [0.3, 0.27, 0.25], 0.95);
+const SOIL: Material = material("block", [0.4, 0.37, 0.29], 1.0);
+const GRASS: Material = material("grass", [0.22, 0.33, 0.13], 1.0);
 
 pub(super) fn model(city: &City) -> Model {
     let (low, high) = city.network.bounds().unwrap_or((Point2::origin(), Point2::origin()));
     let middle = nalgebra::center(&low, &high);
     let mut builder = Builder::at(middle);
     let nodes = vec![
-        ground(&mut builder, low, high),
+        ground(&mut builder, city, low, high),
         roads(&mut builder, city),
         sidewalks(&mut builder, city),
         markings(&mut builder, city),
-        buildings(&mut builder, city),
+        buildings::node(&mut builder, city),
         elements(&mut builder, city),
     ];
     let name = city.provenance.title.clone().unwrap_or_else(|| format!("City {}", city.provenance.seed.0));
     Model { name, middle, nodes }
 }
 
-fn ground(builder: &mut Builder, low: Point2, high: Point2) -> Node {
+fn ground(builder: &mut Builder, city: &City, low: Point2, high: Point2) -> Node {
     let (low, high) = (low.map(|x| x - SURROUND), high.map(|x| x + SURROUND));
     let mut mesh = Mesh::default();
-    builder.plate(&mut mesh, &[low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)], GROUND);
-    Node { name: "ground", parts: vec![(EARTH, mesh)] }
+    let corners = [low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)];
+    builder.plate(&mut mesh, &corners, &[], GROUND);
+    let (mut blocks, mut greens) = (Mesh::default(), Mesh::default());
+    let land = city.land();
+    for block in land.blocks.iter().filter(|block| block.area.is_some()) {
+        builder.plate(&mut blocks, &block.outline, &[], BLOCK);
+    }
+    for green in land.greens.iter().filter(|green| green.kind != GreenKind::Leftover) {
+        builder.plate(&mut greens, land.green_outline(green), &[], GREEN);
+    }
+    Node { name: "ground", parts: vec![(EARTH, mesh), (SOIL, blocks), (GRASS, greens)] }
 }
 
 fn roads(builder: &mut Builder, city: &City) -> Node {
@@ -87,7 +100,7 @@ fn roads(builder: &mut Builder, city: &City) -> Node {
         builder.ribbon(&mut mesh, &road.centerline, (road.left_kerb, road.right_kerb), ROAD);
     }
     for intersection in &city.network.intersections {
-        builder.plate(&mut mesh, &intersection.outline, ROAD);
+        builder.plate(&mut mesh, &intersection.outline, &[], ROAD);
     }
     Node { name: "roads", parts: vec![(ASPHALT, mesh)] }
 }
@@ -159,39 +172,6 @@ fn dashes(builder: &mut Builder, mesh: &mut Mesh, line: &[Point2], (dash, gap): 
             builder.stripe(mesh, *first, *last, width, PAINT);
         }
     }
-}
-
-fn buildings(builder: &mut Builder, city: &City) -> Node {
-    let mut walls: BTreeMap<Place, Mesh> = BTreeMap::new();
-    let mut roofs = Mesh::default();
-    for building in &city.buildings {
-        let (outline, height) = (building.obb().footprint(), building.height());
-        builder.walls(walls.entry(building.place).or_default(), &outline, GROUND, height);
-        // A parapet: the roof lies a little below the top of the walls of tall houses.
-        let roof = if building.storeys > 3 { height - STOREY * 0.2 } else { height };
-        builder.plate(&mut roofs, &outline, roof);
-    }
-    let mut parts: Vec<(Material, Mesh)> =
-        walls.into_iter().map(|(place, mesh)| (facade(place), mesh)).collect();
-    parts.push((ROOF, roofs));
-    Node { name: "buildings", parts }
-}
-
-fn facade(place: Place) -> Material {
-    let color = match place {
-        Place::Home => [0.62, 0.5, 0.38],
-        Place::Restaurant => [0.55, 0.22, 0.14],
-        Place::Store => [0.66, 0.46, 0.16],
-        Place::Hospital => [0.78, 0.76, 0.75],
-        Place::Museum => [0.5, 0.44, 0.56],
-        Place::School => [0.3, 0.42, 0.55],
-        Place::Office => [0.36, 0.42, 0.47],
-        Place::Factory => [0.3, 0.28, 0.26],
-        Place::ChargingStation => [0.18, 0.42, 0.4],
-        Place::RestArea => [0.3, 0.42, 0.22],
-        _ => [0.5, 0.48, 0.45],
-    };
-    material(place.as_str(), color, 0.85)
 }
 
 fn elements(builder: &mut Builder, city: &City) -> Node {

@@ -36,51 +36,57 @@ impl Builder {
         Self { origin, earcut: Earcut::new(), corners: Vec::new(), triangles: Vec::new() }
     }
 
-    /// A level polygon that looks up, counter-clockwise or not.
-    pub(super) fn plate(&mut self, mesh: &mut Mesh, outline: &[Point2], z: f64) {
+    /// A level polygon that looks up, counter-clockwise or not, perhaps with a hole.
+    pub(super) fn plate(&mut self, mesh: &mut Mesh, outline: &[Point2], hole: &[Point2], z: f64) {
         self.corners.clear();
         // About the origin, where the triangulation keeps the most digits.
-        self.corners.extend(outline.iter().map(|point| [point.x - self.origin.x, point.y - self.origin.y]));
-        self.earcut.earcut_slice(&self.corners, &[], &mut self.triangles);
+        let corners = outline.iter().chain(hole);
+        self.corners.extend(corners.map(|point| [point.x - self.origin.x, point.y - self.origin.y]));
+        let holes: &[u32] = if hole.is_empty() { &[] } else { &[outline.len() as u32] };
+        self.earcut.earcut_slice(&self.corners, holes, &mut self.triangles);
         let first = mesh.positions.len() as u32;
-        for point in outline {
+        for point in outline.iter().chain(hole) {
             mesh.vertex(self.origin, *point, z);
         }
         for triangle in self.triangles.chunks_exact(3) {
             let [a, b, c] = [triangle[0], triangle[1], triangle[2]];
-            let corner = |index: u32| outline[index as usize];
+            let corner = |index: u32| Point2::from(self.corners[index as usize]);
             let up = (corner(b) - corner(a)).perp(&(corner(c) - corner(a))) > 0.0;
             let (b, c) = if up { (b, c) } else { (c, b) };
             mesh.indices.extend([first + a, first + b, first + c]);
         }
     }
 
-    /// The upright faces round a polygon, looking outwards, from one height to another.
+    /// The upright faces round a counter-clockwise polygon, looking outwards, from one height to another; round a
+    /// clockwise one, as that of a courtyard, they look inwards.
     pub(super) fn walls(&mut self, mesh: &mut Mesh, outline: &[Point2], low: f64, high: f64) {
-        if outline.len() < 3 {
-            return;
-        }
         let first = mesh.positions.len() as u32;
         for point in outline {
             mesh.vertex(self.origin, *point, low);
             mesh.vertex(self.origin, *point, high);
         }
         let count = outline.len() as u32;
-        let counter_clockwise = area(outline) > 0.0;
         for index in 0..count {
             let (a, b) = (first + 2 * index, first + 2 * ((index + 1) % count));
-            if counter_clockwise {
-                mesh.quad(a, b, b + 1, a + 1);
-            } else {
-                mesh.quad(b, a, a + 1, b + 1);
-            }
+            mesh.quad(a, b, b + 1, a + 1);
         }
     }
 
     /// Walls and a lid.
     pub(super) fn prism(&mut self, mesh: &mut Mesh, outline: &[Point2], low: f64, high: f64) {
         self.walls(mesh, outline, low, high);
-        self.plate(mesh, outline, high);
+        self.plate(mesh, outline, &[], high);
+    }
+
+    /// A single face, counter-clockwise seen from outside.
+    pub(super) fn face(&mut self, mesh: &mut Mesh, corners: &[(Point2, f64)]) {
+        let first = mesh.positions.len() as u32;
+        for (point, z) in corners {
+            mesh.vertex(self.origin, *point, *z);
+        }
+        for index in 2..corners.len() as u32 {
+            mesh.indices.extend([first, first + index - 1, first + index]);
+        }
     }
 
     /// An upright prism on a regular polygon about a point.
@@ -152,12 +158,6 @@ fn hexagon(at: Point2, radius: f64) -> [Point2; 6] {
         .map(|(x, y)| at + Vector2::new(x, y) * radius)
 }
 
-/// Positive for a counter-clockwise polygon, m².
-fn area(outline: &[Point2]) -> f64 {
-    let next = outline.iter().cycle().skip(1);
-    outline.iter().zip(next).map(|(a, b)| (a.x - b.x) * (a.y + b.y) * 0.5).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -175,14 +175,11 @@ mod tests {
 
     #[test]
     fn faces_look_outwards() {
-        let mut square = [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (0.0, 3.0)].map(|(x, y)| Point2::new(x, y));
+        let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (0.0, 3.0)].map(|(x, y)| Point2::new(x, y));
         // From the ground plane up, the open bottom adds nothing to the volume.
-        for _ in 0..2 {
-            let mut mesh = Mesh::default();
-            Builder::at(Point2::origin()).prism(&mut mesh, &square, 0.0, 4.0);
-            assert!((volume(&mesh) - 24.0).abs() < 1e-4);
-            square.reverse();
-        }
+        let mut mesh = Mesh::default();
+        Builder::at(Point2::origin()).prism(&mut mesh, &square, 0.0, 4.0);
+        assert!((volume(&mesh) - 24.0).abs() < 1e-4);
         let mut mesh = Mesh::default();
         Builder::at(Point2::origin()).crown(&mut mesh, Point2::new(5.0, 5.0), 1.0, (2.0, 5.0));
         let hexagon = 1.5 * 3f64.sqrt();

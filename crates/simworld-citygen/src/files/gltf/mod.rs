@@ -6,6 +6,7 @@
 //! glTF is y up: its x is our x (east), its y our z (up), its z our -y (south). [`document`] turns every vertex, and
 //! nothing else does. Vertices are `f32` about the middle of the city, which the root node puts back in its place.
 
+mod buildings;
 mod city;
 mod document;
 mod mesh;
