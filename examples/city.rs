@@ -67,7 +67,7 @@ enum Kind {
     Sumo,
     /// city.xodr, the roads for driving simulators (OpenDRIVE 1.7).
     Opendrive,
-    /// python/, the layout files of the Python release.
+    /// python/, the layout and world files of the Python release.
     Python,
     /// All of these.
     All,

@@ -63,7 +63,12 @@ impl Format {
             Self::GeoJson => &["city.geojson"],
             Self::Sumo => &["city.net.xml"],
             Self::OpenDrive => &["city.xodr"],
-            Self::Python => &["python/roads.json", "python/buildings.json", "python/elements.json"],
+            Self::Python => &[
+                "python/roads.json",
+                "python/buildings.json",
+                "python/elements.json",
+                "python/progen_world.json",
+            ],
         }
     }
 }
@@ -151,7 +156,8 @@ fn fill(city: &City, name: &str, map: &str, png_width: u32, out: &mut impl Write
         "city.xodr" => city.write_opendrive(out)?,
         "python/roads.json" => json(out, &city.roads_file())?,
         "python/buildings.json" => json(out, &city.buildings_file())?,
-        _ => json(out, &city.elements_file())?,
+        "python/elements.json" => json(out, &city.elements_file())?,
+        _ => json(out, &city.world_file())?,
     }
     Ok(())
 }

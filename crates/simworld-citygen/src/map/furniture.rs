@@ -7,8 +7,9 @@ use simworld_core::scene::{EntityKind, Place};
 
 use super::MapDrawing;
 use super::page::{Frame, Page, escaped};
-use super::style::{CASING, FAINT, INK, PAPER, ROADS, place_color};
+use super::style::{CASING, FAINT, INK, PAPER, ROADS, green_color, place_color};
 use crate::City;
+use crate::lot::GreenKind;
 
 pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, drawing: &MapDrawing<'_>) -> fmt::Result {
     // The map's own group ends here.
@@ -160,6 +161,16 @@ fn legend(f: &mut fmt::Formatter<'_>, page: &Page, foot: &Frame, city: &City) ->
             x + 8.0,
             y + 1.0,
             label_of(place)
+        )?;
+    }
+    if city.land().greens.iter().any(|green| green.kind == GreenKind::Park) {
+        let ((x, y), (_, color)) = (next(), green_color(GreenKind::Park));
+        writeln!(
+            f,
+            r#"<rect x="{x:.2}" y="{:.2}" width="6" height="3.2" fill="{color}"/><text x="{:.2}" y="{:.2}">Park</text>"#,
+            y - 1.6,
+            x + 8.0,
+            y + 1.0
         )?;
     }
     // A page that shows crowns says so.

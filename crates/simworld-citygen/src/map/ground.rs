@@ -7,7 +7,7 @@ use super::page::Page;
 use super::path::Pen;
 use super::style::{BLOCK, green_color, zone_color};
 use crate::City;
-use crate::lot::GreenKind;
+use crate::lot::{GreenKind, Lot};
 use crate::zoning::Zone;
 
 /// Lots are tinted from this scale on, mm a metre; below it a block has one tint.
@@ -23,8 +23,9 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt:
         writeln!(f, r#"<path id="blocks" fill="{BLOCK}" d="{}"/>"#, blocks.into_data())?;
     }
     let mut zones: BTreeMap<Zone, Pen> = BTreeMap::new();
-    // A drawn home says enough about its lot.
-    for lot in land.lots.iter().filter(|lot| lot.zone != Zone::Residential && page.scale >= LOTS_FROM) {
+    // Within a block homes stand on its tint; beyond the last street nothing else is below them.
+    let shows = |lot: &&Lot| lot.zone != Zone::Residential || land.blocks[lot.block as usize].area.is_none();
+    for lot in land.lots.iter().filter(shows).filter(|_| page.scale >= LOTS_FROM) {
         zones.entry(lot.zone).or_insert_with(|| Pen::at(page.middle)).polygon(land.outline(lot));
     }
     writeln!(f, r#"<g id="zones">"#)?;

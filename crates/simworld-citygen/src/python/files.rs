@@ -28,7 +28,7 @@ impl From<Xy> for Point2 {
 }
 
 /// Four decimals, as the Python release writes them.
-fn round(x: f64) -> f64 {
+pub(super) fn round(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 

@@ -1,10 +1,12 @@
-//! The files of the Python release: `roads.json`, `buildings.json`, `elements.json`, `routes.json`.
+//! The files of the Python release: `roads.json`, `buildings.json`, `elements.json`, `routes.json` and the world file
+//! `progen_world.json`.
 //!
 //! Coordinates are metres, rounded to four decimals; rotations are degrees. Reading never panics: what cannot be used is a
 //! typed error, what can be mended is mended and named in a warning.
 
 mod clean;
 mod files;
+mod world;
 
 use std::fmt;
 
@@ -17,6 +19,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use simworld_core::net::StreetPlan;
 use thiserror::Error;
+pub use world::{BaseMap, NodeProperties, Orientation, WorldFile, WorldNode, Xyz};
 
 use crate::City;
 
@@ -104,6 +107,14 @@ impl fmt::Display for Warning {
 /// Bytes that are no such file, coordinates out of range, or no usable road.
 pub fn read_roads(bytes: &[u8]) -> Result<(StreetPlan, Vec<Warning>), FormatError> {
     plan_from_roads(&read::<RoadsFile>(bytes)?)
+}
+
+/// Reads the roads of a `progen_world.json` into a plan.
+///
+/// # Errors
+/// Bytes that are no such file, coordinates out of range, or no usable road.
+pub fn read_world(bytes: &[u8]) -> Result<(StreetPlan, Vec<Warning>), FormatError> {
+    plan_from_roads(&read::<WorldFile>(bytes)?.roads())
 }
 
 /// Reads any of the files.

@@ -61,18 +61,18 @@ fn pitched(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: 
         let (outline, eaves) = (solid.footprint(), size.z - PARAPET);
         builder.walls(walls, &outline, GROUND, eaves);
         let rise = building.roof.rise(size.y, size.x);
-        roof(builder, walls, roofs, &Eaves { outline, eaves, ridge: eaves + rise }, building.roof);
+        roof(builder, walls, roofs, &Plan { outline, eaves, ridge: eaves + rise }, building.roof);
     }
 }
 
 /// A rectangle to be roofed, counter-clockwise, and the heights of its eaves and its ridge, m.
-struct Eaves {
+struct Plan {
     outline: [Point2; 4],
     eaves: f64,
     ridge: f64,
 }
 
-fn roof(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, on: &Eaves, kind: RoofKind) {
+fn roof(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, on: &Plan, kind: RoofKind) {
     let mut corners = on.outline;
     if (corners[1] - corners[0]).norm() < (corners[2] - corners[1]).norm() {
         corners.rotate_left(1);
