@@ -6,6 +6,7 @@
 
 mod clean;
 mod files;
+mod layout;
 mod world;
 
 use std::fmt;
@@ -15,6 +16,7 @@ pub use files::{
     BuildingRecord, BuildingsFile, ElementRecord, ElementsFile, RoadRecord, RoadsFile, RouteRecord,
     RoutesFile, Xy,
 };
+pub use layout::LayoutError;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use simworld_core::net::StreetPlan;
