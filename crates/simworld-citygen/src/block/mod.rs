@@ -10,10 +10,12 @@ mod ring;
 mod trace;
 
 pub(crate) use convex::decompose;
+use rayon::prelude::*;
 pub(crate) use ring::{Ring, Split};
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
+use trace::Boundary;
 
 /// What lies beyond one edge of a block or a lot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,18 +57,16 @@ pub struct Block {
 impl Block {
     /// The blocks of a network, in the order of the roads that bound them.
     pub fn of_network(network: &RoadNetwork) -> Vec<Self> {
-        let mut blocks = Vec::new();
-        for boundary in trace::boundaries(network) {
-            let Some(ring) = inset::inset(&boundary) else { continue };
-            let area = ring.area();
-            let is_closed = area > 0.0 && ring.is_simple();
-            blocks.push(Self {
-                outline: ring.corners,
-                borders: ring.borders,
-                area: is_closed.then_some(area),
-            });
-        }
-        blocks
+        let boundaries = trace::boundaries(network);
+        boundaries.par_iter().with_min_len(64).filter_map(Self::within).collect()
+    }
+
+    /// The land within a boundary, if there is any.
+    fn within(boundary: &Boundary) -> Option<Self> {
+        let ring = inset::inset(boundary)?;
+        let area = ring.area();
+        let is_closed = area > 0.0 && ring.is_simple();
+        Some(Self { outline: ring.corners, borders: ring.borders, area: is_closed.then_some(area) })
     }
 
     /// A closed block from its corners, counter-clockwise, and what lies beyond each edge.

@@ -6,6 +6,7 @@ mod names;
 mod place;
 mod roof;
 mod uses;
+mod weights;
 
 pub use archetype::{ARCHETYPES, Archetype, STOREY};
 pub use footprint::{Footprint, FootprintKind, Part};
@@ -22,8 +23,12 @@ use crate::BuildingConfig;
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
 use crate::zoning::Zone;
-use place::Planner;
+use place::{Plan, Planner};
+use rayon::prelude::*;
+use weights::Weights;
 
+/// Lots that are planned at once: enough for many threads, few enough that the plans stay small.
+const BATCH: usize = 1 << 15;
 /// Height of a wall above the highest ceiling, m.
 const PARAPET: f64 = 0.6;
 
@@ -147,11 +152,15 @@ pub fn build(
     taken: &mut Occupancy,
 ) -> Built {
     let streams = seed.stream("citygen/buildings");
-    let mut planner = Planner::new(network, land, config, streams);
-    let mut built = Built { buildings: Vec::with_capacity(land.lots.len()), frontage_used: 0.0 };
-    for lot in &land.lots {
-        planner.plan(lot);
-        for plan in planner.plans.drain(..) {
+    let weights = Weights::new();
+    let mut built = Built { buildings: Vec::with_capacity(land.lots.len() * 5 / 4), frontage_used: 0.0 };
+    for batch in land.lots.chunks(BATCH) {
+        // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
+        let plans: Vec<Vec<Plan>> = batch
+            .par_chunks(BATCH / 64)
+            .map(|lots| Planner::new(network, land, config, &weights, streams).plan_all(lots))
+            .collect();
+        for plan in plans.into_iter().flatten() {
             // Lots do not overlap, so this refuses only what would stand on a road.
             if taken.take(&plan.corners) {
                 built.frontage_used += plan.frontage;

@@ -9,11 +9,11 @@ use simworld_core::net::{RoadNetwork, Side};
 use simworld_core::scene::Place;
 use simworld_core::seed::{Stream, StreamRng};
 
+use super::weights::Weights;
 use super::{ARCHETYPES, Archetype, Building, Footprint};
 use crate::BuildingConfig;
 use crate::lot::{Land, Lot};
 use crate::occupancy::overlap;
-use crate::zoning::Zone;
 
 /// Kinds tried at random before the greedy filling.
 const TRIES: usize = 5;
@@ -29,8 +29,6 @@ const REAR: f64 = 1.0;
 const LEAST: f64 = 5.0;
 /// A façade farther from a street than its setback and this does not count as standing at it, m.
 const AT_STREET: f64 = 4.0;
-/// Steps of the density for which weights are known beforehand.
-const LEVELS: usize = 16;
 
 /// A building that would like to stand.
 pub(super) struct Plan {
@@ -46,11 +44,12 @@ pub(super) struct Planner<'a> {
     land: &'a Land,
     config: &'a BuildingConfig,
     streams: Stream,
-    /// Cumulative weights of the kinds, by zone and level of density.
-    weights: Vec<[f64; ARCHETYPES.len()]>,
+    weights: &'a Weights,
     /// The corners of the lot in its frame.
     local: Vec<Point2>,
-    pub(super) plans: Vec<Plan>,
+    plans: Vec<Plan>,
+    /// The first plan on the lot at hand.
+    first: usize,
 }
 
 /// A lot while it is built on.
@@ -92,25 +91,25 @@ impl<'a> Planner<'a> {
         network: &'a RoadNetwork,
         land: &'a Land,
         config: &'a BuildingConfig,
+        weights: &'a Weights,
         streams: Stream,
     ) -> Self {
-        let mut weights = Vec::with_capacity(Zone::ALL.len() * LEVELS);
-        for zone in Zone::ALL {
-            for level in 0..LEVELS {
-                let density = (level as f64 + 0.5) / LEVELS as f64;
-                let mut sum = 0.0;
-                weights.push(std::array::from_fn(|kind| {
-                    sum += ARCHETYPES[kind].weight(zone, density);
-                    sum
-                }));
-            }
+        Self { network, land, config, streams, weights, local: Vec::new(), plans: Vec::new(), first: 0 }
+    }
+
+    /// Plans what stands on some lots.
+    pub(super) fn plan_all(mut self, lots: &[Lot]) -> Vec<Plan> {
+        self.plans.reserve(lots.len() * 5 / 4);
+        for lot in lots {
+            self.first = self.plans.len();
+            self.plan(lot);
         }
-        Self { network, land, config, streams, weights, local: Vec::new(), plans: Vec::new() }
+        self.plans
     }
 
     /// Plans what stands on a lot: along its front a kind drawn by its zone, then what fits into the gaps beside it;
     /// along its other streets what has room next to that.
-    pub(super) fn plan(&mut self, lot: &Lot) {
+    fn plan(&mut self, lot: &Lot) {
         let borders = self.land.borders(lot);
         let origin = self.land.outline(lot)[0];
         let key = |x: f64| (x * 100.0).round() as i64 as u64;
@@ -157,7 +156,7 @@ impl<'a> Planner<'a> {
         let gap = self.config.gap;
         let wide = Spot { x: spot.x - gap, width: spot.width + 2.0 * gap, depth: spot.depth + gap };
         let corners = site.corners(wide, self.config.setback);
-        self.plans.iter().all(|plan| !overlap(&plan.corners, &corners))
+        self.plans[self.first..].iter().all(|plan| !overlap(&plan.corners, &corners))
     }
 
     /// A kind that fits between two stations of the front, and where: of some drawn by their weights the one that
@@ -171,12 +170,8 @@ impl<'a> Planner<'a> {
     ) -> Option<(&'static Archetype, Spot)> {
         let mut best: Option<(f64, &'static Archetype, Spot)> = None;
         if is_first {
-            let level = ((site.lot.density * LEVELS as f64) as usize).min(LEVELS - 1);
-            let weights = &self.weights[site.lot.zone as usize * LEVELS + level];
             for _ in 0..TRIES {
-                let drawn = rng.unit() * weights[ARCHETYPES.len() - 1];
-                let kind =
-                    &ARCHETYPES[weights.partition_point(|sum| *sum <= drawn).min(ARCHETYPES.len() - 1)];
+                let kind = self.weights.draw(site.lot, rng);
                 let Some(spot) = self.fit(site, kind, room, rng) else { continue };
                 let unused = self.unused(room, spot);
                 if best.as_ref().is_none_or(|best| unused < best.0) {

@@ -2,10 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use rayon::prelude::*;
 use simworld_core::geometry::Point2;
 use simworld_core::id::SidewalkId;
 use simworld_core::net::{RoadClass, Side, Sidewalk};
-use simworld_core::scene::{EntityKind, Place};
+use simworld_core::scene::{EntityKind, Place, Shape};
 use simworld_core::seed::{Stream, StreamRng};
 
 use super::kinds::{FURNITURE, Row, abundance, shape_of};
@@ -28,6 +29,28 @@ const NEIGHBOUR_GAP: f64 = 0.3;
 /// Mean distance of bus stops along one side of an arterial, m.
 const BUS_STOPS: f64 = 350.0;
 
+/// Sidewalks that one thread furnishes at once.
+const CHUNK: usize = 256;
+/// Sidewalks that are furnished at once.
+const BATCH: usize = 64 * CHUNK;
+
+/// An element that would like to stand.
+struct Wish {
+    element: Element,
+    needs: Need,
+}
+
+/// What a wish needs to come true.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Need {
+    /// Nothing: at the kerb, it was seen to that nothing stands there.
+    Nothing,
+    /// That nothing stands there.
+    Room,
+    /// The table before it, and room.
+    Table,
+}
+
 /// Sets elements along every sidewalk.
 pub(super) fn line(
     setting: &Setting<'_>,
@@ -37,24 +60,33 @@ pub(super) fn line(
     elements: &mut Vec<Element>,
 ) {
     let doors = Doors::of(setting);
-    let mut setter = Setter { walk: Walk::default(), busy: Vec::new(), doors: Vec::new(), taken, elements };
-    for (index, sidewalk) in setting.network.sidewalks.iter().enumerate() {
-        setter.begin(sidewalk, doors.at(index), setting);
-        let mut rng = stream_of(sidewalk, streams).rng();
-        let zone = setter.zone(setting);
-        let (trees, furniture) = abundance(zone);
-        let arterial = setting.network.roads[sidewalk.road.index()].class != RoadClass::Local;
-        let usable = setter.usable();
-        if arterial && rng.chance(usable / BUS_STOPS) {
-            setter.set(EntityKind::BusStop, Row::Back, CORNER_CLEARANCE + 4.0 + rng.unit() * 6.0, &mut rng);
-        }
-        setter.terraces(&mut rng);
-        setter.line_up(EntityKind::StreetLamp, config.lamps, &mut rng);
-        setter.line_up(EntityKind::Tree, config.trees * trees, &mut rng);
-        let weights = FURNITURE.map(|(_, _, weights)| weights[zone as usize]);
-        for _ in 0..count(usable * config.furniture * furniture, &mut rng) {
-            let (kind, row, _) = FURNITURE[rng.weighted(&weights).unwrap_or(0)];
-            setter.set(kind, row, CORNER_CLEARANCE + rng.unit() * usable, &mut rng);
+    let sidewalks: Vec<(usize, &Sidewalk)> = setting.network.sidewalks.iter().enumerate().collect();
+    for batch in sidewalks.chunks(BATCH) {
+        // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
+        let wishes: Vec<Vec<Wish>> = batch
+            .par_chunks(CHUNK)
+            .map(|sidewalks| {
+                let mut setter = Setter::default();
+                for (index, sidewalk) in sidewalks {
+                    setter.begin(sidewalk, doors.at(*index), setting);
+                    setter.furnish(sidewalk, setting, config, &mut stream_of(sidewalk, streams).rng());
+                }
+                setter.wishes
+            })
+            .collect();
+        let mut has_table = false;
+        for Wish { element, needs } in wishes.into_iter().flatten() {
+            let comes_true = match needs {
+                Need::Nothing => true,
+                Need::Table if !has_table => false,
+                Need::Room | Need::Table => taken.take(&element.obb().footprint()),
+            };
+            if comes_true {
+                elements.push(element);
+            }
+            if needs == Need::Room {
+                has_table = comes_true && element.kind == EntityKind::Table;
+            }
         }
     }
 }
@@ -110,17 +142,42 @@ impl Doors {
     }
 }
 
-struct Setter<'a> {
+#[derive(Default)]
+struct Setter {
     walk: Walk,
     /// Stations that are taken at the kerb, from and to.
     busy: Vec<(f64, f64)>,
     /// Stations of doors, and what is behind them.
     doors: Vec<(f64, Place)>,
-    taken: &'a mut Occupancy,
-    elements: &'a mut Vec<Element>,
+    wishes: Vec<Wish>,
 }
 
-impl Setter<'_> {
+impl Setter {
+    /// Furnishes one sidewalk.
+    fn furnish(
+        &mut self,
+        sidewalk: &Sidewalk,
+        setting: &Setting<'_>,
+        config: &ElementConfig,
+        rng: &mut StreamRng,
+    ) {
+        let zone = self.zone(setting);
+        let (trees, furniture) = abundance(zone);
+        let is_local = setting.network.roads[sidewalk.road.index()].class == RoadClass::Local;
+        let usable = self.usable();
+        if !is_local && rng.chance(usable / BUS_STOPS) {
+            self.set(EntityKind::BusStop, Row::Back, CORNER_CLEARANCE + 4.0 + rng.unit() * 6.0, rng);
+        }
+        self.terraces(rng);
+        self.line_up(EntityKind::StreetLamp, config.lamps, rng);
+        self.line_up(EntityKind::Tree, config.trees * trees, rng);
+        let weights = FURNITURE.map(|(_, _, weights)| weights[zone as usize]);
+        for _ in 0..count(usable * config.furniture * furniture, rng) {
+            let (kind, row, _) = FURNITURE[rng.weighted(&weights).unwrap_or(0)];
+            self.set(kind, row, CORNER_CLEARANCE + rng.unit() * usable, rng);
+        }
+    }
+
     fn begin(&mut self, sidewalk: &Sidewalk, buildings: &[u32], setting: &Setting<'_>) {
         self.walk.set(sidewalk);
         self.busy.clear();
@@ -169,20 +226,24 @@ impl Setter<'_> {
                 let meets = |other: &(f64, f64)| span.0 < other.1 && other.0 < span.1;
                 if is_clear && !self.busy.iter().any(meets) {
                     self.busy.push(span);
-                    self.add(kind, shape, station, offset, 0.0);
+                    if let Some((position, facing)) = self.walk.at(station, offset) {
+                        let element = Element { kind, position, facing, shape };
+                        self.wishes.push(Wish { element, needs: Need::Nothing });
+                    }
                 }
             }
             Row::Back => {
-                self.set_back(kind, shape, station, half + BACK_GAP + size.x * 0.5, 0.0);
+                let offset = half + BACK_GAP + size.x * 0.5;
+                self.set_back(Need::Room, (kind, shape), station, offset, 0.0);
             }
         }
     }
 
-    /// Sets an element behind the sidewalk if nothing stands there and it blocks no door; says whether it did.
+    /// Wishes for an element behind the sidewalk if it blocks no door; says whether it did not.
     fn set_back(
         &mut self,
-        kind: EntityKind,
-        shape: simworld_core::scene::Shape,
+        needs: Need,
+        (kind, shape): (EntityKind, Shape),
         station: f64,
         offset: f64,
         turn: f64,
@@ -194,24 +255,8 @@ impl Setter<'_> {
         }
         let Some((position, facing)) = self.walk.at(station, offset) else { return false };
         let element = Element { kind, position, facing: turned(facing, turn), shape };
-        let free = self.taken.take(&element.obb().footprint());
-        if free {
-            self.elements.push(element);
-        }
-        free
-    }
-
-    fn add(
-        &mut self,
-        kind: EntityKind,
-        shape: simworld_core::scene::Shape,
-        station: f64,
-        offset: f64,
-        turn: f64,
-    ) {
-        if let Some((position, facing)) = self.walk.at(station, offset) {
-            self.elements.push(Element { kind, position, facing: turned(facing, turn), shape });
-        }
+        self.wishes.push(Wish { element, needs });
+        true
     }
 
     /// A table and two chairs beside the door of every other restaurant.
@@ -226,14 +271,15 @@ impl Setter<'_> {
             let offset = self.walk.half + BACK_GAP + table.size().x * 0.5;
             if station < CORNER_CLEARANCE
                 || station > self.walk.length - CORNER_CLEARANCE
-                || !self.set_back(EntityKind::Table, table, station, offset, 0.0)
+                || !self.set_back(Need::Room, (EntityKind::Table, table), station, offset, 0.0)
             {
                 continue;
             }
             for side in [1.0, -1.0] {
                 // Chairs look at the table, along the street.
                 let chair = shape_of(EntityKind::Chair, rng);
-                self.set_back(EntityKind::Chair, chair, station + side * 0.75, offset, side * FRAC_PI_2);
+                let at = station + side * 0.75;
+                self.set_back(Need::Table, (EntityKind::Chair, chair), at, offset, side * FRAC_PI_2);
             }
         }
     }

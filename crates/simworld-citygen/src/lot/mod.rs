@@ -6,6 +6,7 @@ mod ribbon;
 mod slabs;
 
 pub use config::{LotConfig, LotSize, LotStyle};
+use rayon::prelude::*;
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
@@ -15,6 +16,9 @@ use crate::block::{Block, Border, Ring};
 use crate::occupancy::Occupancy;
 use crate::zoning::{Zone, Zoning};
 use divide::Divider;
+
+/// Blocks that one thread divides at once.
+const CHUNK: usize = 64;
 
 /// A piece of land with a front to a street; convex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,9 +69,9 @@ pub struct Green {
 pub struct Land {
     /// The blocks.
     pub blocks: Vec<Block>,
-    /// The lots, block by block, along the streets.
+    /// The lots: those of closed blocks, block by block, then those of open ones.
     pub lots: Vec<Lot>,
-    /// The greens, block by block.
+    /// The greens, in the same order.
     pub greens: Vec<Green>,
     /// Length of the edges of blocks along sidewalks where buildings may stand, m.
     pub frontage: f64,
@@ -85,21 +89,43 @@ impl Land {
         seed: Seed,
         taken: &Occupancy,
     ) -> Self {
-        let mut land = Self { blocks: Block::of_network(network), ..Self::default() };
+        let blocks = Block::of_network(network);
         let streams = seed.stream("citygen/lots");
+        let numbered: Vec<(u32, &Block)> = (0..).zip(&blocks).collect();
+        // Closed blocks are functions of themselves, so they are divided on all threads.
+        let parts: Vec<Self> = numbered
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                let mut part = Self::default();
+                for (index, block) in chunk.iter().filter(|(_, block)| block.area.is_some()) {
+                    let stream = stream_of(block, streams);
+                    Divider::new(&mut part, *index, zoning, config, stream).divide(block.ring());
+                }
+                part
+            })
+            .collect();
+        let mut land = Self::default();
+        for part in parts {
+            land.append(part);
+        }
         let mut ribbons = Occupancy::default();
-        let blocks = std::mem::take(&mut land.blocks);
-        for (index, block) in blocks.iter().enumerate() {
-            let mut divider =
-                Divider::new(&mut land, index as u32, zoning, config, stream_of(block, streams));
-            if block.area.is_some() {
-                divider.divide(block.ring());
-            } else {
-                ribbon::line(&mut divider, block, taken, &mut ribbons);
-            }
+        for (index, block) in numbered.into_iter().filter(|(_, block)| block.area.is_none()) {
+            let mut divider = Divider::new(&mut land, index, zoning, config, stream_of(block, streams));
+            ribbon::line(&mut divider, block, taken, &mut ribbons);
         }
         land.blocks = blocks;
         land
+    }
+
+    /// Adds what another part of the land holds.
+    fn append(&mut self, mut part: Self) {
+        let shift = self.corners.len() as u32;
+        self.corners.append(&mut part.corners);
+        self.borders.append(&mut part.borders);
+        self.lots.extend(part.lots.into_iter().map(|lot| Lot { start: lot.start + shift, ..lot }));
+        self.greens
+            .extend(part.greens.into_iter().map(|green| Green { start: green.start + shift, ..green }));
+        self.frontage += part.frontage;
     }
 
     /// Divides one closed block by itself; an open one has no lots.

@@ -13,7 +13,7 @@ use simworld_core::geometry::{Obb, Point2, Vector2};
 const CELL: f64 = 32.0;
 /// The end of a chain.
 const NONE: u32 = u32::MAX;
-/// An outline over more cells than this is kept apart and tested every time.
+/// An outline as large as so many cells, or as long, is kept apart and tested every time.
 const MOST_CELLS: f64 = 4096.0;
 /// Slots along one side of an empty grid, as a power of two.
 const FIRST_BITS: u32 = 5;
@@ -200,10 +200,17 @@ impl Cells {
     /// `None` if they are too many, or nowhere.
     #[inline]
     fn of(low: Point2, high: Point2) -> Option<Self> {
-        let index = |x: f64| (x * (1.0 / CELL)).floor();
-        let (left, right, bottom, top) = (index(low.x), index(high.x), index(low.y), index(high.y));
-        let few = (right - left + 1.0) * (top - bottom + 1.0) <= MOST_CELLS;
-        few.then_some(Self { columns: (left as i64, right as i64), rows: (bottom as i64, top as i64) })
+        let (width, height) = (high.x - low.x, high.y - low.y);
+        if width * height > MOST_CELLS * CELL * CELL || !(width.max(height) <= MOST_CELLS * CELL) {
+            return None;
+        }
+        // The floor, without the call into libm that the oldest processors need.
+        let index = |x: f64| {
+            let cell = x * (1.0 / CELL);
+            let towards_zero = cell as i64;
+            towards_zero - i64::from(towards_zero as f64 > cell)
+        };
+        Some(Self { columns: (index(low.x), index(high.x)), rows: (index(low.y), index(high.y)) })
     }
 }
 
