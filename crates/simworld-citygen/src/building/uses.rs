@@ -27,13 +27,16 @@ pub(super) fn ensure(buildings: &mut [Building], rng: &mut StreamRng) {
         let rule = NEEDED.iter().find(|(other, _, _)| *other == place);
         rule.map_or(0, |(_, one_in, least)| (total / one_in).max(*least))
     };
+    let mut counts = vec![0_usize; Place::ALL.len()];
+    for building in buildings.iter() {
+        counts[rank(building.place)] += 1;
+    }
     for (place, _, _) in NEEDED {
-        let count = |place: Place| buildings.iter().filter(|building| building.place == place).count();
-        let missing = needed(place).saturating_sub(count(place));
+        let missing = needed(place).saturating_sub(counts[rank(place)]);
         if missing == 0 {
             continue;
         }
-        let spare = |other: Place| count(other).saturating_sub(needed(other));
+        let spare = |other: Place| counts[rank(other)].saturating_sub(needed(other));
         let Some((most, donor)) = Place::ALL
             .iter()
             .filter(|other| **other != place)
@@ -42,12 +45,20 @@ pub(super) fn ensure(buildings: &mut [Building], rng: &mut StreamRng) {
         else {
             continue;
         };
+        let given = missing.min(most);
         let mut donors: Vec<usize> = (0..total).filter(|index| buildings[*index].place == donor).collect();
         rng.shuffle(&mut donors);
-        for index in donors.into_iter().take(missing.min(most)) {
+        for index in donors.into_iter().take(given) {
             buildings[index].place = place;
         }
+        counts[rank(donor)] -= given;
+        counts[rank(place)] += given;
     }
+}
+
+/// The place of a use in the list of all uses.
+fn rank(place: Place) -> usize {
+    Place::ALL.iter().position(|other| *other == place).unwrap_or(0)
 }
 
 /// Names every place that bears a name.

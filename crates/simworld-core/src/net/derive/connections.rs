@@ -72,8 +72,12 @@ fn movements(network: &RoadNetwork, legs: &[Leg], leg: &Leg) -> Vec<(LaneId, Lan
     found
 }
 
-/// Each lane to the one of its rank; those in excess on either side share the outermost.
+/// Each lane to the one of its rank; those in excess on either side share the outermost. Nothing where one side is a
+/// one-way street of the other direction.
 fn lane_to_lane(from: &[LaneId], to: &[LaneId], turn: Turn, found: &mut Vec<(LaneId, LaneId, Turn)>) {
+    if from.is_empty() || to.is_empty() {
+        return;
+    }
     for rank in 0..from.len().max(to.len()) {
         found.push((from[rank.min(from.len() - 1)], to[rank.min(to.len() - 1)], turn));
     }
