@@ -201,7 +201,8 @@ impl Cells {
     #[inline]
     fn of(low: Point2, high: Point2) -> Option<Self> {
         let (width, height) = (high.x - low.x, high.y - low.y);
-        if width * height > MOST_CELLS * CELL * CELL || !(width.max(height) <= MOST_CELLS * CELL) {
+        let is_small = width * height <= MOST_CELLS * CELL * CELL && width.max(height) <= MOST_CELLS * CELL;
+        if !is_small {
             return None;
         }
         // The floor, without the call into libm that the oldest processors need.
