@@ -30,7 +30,7 @@ fn files(criterion: &mut Criterion) {
         let buildings = city.buildings.len();
         group.throughput(Throughput::Elements(buildings as u64));
         group.bench_function(BenchmarkId::new("save", buildings), |bencher| {
-            bencher.iter(|| saved(&city).len())
+            bencher.iter(|| saved(&city).len());
         });
         group.bench_function(BenchmarkId::new("load", buildings), |bencher| {
             bencher.iter(|| City::from_bytes(black_box(&bytes)).expect("it was just saved"));

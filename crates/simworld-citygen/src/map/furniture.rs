@@ -9,9 +9,14 @@ use super::MapDrawing;
 use super::page::{Frame, Page, escaped};
 use super::style::{CASING, FAINT, INK, PAPER, ROADS, green_color, place_color};
 use crate::City;
-use crate::lot::GreenKind;
+use crate::lot::{GreenKind, Land};
 
-pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, drawing: &MapDrawing<'_>) -> fmt::Result {
+pub(super) fn draw(
+    f: &mut fmt::Formatter<'_>,
+    page: &Page,
+    drawing: &MapDrawing<'_>,
+    land: &Land,
+) -> fmt::Result {
     // The map's own group ends here.
     writeln!(f, "</g>")?;
     frame(f, page)?;
@@ -19,7 +24,7 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, drawing: &MapDrawing
     let foot = page.foot();
     title(f, &foot, drawing)?;
     scale_bar(f, page, &foot)?;
-    legend(f, page, &foot, drawing.city)?;
+    legend(f, page, &foot, drawing.city, land)?;
     figures(f, &foot, &drawing.statistics)?;
     credit(f, page, drawing)
 }
@@ -122,7 +127,7 @@ fn scale_bar(f: &mut fmt::Formatter<'_>, page: &Page, foot: &Frame) -> fmt::Resu
 }
 
 /// Swatches of the uses and classes that there are.
-fn legend(f: &mut fmt::Formatter<'_>, page: &Page, foot: &Frame, city: &City) -> fmt::Result {
+fn legend(f: &mut fmt::Formatter<'_>, page: &Page, foot: &Frame, city: &City, land: &Land) -> fmt::Result {
     let mut present: Vec<Place> = city.buildings.iter().map(|building| building.place).collect();
     present.sort_unstable();
     present.dedup();
@@ -163,7 +168,7 @@ fn legend(f: &mut fmt::Formatter<'_>, page: &Page, foot: &Frame, city: &City) ->
             label_of(place)
         )?;
     }
-    if city.land().greens.iter().any(|green| green.kind == GreenKind::Park) {
+    if land.greens.iter().any(|green| green.kind == GreenKind::Park) {
         let ((x, y), (_, color)) = (next(), green_color(GreenKind::Park));
         writeln!(
             f,

@@ -6,15 +6,13 @@ use std::fmt;
 use super::page::Page;
 use super::path::Pen;
 use super::style::{BLOCK, green_color, zone_color};
-use crate::City;
-use crate::lot::{GreenKind, Lot};
+use crate::lot::{GreenKind, Land, Lot};
 use crate::zoning::Zone;
 
 /// Lots are tinted from this scale on, mm a metre; below it a block has one tint.
 const LOTS_FROM: f64 = 0.05;
 
-pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Result {
-    let land = city.land();
+pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, land: &Land) -> fmt::Result {
     let mut blocks = Pen::at(page.middle);
     for block in land.blocks.iter().filter(|block| block.area.is_some()) {
         blocks.polygon(&block.outline);

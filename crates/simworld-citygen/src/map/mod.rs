@@ -116,14 +116,15 @@ impl fmt::Display for MapDrawing<'_> {
         let page = Page::of(self.city);
         page.begin(f, &furniture::title_of(self))?;
         page.begin_city(f)?;
-        ground::draw(f, &page, self.city)?;
+        let land = self.city.land();
+        ground::draw(f, &page, &land)?;
         streets::draw(f, &page, self.city)?;
         buildings::draw(f, &page, self.city)?;
         // The group of the city.
         writeln!(f, "</g>")?;
         self.draw_trails(f, &page)?;
         labels::draw(f, &page, self.city)?;
-        furniture::draw(f, &page, self)?;
+        furniture::draw(f, &page, self, &land)?;
         writeln!(f, "</svg>")
     }
 }

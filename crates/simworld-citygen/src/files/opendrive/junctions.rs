@@ -2,9 +2,18 @@
 
 use std::io::{self, Write};
 
+use simworld_core::net::SignalPlan;
+
 use super::Roads;
 
-impl Roads<'_> {
+impl<'a> Roads<'a> {
+    /// The signal plan of an intersection: plans are listed in the order of intersections.
+    fn plan_of(&self, intersection: usize) -> Option<&'a SignalPlan> {
+        let plans = &self.network.signals;
+        let index = plans.binary_search_by_key(&intersection, |plan| plan.intersection.index()).ok()?;
+        Some(&plans[index])
+    }
+
     pub(super) fn junction(&self, index: usize, out: &mut impl Write) -> io::Result<()> {
         let place = &self.network.intersections[index];
         if place.connections.is_empty() {
@@ -34,7 +43,7 @@ impl Roads<'_> {
                 )?;
             }
         }
-        if let Some(plan) = self.network.signals.iter().find(|plan| plan.intersection.index() == index) {
+        if let Some(plan) = self.plan_of(index) {
             for (sequence, group) in self.shown(plan).into_iter().enumerate() {
                 writeln!(out, r#"<controller id="{}" type="0" sequence="{sequence}"/>"#, group.0)?;
             }
