@@ -95,7 +95,7 @@ fn forged_numbers_are_caught() {
     let forged = forge(&saved, 3, |content| content[20..60].fill(0xff));
     assert!(City::from_bytes(&forged).is_err());
     // A list that claims to hold 2^60 items.
-    for tag in [2, 3, 4] {
+    for tag in 2..=11 {
         let forged = forge(&saved, tag, |content| {
             content[..9].copy_from_slice(&[0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0x0f]);
         });
@@ -125,7 +125,7 @@ proptest! {
     }
 
     #[test]
-    fn forgeries_are_refused_or_sound(tag in 1_u32..5, at in 0.0..1.0_f64, value in any::<u8>()) {
+    fn forgeries_are_refused_or_sound(tag in 1_u32..13, at in 0.0..1.0_f64, value in any::<u8>()) {
         let saved = bytes(&city(3, 5));
         let forged = forge(&saved, tag, |content| {
             let index = (at * content.len() as f64) as usize;

@@ -79,6 +79,7 @@ fn section() -> impl Strategy<Value = CrossSection> {
 
 fn check(plan: &StreetPlan) -> Result<(), TestCaseError> {
     let network = RoadNetwork::derive(plan, &NetworkConfig::default()).expect("the plan is sound");
+    prop_assert_eq!(network.check(), Ok(()));
     check_paths(&network)?;
     if network.intersections.iter().all(|intersection| intersection.roads.len() == 2) {
         return Ok(()); // a ring: one way round never meets the other, nor the inner walkway the outer one

@@ -1,5 +1,6 @@
 //! Roads as data: lanes, intersections, crossings, signals; and the two-level waypoint graph over them.
 
+mod check;
 mod derive;
 mod network;
 mod plan;
@@ -8,6 +9,7 @@ mod section;
 mod signal;
 mod waypoint;
 
+pub use check::NetworkFault;
 pub use derive::{NetworkConfig, NetworkError};
 pub use network::{
     Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Turn,

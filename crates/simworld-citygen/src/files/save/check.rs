@@ -9,23 +9,24 @@ use crate::building::Building;
 use crate::element::Element;
 
 /// Streets at one node: the work at a junction grows with the square of its streets.
-const MOST_STREETS_A_NODE: u32 = 32;
+const MOST_STREETS_A_NODE: usize = 32;
 /// Farthest coordinate, m.
 const FARTHEST: f64 = 1e7;
 /// Largest building, m, and most storeys.
 const LARGEST: f64 = 2000.0;
 const MOST_STOREYS: u32 = 500;
 
-pub(super) fn plan(plan: &StreetPlan) -> Result<(), SaveError> {
-    let mut degree = vec![0_u32; plan.nodes.len()];
-    for end in plan.streets.iter().flat_map(|street| [street.from, street.to]) {
-        // Ends that are no nodes are refused when the roads are derived.
-        if let Some(degree) = degree.get_mut(end) {
-            *degree += 1;
-        }
+/// Roads are indexed as the streets of the plan, intersections as its nodes.
+pub(super) fn streets(plan: &StreetPlan, network: &RoadNetwork) -> Result<(), SaveError> {
+    let sizes = (plan.nodes.len(), plan.streets.len());
+    if sizes != (network.intersections.len(), network.roads.len()) {
+        return Err(SaveError::Unsound { what: "plan", index: 0, fault: "has other streets than the roads" });
     }
-    let crowded = degree.iter().position(|degree| *degree > MOST_STREETS_A_NODE);
-    fail("node", crowded, "joins more than 32 streets")
+    let pairs = plan.streets.iter().zip(&network.roads);
+    let stray = pairs.map(|(street, road)| (street.from, street.to) != (road.from.index(), road.to.index()));
+    fail("road", stray.into_iter().position(|stray| stray), "joins other places than its street")?;
+    let crowded = network.intersections.iter().position(|place| place.roads.len() > MOST_STREETS_A_NODE);
+    fail("intersection", crowded, "joins more than 32 streets")
 }
 
 pub(super) fn buildings(buildings: &[Building], network: &RoadNetwork) -> Result<(), SaveError> {

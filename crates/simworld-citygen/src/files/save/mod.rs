@@ -1,7 +1,8 @@
 //! A city as one file, without loss: magic, version, then sections of postcard with checksums.
 //!
-//! Saved is what a city is made of: configuration, plan, buildings, elements. The road network is not: it follows from
-//! the plan bit for bit, and deriving it anew costs less than reading it would. All numbers of the frame are
+//! Saved is what a city is made of: configuration, plan, buildings, elements, and the road network too, although it
+//! follows from the plan: to read it is several times faster than to derive it, and a city stays what it was when a later
+//! version derives roads otherwise. Lists are cut into sections of 65 536 items. All numbers of the frame are
 //! little-endian.
 //!
 //! | bytes | what |
@@ -21,10 +22,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::{fs, io, thread};
 
-use frame::{Frames, Tag};
-use serde::de::DeserializeOwned;
+use frame::{Sections, Tag};
 use serde::{Deserialize, Serialize};
-use simworld_core::net::{NetworkError, RoadNetwork, StreetPlan};
+use simworld_core::net::{NetworkError, NetworkFault, RoadNetwork, StreetPlan};
 use thiserror::Error;
 
 use super::atomic;
@@ -111,6 +111,9 @@ pub enum SaveError {
     /// Streets that cannot be built.
     #[error(transparent)]
     Network(#[from] NetworkError),
+    /// Roads that do not hold together.
+    #[error(transparent)]
+    Roads(#[from] NetworkFault),
     /// The file cannot be read or written.
     #[error(transparent)]
     Io(#[from] io::Error),
@@ -123,12 +126,41 @@ struct Head {
     provenance: Provenance,
     frontage: f64,
     frontage_used: f64,
-    buildings: u64,
-    elements: u64,
+    counts: Counts,
 }
 
-/// Items a section of buildings or elements: enough that framing costs nothing, few enough that buffers stay small.
-const CHUNK: usize = 1 << 16;
+/// Lengths of the lists.
+#[derive(Serialize, Deserialize)]
+struct Counts {
+    buildings: u64,
+    elements: u64,
+    roads: u64,
+    lanes: u64,
+    connections: u64,
+    intersections: u64,
+    sidewalks: u64,
+    crossings: u64,
+    signals: u64,
+    names: u64,
+}
+
+impl Counts {
+    fn of(city: &City) -> Self {
+        let network = &city.network;
+        Self {
+            buildings: city.buildings.len() as u64,
+            elements: city.elements.len() as u64,
+            roads: network.roads.len() as u64,
+            lanes: network.lanes.len() as u64,
+            connections: network.connections.len() as u64,
+            intersections: network.intersections.len() as u64,
+            sidewalks: network.sidewalks.len() as u64,
+            crossings: network.crossings.len() as u64,
+            signals: network.signals.len() as u64,
+            names: network.names.len() as u64,
+        }
+    }
+}
 
 impl City {
     /// Writes the city. The same city gives the same bytes.
@@ -151,18 +183,22 @@ impl City {
             provenance: self.provenance.clone(),
             frontage: self.frontage,
             frontage_used: self.frontage_used,
-            buildings: self.buildings.len() as u64,
-            elements: self.elements.len() as u64,
+            counts: Counts::of(self),
         };
         let mut frames = frame::Writer::begin(writer)?;
         frames.section(Tag::Head, &head)?;
         frames.section(Tag::Plan, &self.plan)?;
-        for buildings in self.buildings.chunks(CHUNK) {
-            frames.section(Tag::Buildings, buildings)?;
-        }
-        for elements in self.elements.chunks(CHUNK) {
-            frames.section(Tag::Elements, elements)?;
-        }
+        frames.list(Tag::Buildings, &self.buildings)?;
+        frames.list(Tag::Elements, &self.elements)?;
+        let network = &self.network;
+        frames.list(Tag::Roads, &network.roads)?;
+        frames.list(Tag::Lanes, &network.lanes)?;
+        frames.list(Tag::Connections, &network.connections)?;
+        frames.list(Tag::Intersections, &network.intersections)?;
+        frames.list(Tag::Sidewalks, &network.sidewalks)?;
+        frames.list(Tag::Crossings, &network.crossings)?;
+        frames.list(Tag::Signals, &network.signals)?;
+        frames.list(Tag::Names, &network.names)?;
         frames.end()
     }
 
@@ -173,21 +209,19 @@ impl City {
     /// # Errors
     /// Bytes that are no saved city of this version, or a city that cannot be.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SaveError> {
-        let mut frames = Frames::of(bytes)?;
-        let head: Head = frames.decode(Tag::Head)?;
-        let plan: StreetPlan = frames.decode(Tag::Plan)?;
+        let sections = Sections::of(bytes)?;
+        let head: Head = sections.one(Tag::Head)?;
         head.config.validate()?;
-        check::plan(&plan)?;
+        let counts = &head.counts;
         // The roads take about as long as all the rest.
-        let (network, lists) = thread::scope(|scope| {
-            let roads = scope.spawn(|| RoadNetwork::derive(&plan, &head.config.network));
-            let lists = lists(&mut frames, &head);
-            let network = roads.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            (network, lists)
+        let (network, things) = thread::scope(|scope| {
+            let roads = scope.spawn(|| read_network(&sections, counts));
+            let things = read_things(&sections, counts);
+            (roads.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), things)
         });
-        let (network, (buildings, elements)) = (network?, lists?);
+        let (network, (plan, buildings, elements)) = (network?, things?);
+        check::streets(&plan, &network)?;
         check::buildings(&buildings, &network)?;
-        check::elements(&elements)?;
         Ok(Self {
             config: head.config,
             provenance: head.provenance,
@@ -221,27 +255,29 @@ impl City {
     }
 }
 
-fn lists(frames: &mut Frames<'_>, head: &Head) -> Result<(Vec<Building>, Vec<Element>), SaveError> {
-    let buildings = gather(frames, Tag::Buildings, head.buildings)?;
-    let elements = gather(frames, Tag::Elements, head.elements)?;
-    frames.finish()?;
-    Ok((buildings, elements))
+fn read_things(
+    sections: &Sections<'_>,
+    counts: &Counts,
+) -> Result<(StreetPlan, Vec<Building>, Vec<Element>), SaveError> {
+    let plan: StreetPlan = sections.one(Tag::Plan)?;
+    plan.validate()?;
+    let buildings = sections.list(Tag::Buildings, counts.buildings)?;
+    let elements = sections.list(Tag::Elements, counts.elements)?;
+    check::elements(&elements)?;
+    Ok((plan, buildings, elements))
 }
 
-/// Reads as many items as were announced, section by section.
-fn gather<T: DeserializeOwned>(frames: &mut Frames<'_>, tag: Tag, count: u64) -> Result<Vec<T>, SaveError> {
-    let mut items: Vec<T> = Vec::new();
-    while (items.len() as u64) < count {
-        let mut some: Vec<T> = frames.decode(tag)?;
-        if some.is_empty() || items.len() as u64 + some.len() as u64 > count {
-            let reason = format!("{count} items were announced");
-            return Err(SaveError::Content { section: tag.name(), reason });
-        }
-        if items.is_empty() {
-            // No more than what is left of the file can hold, whatever was announced.
-            items.reserve_exact(count.min(frames.left()) as usize);
-        }
-        items.append(&mut some);
-    }
-    Ok(items)
+fn read_network(sections: &Sections<'_>, counts: &Counts) -> Result<RoadNetwork, SaveError> {
+    let network = RoadNetwork {
+        roads: sections.list(Tag::Roads, counts.roads)?,
+        lanes: sections.list(Tag::Lanes, counts.lanes)?,
+        connections: sections.list(Tag::Connections, counts.connections)?,
+        intersections: sections.list(Tag::Intersections, counts.intersections)?,
+        sidewalks: sections.list(Tag::Sidewalks, counts.sidewalks)?,
+        crossings: sections.list(Tag::Crossings, counts.crossings)?,
+        signals: sections.list(Tag::Signals, counts.signals)?,
+        names: sections.list(Tag::Names, counts.names)?,
+    };
+    network.check()?;
+    Ok(network)
 }

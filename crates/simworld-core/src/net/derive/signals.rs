@@ -19,7 +19,8 @@ pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg], c
     if network.intersections[id.index()].control != Control::Signals {
         return;
     }
-    let first = network.signal_groups() as u32;
+    // Groups are numbered on, plan after plan; to count them anew would take ever longer.
+    let first = network.signals.last().and_then(|plan| plan.groups.last()).map_or(0, |group| group.0 + 1);
     let count = legs.len() as u32;
     let vehicles = |leg: usize| SignalGroup(first + leg as u32);
     let walkers = |leg: usize| SignalGroup(first + count + leg as u32);
