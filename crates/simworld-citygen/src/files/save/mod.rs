@@ -122,7 +122,8 @@ pub enum SaveError {
 /// Everything small: what [`City`] holds beside its long lists.
 #[derive(Serialize, Deserialize)]
 struct Head {
-    config: CityConfig,
+    /// JSON, which names its fields: a setting that a later version adds is then read as its default.
+    config: String,
     provenance: Provenance,
     frontage: f64,
     frontage_used: f64,
@@ -179,7 +180,7 @@ impl City {
     /// The writer's.
     pub fn write_to(&self, writer: &mut impl Write) -> Result<(), SaveError> {
         let head = Head {
-            config: self.config.clone(),
+            config: config_to_json(&self.config)?,
             provenance: self.provenance.clone(),
             frontage: self.frontage,
             frontage_used: self.frontage_used,
@@ -211,7 +212,7 @@ impl City {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SaveError> {
         let sections = Sections::of(bytes)?;
         let head: Head = sections.one(Tag::Head)?;
-        head.config.validate()?;
+        let config = config_from_json(&head.config)?;
         let counts = &head.counts;
         // The roads take about as long as all the rest.
         let (network, things) = thread::scope(|scope| {
@@ -223,7 +224,7 @@ impl City {
         check::streets(&plan, &network)?;
         check::buildings(&buildings, &network)?;
         Ok(Self {
-            config: head.config,
+            config,
             provenance: head.provenance,
             plan,
             network: Arc::new(network),
@@ -253,6 +254,20 @@ impl City {
         }
         Self::from_bytes(&fs::read(path)?)
     }
+}
+
+fn config_to_json(config: &CityConfig) -> Result<String, SaveError> {
+    serde_json::to_string(config).map_err(|error| not_a_config(&error))
+}
+
+fn config_from_json(text: &str) -> Result<CityConfig, SaveError> {
+    let config: CityConfig = serde_json::from_str(text).map_err(|error| not_a_config(&error))?;
+    config.validate()?;
+    Ok(config)
+}
+
+fn not_a_config(error: &serde_json::Error) -> SaveError {
+    SaveError::Content { section: Tag::Head.name(), reason: error.to_string() }
 }
 
 fn read_things(
