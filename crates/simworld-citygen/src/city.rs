@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::net::{Crossing, RoadNetwork, StreetPlan, polyline};
+use simworld_core::net::{Crossing, RoadNetwork, StreetPlan};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
 use simworld_core::seed::Seed;
 
@@ -250,9 +250,4 @@ fn describe_element(element: &Element) -> EntityDesc {
     } else {
         desc
     }
-}
-
-/// Length of all centrelines of a plan, m.
-pub(crate) fn street_length(plan: &StreetPlan) -> f64 {
-    plan.streets.iter().map(|street| polyline::length(&plan.centerline(street))).sum()
 }

@@ -15,10 +15,17 @@ pub struct RoadConfig {
     pub count: u32,
     /// Mean length of a segment, m, in [60, 1000].
     pub length: f64,
-    /// Share by which lengths vary to both sides, in [0, 0.4].
+    /// Standard deviation of the logarithm of lengths, in [0, 0.6]: the higher, the more short and very long streets.
     pub length_variation: f64,
-    /// Standard deviation of the bend from one segment to the next, radians, in [0, 0.5]: 0 grows a grid.
+    /// Standard deviation of a street's heading from where it is led, radians, in [0, 0.5]: 0 grows straight lines.
     pub heading_variation: f64,
+    /// How firmly streets are drawn to the grain of their place, in [0, 1]: at 0 they keep their own heading.
+    pub order: f64,
+    /// Range to both sides within which the grain of the city turns from place to place, radians, in [0, π]: at 0 it is one
+    /// grid.
+    pub turning: f64,
+    /// Distance over which the grain turns, m, in [50, 100 000].
+    pub patch: f64,
     /// A new end nearer than this to a junction or a street is attached to it, m, in [10, 500]; at most 0.6 of the
     /// length.
     pub snap: f64,
@@ -33,8 +40,16 @@ pub struct RoadConfig {
     pub depth_bias: f64,
     /// Weight of the distance from the middle, in [0, 10]: at 0 arms reach out, higher values close block after block.
     pub compactness: f64,
+    /// Share of the junctions at which four streets may meet, in [0, 1]; three at the others.
+    pub crossroads: f64,
+    /// Share of dead ends among the junctions, in [0, 1]: those beyond it are joined to what they look at, or taken away.
+    pub dead_ends: f64,
     /// Share of the segments that bend between their ends, in [0, 1].
     pub bends: f64,
+    /// Height of bows as a share of the length, in [0, 0.3].
+    pub bow: f64,
+    /// Highways that leave the middle, in [0, 4]: with 0 the first streets are arterials.
+    pub highways: u32,
     /// Lanes each way of an arterial, in [1, 4].
     pub arterial_lanes: u8,
     /// Width of a driving lane, m, in [2, 6].
@@ -48,15 +63,22 @@ impl Default for RoadConfig {
         Self {
             count: 40,
             length: 105.0,
-            length_variation: 0.25,
-            heading_variation: 0.08,
+            length_variation: 0.2,
+            heading_variation: 0.06,
+            order: 0.6,
+            turning: 0.3,
+            patch: 900.0,
             snap: 45.0,
             least_angle: 0.9,
             continuation: 0.92,
             branching: 0.8,
             depth_bias: 0.5,
             compactness: 1.2,
-            bends: 0.3,
+            crossroads: 0.5,
+            dead_ends: 0.17,
+            bends: 0.5,
+            bow: 0.1,
+            highways: 0,
             arterial_lanes: 1,
             lane_width: LANE_WIDTH,
             sidewalk_width: SIDEWALK_WIDTH,
@@ -137,7 +159,14 @@ impl CityConfig {
         let checks = [
             ("roads.count", f64::from(roads.count), 2.0, 1e6, "2 to 1 000 000"),
             ("roads.length", roads.length, 60.0, 1000.0, "60 to 1000 m"),
-            ("roads.length_variation", roads.length_variation, 0.0, 0.4, "0 to 0.4"),
+            ("roads.length_variation", roads.length_variation, 0.0, 0.6, "0 to 0.6"),
+            ("roads.order", roads.order, 0.0, 1.0, "0 to 1"),
+            ("roads.turning", roads.turning, 0.0, std::f64::consts::PI, "0 to π rad"),
+            ("roads.patch", roads.patch, 50.0, 1e5, "50 to 100 000 m"),
+            ("roads.crossroads", roads.crossroads, 0.0, 1.0, "0 to 1"),
+            ("roads.dead_ends", roads.dead_ends, 0.0, 1.0, "0 to 1"),
+            ("roads.bow", roads.bow, 0.0, 0.3, "0 to 0.3"),
+            ("roads.highways", f64::from(roads.highways), 0.0, 4.0, "0 to 4"),
             ("roads.heading_variation", roads.heading_variation, 0.0, 0.5, "0 to 0.5 rad"),
             ("roads.snap", roads.snap, 10.0, roads.length.min(833.0) * 0.6, "10 m to 0.6 of roads.length"),
             ("roads.least_angle", roads.least_angle, 0.5, 1.5, "0.5 to 1.5 rad"),

@@ -17,6 +17,7 @@ mod provenance;
 pub mod python;
 mod report;
 mod strips;
+mod style;
 pub mod zoning;
 
 pub use city::{City, CityEntities};
@@ -24,4 +25,5 @@ pub use config::{BuildingConfig, CityConfig, ElementConfig, RoadConfig};
 pub use error::CityError;
 pub use geo::GeoOrigin;
 pub use provenance::Provenance;
-pub use report::CityReport;
+pub use report::{CityReport, StreetStatistics};
+pub use style::{Band, Style, StyleError};

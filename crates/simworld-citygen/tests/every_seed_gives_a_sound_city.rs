@@ -19,11 +19,11 @@ fn every_seed_gives_a_sound_city() {
         let config = CityConfig::with_roads(10 + (seed % 16) as u32);
         let city = City::generate(&config, Seed(seed)).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         let report = city.report();
-        assert_eq!(report.components, 1, "seed {seed} is not connected");
+        assert_eq!(report.streets.components, 1, "seed {seed} is not connected");
         assert!(
-            report.streets >= config.roads.count as usize,
+            report.streets.streets >= config.roads.count as usize,
             "seed {seed} stopped at {} streets",
-            report.streets
+            report.streets.streets
         );
         assert_eq!(crossings(&city), 0, "seed {seed}: streets cross without a junction");
         assert_eq!(overlapping_pairs(&city), 0, "seed {seed}: buildings overlap");

@@ -1,43 +1,72 @@
-//! The streets grown so far, with a uniform grid for questions about what is near.
+//! The streets grown so far: flat arrays, and a uniform grid that knows what is near.
+//!
+//! The grid is dense over the land of the city. Its lists are chained through arenas, so that growth never moves or
+//! allocates one list for itself.
 
-use std::collections::BTreeMap;
-
-use simworld_core::geometry::{Point2, heading};
+use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::RoadClass;
 
 use super::proposal::{Arrival, Fitted};
-use crate::RoadConfig;
+
+/// More streets than this do not meet at one junction.
+pub(super) const MOST_STREETS: usize = 4;
+/// The end of a chain.
+const END: u32 = u32::MAX;
 
 /// A straight piece between two junctions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Segment {
-    pub(super) from: usize,
-    pub(super) to: usize,
+    pub(super) from: u32,
+    pub(super) to: u32,
     pub(super) class: RoadClass,
+    /// Unit vector from its beginning to its end.
+    pub(super) along: Vector2,
+}
+
+/// A junction: the streets that meet there and how many may.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    at: Point2,
+    streets: [u32; MOST_STREETS],
+    count: u8,
+    limit: u8,
 }
 
 /// Junctions and segments; what it holds is planar and connected.
 #[derive(Clone, Debug)]
 pub(super) struct Fabric {
-    nodes: Vec<Point2>,
-    /// Segments at each node.
-    incident: Vec<Vec<usize>>,
+    nodes: Vec<Node>,
     segments: Vec<Segment>,
+    /// Half the width of the land, and the width of a cell, m.
+    reach: f64,
     cell: f64,
-    /// Nodes and segments by the cells they touch.
-    node_cells: BTreeMap<(i32, i32), Vec<usize>>,
-    segment_cells: BTreeMap<(i32, i32), Vec<usize>>,
+    columns: usize,
+    /// First node and first entry of each cell; each points to the next.
+    node_heads: Vec<u32>,
+    node_next: Vec<u32>,
+    entry_heads: Vec<u32>,
+    entries: Vec<(u32, u32)>,
+    /// The last question that each segment was an answer to, so that none is told twice.
+    asked: Vec<u32>,
+    question: u32,
 }
 
 impl Fabric {
-    pub(super) fn new(config: &RoadConfig) -> Self {
+    /// Empty land within `reach` m of the origin, in cells of `cell` m.
+    pub(super) fn new(reach: f64, cell: f64) -> Self {
+        let columns = (2.0 * reach / cell).ceil() as usize + 1;
         Self {
             nodes: Vec::new(),
-            incident: Vec::new(),
             segments: Vec::new(),
-            cell: config.length,
-            node_cells: BTreeMap::new(),
-            segment_cells: BTreeMap::new(),
+            reach,
+            cell,
+            columns,
+            node_heads: vec![END; columns * columns],
+            node_next: Vec::new(),
+            entry_heads: vec![END; columns * columns],
+            entries: Vec::new(),
+            asked: Vec::new(),
+            question: 0,
         }
     }
 
@@ -45,120 +74,177 @@ impl Fabric {
         self.nodes.len()
     }
 
-    pub(super) fn segment_count(&self) -> usize {
-        self.segments.len()
-    }
-
-    pub(super) fn node(&self, node: usize) -> Point2 {
-        self.nodes[node]
-    }
-
     pub(super) fn segments(&self) -> &[Segment] {
         &self.segments
     }
 
-    pub(super) fn segment(&self, segment: usize) -> Segment {
-        self.segments[segment]
+    pub(super) fn segment(&self, segment: u32) -> Segment {
+        self.segments[segment as usize]
     }
 
-    pub(super) fn degree(&self, node: usize) -> usize {
-        self.incident[node].len()
+    pub(super) fn at(&self, node: u32) -> Point2 {
+        self.nodes[node as usize].at
     }
 
-    /// The directions in which segments leave a node.
-    pub(super) fn headings(&self, node: usize) -> impl Iterator<Item = f64> {
-        self.incident[node].iter().map(move |segment| {
-            let Segment { from, to, .. } = self.segments[*segment];
-            let other = if from == node { to } else { from };
-            heading(&(self.nodes[other] - self.nodes[node]))
+    pub(super) fn degree(&self, node: u32) -> usize {
+        usize::from(self.nodes[node as usize].count)
+    }
+
+    /// Whether one more street may meet there.
+    pub(super) fn has_room(&self, node: u32) -> bool {
+        let node = &self.nodes[node as usize];
+        node.count < node.limit
+    }
+
+    /// Whether a point lies within the land, a little inside its edge.
+    pub(super) fn holds(&self, point: Point2) -> bool {
+        point.coords.norm() < self.reach - self.cell
+    }
+
+    pub(super) fn streets(&self, node: u32) -> &[u32] {
+        let node = &self.nodes[node as usize];
+        &node.streets[..usize::from(node.count)]
+    }
+
+    /// The directions in which streets leave a node.
+    pub(super) fn ways(&self, node: u32) -> impl Iterator<Item = Vector2> {
+        self.streets(node).iter().map(move |segment| {
+            let segment = &self.segments[*segment as usize];
+            if segment.from == node { segment.along } else { -segment.along }
         })
     }
 
-    pub(super) fn are_joined(&self, a: usize, b: usize) -> bool {
-        self.incident[a].iter().any(|segment| {
-            let Segment { from, to, .. } = self.segments[*segment];
-            from == b || to == b
-        })
+    /// The node at the other end of a segment.
+    pub(super) fn other_end(&self, segment: u32, node: u32) -> u32 {
+        let segment = &self.segments[segment as usize];
+        if segment.from == node { segment.to } else { segment.from }
     }
 
-    /// Nodes within a distance, ascending.
-    pub(super) fn nodes_near(&self, point: Point2, distance: f64) -> Vec<usize> {
-        let mut found = Vec::new();
-        for cell in self.cells(point, point, distance) {
-            let nodes = self.node_cells.get(&cell).into_iter().flatten();
-            found.extend(nodes.copied().filter(|node| (self.nodes[*node] - point).norm() <= distance));
-        }
-        found.sort_unstable();
-        found
+    pub(super) fn are_joined(&self, a: u32, b: u32) -> bool {
+        self.streets(a).iter().any(|segment| self.other_end(*segment, a) == b)
     }
 
-    /// Segments whose cells touch the box around two points grown by a margin, ascending, each once.
-    pub(super) fn segments_near(&self, a: Point2, b: Point2, margin: f64) -> Vec<usize> {
-        let mut found: Vec<usize> = Vec::new();
-        for cell in self.cells(a, b, margin) {
-            found.extend(self.segment_cells.get(&cell).into_iter().flatten());
-        }
-        found.sort_unstable();
-        found.dedup();
-        found
+    fn cell_of(&self, x: f64) -> usize {
+        (((x + self.reach) / self.cell).floor().max(0.0) as usize).min(self.columns - 1)
     }
 
-    pub(super) fn add_node(&mut self, position: Point2) -> usize {
-        let node = self.nodes.len();
-        self.nodes.push(position);
-        self.incident.push(Vec::new());
-        let cell = self.cells(position, position, 0.0).next();
-        if let Some(cell) = cell {
-            self.node_cells.entry(cell).or_default().push(node);
+    /// Calls with every node of the cells within a distance; they may lie somewhat farther off.
+    pub(super) fn visit_nodes(&self, point: Point2, distance: f64, mut visit: impl FnMut(u32, Point2)) {
+        let rows = self.cell_of(point.y - distance)..=self.cell_of(point.y + distance);
+        for row in rows {
+            for column in self.cell_of(point.x - distance)..=self.cell_of(point.x + distance) {
+                let mut node = self.node_heads[row * self.columns + column];
+                while node != END {
+                    visit(node, self.nodes[node as usize].at);
+                    node = self.node_next[node as usize];
+                }
+            }
         }
+    }
+
+    /// Collects every segment whose cells touch the box around two points grown by a margin, each once.
+    pub(super) fn segments_near(&mut self, a: Point2, b: Point2, margin: f64, found: &mut Vec<u32>) {
+        found.clear();
+        self.question = self.question.wrapping_add(1);
+        let rows = self.cell_of(a.y.min(b.y) - margin)..=self.cell_of(a.y.max(b.y) + margin);
+        let columns = self.cell_of(a.x.min(b.x) - margin)..=self.cell_of(a.x.max(b.x) + margin);
+        for row in rows {
+            for column in columns.clone() {
+                let mut entry = self.entry_heads[row * self.columns + column];
+                while entry != END {
+                    let (segment, next) = self.entries[entry as usize];
+                    if self.asked[segment as usize] != self.question {
+                        self.asked[segment as usize] = self.question;
+                        found.push(segment);
+                    }
+                    entry = next;
+                }
+            }
+        }
+    }
+
+    /// Adds a junction at which at most `limit` streets meet.
+    pub(super) fn add_node(&mut self, at: Point2, limit: u8) -> u32 {
+        let node = self.nodes.len() as u32;
+        self.nodes.push(Node { at, streets: [END; MOST_STREETS], count: 0, limit });
+        let cell = self.cell_of(at.y) * self.columns + self.cell_of(at.x);
+        self.node_next.push(self.node_heads[cell]);
+        self.node_heads[cell] = node;
         node
     }
 
-    /// Builds a fitted proposal and returns the node where it arrives.
-    pub(super) fn build(&mut self, fitted: &Fitted) -> usize {
+    /// Builds a fitted proposal and returns the node where it arrives; a new junction takes at most `limit` streets.
+    pub(super) fn build(&mut self, fitted: &Fitted, limit: u8) -> u32 {
         let node = match fitted.arrival {
-            Arrival::New(point) => self.add_node(point),
+            Arrival::New(point) => self.add_node(point, limit),
             Arrival::Node(node) => node,
-            Arrival::Interior(segment, point) => self.split(segment, point),
+            Arrival::Interior(segment, point) => self.split(segment, point, limit),
         };
-        self.add_segment(Segment { from: fitted.from, to: node, class: fitted.class });
+        let along = (self.at(node) - self.at(fitted.from)).normalize();
+        self.add_segment(Segment { from: fitted.from, to: node, class: fitted.class, along });
         node
+    }
+
+    fn attach(&mut self, node: u32, segment: u32) {
+        let node = &mut self.nodes[node as usize];
+        node.streets[usize::from(node.count)] = segment;
+        node.count += 1;
     }
 
     fn add_segment(&mut self, segment: Segment) {
-        let index = self.segments.len();
+        let index = self.segments.len() as u32;
         self.segments.push(segment);
-        self.incident[segment.from].push(index);
-        self.incident[segment.to].push(index);
+        self.asked.push(self.question);
+        self.attach(segment.from, index);
+        self.attach(segment.to, index);
         self.file(index);
     }
 
-    fn file(&mut self, index: usize) {
-        let Segment { from, to, .. } = self.segments[index];
-        for cell in self.cells(self.nodes[from], self.nodes[to], 0.0).collect::<Vec<_>>() {
-            let entries = self.segment_cells.entry(cell).or_default();
-            if !entries.contains(&index) {
-                entries.push(index);
+    /// Enters a segment in the cells of its box.
+    fn file(&mut self, index: u32) {
+        let Segment { from, to, .. } = self.segments[index as usize];
+        let (a, b) = (self.at(from), self.at(to));
+        for row in self.cell_of(a.y.min(b.y))..=self.cell_of(a.y.max(b.y)) {
+            for column in self.cell_of(a.x.min(b.x))..=self.cell_of(a.x.max(b.x)) {
+                let cell = row * self.columns + column;
+                self.entries.push((index, self.entry_heads[cell]));
+                self.entry_heads[cell] = self.entries.len() as u32 - 1;
             }
         }
     }
 
     /// Puts a node on a segment: the first half keeps its index, the second is new.
-    fn split(&mut self, index: usize, point: Point2) -> usize {
-        let node = self.add_node(point);
-        let Segment { to, class, .. } = self.segments[index];
-        self.segments[index].to = node;
-        self.incident[to].retain(|segment| *segment != index);
-        self.incident[node].push(index);
-        self.add_segment(Segment { from: node, to, class });
+    fn split(&mut self, index: u32, point: Point2, limit: u8) -> u32 {
+        // Two halves and the street that arrives.
+        let node = self.add_node(point, limit.max(3));
+        let segment = self.segments[index as usize];
+        self.segments[index as usize].to = node;
+        self.detach(segment.to, index);
+        self.attach(node, index);
+        self.add_segment(Segment { from: node, ..segment });
         node
     }
 
-    fn cells(&self, a: Point2, b: Point2, margin: f64) -> impl Iterator<Item = (i32, i32)> + use<> {
-        let cell = self.cell;
-        let index = move |x: f64| (x / cell).floor() as i32;
-        let columns = index(a.x.min(b.x) - margin)..=index(a.x.max(b.x) + margin);
-        let (bottom, top) = (index(a.y.min(b.y) - margin), index(a.y.max(b.y) + margin));
-        columns.flat_map(move |column| (bottom..=top).map(move |row| (column, row)))
+    fn detach(&mut self, node: u32, segment: u32) {
+        let node = &mut self.nodes[node as usize];
+        let count = usize::from(node.count);
+        if let Some(place) = node.streets[..count].iter().position(|own| *own == segment) {
+            node.streets.copy_within(place + 1..count, place);
+            node.count -= 1;
+        }
+    }
+
+    /// Takes a dead end's street away from the junction it comes from. The segment stays in the arrays as what is no
+    /// street any more; [`is_standing`](Self::is_standing) tells.
+    pub(super) fn remove_dead_end(&mut self, node: u32) {
+        let Some(segment) = self.streets(node).first().copied() else { return };
+        let other = self.other_end(segment, node);
+        self.detach(node, segment);
+        self.detach(other, segment);
+    }
+
+    /// Whether a segment is still a street.
+    pub(super) fn is_standing(&self, segment: u32) -> bool {
+        self.streets(self.segments[segment as usize].from).contains(&segment)
     }
 }

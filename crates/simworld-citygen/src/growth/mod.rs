@@ -2,25 +2,36 @@
 //!
 //! Each end popped from the queue proposes one segment. The proposal is attached to what it nearly meets, cut where
 //! it meets a street, and checked against every rule of a junction; what passes becomes a street and proposes its own
-//! continuation and branches (after Parish and Müller 2001, in the queue form of the paper's predecessor). The network is connected because every
-//! segment begins at a junction that exists.
+//! continuation and branches (after Parish and Müller 2001, in the queue form of the paper's predecessor). The network
+//! is connected because every segment begins at a junction that exists. Loose ends are then attached to what they
+//! look at, and of the others as many are taken away as the style has too many.
 
+mod bend;
 mod fabric;
+mod field;
+mod finish;
 mod proposal;
 
 use std::collections::BinaryHeap;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use simworld_core::geometry::{Point2, Vector2, heading};
-use simworld_core::net::{CrossSection, RoadClass, Street, StreetPlan};
+use simworld_core::geometry::{Point2, direction, heading};
+use simworld_core::net::{CrossSection, LaneDirection, LaneKind, LaneSpec, RoadClass, Street, StreetPlan};
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::RoadConfig;
-use fabric::Fabric;
-use proposal::{Proposal, fit};
+use fabric::{Fabric, MOST_STREETS};
+use field::Field;
+use proposal::{Fitter, Measures, Proposal};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.
 const REVIVALS: u32 = 40;
+/// Rounds of growing and pruning.
+const ROUNDS: u32 = 8;
+/// Segments of a highway are so much longer than others.
+const HIGHWAY_STRIDE: f64 = 1.5;
+/// Streets that leave a highway wait as if they were so many segments farther.
+const HIGHWAY_DELAY: f64 = 2.0;
 
 /// An end that waits to grow; the one with the least cost goes first.
 #[derive(Clone, Copy, Debug)]
@@ -57,175 +68,206 @@ impl Ord for End {
 ///
 /// It always ends: when the queue runs dry it is revived from existing junctions, a bounded number of times.
 pub fn grow(config: &RoadConfig, seed: Seed) -> StreetPlan {
-    let mut growth = Growth {
-        config,
-        fabric: Fabric::new(config),
-        queue: BinaryHeap::new(),
-        serial: 0,
-        rng: seed.stream("citygen/roads").rng(),
-    };
+    let mut growth = Growth::new(config, seed);
     growth.plant();
+    for _ in 0..ROUNDS {
+        growth.run();
+        growth.attach_loose_ends();
+        growth.prune();
+        if growth.standing >= config.count as usize || growth.revivals == 0 {
+            break;
+        }
+    }
+    // A city too small for so few dead ends keeps what it needs to have its count.
     growth.run();
-    growth.attach_loose_ends();
     growth.plan(seed)
 }
 
 struct Growth<'a> {
     config: &'a RoadConfig,
+    measures: Measures,
+    field: Field,
     fabric: Fabric,
+    fitter: Fitter,
     queue: BinaryHeap<End>,
     serial: u64,
+    revivals: u32,
+    /// Segments that are streets still.
+    standing: usize,
     rng: StreamRng,
 }
 
-impl Growth<'_> {
-    /// Two arterials in opposite directions from the origin.
+impl<'a> Growth<'a> {
+    fn new(config: &'a RoadConfig, seed: Seed) -> Self {
+        // A street needs about half the square of its length; growth leaves gaps, and wants room to choose.
+        let needed = f64::from(config.count) * config.length * config.length;
+        let radius = (needed / PI).sqrt() * 1.5 + 6.0 * config.length;
+        Self {
+            config,
+            measures: Measures::new(config.length, config.snap, config.least_angle),
+            field: Field::new(config, radius, seed),
+            fabric: Fabric::new(radius, config.length),
+            fitter: Fitter::default(),
+            queue: BinaryHeap::new(),
+            serial: 0,
+            revivals: config.count.saturating_mul(REVIVALS),
+            standing: 0,
+            rng: seed.stream("citygen/roads").rng(),
+        }
+    }
+
+    /// Main streets in opposite directions from the origin: highways, if there are any, and else arterials.
     fn plant(&mut self) {
-        let origin = self.fabric.add_node(Point2::origin());
-        let first = self.rng.uniform(0.0, TAU);
-        for heading in [first, first + PI] {
-            self.push(0.0, origin, heading, RoadClass::Arterial);
+        let origin = self.fabric.add_node(Point2::origin(), MOST_STREETS as u8);
+        let first = self.field.orientation(Point2::origin());
+        let ends = self.config.highways.clamp(2, MOST_STREETS as u32);
+        let class = if self.config.highways > 0 { RoadClass::Highway } else { RoadClass::Arterial };
+        for end in 0..ends {
+            // Opposite ones first.
+            let turns = [0.0, 2.0, 1.0, 3.0][end as usize];
+            self.push(0.0, origin, first + turns * FRAC_PI_2, class);
         }
     }
 
     fn run(&mut self) {
-        let mut revivals = self.config.count.saturating_mul(REVIVALS);
-        while self.fabric.segment_count() < self.config.count as usize {
+        while self.standing < self.config.count as usize {
             let Some(end) = self.queue.pop() else {
-                if revivals == 0 {
-                    break;
+                if self.revivals == 0 {
+                    return;
                 }
-                revivals -= 1;
+                self.revivals -= 1;
                 self.revive();
                 continue;
             };
-            if let Some(fitted) = fit(&self.fabric, &end.proposal, self.config) {
-                let arrived_new = fitted.is_new();
-                let node = self.fabric.build(&fitted);
-                if arrived_new {
-                    self.branch(end.steps, node, &end.proposal);
-                }
+            self.try_to_build(&end.proposal, end.steps);
+        }
+    }
+
+    /// Builds a proposal if it fits, and proposes the ways on from a new junction.
+    fn try_to_build(&mut self, proposal: &Proposal, steps: f64) -> bool {
+        let Some(fitted) = self.fitter.fit(&mut self.fabric, proposal, &self.measures) else { return false };
+        let limit = if self.rng.chance(self.config.crossroads) { 4 } else { 3 };
+        let before = self.fabric.segments().len();
+        let node = self.fabric.build(&fitted, limit);
+        self.standing += self.fabric.segments().len() - before;
+        if matches!(fitted.arrival, proposal::Arrival::New(_)) {
+            self.branch(steps, node, proposal);
+        }
+        true
+    }
+
+    /// Proposes the ways on from a new junction: straight, left and right.
+    fn branch(&mut self, steps: f64, node: u32, from: &Proposal) {
+        let came = heading(&from.along);
+        let at = self.fabric.at(node);
+        let main = from.class != RoadClass::Local;
+        if main || self.rng.chance(self.config.continuation) {
+            // Depth runs ahead: a continuation costs less than a branch, and that of a main road least.
+            let step = [1.0, 0.6, 0.25][from.class as usize];
+            let towards = self.guided(at, came);
+            self.push(steps + step / (1.0 + self.config.depth_bias), node, towards, from.class);
+        }
+        let first = if self.rng.chance(0.5) { FRAC_PI_2 } else { -FRAC_PI_2 };
+        let delay = if from.class == RoadClass::Highway { HIGHWAY_DELAY } else { 0.0 };
+        for side in [first, -first] {
+            if self.rng.chance(self.config.branching) {
+                let class = self.class_of_branch(from.class);
+                let cost = delay + self.rng.uniform(0.7, 1.2);
+                let towards = self.guided(at, came + side);
+                self.push(steps + cost, node, towards, class);
             }
         }
     }
 
-    /// Proposes the ways on from a new junction: straight, left and right.
-    fn branch(&mut self, steps: f64, node: usize, from: &Proposal) {
-        let arterial = from.class == RoadClass::Arterial;
-        if self.rng.chance(self.config.continuation) {
-            let bend = self.rng.normal_clamped(0.0, self.config.heading_variation, -0.6, 0.6);
-            // Depth runs ahead: a continuation costs less than a branch.
-            let step = if arterial { 0.6 } else { 1.0 };
-            self.push(steps + step / (1.0 + self.config.depth_bias), node, from.heading + bend, from.class);
-        }
-        for side in [FRAC_PI_2, -FRAC_PI_2] {
-            if self.rng.chance(self.config.branching) {
-                let bend = self.rng.normal_clamped(0.0, self.config.heading_variation, -0.4, 0.4);
-                let class =
-                    if arterial && self.rng.chance(0.2) { RoadClass::Arterial } else { RoadClass::Local };
-                let cost = self.rng.uniform(0.7, 1.2);
-                self.push(steps + cost, node, from.heading + side + bend, class);
-            }
-        }
+    fn class_of_branch(&mut self, from: RoadClass) -> RoadClass {
+        let main = match from {
+            RoadClass::Highway => 0.5,
+            RoadClass::Arterial => 0.2,
+            RoadClass::Local => 0.02,
+        };
+        if self.rng.chance(main) { RoadClass::Arterial } else { RoadClass::Local }
+    }
+
+    /// A heading near a wish, drawn towards the grain of the place.
+    fn guided(&mut self, at: Point2, wish: f64) -> f64 {
+        let grain = self.field.aligned(at, wish);
+        let drawn = wish + simworld_core::ops::wrap_angle(grain - wish) * self.config.order;
+        drawn + self.rng.normal_clamped(0.0, self.config.heading_variation, -0.7, 0.7)
     }
 
     /// Proposes a segment from a random junction into one of its gaps.
     fn revive(&mut self) {
-        let node = self.rng.below(self.fabric.node_count());
-        let heading = match self.fabric.headings(node).next() {
-            Some(present) => {
-                let quarter = self.rng.below(4) as f64 * FRAC_PI_2;
-                present + quarter + self.rng.normal_clamped(0.0, 0.3, -0.6, 0.6)
-            }
-            None => self.rng.uniform(0.0, TAU),
-        };
-        self.push(0.0, node, heading, RoadClass::Local);
+        let node = self.rng.below(self.fabric.node_count()) as u32;
+        let Some(present) = self.fabric.ways(node).next() else { return };
+        let quarter = self.rng.below(4) as f64 * FRAC_PI_2;
+        let towards = self.guided(self.fabric.at(node), heading(&present) + quarter);
+        self.push(0.0, node, towards, RoadClass::Local);
     }
 
-    fn push(&mut self, steps: f64, from: usize, heading: f64, class: RoadClass) {
-        let variation = self.config.length_variation;
-        let length = self.config.length * self.rng.uniform(1.0 - variation, 1.0 + variation);
+    fn push(&mut self, steps: f64, from: u32, heading: f64, class: RoadClass) {
+        let at = self.fabric.at(from);
+        let density = self.field.density(at);
+        let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
+        // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
+        let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.55, 0.8);
+        let length = self.config.length * stride * simworld_core::ops::exp(spread) * (1.15 - 0.3 * density);
         self.serial += 1;
-        let proposal = Proposal { from, heading, length, class };
-        // People live densest in the middle: what is far out waits, so that blocks close before the city spreads.
-        let remoteness = self.fabric.node(from).coords.norm() / self.config.length;
-        let cost = steps + self.config.compactness * remoteness;
+        let proposal = Proposal { from, along: direction(heading), length, class };
+        // What is far out, or where few live, waits, so that blocks close before the city spreads.
+        let remoteness = at.coords.norm() / self.config.length * (1.25 - 0.5 * density);
+        let waits = if class == RoadClass::Highway { 0.3 } else { 1.0 };
+        let cost = steps + self.config.compactness * remoteness * waits;
         self.queue.push(End { cost, steps, serial: self.serial, proposal });
-    }
-
-    /// Road-end attachment: a dead end that looks at a junction not too far away is joined to it.
-    fn attach_loose_ends(&mut self) {
-        let reach = self.config.length * 1.4;
-        for node in 0..self.fabric.node_count() {
-            if self.fabric.degree(node) != 1 {
-                continue;
-            }
-            let Some(only) = self.fabric.headings(node).next() else { continue };
-            let ahead = only + PI;
-            let here = self.fabric.node(node);
-            let mut targets = self.fabric.nodes_near(here, reach);
-            targets.retain(|target| *target != node);
-            targets.sort_by(|a, b| {
-                let distance = |n: &usize| (self.fabric.node(*n) - here).norm_squared();
-                distance(a).total_cmp(&distance(b)).then(a.cmp(b))
-            });
-            for target in targets.into_iter().take(6) {
-                let towards: Vector2 = self.fabric.node(target) - here;
-                let heading = heading(&towards);
-                if simworld_core::ops::wrap_angle(heading - ahead).abs() > 1.3 {
-                    continue;
-                }
-                let proposal =
-                    Proposal { from: node, heading, length: towards.norm(), class: RoadClass::Local };
-                if let Some(fitted) = fit(&self.fabric, &proposal, self.config).filter(|f| f.reaches(target))
-                {
-                    self.fabric.build(&fitted);
-                    break;
-                }
-            }
-        }
     }
 
     /// The grown streets as a plan, some of them bent between their ends.
     fn plan(&self, seed: Seed) -> StreetPlan {
         let bends = seed.stream("citygen/bends");
-        let nodes: Vec<Point2> = (0..self.fabric.node_count()).map(|node| self.fabric.node(node)).collect();
         let mut plan = StreetPlan { sections: vec![self.section(1)], ..StreetPlan::default() };
         let arterial = plan.add_section(self.section(self.config.arterial_lanes));
-        let street = |(index, segment): (usize, &fabric::Segment)| {
-            let section = if segment.class == RoadClass::Arterial { arterial } else { 0 };
+        let highway = plan.add_section(self.highway());
+        let mut numbers = vec![u32::MAX; self.fabric.node_count()];
+        let standing = |index: &usize| self.fabric.is_standing(*index as u32);
+        for index in (0..self.fabric.segments().len()).filter(standing) {
+            let segment = self.fabric.segment(index as u32);
+            let ends = [segment.from, segment.to].map(|node| {
+                let number = &mut numbers[node as usize];
+                if *number == u32::MAX {
+                    *number = plan.nodes.len() as u32;
+                    plan.nodes.push(self.fabric.at(node));
+                }
+                *number as usize
+            });
             let mut rng = bends.indexed(index as u64).rng();
-            let (from, to) = (nodes[segment.from], nodes[segment.to]);
-            Street {
-                via: if rng.chance(self.config.bends) { bend(from, to, &mut rng) } else { Vec::new() },
+            let bent = segment.class != RoadClass::Highway && rng.chance(self.config.bends);
+            let (from, to) = (plan.nodes[ends[0]], plan.nodes[ends[1]]);
+            let most = BOW_LIMIT * self.config.length;
+            plan.streets.push(Street {
+                via: if bent { bend::course(from, to, self.config.bow, most, &mut rng) } else { Vec::new() },
                 class: segment.class,
-                section,
-                ..Street::simple(segment.from, segment.to)
-            }
-        };
-        plan.streets = self.fabric.segments().iter().enumerate().map(street).collect();
-        plan.nodes = nodes;
+                section: [0, arterial, highway][segment.class as usize],
+                ..Street::simple(ends[0], ends[1])
+            });
+        }
         plan
     }
 
     fn section(&self, lanes: u8) -> CrossSection {
         CrossSection::plain(lanes, lanes, self.config.lane_width, self.config.sidewalk_width)
     }
+
+    /// Two lanes each way with a median between them.
+    fn highway(&self) -> CrossSection {
+        let mut section = self.section(2);
+        let width = 1.5;
+        let middle = section.lanes.len() / 2;
+        section
+            .lanes
+            .insert(middle, LaneSpec { kind: LaneKind::Median, direction: LaneDirection::Both, width });
+        section.reference += width * 0.5;
+        section
+    }
 }
 
-/// Points of a shallow bow between two ends; its ends keep their direction almost, so that junctions stay as checked.
-fn bend(from: Point2, to: Point2, rng: &mut StreamRng) -> Vec<Point2> {
-    let along = to - from;
-    let length = along.norm();
-    if length < 90.0 {
-        return Vec::new();
-    }
-    let normal = Vector2::new(-along.y, along.x) / length;
-    let height = rng.normal_clamped(0.0, 0.015, -0.03, 0.03) * length;
-    [0.35, 0.5, 0.65]
-        .map(|share: f64| {
-            let bow = 1.0 - (2.0 * share - 1.0) * (2.0 * share - 1.0);
-            from + along * share + normal * (height * bow)
-        })
-        .to_vec()
-}
+/// No bow is higher than this share of the mean length: two that face each other still leave a street's width.
+const BOW_LIMIT: f64 = 0.11;

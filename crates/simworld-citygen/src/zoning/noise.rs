@@ -5,7 +5,7 @@ use simworld_core::seed::Stream;
 
 /// A field over the plane: two octaves of value noise.
 #[derive(Clone, Debug)]
-pub(super) struct ValueNoise {
+pub(crate) struct ValueNoise {
     streams: [Stream; 2],
     /// Lattice points a metre, of the coarse octave.
     frequency: f64,
@@ -36,19 +36,19 @@ const QUANTILES: [(f64, f64); 17] = [
 
 impl ValueNoise {
     /// A field whose values change over `scale` m.
-    pub(super) fn new(stream: Stream, scale: f64) -> Self {
+    pub(crate) fn new(stream: Stream, scale: f64) -> Self {
         Self { streams: [stream.named("coarse"), stream.named("fine")], frequency: 1.0 / scale }
     }
 
     /// The value at a point, in [0, 1).
-    pub(super) fn at(&self, point: Point2) -> f64 {
+    pub(crate) fn at(&self, point: Point2) -> f64 {
         let coarse = octave(self.streams[0], point.x * self.frequency, point.y * self.frequency);
         let fine = octave(self.streams[1], point.x * self.frequency * 2.0, point.y * self.frequency * 2.0);
         (coarse + FINE * fine) / (1.0 + FINE)
     }
 
     /// The share of the plane that has a lower value: spread evenly over [0, 1].
-    pub(super) fn uniform_at(&self, point: Point2) -> f64 {
+    pub(crate) fn uniform_at(&self, point: Point2) -> f64 {
         let value = self.at(point);
         let mut before = QUANTILES[0];
         for after in &QUANTILES[1..] {

@@ -1,0 +1,39 @@
+//! Bows and bends of streets between their ends, which keep their direction there, so that junctions stay as checked.
+
+use std::f64::consts::{PI, TAU};
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::ops;
+use simworld_core::seed::StreamRng;
+
+/// Shorter streets stay straight, m.
+const SHORTEST: f64 = 60.0;
+/// So much at either end stays straight, m: there are crossings and stop lines.
+const STRAIGHT: f64 = 17.0;
+/// Pieces of a bent street.
+const PIECES: u32 = 7;
+
+/// Points of a bent course between two ends: a bow `sin²` or a double bend `sin · sin²`, both level at the ends, of a
+/// height about `bow` times the length and at most `most` m.
+///
+/// A bow of height h on a chord c is longer than it by about (π h / 2 c)², a double bend by three times as much.
+pub(super) fn course(from: Point2, to: Point2, bow: f64, most: f64, rng: &mut StreamRng) -> Vec<Point2> {
+    let along = to - from;
+    let length = along.norm();
+    let doubled = rng.chance(0.4);
+    let side = if rng.chance(0.5) { 1.0 } else { -1.0 };
+    let height = side * (rng.uniform(0.5, 1.5) * bow * length).min(most);
+    if length < SHORTEST || height.abs() < 0.5 {
+        return Vec::new();
+    }
+    let normal = Vector2::new(-along.y, along.x) / length;
+    let (from, along) = (from + along * (STRAIGHT / length), along * (1.0 - 2.0 * STRAIGHT / length));
+    (0..=PIECES)
+        .map(|piece| {
+            let share = f64::from(piece) / f64::from(PIECES);
+            let window = ops::sin(PI * share);
+            let wave = if doubled { ops::sin(TAU * share) } else { 1.0 };
+            from + along * share + normal * (height * window * window * wave)
+        })
+        .collect()
+}

@@ -1,0 +1,216 @@
+//! Styles of cities: road settings, each held to a band of street statistics measured in real places.
+//!
+//! Bands after Boeing (JAPA 2021, 72,663 US census tracts) and extracts of `OpenStreetMap`: Campo Grande and Frederiksted
+//! (grids), Helsinki (mixed), Monaco (organic), villages of Upper Franconia (suburb).
+
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{RoadConfig, StreetStatistics};
+
+/// A style of streets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Style {
+    /// One rectangular grid, as planned cities have.
+    Grid,
+    /// Patches of grid with bent streets between them, as cities before 1940 have.
+    #[default]
+    Mixed,
+    /// Streets that follow the land and meet three by three.
+    Organic,
+    /// Long blocks and many dead ends.
+    Suburb,
+}
+
+/// A style that nobody knows.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("there is no style {0:?}: give grid, mixed, organic or suburb")]
+pub struct StyleError(String);
+
+impl FromStr for Style {
+    type Err = StyleError;
+
+    fn from_str(name: &str) -> Result<Self, StyleError> {
+        Self::ALL.into_iter().find(|style| style.as_str() == name).ok_or_else(|| StyleError(name.to_owned()))
+    }
+}
+
+impl std::fmt::Display for Style {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.as_str())
+    }
+}
+
+/// The range of each statistic in which a style lies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    /// Streets a junction.
+    pub mean_degree: RangeInclusive<f64>,
+    /// Share of dead ends.
+    pub dead_ends: RangeInclusive<f64>,
+    /// Share of junctions of four streets or more.
+    pub four_way: RangeInclusive<f64>,
+    /// Length over straight distance.
+    pub circuity: RangeInclusive<f64>,
+    /// Orientation order.
+    pub orientation_order: RangeInclusive<f64>,
+    /// Median length of a segment, m.
+    pub median_length: RangeInclusive<f64>,
+    /// Intersections on a square kilometre.
+    pub intersection_density: RangeInclusive<f64>,
+}
+
+impl Band {
+    /// Every statistic with its name, its value, its range, and whether it lies in it. The last row is the mean length
+    /// over the median, which is above one everywhere: lengths are skewed to the right.
+    pub fn check(&self, of: &StreetStatistics) -> [(&'static str, f64, RangeInclusive<f64>, bool); 8] {
+        let skew = of.mean_length / of.median_length.max(1e-9);
+        [
+            ("streets a junction", of.mean_degree, self.mean_degree.clone()),
+            ("dead ends", of.dead_ends, self.dead_ends.clone()),
+            ("four-way", of.four_way, self.four_way.clone()),
+            ("circuity", of.circuity, self.circuity.clone()),
+            ("orientation order", of.orientation_order, self.orientation_order.clone()),
+            ("median length, m", of.median_length, self.median_length.clone()),
+            ("intersections / km²", of.intersection_density, self.intersection_density.clone()),
+            ("mean / median length", skew, 1.0..=3.0),
+        ]
+        .map(|(name, value, range)| (name, value, range.clone(), range.contains(&value)))
+    }
+}
+
+impl Style {
+    /// Every style.
+    pub const ALL: [Self; 4] = [Self::Grid, Self::Mixed, Self::Organic, Self::Suburb];
+
+    /// Its name in files and on command lines.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Grid => "grid",
+            Self::Mixed => "mixed",
+            Self::Organic => "organic",
+            Self::Suburb => "suburb",
+        }
+    }
+
+    /// The road settings of the style, for a city of `count` segments. Cities of some size have two highways.
+    pub fn roads(self, count: u32) -> RoadConfig {
+        let mixed = RoadConfig { count, highways: if count >= 400 { 2 } else { 0 }, ..RoadConfig::default() };
+        match self {
+            Self::Mixed => mixed,
+            Self::Grid => RoadConfig {
+                length: 100.0,
+                length_variation: 0.22,
+                heading_variation: 0.015,
+                order: 1.0,
+                turning: 0.0,
+                snap: 45.0,
+                continuation: 0.98,
+                branching: 0.9,
+                crossroads: 0.8,
+                dead_ends: 0.1,
+                bends: 0.1,
+                bow: 0.05,
+                ..mixed
+            },
+            Self::Organic => RoadConfig {
+                length: 88.0,
+                length_variation: 0.25,
+                heading_variation: 0.3,
+                order: 0.35,
+                turning: 2.2,
+                patch: 350.0,
+                snap: 38.0,
+                least_angle: 0.8,
+                continuation: 0.9,
+                branching: 0.55,
+                crossroads: 0.22,
+                dead_ends: 0.22,
+                bends: 0.9,
+                bow: 0.14,
+                ..mixed
+            },
+            Self::Suburb => RoadConfig {
+                length: 130.0,
+                length_variation: 0.3,
+                heading_variation: 0.25,
+                order: 0.4,
+                turning: 0.6,
+                patch: 600.0,
+                snap: 36.0,
+                least_angle: 0.9,
+                continuation: 0.75,
+                branching: 0.38,
+                crossroads: 0.45,
+                dead_ends: 0.325,
+                bends: 0.65,
+                bow: 0.09,
+                ..mixed
+            },
+        }
+    }
+
+    /// The band in which cities of the style lie, from some hundred segments on.
+    pub fn band(self) -> Band {
+        let [degree, dead, four, circuity, order, median, density] = match self {
+            Self::Grid => [
+                (2.9, 3.6),
+                (0.03, 0.15),
+                (0.35, 0.9),
+                (1.0, 1.05),
+                (0.6, 0.99),
+                (70.0, 130.0),
+                (45.0, 120.0),
+            ],
+            Self::Mixed => {
+                [(2.6, 3.0), (0.1, 0.22), (0.2, 0.4), (1.03, 1.09), (0.3, 0.75), (65.0, 110.0), (40.0, 90.0)]
+            }
+            Self::Organic => [
+                (2.5, 2.9),
+                (0.15, 0.3),
+                (0.04, 0.14),
+                (1.05, 1.16),
+                (0.01, 0.15),
+                (60.0, 105.0),
+                (40.0, 110.0),
+            ],
+            Self::Suburb => [
+                (2.3, 2.5),
+                (0.22, 0.35),
+                (0.05, 0.15),
+                (1.08, 1.1),
+                (0.02, 0.35),
+                (90.0, 160.0),
+                (15.0, 30.0),
+            ],
+        }
+        .map(|(low, high)| low..=high);
+        Band {
+            mean_degree: degree,
+            dead_ends: dead,
+            four_way: four,
+            circuity,
+            orientation_order: order,
+            median_length: median,
+            intersection_density: density,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn styles_are_known_by_their_names() {
+        for style in Style::ALL {
+            assert_eq!(style.to_string().parse(), Ok(style));
+            assert_eq!(serde_json::to_string(&style).unwrap(), format!("\"{style}\""));
+        }
+        assert!("gird".parse::<Style>().unwrap_err().to_string().contains("grid, mixed"));
+    }
+}
