@@ -2,7 +2,7 @@
 //!
 //! ```sh
 //! cargo run --release --example city
-//! cargo run --release --example city -- --size 3km --seed 7 --out city/
+//! cargo run --release --example city -- --style organic --size 3km --seed 7 --out city/
 //! ```
 
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ use std::time::Duration;
 use clap::{Parser, ValueEnum};
 use indicatif::{HumanBytes, ProgressBar, ProgressStyle};
 use simworld_citygen::map::MapDrawing;
-use simworld_citygen::{City, CityConfig};
+use simworld_citygen::{City, CityConfig, Style};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Format, Interrupt, Size, Source, export, make};
 
@@ -27,6 +27,9 @@ struct Arguments {
     /// Seed of the city.
     #[arg(long, default_value_t = 7)]
     seed: u64,
+    /// Style of the streets: grid, mixed, organic or suburb.
+    #[arg(long, default_value_t = Style::Mixed)]
+    style: Style,
     /// How far the city reaches from one side to the other, such as 800m or 3km.
     #[arg(long, default_value = "1.5km")]
     size: Size,
@@ -113,7 +116,13 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
     if arguments.title.is_some() {
         city.provenance.title.clone_from(&arguments.title);
     }
-    bar.suspend(|| tell(&city, &made.warnings));
+    let is_grown = arguments.city.is_none() && arguments.roads.is_none();
+    bar.suspend(|| {
+        tell(&city, &made.warnings);
+        if is_grown {
+            compare(&city, arguments.style);
+        }
+    });
 
     writing.store(true, Ordering::Relaxed);
     let map = MapDrawing::of(&city).to_string();
@@ -151,17 +160,21 @@ fn source(arguments: &Arguments) -> Source {
     match (&arguments.city, &arguments.roads) {
         (Some(path), _) => Source::Saved(path.clone()),
         (None, Some(path)) => Source::Roads(path.clone()),
-        (None, None) => Source::Grown(Box::new(configure(arguments.size))),
+        (None, None) => Source::Grown(Box::new(configure(arguments.style, arguments.size))),
     }
 }
 
 /// So many street segments that they fill a disc of that size.
-fn configure(size: Size) -> CityConfig {
-    /// Segments a square kilometre of grown city.
-    const DENSITY: f64 = 190.0;
+fn configure(style: Style, size: Size) -> CityConfig {
+    // Segments a square kilometre, measured on cities of 700 segments.
+    let density = match style {
+        Style::Suburb => 62.0,
+        Style::Grid | Style::Mixed | Style::Organic => 130.0,
+    };
     let kilometres = size.metres / 1000.0;
     let disc = std::f64::consts::FRAC_PI_4 * kilometres * kilometres;
-    CityConfig::with_roads((disc * DENSITY).round().max(4.0) as u32)
+    let count = (disc * density).round().max(4.0) as u32;
+    CityConfig { roads: style.roads(count), ..CityConfig::default() }
 }
 
 fn tell(city: &City, warnings: &[String]) {
@@ -173,4 +186,14 @@ fn tell(city: &City, warnings: &[String]) {
         eprintln!("warning: and {} more", warnings.len() - SHOWN);
     }
     println!("{}\n", city.report());
+}
+
+/// Marks every statistic in or out of the band of its style.
+fn compare(city: &City, style: Style) {
+    println!("{style} streets of real places:");
+    for (name, value, range, inside) in style.band().check(&city.report().streets) {
+        let mark = if inside { "in " } else { "OUT" };
+        println!("  {mark} {name:<22} {value:>8.3}   {} to {}", range.start(), range.end());
+    }
+    println!();
 }

@@ -14,7 +14,7 @@ use crate::lot::Land;
 use crate::occupancy::Occupancy;
 use crate::strips::{lane_reach, strip};
 use crate::zoning::Zoning;
-use crate::{CityConfig, CityError, CityReport, Provenance, growth};
+use crate::{CityConfig, CityError, CityReport, Provenance, RoadSource};
 
 /// Tops of the flat layers, m: a hair apart, so that each covers the one below; people stand on the sidewalk's.
 const GROUND_TOP: f64 = -0.03;
@@ -77,8 +77,16 @@ impl City {
     /// # Errors
     /// A setting out of range.
     pub fn generate(config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
+        Self::from_source(&config.roads, config, seed)
+    }
+
+    /// Builds a city on the streets of any source.
+    ///
+    /// # Errors
+    /// A setting out of range, or what the source cannot do.
+    pub fn from_source(source: &dyn RoadSource, config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
         config.validate()?;
-        Self::from_plan(growth::grow(&config.roads, seed), config, seed)
+        Self::from_plan(source.streets(seed)?, config, seed)
     }
 
     /// Builds a city on streets from elsewhere.

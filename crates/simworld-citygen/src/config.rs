@@ -69,20 +69,52 @@ impl Default for RoadConfig {
             turning: 0.3,
             patch: 900.0,
             snap: 45.0,
-            least_angle: 0.9,
+            least_angle: 1.15,
             continuation: 0.92,
             branching: 0.8,
             depth_bias: 0.5,
             compactness: 1.2,
             crossroads: 0.5,
             dead_ends: 0.17,
-            bends: 0.5,
-            bow: 0.1,
+            bends: 0.3,
+            bow: 0.05,
             highways: 0,
             arterial_lanes: 1,
             lane_width: LANE_WIDTH,
             sidewalk_width: SIDEWALK_WIDTH,
         }
+    }
+}
+
+impl RoadConfig {
+    /// Checks every field against its range.
+    ///
+    /// # Errors
+    /// The first field out of range; NaN always is.
+    pub fn validate(&self) -> Result<(), CityError> {
+        check(&[
+            ("roads.count", f64::from(self.count), 2.0, 1e6, "2 to 1 000 000"),
+            ("roads.length", self.length, 60.0, 1000.0, "60 to 1000 m"),
+            ("roads.length_variation", self.length_variation, 0.0, 0.6, "0 to 0.6"),
+            ("roads.order", self.order, 0.0, 1.0, "0 to 1"),
+            ("roads.turning", self.turning, 0.0, std::f64::consts::PI, "0 to π rad"),
+            ("roads.patch", self.patch, 50.0, 1e5, "50 to 100 000 m"),
+            ("roads.crossroads", self.crossroads, 0.0, 1.0, "0 to 1"),
+            ("roads.dead_ends", self.dead_ends, 0.0, 1.0, "0 to 1"),
+            ("roads.bow", self.bow, 0.0, 0.3, "0 to 0.3"),
+            ("roads.highways", f64::from(self.highways), 0.0, 4.0, "0 to 4"),
+            ("roads.heading_variation", self.heading_variation, 0.0, 0.5, "0 to 0.5 rad"),
+            ("roads.snap", self.snap, 10.0, self.length.min(833.0) * 0.6, "10 m to 0.6 of self.length"),
+            ("roads.least_angle", self.least_angle, 0.5, 1.5, "0.5 to 1.5 rad"),
+            ("roads.continuation", self.continuation, 0.0, 1.0, "0 to 1"),
+            ("roads.branching", self.branching, 0.0, 1.0, "0 to 1"),
+            ("roads.depth_bias", self.depth_bias, 0.0, 10.0, "0 to 10"),
+            ("roads.compactness", self.compactness, 0.0, 10.0, "0 to 10"),
+            ("roads.bends", self.bends, 0.0, 1.0, "0 to 1"),
+            ("roads.arterial_lanes", f64::from(self.arterial_lanes), 1.0, 4.0, "1 to 4"),
+            ("roads.lane_width", self.lane_width, 2.0, 6.0, "2 to 6 m"),
+            ("roads.sidewalk_width", self.sidewalk_width, 1.0, 20.0, "1 to 20 m"),
+        ])
     }
 }
 
@@ -157,27 +189,6 @@ impl CityConfig {
     pub fn validate(&self) -> Result<(), CityError> {
         let Self { roads, zoning, lots, buildings, elements, network } = self;
         let checks = [
-            ("roads.count", f64::from(roads.count), 2.0, 1e6, "2 to 1 000 000"),
-            ("roads.length", roads.length, 60.0, 1000.0, "60 to 1000 m"),
-            ("roads.length_variation", roads.length_variation, 0.0, 0.6, "0 to 0.6"),
-            ("roads.order", roads.order, 0.0, 1.0, "0 to 1"),
-            ("roads.turning", roads.turning, 0.0, std::f64::consts::PI, "0 to π rad"),
-            ("roads.patch", roads.patch, 50.0, 1e5, "50 to 100 000 m"),
-            ("roads.crossroads", roads.crossroads, 0.0, 1.0, "0 to 1"),
-            ("roads.dead_ends", roads.dead_ends, 0.0, 1.0, "0 to 1"),
-            ("roads.bow", roads.bow, 0.0, 0.3, "0 to 0.3"),
-            ("roads.highways", f64::from(roads.highways), 0.0, 4.0, "0 to 4"),
-            ("roads.heading_variation", roads.heading_variation, 0.0, 0.5, "0 to 0.5 rad"),
-            ("roads.snap", roads.snap, 10.0, roads.length.min(833.0) * 0.6, "10 m to 0.6 of roads.length"),
-            ("roads.least_angle", roads.least_angle, 0.5, 1.5, "0.5 to 1.5 rad"),
-            ("roads.continuation", roads.continuation, 0.0, 1.0, "0 to 1"),
-            ("roads.branching", roads.branching, 0.0, 1.0, "0 to 1"),
-            ("roads.depth_bias", roads.depth_bias, 0.0, 10.0, "0 to 10"),
-            ("roads.compactness", roads.compactness, 0.0, 10.0, "0 to 10"),
-            ("roads.bends", roads.bends, 0.0, 1.0, "0 to 1"),
-            ("roads.arterial_lanes", f64::from(roads.arterial_lanes), 1.0, 4.0, "1 to 4"),
-            ("roads.lane_width", roads.lane_width, 2.0, 6.0, "2 to 6 m"),
-            ("roads.sidewalk_width", roads.sidewalk_width, 1.0, 20.0, "1 to 20 m"),
             ("buildings.setback", buildings.setback, 0.5, 50.0, "0.5 to 50 m"),
             ("buildings.gap", buildings.gap, 0.0, 50.0, "0 to 50 m"),
             ("buildings.density", buildings.density, 0.0, 1.0, "0 to 1"),
@@ -187,6 +198,7 @@ impl CityConfig {
             ("elements.parked", elements.parked, 0.0, 1.0, "0 to 1"),
             ("elements.green_trees", elements.green_trees, 0.0, 0.1, "0 to 0.1 per m²"),
         ];
+        roads.validate()?;
         check(&checks)?;
         zoning.validate()?;
         lots.validate()?;

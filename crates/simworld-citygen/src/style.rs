@@ -101,7 +101,7 @@ impl Style {
     pub fn roads(self, count: u32) -> RoadConfig {
         let mixed = RoadConfig { count, highways: if count >= 400 { 2 } else { 0 }, ..RoadConfig::default() };
         match self {
-            Self::Mixed => mixed,
+            Self::Mixed => RoadConfig { least_angle: 1.0, bends: 0.45, bow: 0.065, ..mixed },
             Self::Grid => RoadConfig {
                 length: 100.0,
                 length_variation: 0.22,

@@ -10,8 +10,10 @@ use simworld_core::seed::StreamRng;
 const SHORTEST: f64 = 60.0;
 /// So much at either end stays straight, m: there are crossings and stop lines.
 const STRAIGHT: f64 = 17.0;
+/// Only longer ones bend both ways, m.
+const DOUBLED: f64 = 120.0;
 /// Pieces of a bent street.
-const PIECES: u32 = 7;
+const PIECES: u32 = 12;
 
 /// Points of a bent course between two ends: a bow `sin²` or a double bend `sin · sin²`, both level at the ends, of a
 /// height about `bow` times the length and at most `most` m.
@@ -20,7 +22,7 @@ const PIECES: u32 = 7;
 pub(super) fn course(from: Point2, to: Point2, bow: f64, most: f64, rng: &mut StreamRng) -> Vec<Point2> {
     let along = to - from;
     let length = along.norm();
-    let doubled = rng.chance(0.4);
+    let doubled = rng.chance(0.5) && length > DOUBLED;
     let side = if rng.chance(0.5) { 1.0 } else { -1.0 };
     let height = side * (rng.uniform(0.5, 1.5) * bow * length).min(most);
     if length < SHORTEST || height.abs() < 0.5 {

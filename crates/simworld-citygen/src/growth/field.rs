@@ -29,6 +29,11 @@ impl Field {
         }
     }
 
+    /// Radius of the land, m.
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
     /// The direction of the main streets at a place, radians.
     pub(super) fn orientation(&self, at: Point2) -> f64 {
         // Without turning there is one grid, and nothing to look up.

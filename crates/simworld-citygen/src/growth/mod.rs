@@ -30,6 +30,8 @@ const REVIVALS: u32 = 40;
 const ROUNDS: u32 = 8;
 /// Segments of a highway are so much longer than others.
 const HIGHWAY_STRIDE: f64 = 1.5;
+/// The town fills so much of the radius of its land.
+const TOWN: f64 = 0.5;
 /// Streets that leave a highway wait as if they were so many segments farther.
 const HIGHWAY_DELAY: f64 = 2.0;
 
@@ -163,7 +165,7 @@ impl<'a> Growth<'a> {
         let main = from.class != RoadClass::Local;
         if main || self.rng.chance(self.config.continuation) {
             // Depth runs ahead: a continuation costs less than a branch, and that of a main road least.
-            let step = [1.0, 0.6, 0.25][from.class as usize];
+            let step = [1.0, 0.6, 0.4][from.class as usize];
             let towards = self.guided(at, came);
             self.push(steps + step / (1.0 + self.config.depth_bias), node, towards, from.class);
         }
@@ -215,7 +217,9 @@ impl<'a> Growth<'a> {
         let proposal = Proposal { from, along: direction(heading), length, class };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
         let remoteness = at.coords.norm() / self.config.length * (1.25 - 0.5 * density);
-        let waits = if class == RoadClass::Highway { 0.3 } else { 1.0 };
+        // Highways run ahead as far as the town will reach, not beyond.
+        let in_town = at.coords.norm() < TOWN * self.field.radius();
+        let waits = if class == RoadClass::Highway && in_town { 0.3 } else { 1.0 };
         let cost = steps + self.config.compactness * remoteness * waits;
         self.queue.push(End { cost, steps, serial: self.serial, proposal });
     }

@@ -10,7 +10,7 @@ use simworld_core::net::{RoadClass, Street, StreetPlan, polyline};
 use super::{FormatError, RoadsFile, Warning};
 
 /// Ends nearer than this are one node, m: two junctions this close would have no street between them.
-const MERGE: f64 = 20.0;
+pub(super) const MERGE: f64 = 20.0;
 /// A coordinate beyond this is no place in a city, m.
 const FARTHEST: f64 = 1e6;
 /// Width of a cell of the search grid, m.

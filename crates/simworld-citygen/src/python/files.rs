@@ -52,17 +52,33 @@ pub struct RoadRecord {
 }
 
 impl RoadsFile {
-    /// Every straight piece of every centreline.
+    /// Every centreline as straight pieces, none so short that a reader would take its ends for one.
     pub(super) fn of(city: &City) -> Self {
-        let pieces = city.network.roads.iter().flat_map(|road| {
-            road.centerline.windows(2).map(|piece| RoadRecord {
+        let mut roads = Vec::new();
+        for road in &city.network.roads {
+            roads.extend(coarse(&road.centerline).windows(2).map(|piece| RoadRecord {
                 start: piece[0].into(),
                 end: piece[1].into(),
                 is_highway: road.class != RoadClass::Local,
-            })
-        });
-        Self { roads: pieces.collect() }
+            }));
+        }
+        Self { roads }
     }
+}
+
+/// A line without the points that are nearer than this to one that is kept, m; its ends are kept.
+fn coarse(line: &[Point2]) -> Vec<Point2> {
+    const LEAST: f64 = 1.3 * super::clean::MERGE;
+    let [first, inner @ .., last] = line else { return line.to_vec() };
+    let mut kept = vec![*first];
+    for point in inner {
+        let before = kept[kept.len() - 1];
+        if (point - before).norm() >= LEAST && (last - point).norm() >= LEAST {
+            kept.push(*point);
+        }
+    }
+    kept.push(*last);
+    kept
 }
 
 /// A rectangle: `x`, `y` are its lower left corner before it is turned about its centre.
