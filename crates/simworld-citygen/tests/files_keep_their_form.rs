@@ -20,6 +20,10 @@ fn made() -> City {
     plan.streets[2].via = vec![simworld_core::geometry::Point2::new(-60.0, 12.0)];
     let mut config = CityConfig::default();
     config.buildings.density = 0.0;
+    // The defaults of the time when it was saved.
+    config.roads.length_variation = 0.25;
+    config.roads.heading_variation = 0.08;
+    config.roads.least_angle = 0.9;
     let mut city = City::from_plan(plan, &config, Seed(1)).expect("a plain crossroads");
     city.buildings.clear();
     city.elements.clear();
