@@ -14,7 +14,7 @@ use std::time::Duration;
 use clap::{Parser, ValueEnum};
 use indicatif::{HumanBytes, ProgressBar, ProgressStyle};
 use simworld_citygen::map::MapDrawing;
-use simworld_citygen::{City, CityConfig, Style};
+use simworld_citygen::{City, Style};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Format, Interrupt, Size, Source, export, make};
 
@@ -116,11 +116,10 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
     if arguments.title.is_some() {
         city.provenance.title.clone_from(&arguments.title);
     }
-    let is_grown = arguments.city.is_none() && arguments.roads.is_none();
     bar.suspend(|| {
         tell(&city, &made.warnings);
-        if is_grown {
-            compare(&city, arguments.style);
+        if let Some(style) = city.provenance.style {
+            compare(&city, style);
         }
     });
 
@@ -160,21 +159,8 @@ fn source(arguments: &Arguments) -> Source {
     match (&arguments.city, &arguments.roads) {
         (Some(path), _) => Source::Saved(path.clone()),
         (None, Some(path)) => Source::Roads(path.clone()),
-        (None, None) => Source::Grown(Box::new(configure(arguments.style, arguments.size))),
+        (None, None) => Source::Grown(arguments.style, arguments.size),
     }
-}
-
-/// So many street segments that they fill a disc of that size.
-fn configure(style: Style, size: Size) -> CityConfig {
-    // Segments a square kilometre, measured on cities of 700 segments.
-    let density = match style {
-        Style::Suburb => 62.0,
-        Style::Grid | Style::Mixed | Style::Organic => 130.0,
-    };
-    let kilometres = size.metres / 1000.0;
-    let disc = std::f64::consts::FRAC_PI_4 * kilometres * kilometres;
-    let count = (disc * density).round().max(4.0) as u32;
-    CityConfig { roads: style.roads(count), ..CityConfig::default() }
 }
 
 fn tell(city: &City, warnings: &[String]) {

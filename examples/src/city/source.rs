@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 
 use simworld_citygen::files::save::SaveError;
 use simworld_citygen::python::{FormatError, read_roads};
-use simworld_citygen::{City, CityConfig, CityError};
+use simworld_citygen::{City, CityConfig, CityError, Style};
 use simworld_core::seed::Seed;
 use thiserror::Error;
+
+use super::Size;
 
 /// Where a city comes from.
 #[derive(Clone, Debug)]
 pub enum Source {
-    /// Grown from its seed.
-    Grown(Box<CityConfig>),
+    /// Grown from its seed, in a style, so far from one side to the other.
+    Grown(Style, Size),
     /// Built on the roads of a `roads.json` of the Python release.
     Roads(PathBuf),
     /// Loaded as it was saved.
@@ -67,7 +69,12 @@ pub enum SourceError {
 /// A file that cannot be used, or a setting out of range.
 pub fn make(source: &Source, seed: Seed) -> Result<Made, SourceError> {
     match source {
-        Source::Grown(config) => Ok(Made { city: City::generate(config, seed)?, warnings: Vec::new() }),
+        Source::Grown(style, size) => {
+            let roads = style.roads(size.segments(*style, seed));
+            let mut city = City::generate(&CityConfig { roads, ..CityConfig::default() }, seed)?;
+            city.provenance.style = Some(*style);
+            Ok(Made { city, warnings: Vec::new() })
+        }
         Source::Roads(path) => {
             let (plan, warnings) = read_roads(&read(path)?)
                 .map_err(|source| SourceError::Roads { path: path.clone(), source })?;

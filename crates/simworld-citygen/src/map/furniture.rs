@@ -75,21 +75,21 @@ fn title(f: &mut fmt::Formatter<'_>, foot: &Frame, drawing: &MapDrawing<'_>) -> 
     )
 }
 
-/// Extent and seed.
+/// Where on Earth, or style and seed, and extent.
 fn subtitle_of(city: &City) -> String {
     let extent = city.network.bounds().map_or_else(String::new, |(low, high)| {
         let span = (high - low) / 1000.0;
         format!("{:.1} × {:.1} km", span.x, span.y)
     });
-    match city.provenance.origin {
-        Some(origin) => {
-            let ns = if origin.latitude < 0.0 { 'S' } else { 'N' };
-            let ew = if origin.longitude < 0.0 { 'W' } else { 'E' };
-            let (latitude, longitude) = (origin.latitude.abs(), origin.longitude.abs());
-            format!("{latitude:.4}° {ns} · {longitude:.4}° {ew} · {extent}")
-        }
-        None => format!("{extent} · seed {}", city.provenance.seed.0),
+    let provenance = &city.provenance;
+    if let Some(origin) = provenance.origin {
+        let ns = if origin.latitude < 0.0 { 'S' } else { 'N' };
+        let ew = if origin.longitude < 0.0 { 'W' } else { 'E' };
+        let (latitude, longitude) = (origin.latitude.abs(), origin.longitude.abs());
+        return format!("{latitude:.4}° {ns} · {longitude:.4}° {ew} · {extent}");
     }
+    let style = provenance.style.map_or_else(String::new, |style| format!("{style} · "));
+    format!("{style}{extent} · seed {}", provenance.seed.0)
 }
 
 /// Four steps of a round length, and the scale in words.
