@@ -5,6 +5,7 @@ mod footprint;
 mod names;
 mod place;
 mod roof;
+mod site;
 mod uses;
 mod weights;
 
@@ -28,7 +29,7 @@ use rayon::prelude::*;
 use weights::Weights;
 
 /// Lots that are planned at once: enough for many threads, few enough that the plans stay small.
-const BATCH: usize = 1 << 15;
+const BATCH: usize = 1 << 13;
 /// Height of a wall above the highest ceiling, m.
 const PARAPET: f64 = 0.6;
 
@@ -154,6 +155,7 @@ pub fn build(
     let streams = seed.stream("citygen/buildings");
     let weights = Weights::new();
     let mut built = Built { buildings: Vec::with_capacity(land.lots.len() * 5 / 4), frontage_used: 0.0 };
+    taken.reserve(land.lots.len() * 5 / 4);
     for batch in land.lots.chunks(BATCH) {
         // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
         let plans: Vec<Vec<Plan>> = batch

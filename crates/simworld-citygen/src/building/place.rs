@@ -1,14 +1,12 @@
 //! One lot and what is built on it.
-//!
-//! Lot frame: the origin is the first corner of a street's edge, x runs along the front, y into the lot. A building is a
-//! rectangle in this frame, so that its façade is parallel to the street.
 
-use simworld_core::geometry::{Point2, Vector2, heading};
+use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
 use simworld_core::scene::Place;
 use simworld_core::seed::{Stream, StreamRng};
 
+use super::site::{Site, Spot};
 use super::weights::Weights;
 use super::{ARCHETYPES, Archetype, Building, Footprint};
 use crate::BuildingConfig;
@@ -45,45 +43,11 @@ pub(super) struct Planner<'a> {
     config: &'a BuildingConfig,
     streams: Stream,
     weights: &'a Weights,
-    /// The corners of the lot in its frame.
-    local: Vec<Point2>,
+    /// Room for the corners of a lot.
+    corners: Vec<Point2>,
     plans: Vec<Plan>,
     /// The first plan on the lot at hand.
     first: usize,
-}
-
-/// A lot while it is built on.
-struct Site<'a> {
-    lot: &'a Lot,
-    /// The street at the front.
-    road: RoadId,
-    side: Side,
-    origin: Point2,
-    along: Vector2,
-    inwards: Vector2,
-    facing: f64,
-    /// How far the lot reaches inwards, m.
-    deep: f64,
-}
-
-impl Site<'_> {
-    fn at(&self, x: f64, y: f64) -> Point2 {
-        self.origin + self.along * x + self.inwards * y
-    }
-
-    fn corners(&self, spot: Spot, setback: f64) -> [Point2; 4] {
-        let (left, right) = (spot.x, spot.x + spot.width);
-        let (near, far) = (setback, setback + spot.depth);
-        [self.at(left, near), self.at(right, near), self.at(right, far), self.at(left, far)]
-    }
-}
-
-/// A rectangle in the frame of a lot: from x to x + width, from the setback to the setback and depth.
-#[derive(Clone, Copy)]
-struct Spot {
-    x: f64,
-    width: f64,
-    depth: f64,
 }
 
 impl<'a> Planner<'a> {
@@ -94,7 +58,7 @@ impl<'a> Planner<'a> {
         weights: &'a Weights,
         streams: Stream,
     ) -> Self {
-        Self { network, land, config, streams, weights, local: Vec::new(), plans: Vec::new(), first: 0 }
+        Self { network, land, config, streams, weights, corners: Vec::new(), plans: Vec::new(), first: 0 }
     }
 
     /// Plans what stands on some lots.
@@ -118,31 +82,27 @@ impl<'a> Planner<'a> {
             return;
         }
         for (edge, border) in borders.iter().enumerate() {
-            if let Some((road, side)) = border.as_street() {
-                self.line(lot, edge, (road, side), &mut rng);
+            if let Some(street) = border.as_street() {
+                self.line(lot, edge, street, &mut rng);
             }
         }
     }
 
     /// Plans what stands along one street of a lot.
-    fn line(&mut self, lot: &Lot, edge: usize, (road, side): (RoadId, Side), rng: &mut StreamRng) {
-        let outline = self.land.outline(lot);
-        let origin = outline[edge];
-        let Some(along) = (outline[(edge + 1) % outline.len()] - origin).try_normalize(1e-9) else { return };
-        let inwards = Vector2::new(-along.y, along.x);
-        self.local.clear();
-        self.local.extend(outline.iter().map(|corner| {
-            let to = corner - origin;
-            Point2::new(to.dot(&along), to.dot(&inwards))
-        }));
-        let deep = self.local.iter().map(|corner| corner.y).fold(0.0, f64::max);
-        let Some((mut start, end)) = self.room(LEAST) else { return };
-        let site = Site { lot, road, side, origin, along, inwards, facing: heading(&-inwards), deep };
-        let mut is_first = edge == 0;
+    fn line(&mut self, lot: &Lot, edge: usize, street: (RoadId, Side), rng: &mut StreamRng) {
+        let corners = std::mem::take(&mut self.corners);
+        let Some(site) = Site::of(self.land, lot, edge, street, corners) else { return };
+        self.fill(&site, edge == 0, rng);
+        self.corners = site.local;
+    }
+
+    /// Fills the room along the street of a site from its beginning to its end.
+    fn fill(&mut self, site: &Site<'_>, mut is_first: bool, rng: &mut StreamRng) {
+        let Some((mut start, end)) = self.room(site, LEAST) else { return };
         while end - start >= LEAST {
-            let Some((kind, spot)) = self.choose(&site, (start, end), is_first, rng) else { break };
-            if self.is_free(&site, spot) {
-                self.raise(&site, kind, spot, rng);
+            let Some((kind, spot)) = self.choose(site, (start, end), is_first, rng) else { break };
+            if self.is_free(site, spot) {
+                self.raise(site, kind, spot, rng);
                 start = spot.x + spot.width + self.config.gap;
             } else {
                 start += STEP;
@@ -214,7 +174,7 @@ impl<'a> Planner<'a> {
             return None;
         }
         for depth in [rng.uniform(kind.depth.0, deepest), kind.depth.0] {
-            let Some((low, high)) = self.room(depth) else { continue };
+            let Some((low, high)) = self.room(site, depth) else { continue };
             let (low, high) = (low.max(start), high.min(end));
             let room = high - low;
             if room >= kind.width.0 {
@@ -228,27 +188,9 @@ impl<'a> Planner<'a> {
         None
     }
 
-    /// The stations between which a rectangle of that depth lies within the lot, with half the gap to either side.
-    fn room(&self, depth: f64) -> Option<(f64, f64)> {
-        let front = self.span(self.config.setback)?;
-        let rear = self.span(self.config.setback + depth)?;
-        let margin = self.config.gap * 0.5 + CLEARANCE;
-        let (low, high) = (front.0.max(rear.0) + margin, front.1.min(rear.1) - margin);
-        (low < high).then_some((low, high))
-    }
-
-    /// From where to where the lot reaches at a distance from its front.
-    fn span(&self, y: f64) -> Option<(f64, f64)> {
-        let mut span: Option<(f64, f64)> = None;
-        let count = self.local.len();
-        for index in 0..count {
-            let (a, b) = (self.local[index], self.local[if index + 1 == count { 0 } else { index + 1 }]);
-            if (a.y > y) != (b.y > y) {
-                let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-                span = Some(span.map_or((x, x), |(low, high)| (low.min(x), high.max(x))));
-            }
-        }
-        span
+    /// The room along a street for that depth, see [`Site::room`].
+    fn room(&self, site: &Site<'_>, depth: f64) -> Option<(f64, f64)> {
+        site.room(self.config.setback, depth, self.config.gap * 0.5 + CLEARANCE)
     }
 
     fn raise(&mut self, site: &Site<'_>, archetype: &'static Archetype, spot: Spot, rng: &mut StreamRng) {
@@ -274,77 +216,13 @@ impl<'a> Planner<'a> {
             storeys,
             roof,
             zone: lot.zone,
-            access: self.access(site, door),
+            access: site.access(self.network, door),
             road: site.road,
             side: site.side,
         };
-        let frontage = self.frontage(lot, &corners);
+        let frontage = site.frontage(self.land, &corners, near + AT_STREET);
         self.plans.push(Plan { building, corners, frontage });
     }
-
-    /// The place on the walkways before a door: the middle of the sidewalk or, where that ends before the corner, of
-    /// the walkway round it.
-    fn access(&self, site: &Site<'_>, door: Point2) -> Point2 {
-        let network = self.network;
-        let Some(walk) = network.sidewalk(site.road, site.side) else { return door };
-        let mut best = nearest(&walk.path, door);
-        if (best - door).norm() < walk.width {
-            return best;
-        }
-        let road = &network.roads[site.road.index()];
-        for intersection in [road.from, road.to] {
-            for corner in &network.intersections[intersection.index()].corners {
-                let at = if corner.len() < 2 { continue } else { nearest(corner, door) };
-                if (at - door).norm_squared() < (best - door).norm_squared() {
-                    best = at;
-                }
-            }
-        }
-        best
-    }
-
-    /// Length of the streets of a lot along which a building stands, m: at its front and, on a corner, beside it.
-    fn frontage(&self, lot: &Lot, corners: &[Point2; 4]) -> f64 {
-        let (outline, borders) = (self.land.outline(lot), self.land.borders(lot));
-        let farthest = self.config.setback + AT_STREET;
-        let mut sum = 0.0;
-        for (index, border) in borders.iter().enumerate() {
-            if !border.is_street() {
-                continue;
-            }
-            let start = outline[index];
-            let edge = outline[(index + 1) % outline.len()] - start;
-            let length = edge.norm();
-            let (mut near, mut low, mut high) = (f64::INFINITY, f64::INFINITY, 0.0_f64);
-            for corner in corners {
-                let to = corner - start;
-                near = near.min(edge.perp(&to) / length);
-                let station = to.dot(&edge) / length;
-                (low, high) = (low.min(station), high.max(station));
-            }
-            if near <= farthest {
-                sum += (high.min(length) - low.max(0.0)).max(0.0);
-            }
-        }
-        sum
-    }
-}
-
-/// The point of a path nearest to another.
-fn nearest(path: &[Point2], point: Point2) -> Point2 {
-    let mut best = (f64::INFINITY, point);
-    for pair in path.windows(2) {
-        let step = pair[1] - pair[0];
-        let squared = step.norm_squared();
-        let share =
-            if squared > 0.0 { ((point - pair[0]).dot(&step) / squared).clamp(0.0, 1.0) } else { 0.0 };
-        let at = pair[0] + step * share;
-        let distance = (point - at).norm_squared();
-        if distance < best.0 {
-            best = (distance, at);
-        }
-    }
-    best.1
 }
 
 /// Whether a gap may be filled with such a place; large institutions are sampled, never fillers.

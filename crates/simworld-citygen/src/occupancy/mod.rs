@@ -17,6 +17,8 @@ const NONE: u32 = u32::MAX;
 const MOST_CELLS: f64 = 4096.0;
 /// Slots along one side of an empty grid, as a power of two.
 const FIRST_BITS: u32 = 5;
+/// Slots along one side of the largest grid, as a power of two.
+const MOST_BITS: u32 = 14;
 
 /// Convex outlines that must not overlap, indexed for exact tests. Touching edges do not overlap.
 ///
@@ -65,10 +67,7 @@ impl Default for Occupancy {
 impl Occupancy {
     /// Empty, with room for so many outlines.
     pub fn with_capacity(outlines: usize) -> Self {
-        let mut bits = FIRST_BITS;
-        while 1_usize << (2 * bits) < outlines {
-            bits += 1;
-        }
+        let bits = bits_for(outlines);
         Self {
             items: Vec::with_capacity(outlines),
             corners: Vec::with_capacity(4 * outlines),
@@ -76,6 +75,17 @@ impl Occupancy {
             entries: Vec::with_capacity(2 * outlines),
             large: Vec::new(),
             bits,
+        }
+    }
+
+    /// Makes room for so many more outlines at once.
+    pub fn reserve(&mut self, outlines: usize) {
+        self.items.reserve(outlines);
+        self.corners.reserve(4 * outlines);
+        self.entries.reserve(2 * outlines);
+        let wanted = bits_for(self.items.len() + outlines);
+        if wanted > self.bits {
+            self.resize(wanted);
         }
     }
 
@@ -96,8 +106,8 @@ impl Occupancy {
         self.corners.extend_from_slice(outline);
         self.items.push(item);
         self.file(self.items.len() as u32 - 1);
-        if self.entries.len() > 2 * self.heads.len() {
-            self.grow();
+        if self.entries.len() > 2 * self.heads.len() && self.bits < MOST_BITS {
+            self.resize(self.bits + 1);
         }
     }
 
@@ -177,9 +187,9 @@ impl Occupancy {
         }
     }
 
-    /// Four times as many slots; every outline is filed anew, in order.
-    fn grow(&mut self) {
-        self.bits += 1;
+    /// Another number of slots; every outline is filed anew, in order.
+    fn resize(&mut self, bits: u32) {
+        self.bits = bits;
         self.heads.clear();
         self.heads.resize(1 << (2 * self.bits), NONE);
         self.entries.clear();
@@ -188,6 +198,15 @@ impl Occupancy {
             self.file(index);
         }
     }
+}
+
+/// Slots along one side for so many outlines, as a power of two.
+fn bits_for(outlines: usize) -> u32 {
+    let mut bits = FIRST_BITS;
+    while bits < MOST_BITS && 1_usize << (2 * bits) < outlines {
+        bits += 1;
+    }
+    bits
 }
 
 /// The cells that a rectangle touches.
