@@ -131,7 +131,10 @@ impl<'a> Sections<'a> {
         if !rest.0.is_empty() {
             return Err(SaveError::Section { found: "more", expected: "nothing after the end" });
         }
-        Ok(Self { found })
+        let sections = Self { found };
+        // Nobody asks for the end, which has a checksum all the same.
+        sections.one::<()>(Tag::End)?;
+        Ok(sections)
     }
 
     /// The content of the one section of a kind.
