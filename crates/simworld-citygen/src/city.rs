@@ -252,10 +252,26 @@ fn describe_signal(crossing: &Crossing) -> EntityDesc {
 fn describe_element(element: &Element) -> EntityDesc {
     let pose = pose_facing(Point3::new(element.position.x, element.position.y, 0.0), element.facing);
     let desc = EntityDesc::new(element.kind, pose, element.shape);
-    if element.kind.is_seat() {
+    if element.kind.is_vehicle() {
+        desc.with("parked", true).colored(car_color(element))
+    } else if element.kind.is_seat() {
         // One sits down from the front.
         desc.accessed_at(pose * Point3::new(element.shape.size().x * 0.5 + 0.6, 0.0, 0.0))
     } else {
         desc
     }
+}
+
+/// The paint of a parked car, linear-light sRGB: a function of where it stands.
+fn car_color(element: &Element) -> [f32; 3] {
+    const PAINTS: [[f32; 3]; 6] = [
+        [0.6, 0.6, 0.62],
+        [0.03, 0.03, 0.035],
+        [0.8, 0.8, 0.8],
+        [0.05, 0.12, 0.3],
+        [0.35, 0.03, 0.03],
+        [0.16, 0.18, 0.17],
+    ];
+    let decimetres = (element.position.x * 10.0) as i64 ^ (element.position.y * 10.0) as i64;
+    PAINTS[decimetres.rem_euclid(PAINTS.len() as i64) as usize]
 }

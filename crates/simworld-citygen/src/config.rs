@@ -56,6 +56,8 @@ pub struct RoadConfig {
     pub lane_width: f64,
     /// Width of a sidewalk, m, in [1, 20].
     pub sidewalk_width: f64,
+    /// Width of the parking lanes at both kerbs of local streets, m, in [0, 6]: 0 for none.
+    pub parking_width: f64,
 }
 
 impl Default for RoadConfig {
@@ -82,6 +84,7 @@ impl Default for RoadConfig {
             arterial_lanes: 1,
             lane_width: LANE_WIDTH,
             sidewalk_width: SIDEWALK_WIDTH,
+            parking_width: 2.2,
         }
     }
 }
@@ -114,6 +117,7 @@ impl RoadConfig {
             ("roads.arterial_lanes", f64::from(self.arterial_lanes), 1.0, 4.0, "1 to 4"),
             ("roads.lane_width", self.lane_width, 2.0, 6.0, "2 to 6 m"),
             ("roads.sidewalk_width", self.sidewalk_width, 1.0, 20.0, "1 to 20 m"),
+            ("roads.parking_width", self.parking_width, 0.0, 6.0, "0 to 6 m"),
         ])
     }
 }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use simworld_core::geometry::{Point3, Twist, Vector3, direction, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape, World};
 use simworld_core::seam::{Dynamics, DynamicsError};
 use simworld_core::seed::{Seed, Stream, StreamRng};
+use simworld_core::value::Value;
 
 use crate::traffic::State;
 use crate::{Body, Foreign, Traffic, TrafficConfig, TrafficError};
@@ -25,13 +26,14 @@ const PAINTS: [[f32; 3]; 7] = [
 
 /// Moves the traffic of a world: one entity a vehicle and a pedestrian.
 ///
-/// People and vehicles that belong to others are seen: drivers stop for them.
+/// People and vehicles that belong to others are seen: drivers stop for them, but not for parked
+/// vehicles (attribute `parked`), which keep within their lanes.
 ///
 /// ```
 /// use std::sync::Arc;
 /// use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 /// use simworld_core::scene::World;
-/// use simworld_core::seed::{Seed, Stream, StreamRng};
+/// use simworld_core::seed::Seed;
 /// use simworld_core::simulation::Simulation;
 /// use simworld_traffic::{TrafficConfig, TrafficDynamics};
 /// let mut world = World::new();
@@ -116,15 +118,15 @@ impl TrafficDynamics {
             self.revision = Some(world.revision());
             let mut own: Vec<EntityId> = self.vehicles.iter().chain(&self.pedestrians).copied().collect();
             own.sort_unstable();
-            let is_other = |entity: &simworld_core::scene::EntityRef<'_>| {
-                entity.kind.is_mobile() && own.binary_search(&entity.id).is_err()
-            };
+            let is_other =
+                |entity: &EntityRef<'_>| entity.kind.is_mobile() && own.binary_search(&entity.id).is_err();
             self.others.clear();
             self.others.extend(world.iter().filter(is_other).map(|entity| entity.id));
         }
         self.foreign.clear();
         for id in &self.others {
-            if let Some(entity) = world.entity(*id).filter(|entity| entity.attachment.is_none()) {
+            let is_here = |entity: &EntityRef<'_>| entity.attachment.is_none() && !is_parked(entity);
+            if let Some(entity) = world.entity(*id).filter(is_here) {
                 let size = entity.info.shape.size();
                 self.foreign.push(Foreign { position: entity.planar(), radius: size.x.max(size.y) * 0.5 });
             }
@@ -185,6 +187,13 @@ impl TrafficDynamics {
 fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.kind.shape());
     desc.colored(PAINTS[paint.below(PAINTS.len())])
+}
+
+/// Whether an entity is a parked vehicle: it keeps within its parking lane, where nobody drives.
+fn is_parked(entity: &EntityRef<'_>) -> bool {
+    entity.kind.is_vehicle()
+        && entity.twist.ground_speed() == 0.0
+        && entity.info.attributes.get("parked") == Some(&Value::Bool(true))
 }
 
 /// Tells damaged bytes from whole ones: state that merely reads well may still contradict itself.

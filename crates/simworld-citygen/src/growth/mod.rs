@@ -227,7 +227,10 @@ impl<'a> Growth<'a> {
     /// The grown streets as a plan, some of them bent between their ends.
     fn plan(&self, seed: Seed) -> StreetPlan {
         let bends = seed.stream("citygen/bends");
-        let mut plan = StreetPlan { sections: vec![self.section(1)], ..StreetPlan::default() };
+        let mut plan = StreetPlan {
+            sections: vec![self.section(1).with_parking(self.config.parking_width)],
+            ..StreetPlan::default()
+        };
         let arterial = plan.add_section(self.section(self.config.arterial_lanes));
         let highway = plan.add_section(self.highway());
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];

@@ -115,6 +115,27 @@ impl CrossSection {
         Self { lanes, reference }
     }
 
+    /// With a parking lane of that width at either kerb; as it was if the width is nothing.
+    ///
+    /// ```
+    /// use simworld_core::net::CrossSection;
+    /// let street = CrossSection::two_way(1, 1).with_parking(2.2);
+    /// assert_eq!(street.lanes.len(), 6);
+    /// assert_eq!(street.kerbs(), (5.7, 5.7));
+    /// ```
+    #[must_use]
+    pub fn with_parking(mut self, width: f64) -> Self {
+        let is_carriageway = |lane: &LaneSpec| lane.kind.is_carriageway();
+        let ends = (self.lanes.iter().position(is_carriageway), self.lanes.iter().rposition(is_carriageway));
+        if let (Some(first), Some(last), true) = (ends.0, ends.1, width > 0.0) {
+            let parking = |direction| LaneSpec { kind: LaneKind::Parking, direction, width };
+            self.lanes.insert(last + 1, parking(LaneDirection::Forward));
+            self.lanes.insert(first, parking(LaneDirection::Backward));
+            self.reference += width;
+        }
+        self
+    }
+
     /// Width of the whole, m.
     pub fn width(&self) -> f64 {
         self.lanes.iter().map(|lane| lane.width).sum()
