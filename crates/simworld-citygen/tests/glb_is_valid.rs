@@ -55,7 +55,12 @@ fn up_is_y_and_north_is_minus_z() {
     // A pitched roof rises above the walls.
     assert!((-1e-3..12.0).contains(&(f64::from(top) - tallest)), "{top} {tallest}");
     // The northernmost wall is the one with the least z.
-    let north = city.buildings.iter().flat_map(|b| b.obb().footprint()).map(|p| p.y).fold(f64::MIN, f64::max);
+    let north = city
+        .buildings
+        .iter()
+        .flat_map(simworld_citygen::building::Building::outline)
+        .map(|p| p.y)
+        .fold(f64::MIN, f64::max);
     let least = buildings.primitives().map(|part| part.bounding_box().min[2]).fold(f32::MAX, f32::min);
     assert!((f64::from(-least - translation[2]) - north).abs() < 0.01);
 }

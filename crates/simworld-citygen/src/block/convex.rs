@@ -4,8 +4,8 @@ use simworld_core::geometry::{Point2, Vector2};
 
 use super::{Border, Ring};
 
-/// Corners that turn in by less than this are taken as straight; the sine of the angle.
-const FLAT: f64 = 0.006;
+/// Corners that turn in by less than this are taken as straight, against rounding; the sine of the angle.
+const FLAT: f64 = 1e-7;
 /// Corners less sharp than this are bends; the sine of the angle.
 const BEND: f64 = 0.6;
 /// Pieces that one block may be cut into.

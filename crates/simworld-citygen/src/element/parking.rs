@@ -76,17 +76,20 @@ fn is_reversed(offset: f64, lane: &LaneSpec) -> bool {
 
 /// A car at a station of the middle of its lane; `None` where the lane bends too much for it to keep within.
 fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, lane: f64) -> Option<Element> {
-    let front = polyline::at(path, station + length * 0.5).0;
-    let back = polyline::at(path, station - length * 0.5).0;
-    let position = nalgebra::center(&front, &back);
-    let sag = polyline::closest(path, &position)?.distance;
-    if sag + width * 0.5 > lane * 0.5 {
+    let stretch = polyline::slice(path, station - length * 0.5, station + length * 0.5);
+    let (back, front) = (*stretch.first()?, *stretch.last()?);
+    let chord = front - back;
+    let axis = chord.try_normalize(1e-6)?;
+    // The lane bulges away from the car's axis by this much at most.
+    let bulge = stretch.iter().map(|point| axis.perp(&(point - back)).abs()).fold(0.0, f64::max);
+    if bulge + width * 0.5 > lane * 0.5 {
         return None;
     }
-    let along = heading(&(front - back));
+    let along = heading(&chord);
     let facing = if reversed { ops::wrap_angle(along + PI) } else { along };
-    let shape = Shape::cuboid(length, width, 0.31 * length);
-    Some(Element { kind: EntityKind::Car, position, facing, shape })
+    // In a bend the chord is shorter than the stretch: so is the car.
+    let shape = Shape::cuboid(length.min(chord.norm()), width, 0.31 * length);
+    Some(Element { kind: EntityKind::Car, position: nalgebra::center(&front, &back), facing, shape })
 }
 
 /// Where along a road's centreline cars may park, clear of the junctions at its ends; `None` if nowhere.
