@@ -9,6 +9,7 @@ pub mod element;
 mod error;
 pub mod files;
 mod geo;
+pub mod graph;
 pub mod growth;
 pub mod lot;
 pub mod map;
