@@ -93,5 +93,13 @@ fn grown_streets_are_planar_and_connected() {
         let graph = StreetGraph::of(&plan).unwrap_or_else(|error| panic!("{style}, seed {seed}: {error}"));
         let parts = graph.faces().filter(FaceRef::is_outer).count();
         assert_eq!(parts, 1, "{style}, seed {seed} is not connected");
+        assert!(plan.streets.len() >= config.count as usize, "{style}, seed {seed} stopped early");
     }
+}
+
+#[test]
+fn growth_that_took_back_nearly_all_goes_on() {
+    // Its first rounds end in trees without a block, of which only one street is no dead end too many.
+    let config = Style::Suburb.roads(11);
+    assert!(growth::grow(&config, Seed(8663)).streets.len() >= 11);
 }

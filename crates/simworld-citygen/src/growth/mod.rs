@@ -80,9 +80,16 @@ pub fn grow(config: &RoadConfig, seed: Seed) -> StreetPlan {
             break;
         }
     }
-    // A city too small for so few dead ends keeps what it needs to have its count.
+    // A city too small for so few dead ends keeps what it needs to have its count. What the rounds took back may have cost
+    // every attempt, so these are its own.
+    growth.revivals = attempts(config);
     growth.run();
     growth.plan(seed)
+}
+
+/// How often growth may be revived.
+fn attempts(config: &RoadConfig) -> u32 {
+    config.count.saturating_mul(REVIVALS)
 }
 
 struct Growth<'a> {
@@ -112,7 +119,7 @@ impl<'a> Growth<'a> {
             fitter: Fitter::default(),
             queue: BinaryHeap::new(),
             serial: 0,
-            revivals: config.count.saturating_mul(REVIVALS),
+            revivals: attempts(config),
             standing: 0,
             rng: seed.stream("citygen/roads").rng(),
         }
