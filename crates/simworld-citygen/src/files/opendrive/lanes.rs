@@ -65,17 +65,7 @@ impl Layout {
     ) -> Vec<i32> {
         let lanes = if direction == LaneDirection::Forward { &road.forward } else { &road.backward };
         let number_of = |lane: &LaneId| {
-            let path = &network.lanes[lane.index()].path;
-            let (middle, _) = polyline::at(path, polyline::length(path) * 0.5);
-            let lateral = polyline::closest(&road.centerline, &middle).map_or(0.0, |near| near.lateral);
-            let strips = section.strips().enumerate();
-            let driven =
-                strips.filter(|(_, (_, strip))| strip.kind.is_driven() && strip.direction == direction);
-            let nearest = driven.min_by(|a, b| {
-                let away = |middle: f64| (middle - lateral).abs();
-                away(a.1.0).total_cmp(&away(b.1.0))
-            });
-            nearest.map_or(-1, |(index, _)| self.number(index))
+            strip_of(section, network, road, *lane, direction).map_or(-1, |(index, _)| self.number(index))
         };
         lanes.iter().map(number_of).collect()
     }
@@ -151,6 +141,25 @@ impl Layout {
             road_mark(mark)
         )
     }
+}
+
+/// The strip of a lane and the offset of its middle from the centreline, positive to the left, m: the driven strip of its
+/// direction nearest to the middle of its path.
+pub(super) fn strip_of(
+    section: &CrossSection,
+    network: &RoadNetwork,
+    road: &Road,
+    lane: LaneId,
+    direction: LaneDirection,
+) -> Option<(usize, f64)> {
+    let path = &network.lanes[lane.index()].path;
+    let (middle, _) = polyline::at(path, polyline::length(path) * 0.5);
+    let lateral = polyline::closest(&road.centerline, &middle).map_or(0.0, |near| near.lateral);
+    let strips = section.strips().enumerate();
+    let driven = strips.filter(|(_, (_, strip))| strip.kind.is_driven() && strip.direction == direction);
+    let away = |middle: f64| (middle - lateral).abs();
+    let nearest = driven.min_by(|a, b| away(a.1.0).total_cmp(&away(b.1.0)));
+    nearest.map(|(index, (offset, _))| (index, offset))
 }
 
 fn road_mark(kind: &str) -> String {

@@ -49,15 +49,14 @@ impl City {
     /// The writer's.
     pub fn write_opendrive(&self, writer: &mut impl Write) -> io::Result<()> {
         let network = &*self.network;
-        let layouts = network.roads.iter().enumerate().map(|(index, road)| {
-            // Roads are indexed as the streets of the plan.
-            Layout::of(self.plan.section(&self.plan.streets[index]), network, road)
-        });
+        // Roads are indexed as the streets of the plan.
+        let section = |index: usize| self.plan.section(&self.plan.streets[index]);
+        let indexed = || network.roads.iter().enumerate();
         let roads = Roads {
             city: self,
             network,
-            layouts: layouts.collect(),
-            stops: network.roads.iter().map(|road| roads::stops(network, road)).collect(),
+            layouts: indexed().map(|(index, road)| Layout::of(section(index), network, road)).collect(),
+            stops: indexed().map(|(index, road)| roads::stops(section(index), network, road)).collect(),
         };
         roads.write(writer)
     }

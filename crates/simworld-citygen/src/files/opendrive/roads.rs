@@ -2,26 +2,33 @@
 
 use std::io::{self, Write};
 
-use simworld_core::net::{Road, RoadClass, RoadNetwork, polyline};
+use simworld_core::geometry::direction as direction_of;
+use simworld_core::net::{CrossSection, LaneDirection, Road, RoadClass, RoadNetwork, polyline};
 
+use super::lanes::strip_of;
 use super::{Roads, geometry};
 use crate::files::xml::escaped;
 
 /// Where lanes begin and end along the centreline, m.
-pub(super) fn stops(network: &RoadNetwork, road: &Road) -> (f64, f64) {
+pub(super) fn stops(section: &CrossSection, network: &RoadNetwork, road: &Road) -> (f64, f64) {
     let length = polyline::length(&road.centerline);
-    let lane =
-        road.forward.first().map(|lane| (lane, false)).or(road.backward.first().map(|lane| (lane, true)));
-    let Some((lane, reversed)) = lane else { return (0.0, length) };
+    let forward = road.forward.first().map(|lane| (*lane, LaneDirection::Forward));
+    let lane = forward.or(road.backward.first().map(|lane| (*lane, LaneDirection::Backward)));
+    let Some((lane, direction)) = lane else { return (0.0, length) };
     let path = &network.lanes[lane.index()].path;
-    let station = |point: Option<&simworld_core::geometry::Point2>, otherwise: f64| {
-        point
-            .and_then(|point| polyline::closest(&road.centerline, point))
-            .map_or(otherwise, |near| near.station)
+    let path = if direction == LaneDirection::Forward { path.clone() } else { polyline::reversed(path) };
+    // A lane ends square to the centreline: its end moved back by its offset lies on the line, even beside a bend.
+    let offset = strip_of(section, network, road, lane, direction).map_or(0.0, |(_, offset)| offset);
+    let station = |station: f64, otherwise: f64| {
+        let (point, along) = polyline::at(&path, station);
+        let left = direction_of(along + std::f64::consts::FRAC_PI_2) * offset;
+        // Beside a bend a lane may begin with a piece that runs backwards: then its left is its right.
+        let feet = [point - left, point + left];
+        let nears = feet.iter().filter_map(|foot| polyline::closest(&road.centerline, foot));
+        let nearest = nears.min_by(|a, b| a.distance.total_cmp(&b.distance));
+        nearest.map_or(otherwise, |near| near.station)
     };
-    let (first, last) = (path.first(), path.last());
-    let (begin, end) = if reversed { (last, first) } else { (first, last) };
-    (station(begin, 0.0), station(end, length))
+    (station(0.0, 0.0), station(polyline::length(&path), length))
 }
 
 impl Roads<'_> {
