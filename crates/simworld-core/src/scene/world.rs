@@ -2,92 +2,31 @@
 //! dynamics.
 
 mod bonds;
+mod error;
+mod read;
+mod slots;
 mod snapshot;
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
+pub use error::WorldError;
+use slots::{check_pose, check_twist};
 pub use snapshot::WorldSnapshot;
-use thiserror::Error;
 
 use super::quadtree::Quadtree;
-use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Scene, Shape, ShapeError};
+use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Scene};
 use crate::action::Action;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::event::{Event, EventKind};
-use crate::geometry::{Aabb, Pose, Ray, Twist};
+use crate::geometry::{Aabb, Pose, Twist};
 use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{Aspect, RoadNetwork};
-use crate::scene::{RayCast, RayHit};
 
 /// Positions farther out than this are refused, m: a third of the way round the Earth.
 const WORLD_LIMIT: f64 = 1.3e7;
-
-/// Why the store refused a change.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum WorldError {
-    /// No such entity.
-    #[error("there is no entity {id}: it was removed, or never spawned")]
-    Missing {
-        /// The unknown id.
-        id: EntityId,
-    },
-    /// The pose is not finite or beyond the limit of a world.
-    #[error("a pose at ({x}, {y}, {z}) is out of the world: give finite metres within ±1.3e7")]
-    Pose {
-        /// East, m.
-        x: f64,
-        /// North, m.
-        y: f64,
-        /// Up, m.
-        z: f64,
-    },
-    /// The rotation of a pose is not one.
-    #[error("a quaternion of norm {norm} is no rotation: normalise it")]
-    Rotation {
-        /// Its norm.
-        norm: f64,
-    },
-    /// The velocity is not finite.
-    #[error("the velocity of {id} is not finite")]
-    Twist {
-        /// The entity.
-        id: EntityId,
-    },
-    /// The shape is no solid.
-    #[error(transparent)]
-    Shape(#[from] ShapeError),
-    /// An entity cannot hang on itself, directly or through others.
-    #[error("{child} cannot hang on {parent}: it would carry itself")]
-    Cycle {
-        /// The entity to be carried.
-        child: EntityId,
-        /// The carrier asked for.
-        parent: EntityId,
-    },
-    /// Something that is to be loaded onto a carrier hangs on one already.
-    #[error("{child} hangs on something already: free it first")]
-    Bonded {
-        /// The load.
-        child: EntityId,
-    },
-    /// A slot that should be free is in use.
-    #[error("{id} is in use: only a removed entity can be restored")]
-    InUse {
-        /// The id asked for.
-        id: EntityId,
-    },
-    /// A snapshot that contradicts itself.
-    #[error("the snapshot is damaged: {what}")]
-    Snapshot {
-        /// What is wrong with it.
-        what: &'static str,
-    },
-}
 
 /// The state of everything: entities, environment, clock, signals.
 ///
@@ -356,196 +295,6 @@ impl World {
     }
 
     // ---- inner workings ----
-
-    fn check(&self, id: EntityId, desc: &EntityDesc) -> Result<(), WorldError> {
-        check_pose(&desc.pose)?;
-        check_twist(id, &desc.twist)?;
-        desc.info.shape.validate()?;
-        if let Some(bond) = &desc.attachment {
-            self.check_alive(bond.parent)?;
-            check_pose(&bond.parent_from_body)?;
-        }
-        Ok(())
-    }
-
-    /// The id that the next spawn gives.
-    fn next_id(&self) -> EntityId {
-        let slot = self.free.last().map_or(self.infos.len(), |slot| *slot as usize);
-        EntityId::new(slot as u32, self.generations.get(slot).copied().unwrap_or(0))
-    }
-
-    fn check_alive(&self, id: EntityId) -> Result<(), WorldError> {
-        if self.is_alive(id) { Ok(()) } else { Err(WorldError::Missing { id }) }
-    }
-
-    fn is_alive(&self, id: EntityId) -> bool {
-        let slot = id.index();
-        slot < self.infos.len() && self.generations[slot] == id.generation() && self.infos[slot].is_some()
-    }
-
-    fn new_slot(&mut self) -> u32 {
-        let slot = u32::try_from(self.infos.len()).expect("a world holds fewer than 2^32 entities");
-        self.generations.push(0);
-        self.kinds.push(EntityKind::Prop);
-        self.poses.push(Pose::identity());
-        self.twists.push(Twist::ZERO);
-        self.bounds.push(Shape::Sphere { radius: 1.0 }.aabb(&Pose::identity()));
-        self.infos.push(None);
-        self.bonds.push(None);
-        self.digests.push(0);
-        self.is_touched.push(false);
-        slot
-    }
-
-    /// Fills a slot that is not in the free list with a checked recipe.
-    fn fill(&mut self, slot: u32, desc: EntityDesc) -> EntityId {
-        let index = slot as usize;
-        let bounds = desc.info.shape.aabb(&desc.pose);
-        self.kinds[index] = desc.kind;
-        self.poses[index] = desc.pose;
-        self.twists[index] = desc.twist;
-        self.infos[index] = Some(desc.info);
-        self.file(index, bounds);
-        self.set_bond(index, desc.attachment);
-        self.touch(index);
-        self.revision += 1;
-        EntityId::new(slot, self.generations[index])
-    }
-
-    fn file(&mut self, slot: usize, bounds: Aabb) {
-        self.bounds[slot] = bounds;
-        if !self.tree.holds(&bounds) {
-            self.grow_tree(&bounds);
-        }
-        self.tree.place(slot as u32, &bounds);
-    }
-
-    /// Doubles the tree until it holds the box, and files everything anew.
-    fn grow_tree(&mut self, bounds: &Aabb) {
-        let mut width = self.tree.width();
-        let mut tree = Quadtree::with_width(width);
-        while !tree.holds(bounds) {
-            width *= 2.0;
-            tree = Quadtree::with_width(width);
-        }
-        for (slot, info) in self.infos.iter().enumerate() {
-            if info.is_some() {
-                tree.place(slot as u32, &self.bounds[slot]);
-            }
-        }
-        self.tree = tree;
-    }
-
-    fn touch(&mut self, slot: usize) {
-        if !self.is_touched[slot] {
-            self.is_touched[slot] = true;
-            self.touched.push(slot as u32);
-        }
-    }
-
-    fn in_slot(&self, slot: usize) -> Option<EntityRef<'_>> {
-        let info = self.infos[slot].as_ref()?;
-        Some(EntityRef {
-            id: EntityId::new(slot as u32, self.generations[slot]),
-            kind: self.kinds[slot],
-            pose: &self.poses[slot],
-            twist: &self.twists[slot],
-            bounds: &self.bounds[slot],
-            info,
-            attachment: self.bonds[slot].as_ref(),
-        })
-    }
-
-    /// Visits what touches the region and may be at least `min_extent` m wide: the level of detail of a distant
-    /// view, found without looking at the small things.
-    pub fn visit_coarse(
-        &self,
-        region: &Aabb,
-        min_extent: f64,
-        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        self.tree.visit(region, min_extent, &mut |slot| match self.in_slot(slot as usize) {
-            Some(entity) if entity.bounds.intersects(region) => visitor(entity),
-            _ => ControlFlow::Continue(()),
-        })
-    }
-}
-
-fn check_twist(id: EntityId, twist: &Twist) -> Result<(), WorldError> {
-    let finite = twist.linear.iter().chain(twist.angular.iter()).all(|number| number.is_finite());
-    if finite { Ok(()) } else { Err(WorldError::Twist { id }) }
-}
-
-fn check_pose(pose: &Pose) -> Result<(), WorldError> {
-    let at = pose.translation.vector;
-    if !at.iter().all(|x| x.abs() <= WORLD_LIMIT) {
-        return Err(WorldError::Pose { x: at.x, y: at.y, z: at.z });
-    }
-    let norm = pose.rotation.coords.norm();
-    // Single-precision engines normalise to about 1e-7; NaN fails the comparison.
-    if (norm - 1.0).abs() <= 1e-3 { Ok(()) } else { Err(WorldError::Rotation { norm }) }
-}
-
-impl Scene for World {
-    fn entity(&self, id: EntityId) -> Option<EntityRef<'_>> {
-        if self.is_alive(id) { self.in_slot(id.index()) } else { None }
-    }
-
-    fn visit(
-        &self,
-        region: &Aabb,
-        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        self.visit_coarse(region, 0.0, visitor)
-    }
-
-    fn environment(&self) -> &Environment {
-        &self.environment
-    }
-
-    fn clock(&self) -> Clock {
-        self.clock
-    }
-
-    fn roads(&self) -> Option<&Arc<RoadNetwork>> {
-        self.roads.as_ref()
-    }
-
-    fn signals(&self) -> &[Aspect] {
-        &self.signals
-    }
-
-    fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
-        for slot in &self.bonded {
-            if self.bonds[*slot as usize].is_some_and(|bond| bond.parent == parent)
-                && let Some(entity) = self.in_slot(*slot as usize)
-            {
-                visitor(entity);
-            }
-        }
-    }
-}
-
-impl RayCast for World {
-    /// Meets the oriented boxes around the solids; exact for boxes, from outside for round shapes.
-    fn cast_ray(&self, ray: &Ray, max_distance: f64, filter: &dyn Fn(EntityId) -> bool) -> Option<RayHit> {
-        let swept = Aabb::new(ray.origin, ray.at(max_distance));
-        let mut best: Option<RayHit> = None;
-        let _ = self.visit(&swept, &mut |entity| {
-            if entity.kind.is_solid() && filter(entity.id) {
-                let hit = super::ray::meet_box(ray, &entity.obb())
-                    .filter(|(distance, _)| *distance <= max_distance);
-                if let Some((distance, normal)) = hit {
-                    let hit = RayHit { entity: entity.id, distance, normal };
-                    if best.is_none_or(|b| (distance, entity.id) < (b.distance, b.entity)) {
-                        best = Some(hit);
-                    }
-                }
-            }
-            ControlFlow::Continue(())
-        });
-        best
-    }
 }
 
 impl StateHash for World {

@@ -5,8 +5,11 @@
 //! moves over in some seconds; meanwhile it stands in both: those behind it in the old lane see it there, and it minds
 //! who is before it in either.
 
+use std::collections::VecDeque;
+
 use serde::{Deserialize, Serialize};
 
+use super::Idm;
 use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::{Leg, TrafficConfig};
@@ -200,18 +203,7 @@ impl VehicleManager {
         if must {
             return Some((1e3 + mine, there.rank));
         }
-        let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
-        let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.kind.length() - s);
-        let speed = leader.map_or(0.0, |leader| leader.v);
-        let now = follow(vehicle.v, free(lane), gap(vehicle.s), speed);
-        let left_behind = queue.get(rank + 1).map_or(0.0, |other| {
-            let near = vehicle.s - length - other.s;
-            let (before, after) = (
-                follow(other.v, free(lane), near, vehicle.v),
-                follow(other.v, free(lane), gap(other.s), speed),
-            );
-            after - before
-        });
+        let (now, left_behind) = staying(idm, queue, rank, free(lane));
         let loss = follower.map_or(0.0, |(before, after)| before - after);
         let gain = mine - now + mobil.politeness * (left_behind - loss);
         (gain > mobil.threshold).then_some((gain, there.rank))
@@ -320,6 +312,21 @@ fn may_change(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
         && tracks.length[lane as usize] - vehicle.s > ROOM
 }
 
+/// The acceleration of a vehicle that stays in its lane, and what the one behind it gains if it leaves, m/s².
+fn staying(idm: &Idm, queue: &VecDeque<Vehicle>, rank: usize, free: f64) -> (f64, f64) {
+    let vehicle = &queue[rank];
+    let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
+    let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.kind.length() - s);
+    let speed = leader.map_or(0.0, |leader| leader.v);
+    let now = idm.acceleration(vehicle.v, free, gap(vehicle.s), speed);
+    let gain = queue.get(rank + 1).map_or(0.0, |other| {
+        let near = vehicle.s - vehicle.kind.length() - other.s;
+        let before = idm.acceleration(other.v, free, near, vehicle.v);
+        idm.acceleration(other.v, free, gap(other.s), speed) - before
+    });
+    (now, gain)
+}
+
 /// The lane that a vehicle has not quite left.
 fn old_lane(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> Option<Track> {
     let [left, right] = tracks.beside[lane as usize];
@@ -360,7 +367,6 @@ fn sort(ghosts: &mut [Ghost]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Idm;
     use super::*;
 
     #[test]

@@ -1,6 +1,7 @@
 //! Bonds: what hangs on what, and goes where it goes.
 
-use super::{World, WorldError, check_pose};
+use super::slots::check_pose;
+use super::{World, WorldError};
 use crate::geometry::{Pose, Twist};
 use crate::id::EntityId;
 use crate::scene::{Attachment, EntityDesc, Scene};

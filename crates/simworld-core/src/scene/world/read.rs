@@ -1,0 +1,90 @@
+//! Reading the store: the seams `Scene` and `RayCast`.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::World;
+use crate::clock::Clock;
+use crate::environment::Environment;
+use crate::geometry::{Aabb, Ray};
+use crate::id::EntityId;
+use crate::net::{Aspect, RoadNetwork};
+use crate::scene::{EntityRef, RayCast, RayHit, Scene};
+
+impl World {
+    /// Visits what touches the region and may be at least `min_extent` m wide: the level of detail of a distant
+    /// view, found without looking at the small things.
+    pub fn visit_coarse(
+        &self,
+        region: &Aabb,
+        min_extent: f64,
+        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.tree.visit(region, min_extent, &mut |slot| match self.in_slot(slot as usize) {
+            Some(entity) if entity.bounds.intersects(region) => visitor(entity),
+            _ => ControlFlow::Continue(()),
+        })
+    }
+}
+
+impl Scene for World {
+    fn entity(&self, id: EntityId) -> Option<EntityRef<'_>> {
+        if self.is_alive(id) { self.in_slot(id.index()) } else { None }
+    }
+
+    fn visit(
+        &self,
+        region: &Aabb,
+        visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.visit_coarse(region, 0.0, visitor)
+    }
+
+    fn environment(&self) -> &Environment {
+        &self.environment
+    }
+
+    fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    fn roads(&self) -> Option<&Arc<RoadNetwork>> {
+        self.roads.as_ref()
+    }
+
+    fn signals(&self) -> &[Aspect] {
+        &self.signals
+    }
+
+    fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
+        for slot in &self.bonded {
+            if self.bonds[*slot as usize].is_some_and(|bond| bond.parent == parent)
+                && let Some(entity) = self.in_slot(*slot as usize)
+            {
+                visitor(entity);
+            }
+        }
+    }
+}
+
+impl RayCast for World {
+    /// Meets the oriented boxes around the solids; exact for boxes, from outside for round shapes.
+    fn cast_ray(&self, ray: &Ray, max_distance: f64, filter: &dyn Fn(EntityId) -> bool) -> Option<RayHit> {
+        let swept = Aabb::new(ray.origin, ray.at(max_distance));
+        let mut best: Option<RayHit> = None;
+        let _ = self.visit(&swept, &mut |entity| {
+            if entity.kind.is_solid() && filter(entity.id) {
+                let hit = crate::scene::ray::meet_box(ray, &entity.obb())
+                    .filter(|(distance, _)| *distance <= max_distance);
+                if let Some((distance, normal)) = hit {
+                    let hit = RayHit { entity: entity.id, distance, normal };
+                    if best.is_none_or(|b| (distance, entity.id) < (b.distance, b.entity)) {
+                        best = Some(hit);
+                    }
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        best
+    }
+}
