@@ -119,9 +119,9 @@ impl CrossSection {
     ///
     /// ```
     /// use simworld_core::net::CrossSection;
-    /// let street = CrossSection::two_way(1, 1).with_parking(2.2);
+    /// let street = CrossSection::two_way(1, 1).with_parking(2.0);
     /// assert_eq!(street.lanes.len(), 6);
-    /// assert_eq!(street.kerbs(), (5.7, 5.7));
+    /// assert_eq!(street.kerbs(), (5.5, 5.5));
     /// ```
     #[must_use]
     pub fn with_parking(mut self, width: f64) -> Self {
