@@ -51,7 +51,16 @@ pub enum Format {
 
 impl Format {
     /// All of them, in the order in which they are written.
-    pub const ALL: [Self; 6] = [Self::Svg, Self::Png, Self::Glb, Self::Saved, Self::GeoJson, Self::Python];
+    pub const ALL: [Self; 8] = [
+        Self::Svg,
+        Self::Png,
+        Self::Glb,
+        Self::Saved,
+        Self::GeoJson,
+        Self::Sumo,
+        Self::OpenDrive,
+        Self::Python,
+    ];
 
     /// The files, in the folder of the city.
     pub const fn files(self) -> &'static [&'static str] {
@@ -237,12 +246,19 @@ mod tests {
     fn every_format_leaves_its_files() {
         let folder = tempfile::tempdir().unwrap();
         let city = City::generate(&CityConfig::with_roads(4), Seed(1)).unwrap();
+        assert_eq!(Format::ALL.len(), Format::Python as usize + 1, "every format is among all");
+        let mut contents = Vec::new();
         for format in Format::ALL {
             let written =
                 export(&city, format, &city.svg(), 64, folder.path(), &Interrupt::default()).unwrap();
             assert_eq!(written.len(), format.files().len());
-            assert!(written.iter().all(|file| file.bytes > 0));
+            contents.extend(written.iter().map(|file| std::fs::read(&file.path).unwrap()));
         }
+        assert!(contents.iter().all(|bytes| !bytes.is_empty()));
+        contents.sort();
+        let files = contents.len();
+        contents.dedup();
+        assert_eq!(contents.len(), files, "no two files are the same");
     }
 
     #[test]
