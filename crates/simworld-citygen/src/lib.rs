@@ -27,6 +27,6 @@ pub use config::{BuildingConfig, CityConfig, ElementConfig, RoadConfig};
 pub use error::CityError;
 pub use geo::GeoOrigin;
 pub use provenance::Provenance;
-pub use report::{CityReport, StreetStatistics};
+pub use report::{CityReport, Judged, StreetStatistics};
 pub use source::RoadSource;
 pub use style::{Band, Style, StyleError};

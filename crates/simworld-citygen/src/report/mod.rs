@@ -1,16 +1,20 @@
 //! The statistics by which a city is judged.
 
+mod judged;
 mod streets;
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
+pub use judged::Judged;
 pub use streets::StreetStatistics;
 
 use crate::City;
 use crate::occupancy::Occupancy;
 
 /// Statistics of a city.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CityReport {
     /// Its streets.
     pub streets: StreetStatistics,
