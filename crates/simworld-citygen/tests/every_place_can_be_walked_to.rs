@@ -49,8 +49,8 @@ fn every_place_can_be_walked_to() {
                 .filter_map(|path| polyline::closest(path, &middle))
                 .map(|closest| closest.distance)
                 .fold(f64::INFINITY, f64::min);
-            // Half the sidewalk, and what a straight front may leave a bend.
-            assert!(away < walk.width * 0.5 + 2.0, "seed {seed}: a front {away} m from its sidewalk");
+            // Half the sidewalk, and what a straight front may leave a street that bends to and fro.
+            assert!(away < walk.width * 0.5 + 5.0, "seed {seed}: a front {away} m from its sidewalk");
         }
     }
 }

@@ -7,7 +7,7 @@ use super::trace::{Boundary, Piece};
 use super::{Border, Ring};
 
 /// How far a front may leave the sidewalk, m.
-const TOLERANCE: f64 = 0.8;
+const TOLERANCE: f64 = 2.4;
 /// Corners less sharp than this are parts of a bend; the sine of the angle.
 const STRAIGHT: f64 = 0.02;
 /// A piece shorter than this has no direction, m.
