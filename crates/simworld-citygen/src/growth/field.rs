@@ -34,24 +34,41 @@ impl Field {
         self.radius
     }
 
+    /// What is to be known of a place; looked up once for all streets that begin there.
+    pub(super) fn site(&self, at: Point2) -> Site {
+        Site { grain: self.orientation(at), density: self.density(at), remoteness: at.coords.norm() }
+    }
+
     /// The direction of the main streets at a place, radians.
-    pub(super) fn orientation(&self, at: Point2) -> f64 {
+    fn orientation(&self, at: Point2) -> f64 {
         // Without turning there is one grid, and nothing to look up.
         let turned = if self.turning > 0.0 { self.orientation.uniform_at(at) - 0.5 } else { 0.0 };
         self.base + 2.0 * self.turning * turned
     }
 
-    /// The heading nearest to a wish that runs along the field, or across it.
-    pub(super) fn aligned(&self, at: Point2, wish: f64) -> f64 {
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let grid = self.orientation(at);
-        let turns = (wrap_angle(wish - grid) / quarter).round();
-        grid + turns * quarter
-    }
-
     /// How densely people live, in [0, 1]: less towards the edge, and in patches.
-    pub(super) fn density(&self, at: Point2) -> f64 {
+    fn density(&self, at: Point2) -> f64 {
         let centrality = (1.0 - at.coords.norm() / self.radius).clamp(0.0, 1.0);
         0.55 * centrality + 0.45 * self.density.at(at)
+    }
+}
+
+/// A place and what is to be known of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Site {
+    /// The direction of the main streets, radians.
+    pub(super) grain: f64,
+    /// How densely people live, in [0, 1].
+    pub(super) density: f64,
+    /// Distance from the middle, m.
+    pub(super) remoteness: f64,
+}
+
+impl Site {
+    /// The heading nearest to a wish that runs along the grain, or across it.
+    pub(super) fn aligned(&self, wish: f64) -> f64 {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let turns = (wrap_angle(wish - self.grain) / quarter).round();
+        self.grain + turns * quarter
     }
 }

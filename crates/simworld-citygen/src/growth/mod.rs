@@ -17,11 +17,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::geometry::{Point2, direction, heading};
 use simworld_core::net::{CrossSection, LaneDirection, LaneKind, LaneSpec, RoadClass, Street, StreetPlan};
+use simworld_core::ops::wrap_angle;
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::RoadConfig;
 use fabric::{Fabric, MOST_STREETS};
-use field::Field;
+use field::{Field, Site};
 use proposal::{Fitter, Measures, Proposal};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.
@@ -128,13 +129,13 @@ impl<'a> Growth<'a> {
     /// Main streets in opposite directions from the origin: highways, if there are any, and else arterials.
     fn plant(&mut self) {
         let origin = self.fabric.add_node(Point2::origin(), MOST_STREETS as u8);
-        let first = self.field.orientation(Point2::origin());
+        let site = self.field.site(Point2::origin());
         let ends = self.config.highways.clamp(2, MOST_STREETS as u32);
         let class = if self.config.highways > 0 { RoadClass::Highway } else { RoadClass::Arterial };
         for end in 0..ends {
             // Opposite ones first.
             let turns = [0.0, 2.0, 1.0, 3.0][end as usize];
-            self.push(0.0, origin, first + turns * FRAC_PI_2, class);
+            self.push(0.0, (origin, &site), site.grain + turns * FRAC_PI_2, class);
         }
     }
 
@@ -168,13 +169,13 @@ impl<'a> Growth<'a> {
     /// Proposes the ways on from a new junction: straight, left and right.
     fn branch(&mut self, steps: f64, node: u32, from: &Proposal) {
         let came = heading(&from.along);
-        let at = self.fabric.at(node);
+        let site = self.field.site(self.fabric.at(node));
         let main = from.class != RoadClass::Local;
         if main || self.rng.chance(self.config.continuation) {
             // Depth runs ahead: a continuation costs less than a branch, and that of a main road least.
             let step = [1.0, 0.6, 0.4][from.class as usize];
-            let towards = self.guided(at, came);
-            self.push(steps + step / (1.0 + self.config.depth_bias), node, towards, from.class);
+            let towards = self.guided(&site, came);
+            self.push(steps + step / (1.0 + self.config.depth_bias), (node, &site), towards, from.class);
         }
         let first = if self.rng.chance(0.5) { FRAC_PI_2 } else { -FRAC_PI_2 };
         let delay = if from.class == RoadClass::Highway { HIGHWAY_DELAY } else { 0.0 };
@@ -182,8 +183,8 @@ impl<'a> Growth<'a> {
             if self.rng.chance(self.config.branching) {
                 let class = self.class_of_branch(from.class);
                 let cost = delay + self.rng.uniform(0.7, 1.2);
-                let towards = self.guided(at, came + side);
-                self.push(steps + cost, node, towards, class);
+                let towards = self.guided(&site, came + side);
+                self.push(steps + cost, (node, &site), towards, class);
             }
         }
     }
@@ -198,9 +199,8 @@ impl<'a> Growth<'a> {
     }
 
     /// A heading near a wish, drawn towards the grain of the place.
-    fn guided(&mut self, at: Point2, wish: f64) -> f64 {
-        let grain = self.field.aligned(at, wish);
-        let drawn = wish + simworld_core::ops::wrap_angle(grain - wish) * self.config.order;
+    fn guided(&mut self, site: &Site, wish: f64) -> f64 {
+        let drawn = wish + wrap_angle(site.aligned(wish) - wish) * self.config.order;
         drawn + self.rng.normal_clamped(0.0, self.config.heading_variation, -0.7, 0.7)
     }
 
@@ -209,13 +209,13 @@ impl<'a> Growth<'a> {
         let node = self.rng.below(self.fabric.node_count()) as u32;
         let Some(present) = self.fabric.ways(node).next() else { return };
         let quarter = self.rng.below(4) as f64 * FRAC_PI_2;
-        let towards = self.guided(self.fabric.at(node), heading(&present) + quarter);
-        self.push(0.0, node, towards, RoadClass::Local);
+        let site = self.field.site(self.fabric.at(node));
+        let towards = self.guided(&site, heading(&present) + quarter);
+        self.push(0.0, (node, &site), towards, RoadClass::Local);
     }
 
-    fn push(&mut self, steps: f64, from: u32, heading: f64, class: RoadClass) {
-        let at = self.fabric.at(from);
-        let density = self.field.density(at);
+    fn push(&mut self, steps: f64, (from, site): (u32, &Site), heading: f64, class: RoadClass) {
+        let density = site.density;
         let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
         // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
         let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.55, 0.8);
@@ -223,9 +223,9 @@ impl<'a> Growth<'a> {
         self.serial += 1;
         let proposal = Proposal { from, along: direction(heading), length, class };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
-        let remoteness = at.coords.norm() / self.config.length * (1.25 - 0.5 * density);
+        let remoteness = site.remoteness / self.config.length * (1.25 - 0.5 * density);
         // Highways run ahead as far as the town will reach, not beyond.
-        let in_town = at.coords.norm() < TOWN * self.field.radius();
+        let in_town = site.remoteness < TOWN * self.field.radius();
         let waits = if class == RoadClass::Highway && in_town { 0.3 } else { 1.0 };
         let cost = steps + self.config.compactness * remoteness * waits;
         self.queue.push(End { cost, steps, serial: self.serial, proposal });
