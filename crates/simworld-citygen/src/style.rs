@@ -77,7 +77,7 @@ impl Band {
             ("orientation order", of.orientation_order, self.orientation_order.clone()),
             ("median length, m", of.median_length, self.median_length.clone()),
             ("intersections / km²", of.intersection_density, self.intersection_density.clone()),
-            ("mean / median length", skew, 1.0..=3.0),
+            ("mean / median length", skew, 1.2..=3.0),
         ]
         .map(|(name, value, range)| (name, value, range.clone(), range.contains(&value)))
     }
@@ -101,34 +101,45 @@ impl Style {
     pub fn roads(self, count: u32) -> RoadConfig {
         let mixed = RoadConfig { count, highways: if count >= 400 { 2 } else { 0 }, ..RoadConfig::default() };
         match self {
-            Self::Mixed => RoadConfig { least_angle: 1.0, bends: 0.45, bow: 0.065, ..mixed },
+            Self::Mixed => RoadConfig {
+                aspect: 2.6,
+                length_variation: 0.55,
+                snap: 36.0,
+                branching: 0.72,
+                crossroads: 0.85,
+                bends: 0.45,
+                bow: 0.065,
+                ..mixed
+            },
             Self::Grid => RoadConfig {
-                length: 100.0,
-                length_variation: 0.22,
                 heading_variation: 0.015,
                 order: 1.0,
                 turning: 0.0,
-                snap: 45.0,
-                continuation: 0.98,
-                branching: 0.9,
-                crossroads: 0.8,
-                dead_ends: 0.1,
                 bends: 0.1,
                 bow: 0.05,
+                length: 104.0,
+                aspect: 3.0,
+                length_variation: 0.12,
+                snap: 34.0,
+                continuation: 0.98,
+                branching: 0.9,
+                crossroads: 1.0,
+                dead_ends: 0.1,
                 ..mixed
             },
             Self::Organic => RoadConfig {
-                length: 88.0,
-                length_variation: 0.25,
+                length: 85.0,
+                aspect: 2.6,
+                length_variation: 0.48,
                 heading_variation: 0.3,
                 order: 0.35,
                 turning: 2.2,
                 patch: 350.0,
-                snap: 38.0,
+                snap: 34.0,
                 least_angle: 0.8,
                 continuation: 0.9,
                 branching: 0.55,
-                crossroads: 0.22,
+                crossroads: 0.33,
                 dead_ends: 0.22,
                 bends: 0.9,
                 bow: 0.14,
@@ -144,9 +155,9 @@ impl Style {
                 snap: 36.0,
                 least_angle: 0.9,
                 continuation: 0.75,
-                branching: 0.38,
+                branching: 0.36,
                 crossroads: 0.45,
-                dead_ends: 0.325,
+                dead_ends: 0.34,
                 bends: 0.65,
                 bow: 0.09,
                 ..mixed

@@ -218,8 +218,16 @@ impl<'a> Growth<'a> {
         let density = site.density;
         let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
         // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
-        let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.55, 0.8);
-        let length = self.config.length * stride * simworld_core::ops::exp(spread) * (1.15 - 0.3 * density);
+        let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.55, 1.0);
+        // Blocks are longer along the grain than across it.
+        let along_grain =
+            simworld_core::ops::cos(heading - site.grain).abs() > std::f64::consts::FRAC_1_SQRT_2;
+        let side = self.config.aspect.sqrt();
+        let side = if along_grain { side } else { 1.0 / side };
+        let wanted =
+            self.config.length * stride * side * simworld_core::ops::exp(spread) * (1.15 - 0.3 * density);
+        // Nothing longer would be allowed.
+        let length = wanted.min(0.99 * self.measures.most_length);
         self.serial += 1;
         let proposal = Proposal { from, along: direction(heading), length, class };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
