@@ -17,6 +17,8 @@ pub struct RoadConfig {
     pub length: f64,
     /// Length of blocks over their width, in [1, 3]: how much longer streets are along the grain than across it.
     pub aspect: f64,
+    /// Blocks wider than this are divided by a street, m, in [80, 100 000].
+    pub widest_block: f64,
     /// Standard deviation of the logarithm of lengths, in [0, 0.6]: the higher, the more short and very long streets.
     pub length_variation: f64,
     /// Standard deviation of a street's heading from where it is led, radians, in [0, 0.5]: 0 grows straight lines.
@@ -68,6 +70,7 @@ impl Default for RoadConfig {
             count: 40,
             length: 105.0,
             aspect: 1.0,
+            widest_block: 180.0,
             length_variation: 0.2,
             heading_variation: 0.06,
             order: 0.6,
@@ -103,6 +106,7 @@ impl RoadConfig {
             ("roads.length", self.length, 60.0, 1000.0, "60 to 1000 m"),
             ("roads.length_variation", self.length_variation, 0.0, 0.6, "0 to 0.6"),
             ("roads.aspect", self.aspect, 1.0, 3.0, "1 to 3"),
+            ("roads.widest_block", self.widest_block, 80.0, 1e5, "80 to 100 000 m"),
             ("roads.order", self.order, 0.0, 1.0, "0 to 1"),
             ("roads.turning", self.turning, 0.0, std::f64::consts::PI, "0 to π rad"),
             ("roads.patch", self.patch, 50.0, 1e5, "50 to 100 000 m"),

@@ -102,13 +102,14 @@ impl Style {
         let mixed = RoadConfig { count, highways: if count >= 400 { 2 } else { 0 }, ..RoadConfig::default() };
         match self {
             Self::Mixed => RoadConfig {
-                aspect: 2.6,
-                length_variation: 0.55,
+                aspect: 3.0,
+                length_variation: 0.6,
                 snap: 36.0,
                 branching: 0.72,
-                crossroads: 0.85,
+                crossroads: 0.95,
                 bends: 0.45,
                 bow: 0.065,
+                widest_block: 270.0,
                 ..mixed
             },
             Self::Grid => RoadConfig {
@@ -117,7 +118,7 @@ impl Style {
                 turning: 0.0,
                 bends: 0.1,
                 bow: 0.05,
-                length: 104.0,
+                length: 116.0,
                 aspect: 3.0,
                 length_variation: 0.12,
                 snap: 34.0,
@@ -125,12 +126,13 @@ impl Style {
                 branching: 0.9,
                 crossroads: 1.0,
                 dead_ends: 0.1,
+                widest_block: 200.0,
                 ..mixed
             },
             Self::Organic => RoadConfig {
                 length: 85.0,
-                aspect: 2.6,
-                length_variation: 0.48,
+                aspect: 2.8,
+                length_variation: 0.6,
                 heading_variation: 0.3,
                 order: 0.35,
                 turning: 2.2,
@@ -143,23 +145,26 @@ impl Style {
                 dead_ends: 0.22,
                 bends: 0.9,
                 bow: 0.14,
+                widest_block: 320.0,
                 ..mixed
             },
             Self::Suburb => RoadConfig {
-                length: 130.0,
-                length_variation: 0.3,
+                length: 125.0,
+                length_variation: 0.25,
                 heading_variation: 0.25,
                 order: 0.4,
                 turning: 0.6,
                 patch: 600.0,
                 snap: 36.0,
                 least_angle: 0.9,
-                continuation: 0.75,
-                branching: 0.36,
+                continuation: 0.72,
+                branching: 0.3,
                 crossroads: 0.45,
                 dead_ends: 0.34,
                 bends: 0.65,
-                bow: 0.09,
+                bow: 0.095,
+                widest_block: 700.0,
+                aspect: 1.0,
                 ..mixed
             },
         }

@@ -55,7 +55,7 @@ fn lanes_lie_where_they_lie() {
             ends.iter().map(far).fold(0.0, f64::max)
         };
         let least = lines.iter().map(away).fold(f64::MAX, f64::min);
-        assert!(least < 0.4, "{least} m away: {path:?}");
+        assert!(least < 0.2, "{least} m away: {path:?}");
     }
 }
 

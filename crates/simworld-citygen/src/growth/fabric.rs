@@ -6,7 +6,7 @@
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::RoadClass;
 
-use super::proposal::{Arrival, Fitted};
+use super::proposal::{Arrival, Fitted, Start};
 
 /// More streets than this do not meet at one junction.
 pub(super) const MOST_STREETS: usize = 4;
@@ -114,6 +114,47 @@ impl Fabric {
         })
     }
 
+    /// The point where a segment would begin.
+    pub(super) fn start(&self, start: Start) -> Point2 {
+        match start {
+            Start::Node(node) => self.at(node),
+            Start::Middle(segment) => {
+                let segment = &self.segments[segment as usize];
+                nalgebra::center(&self.at(segment.from), &self.at(segment.to))
+            }
+        }
+    }
+
+    /// Whether one more street may leave from there. A node whose street was taken away since hangs on nothing.
+    pub(super) fn can_leave(&self, start: Start) -> bool {
+        match start {
+            Start::Node(node) => self.has_room(node) && (self.degree(node) > 0 || self.segments.is_empty()),
+            Start::Middle(segment) => self.is_standing(segment),
+        }
+    }
+
+    /// The directions in which streets leave a place.
+    pub(super) fn ways_from(&self, start: Start) -> impl Iterator<Item = Vector2> {
+        let (node, along) = match start {
+            Start::Node(node) => (Some(node), None),
+            Start::Middle(segment) => (None, Some(self.segments[segment as usize].along)),
+        };
+        let at_node = node.into_iter().flat_map(|node| self.ways(node));
+        at_node.chain(along.into_iter().flat_map(|along| [along, -along]))
+    }
+
+    /// Length of a segment, m.
+    pub(super) fn length(&self, segment: u32) -> f64 {
+        let segment = &self.segments[segment as usize];
+        (self.at(segment.to) - self.at(segment.from)).norm()
+    }
+
+    /// Whether a segment begins or ends at a node.
+    pub(super) fn is_end(&self, segment: u32, node: u32) -> bool {
+        let segment = &self.segments[segment as usize];
+        segment.from == node || segment.to == node
+    }
+
     /// The node at the other end of a segment.
     pub(super) fn other_end(&self, segment: u32, node: u32) -> u32 {
         let segment = &self.segments[segment as usize];
@@ -180,8 +221,12 @@ impl Fabric {
             Arrival::Node(node) => node,
             Arrival::Interior(segment, point) => self.split(segment, point, limit),
         };
-        let along = (self.at(node) - self.at(fitted.from)).normalize();
-        self.add_segment(Segment { from: fitted.from, to: node, class: fitted.class, along });
+        let from = match fitted.from {
+            Start::Node(node) => node,
+            Start::Middle(segment) => self.split(segment, self.start(fitted.from), limit),
+        };
+        let along = (self.at(node) - self.at(from)).normalize();
+        self.add_segment(Segment { from, to: node, class: fitted.class, along });
         node
     }
 

@@ -1,7 +1,7 @@
 //! What is done once the streets stand: loose ends are attached, and dead ends of which there are too many are taken away.
 
 use super::Growth;
-use super::proposal::Proposal;
+use super::proposal::{Proposal, Start};
 use simworld_core::net::RoadClass;
 
 impl Growth<'_> {
@@ -25,7 +25,13 @@ impl Growth<'_> {
                 let along =
                     nalgebra::Vector2::new(ahead.x * cos - ahead.y * sin, ahead.x * sin + ahead.y * cos);
                 let length = self.config.length * 1.3;
-                let proposal = Proposal { from: node, along, length, class: RoadClass::Local };
+                let proposal = Proposal {
+                    from: Start::Node(node),
+                    along,
+                    length,
+                    class: RoadClass::Local,
+                    emptiness: 0.0,
+                };
                 let fitted = self.fitter.fit(&mut self.fabric, &proposal, &self.measures);
                 if let Some(fitted) = fitted.filter(|fitted| !fitted.is_open()) {
                     let before = self.fabric.segments().len();

@@ -23,7 +23,7 @@ use simworld_core::seed::{Seed, StreamRng};
 use crate::RoadConfig;
 use fabric::{Fabric, MOST_STREETS};
 use field::{Field, Site};
-use proposal::{Fitter, Measures, Proposal};
+use proposal::{Fitter, Measures, Proposal, Start};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.
 const REVIVALS: u32 = 40;
@@ -35,6 +35,8 @@ const HIGHWAY_STRIDE: f64 = 1.5;
 const TOWN: f64 = 0.5;
 /// Streets that leave a highway wait as if they were so many segments farther.
 const HIGHWAY_DELAY: f64 = 2.0;
+/// Streets that divide blocks wait as if they were so many segments farther, until it shows how large the blocks are.
+const DIVISION_DELAY: f64 = 3.0;
 
 /// An end that waits to grow; the one with the least cost goes first.
 #[derive(Clone, Copy, Debug)]
@@ -114,7 +116,7 @@ impl<'a> Growth<'a> {
         let radius = (needed / PI).sqrt() * 1.5 + 6.0 * config.length;
         Self {
             config,
-            measures: Measures::new(config.length, config.snap, config.least_angle),
+            measures: Measures::new(config),
             field: Field::new(config, radius, seed),
             fabric: Fabric::new(radius, config.length),
             fitter: Fitter::default(),
@@ -135,7 +137,7 @@ impl<'a> Growth<'a> {
         for end in 0..ends {
             // Opposite ones first.
             let turns = [0.0, 2.0, 1.0, 3.0][end as usize];
-            self.push(0.0, (origin, &site), site.grain + turns * FRAC_PI_2, class);
+            self.push(0.0, (Start::Node(origin), &site), site.grain + turns * FRAC_PI_2, class);
         }
     }
 
@@ -160,22 +162,41 @@ impl<'a> Growth<'a> {
         let before = self.fabric.segments().len();
         let node = self.fabric.build(&fitted, limit);
         self.standing += self.fabric.segments().len() - before;
-        if matches!(fitted.arrival, proposal::Arrival::New(_)) {
+        self.divide_beside(steps, self.fabric.segments().len() as u32 - 1);
+        if fitted.is_open() {
             self.branch(steps, node, proposal);
         }
         true
+    }
+
+    /// Proposes to divide the blocks on both sides of a street from its middle, if it is long enough.
+    fn divide_beside(&mut self, steps: f64, segment: u32) {
+        if self.fabric.length(segment) < 4.2 * self.measures.least_length {
+            return;
+        }
+        let start = Start::Middle(segment);
+        let site = self.field.site(self.fabric.start(start));
+        let along = heading(&self.fabric.segment(segment).along);
+        for side in [FRAC_PI_2, -FRAC_PI_2] {
+            let towards = self.guided(&site, along + side);
+            self.push_division(steps, (start, &site), towards);
+        }
     }
 
     /// Proposes the ways on from a new junction: straight, left and right.
     fn branch(&mut self, steps: f64, node: u32, from: &Proposal) {
         let came = heading(&from.along);
         let site = self.field.site(self.fabric.at(node));
+        let start = Start::Node(node);
         let main = from.class != RoadClass::Local;
         if main || self.rng.chance(self.config.continuation) {
             // Depth runs ahead: a continuation costs less than a branch, and that of a main road least.
             let step = [1.0, 0.6, 0.4][from.class as usize];
             let towards = self.guided(&site, came);
-            self.push(steps + step / (1.0 + self.config.depth_bias), (node, &site), towards, from.class);
+            self.push(steps + step / (1.0 + self.config.depth_bias), (start, &site), towards, from.class);
+        } else {
+            let towards = self.guided(&site, came);
+            self.push_division(steps, (start, &site), towards);
         }
         let first = if self.rng.chance(0.5) { FRAC_PI_2 } else { -FRAC_PI_2 };
         let delay = if from.class == RoadClass::Highway { HIGHWAY_DELAY } else { 0.0 };
@@ -184,7 +205,10 @@ impl<'a> Growth<'a> {
                 let class = self.class_of_branch(from.class);
                 let cost = delay + self.rng.uniform(0.7, 1.2);
                 let towards = self.guided(&site, came + side);
-                self.push(steps + cost, (node, &site), towards, class);
+                self.push(steps + cost, (start, &site), towards, class);
+            } else {
+                let towards = self.guided(&site, came + side);
+                self.push_division(steps, (start, &site), towards);
             }
         }
     }
@@ -211,25 +235,41 @@ impl<'a> Growth<'a> {
         let quarter = self.rng.below(4) as f64 * FRAC_PI_2;
         let site = self.field.site(self.fabric.at(node));
         let towards = self.guided(&site, heading(&present) + quarter);
-        self.push(0.0, (node, &site), towards, RoadClass::Local);
+        self.push(0.0, (Start::Node(node), &site), towards, RoadClass::Local);
     }
 
-    fn push(&mut self, steps: f64, (from, site): (u32, &Site), heading: f64, class: RoadClass) {
+    fn push(&mut self, steps: f64, (from, site): (Start, &Site), heading: f64, class: RoadClass) {
+        self.enqueue(steps, (from, site), heading, class, 0.0);
+    }
+
+    /// Proposes a local street that is built only where it divides a large block.
+    fn push_division(&mut self, steps: f64, (from, site): (Start, &Site), heading: f64) {
+        let emptiness = 0.5 * self.config.widest_block * breadth(site.density);
+        self.enqueue(steps + DIVISION_DELAY, (from, site), heading, RoadClass::Local, emptiness);
+    }
+
+    fn enqueue(
+        &mut self,
+        steps: f64,
+        (from, site): (Start, &Site),
+        heading: f64,
+        class: RoadClass,
+        emptiness: f64,
+    ) {
         let density = site.density;
         let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
         // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
-        let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.55, 1.0);
+        let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.75, 1.3);
         // Blocks are longer along the grain than across it.
         let along_grain =
             simworld_core::ops::cos(heading - site.grain).abs() > std::f64::consts::FRAC_1_SQRT_2;
         let side = self.config.aspect.sqrt();
         let side = if along_grain { side } else { 1.0 / side };
-        let wanted =
-            self.config.length * stride * side * simworld_core::ops::exp(spread) * (1.15 - 0.3 * density);
+        let wanted = self.config.length * stride * side * simworld_core::ops::exp(spread) * breadth(density);
         // Nothing longer would be allowed.
         let length = wanted.min(0.99 * self.measures.most_length);
         self.serial += 1;
-        let proposal = Proposal { from, along: direction(heading), length, class };
+        let proposal = Proposal { from, along: direction(heading), length, class, emptiness };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
         let remoteness = site.remoteness / self.config.length * (1.25 - 0.5 * density);
         // Highways run ahead as far as the town will reach, not beyond.
@@ -289,6 +329,11 @@ impl<'a> Growth<'a> {
         section.reference += width * 0.5;
         section
     }
+}
+
+/// Streets are longer and blocks wider where fewer live; 1 in the middle of the range.
+fn breadth(density: f64) -> f64 {
+    1.6 - 1.15 * density
 }
 
 /// No bow is higher than this share of the mean length: two that face each other still leave a street's width.

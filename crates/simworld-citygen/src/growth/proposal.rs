@@ -4,19 +4,31 @@ use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::{RoadClass, polyline};
 
 use super::fabric::Fabric;
+use crate::RoadConfig;
 
 /// Nothing shorter than this share of the mean length is built.
-const LEAST_SHARE: f64 = 0.45;
+const LEAST_SHARE: f64 = 0.38;
 /// Streets that do not meet keep this share of the mean length apart.
 const CLEARANCE_SHARE: f64 = 0.36;
+
+/// Where a segment begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Start {
+    /// At a junction.
+    Node(u32),
+    /// In the middle of a street, which is split there.
+    Middle(u32),
+}
 
 /// A segment that an end would like to build.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Proposal {
-    pub(super) from: u32,
+    pub(super) from: Start,
     pub(super) along: Vector2,
     pub(super) length: f64,
     pub(super) class: RoadClass,
+    /// How far the land must be empty on both its sides, m: more than nothing if it is to divide a large block.
+    pub(super) emptiness: f64,
 }
 
 /// Where a segment arrives.
@@ -33,7 +45,7 @@ pub(super) enum Arrival {
 /// A proposal that may be built.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fitted {
-    pub(super) from: u32,
+    pub(super) from: Start,
     pub(super) class: RoadClass,
     pub(super) arrival: Arrival,
 }
@@ -56,13 +68,14 @@ pub(super) struct Measures {
 }
 
 impl Measures {
-    pub(super) fn new(length: f64, snap: f64, least_angle: f64) -> Self {
+    pub(super) fn new(config: &RoadConfig) -> Self {
+        let length = config.length;
         Self {
-            snap,
+            snap: config.snap,
             least_length: length * LEAST_SHARE,
-            most_length: length * 2.6,
+            most_length: length * 3.2,
             clearance: length * CLEARANCE_SHARE,
-            cos_least_angle: simworld_core::ops::cos(least_angle),
+            cos_least_angle: simworld_core::ops::cos(config.least_angle),
         }
     }
 }
@@ -81,26 +94,26 @@ impl Fitter {
         proposal: &Proposal,
         measures: &Measures,
     ) -> Option<Fitted> {
-        let start = fabric.at(proposal.from);
+        let start = fabric.start(proposal.from);
         let wanted = start + proposal.along * proposal.length;
-        // An end whose street was taken away since hangs on nothing.
-        let is_loose = fabric.degree(proposal.from) == 0 && !fabric.segments().is_empty();
-        if is_loose || !fabric.has_room(proposal.from) || !fabric.holds(wanted) {
+        if !fabric.can_leave(proposal.from) || !fabric.holds(wanted) {
             return None;
         }
-        let leaving = proposal.along;
         // Most that fail here would fail for certain: a street already goes that way.
-        if fabric.ways(proposal.from).any(|way| way.dot(&leaving) > measures.cos_least_angle + 0.1) {
+        let limit = measures.cos_least_angle + 0.1;
+        if fabric.ways_from(proposal.from).any(|way| way.dot(&proposal.along) > limit) {
             return None;
         }
-        fabric.segments_near(start, wanted, measures.snap + measures.clearance, &mut self.near);
+        let margin = (measures.snap + measures.clearance).max(proposal.emptiness);
+        fabric.segments_near(start, wanted, margin, &mut self.near);
         let rules = Rules { fabric, measures, near: &self.near, from: proposal.from, start };
         let arrival = rules
             .junction_near(wanted)
             .or_else(|| rules.first_street_met(wanted))
             .or_else(|| rules.street_near(wanted))
             .unwrap_or(Arrival::New(wanted));
-        rules.allow(arrival).then_some(Fitted { from: proposal.from, class: proposal.class, arrival })
+        let fits = rules.allow(arrival) && rules.is_empty_beside(arrival, proposal.emptiness);
+        fits.then_some(Fitted { from: proposal.from, class: proposal.class, arrival })
     }
 }
 
@@ -109,7 +122,7 @@ struct Rules<'a> {
     measures: &'a Measures,
     /// Segments that may matter.
     near: &'a [u32],
-    from: u32,
+    from: Start,
     start: Point2,
 }
 
@@ -119,7 +132,7 @@ impl Rules<'_> {
         let mut best = (self.measures.snap * self.measures.snap, u32::MAX);
         self.fabric.visit_nodes(wanted, self.measures.snap, |node, at| {
             let distance = (at - wanted).norm_squared();
-            if node != self.from && (distance, node) < best && self.fabric.degree(node) > 0 {
+            if Start::Node(node) != self.from && (distance, node) < best && self.fabric.degree(node) > 0 {
                 best = (distance, node);
             }
         });
@@ -130,7 +143,10 @@ impl Rules<'_> {
     fn others(&self) -> impl Iterator<Item = (u32, Point2, Point2)> {
         self.near.iter().copied().filter_map(|index| {
             let segment = self.fabric.segment(index);
-            let own = segment.from == self.from || segment.to == self.from;
+            let own = match self.from {
+                Start::Node(node) => segment.from == node || segment.to == node,
+                Start::Middle(street) => index == street,
+            };
             (!own && self.fabric.is_standing(index))
                 .then(|| (index, self.fabric.at(segment.from), self.fabric.at(segment.to)))
         })
@@ -171,26 +187,50 @@ impl Rules<'_> {
 
     /// Intersection validation: length, angles at both ends, number of streets, distance from everything else.
     fn allow(&self, arrival: Arrival) -> bool {
-        let end = match arrival {
-            Arrival::New(point) | Arrival::Interior(_, point) => point,
-            Arrival::Node(node) => self.fabric.at(node),
-        };
+        let end = self.end(arrival);
         let length = (end - self.start).norm();
         if !(self.measures.least_length..=self.measures.most_length).contains(&length) {
             return false;
         }
         let along = (end - self.start) / length;
-        self.angles_allow(self.fabric.ways(self.from), along)
+        self.angles_allow(self.fabric.ways_from(self.from), along)
             && self.arrival_allows(arrival, -along)
             && self.is_clear(arrival, end)
+    }
+
+    fn end(&self, arrival: Arrival) -> Point2 {
+        match arrival {
+            Arrival::New(point) | Arrival::Interior(_, point) => point,
+            Arrival::Node(node) => self.fabric.at(node),
+        }
+    }
+
+    /// Whether the land on both sides of the middle is empty.
+    fn is_empty_beside(&self, arrival: Arrival, emptiness: f64) -> bool {
+        if emptiness <= 0.0 {
+            return true;
+        }
+        let end = self.end(arrival);
+        let middle = nalgebra::center(&self.start, &end);
+        let along = (end - self.start).normalize();
+        let across = Vector2::new(-along.y, along.x) * emptiness;
+        self.near.iter().copied().filter(|index| self.fabric.is_standing(*index)).all(|index| {
+            let segment = self.fabric.segment(index);
+            let (a, b) = (self.fabric.at(segment.from), self.fabric.at(segment.to));
+            polyline::crossing(middle - across, middle + across, a, b).is_none()
+        })
     }
 
     fn arrival_allows(&self, arrival: Arrival, arriving: Vector2) -> bool {
         match arrival {
             Arrival::New(_) => true,
             Arrival::Node(node) => {
+                let is_joined = match self.from {
+                    Start::Node(from) => self.fabric.are_joined(from, node),
+                    Start::Middle(street) => self.fabric.is_end(street, node),
+                };
                 self.fabric.has_room(node)
-                    && !self.fabric.are_joined(self.from, node)
+                    && !is_joined
                     && self.angles_allow(self.fabric.ways(node), arriving)
             }
             Arrival::Interior(index, _) => {
@@ -211,9 +251,10 @@ impl Rules<'_> {
             |point: Point2| (nearest(self.start, end, point) - point).norm_squared() >= clearance;
         self.near.iter().copied().filter(|index| self.fabric.is_standing(*index)).all(|index| {
             let segment = self.fabric.segment(index);
-            let joined_at = |node: u32| node == self.from || arrival == Arrival::Node(node);
+            let joined_at = |node: u32| Start::Node(node) == self.from || arrival == Arrival::Node(node);
             let ends = [segment.from, segment.to].map(|node| self.fabric.at(node));
-            if matches!(arrival, Arrival::Interior(split, _) if split == index) {
+            let is_split = matches!(arrival, Arrival::Interior(split, _) if split == index);
+            if is_split || self.from == Start::Middle(index) {
                 return ends.into_iter().all(keeps_away);
             }
             match (joined_at(segment.from), joined_at(segment.to)) {

@@ -78,25 +78,59 @@ pub(super) fn cubic(path: &[Point2], length: f64, (leaves, arrives): (f64, f64))
         return Piece { start, heading: leaves, length: chord.x, kind: Kind::Line };
     }
     let points: Vec<Vector2> = path.iter().map(|point| local(point - start)).collect();
-    let (first, last) = tangents(&points, chord, out, length);
-    let (first, last) = (Vector2::new(first, 0.0), out * last);
-    let second = chord * 3.0 - first * 2.0 - last;
-    let third = first + last - chord * 2.0;
-    let (u, v) = ([first.x, second.x, third.x], [first.y, second.y, third.y]);
+    let (u, v) = fit(&points, chord, out, length);
     Piece { start, heading: leaves, length: arc_length(u, v), kind: Kind::Cubic(u, v) }
 }
 
-/// Lengths of the tangents with which the cubic passes nearest to the points; the length of the path where that has no
-/// good answer.
-fn tangents(points: &[Vector2], chord: Vector2, out: Vector2, length: f64) -> (f64, f64) {
-    let (mut aa, mut ab, mut bb, mut ar, mut br) = (0.0, 0.0, 0.0, 0.0, 0.0);
+/// Rounds in which every point is given to the place of the cubic next to it, and the cubic fitted anew (Hoschek 1988).
+const ROUNDS: u32 = 8;
+
+/// Coefficients of the cubic from the origin along x to `chord`, where it arrives along `out`.
+fn fit(points: &[Vector2], chord: Vector2, out: Vector2, length: f64) -> ([f64; 3], [f64; 3]) {
     let mut station = 0.0;
-    for pair in points.windows(2) {
+    let mut places: Vec<f64> = vec![0.0];
+    places.extend(points.windows(2).map(|pair| {
         station += (pair[1] - pair[0]).norm();
-        let p = station / length;
+        station / length
+    }));
+    let mut tangents = (length, length);
+    for _ in 0..ROUNDS {
+        let found = tangents_through(points, &places, chord, out);
+        let is_good = |tangent: f64| (0.2..=3.0).contains(&(tangent / length));
+        if !is_good(found.0) || !is_good(found.1) {
+            break;
+        }
+        tangents = found;
+        let (u, v) = coefficients(tangents, chord, out);
+        for (place, point) in places.iter_mut().zip(points) {
+            let [x, dx] = at(u, *place);
+            let [y, dy] = at(v, *place);
+            let step = ((point.x - x) * dx + (point.y - y) * dy) / (dx * dx + dy * dy).max(1e-9);
+            *place = (*place + step).clamp(0.0, 1.0);
+        }
+    }
+    coefficients(tangents, chord, out)
+}
+
+/// Value and slope of a cubic without a constant.
+fn at(c: [f64; 3], p: f64) -> [f64; 2] {
+    [((c[2] * p + c[1]) * p + c[0]) * p, (3.0 * c[2] * p + 2.0 * c[1]) * p + c[0]]
+}
+
+fn coefficients((first, last): (f64, f64), chord: Vector2, out: Vector2) -> ([f64; 3], [f64; 3]) {
+    let (first, last) = (Vector2::new(first, 0.0), out * last);
+    let second = chord * 3.0 - first * 2.0 - last;
+    let third = first + last - chord * 2.0;
+    ([first.x, second.x, third.x], [first.y, second.y, third.y])
+}
+
+/// Lengths of the tangents with which the cubic passes nearest to the points at their places.
+fn tangents_through(points: &[Vector2], places: &[f64], chord: Vector2, out: Vector2) -> (f64, f64) {
+    let (mut aa, mut ab, mut bb, mut ar, mut br) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for (point, p) in points.iter().zip(places) {
         // Hermite's base: the first tangent, the last tangent, the end.
         let (a, b) = (Vector2::new(p * (1.0 - p) * (1.0 - p), 0.0), out * (p * p * (p - 1.0)));
-        let rest = pair[1] - chord * (p * p * (3.0 - 2.0 * p));
+        let rest = point - chord * (p * p * (3.0 - 2.0 * p));
         aa += a.dot(&a);
         ab += a.dot(&b);
         bb += b.dot(&b);
@@ -104,9 +138,7 @@ fn tangents(points: &[Vector2], chord: Vector2, out: Vector2, length: f64) -> (f
         br += b.dot(&rest);
     }
     let det = aa * bb - ab * ab;
-    let (first, last) = ((ar * bb - br * ab) / det, (br * aa - ar * ab) / det);
-    let is_good = |tangent: f64| (0.2..=3.0).contains(&(tangent / length));
-    if is_good(first) && is_good(last) { (first, last) } else { (length, length) }
+    ((ar * bb - br * ab) / det, (br * aa - ar * ab) / det)
 }
 
 /// Simpson's rule over the speed of the curve.
