@@ -145,7 +145,7 @@ impl Style {
                 dead_ends: 0.22,
                 bends: 0.9,
                 bow: 0.14,
-                widest_block: 320.0,
+                widest_block: 360.0,
                 ..mixed
             },
             Self::Suburb => RoadConfig {

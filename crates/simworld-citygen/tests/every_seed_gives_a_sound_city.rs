@@ -1,7 +1,7 @@
 //! Whatever the seed: growth ends, the streets are one connected part that crosses itself nowhere, no building overlaps
 //! another or stands on a road, and every door is at a sidewalk.
 
-use simworld_citygen::{City, CityConfig};
+use simworld_citygen::{City, CityConfig, Style};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector3, heading, pose_facing};
 use simworld_core::net::{RoadNetwork, polyline};
 use simworld_core::scene::Place;
@@ -16,7 +16,12 @@ fn seeds() -> u64 {
 fn every_seed_gives_a_sound_city() {
     for seed in 0..seeds() {
         // Sizes from a hamlet to a small town, so that growth also runs dry early.
-        let config = CityConfig::with_roads(10 + (seed % 16) as u32);
+        let count = 10 + (seed % 16) as u32;
+        // Every style in turn, and the settings that nobody touched.
+        let config = match Style::ALL.get((seed / 16 % 5) as usize) {
+            Some(style) => CityConfig { roads: style.roads(count), ..CityConfig::default() },
+            None => CityConfig::with_roads(count),
+        };
         let city = City::generate(&config, Seed(seed)).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         let report = city.report();
         assert_eq!(report.streets.components, 1, "seed {seed} is not connected");

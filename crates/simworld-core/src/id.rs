@@ -81,7 +81,7 @@ macro_rules! index_type {
 }
 
 index_type!(
-    /// An asset of the catalogue that the world was built with.
+    /// An asset of the [`Catalogue`](crate::asset::Catalogue) that a world is built with.
     AssetId
 );
 index_type!(

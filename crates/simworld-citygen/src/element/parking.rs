@@ -16,7 +16,7 @@ use crate::ElementConfig;
 const SPACE: f64 = 6.0;
 /// Distance kept from the ends of the lanes, where crossings and corners must be seen, m.
 const CORNER_CLEARANCE: f64 = 6.0;
-/// Gap kept to both edges of the lane, m.
+/// Gap kept to both edges of the lane, half as much in a bend, m.
 const EDGE_GAP: f64 = 0.1;
 /// The narrowest lane in which cars park along the kerb, m.
 const NARROWEST: f64 = 1.8;
@@ -82,7 +82,7 @@ fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, l
     let axis = chord.try_normalize(1e-6)?;
     // The lane bulges away from the car's axis by this much at most.
     let bulge = stretch.iter().map(|point| axis.perp(&(point - back)).abs()).fold(0.0, f64::max);
-    if bulge + width * 0.5 > lane * 0.5 {
+    if bulge + width * 0.5 > lane * 0.5 - 0.5 * EDGE_GAP {
         return None;
     }
     let along = heading(&chord);

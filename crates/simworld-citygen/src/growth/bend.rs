@@ -16,14 +16,25 @@ const DOUBLED: f64 = 120.0;
 const PIECES: u32 = 12;
 
 /// Points of a bent course between two ends: a bow `sin²` or a double bend `sin · sin²`, both level at the ends, of a
-/// height about `bow` times the length and at most `most` m.
+/// height about `bow` times the length, at most `most` m and nowhere tighter than a radius of `least_radius` m.
 ///
 /// A bow of height h on a chord c is longer than it by about (π h / 2 c)², a double bend by three times as much.
-pub(super) fn course(from: Point2, to: Point2, bow: f64, most: f64, rng: &mut StreamRng) -> Vec<Point2> {
+pub(super) fn course(
+    from: Point2,
+    to: Point2,
+    bow: f64,
+    most: f64,
+    least_radius: f64,
+    rng: &mut StreamRng,
+) -> Vec<Point2> {
     let along = to - from;
     let length = along.norm();
     let doubled = rng.chance(0.5) && length > DOUBLED;
     let side = if rng.chance(0.5) { 1.0 } else { -1.0 };
+    // The second derivative of sin² is 2 π² at most, that of the double bend 2.74 times as much.
+    let bent = length - 2.0 * STRAIGHT;
+    let tightest = 2.0 * PI * PI * if doubled { 2.74 } else { 1.0 };
+    let most = most.min(bent * bent / (tightest * least_radius));
     let height = side * (rng.uniform(0.5, 1.5) * bow * length).min(most);
     if length < SHORTEST || height.abs() < 0.5 {
         return Vec::new();

@@ -266,8 +266,9 @@ impl<'a> Growth<'a> {
         let side = self.config.aspect.sqrt();
         let side = if along_grain { side } else { 1.0 / side };
         let wanted = self.config.length * stride * side * simworld_core::ops::exp(spread) * breadth(density);
-        // Nothing longer would be allowed.
-        let length = wanted.min(0.99 * self.measures.most_length);
+        // Nothing longer would be allowed; nor anything shorter, and without main roads there would be no city.
+        let least = if class == RoadClass::Local { 0.0 } else { 1.01 * self.measures.least_length };
+        let length = wanted.clamp(least, 0.99 * self.measures.most_length);
         self.serial += 1;
         let proposal = Proposal { from, along: direction(heading), length, class, emptiness };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
@@ -304,10 +305,17 @@ impl<'a> Growth<'a> {
             let bent = segment.class != RoadClass::Highway && rng.chance(self.config.bends);
             let (from, to) = (plan.nodes[ends[0]], plan.nodes[ends[1]]);
             let most = BOW_LIMIT * self.config.length;
+            let section = [0, arterial, highway][segment.class as usize];
+            // So that its inner sidewalk is a bend still, not a knot.
+            let least_radius = 2.0 * plan.sections[section as usize].left_of_reference();
             plan.streets.push(Street {
-                via: if bent { bend::course(from, to, self.config.bow, most, &mut rng) } else { Vec::new() },
+                via: if bent {
+                    bend::course(from, to, self.config.bow, most, least_radius, &mut rng)
+                } else {
+                    Vec::new()
+                },
                 class: segment.class,
-                section: [0, arterial, highway][segment.class as usize],
+                section,
                 ..Street::simple(ends[0], ends[1])
             });
         }

@@ -45,24 +45,78 @@ pub fn slice(path: &[Point2], from: f64, to: f64) -> Vec<Point2> {
     out
 }
 
-/// The path shifted sideways, positive to the left; corners are mitred, sharp ones cut at twice the offset.
+/// The path shifted sideways, positive to the left; corners are mitred, sharp ones cut at twice the offset. Where it bends
+/// more tightly than the shift, the pieces that would run backwards are left out.
 pub fn offset(path: &[Point2], distance: f64) -> Vec<Point2> {
-    let normals: Vec<Vector2> = path
-        .windows(2)
-        .map(|pair| {
-            let step = pair[1] - pair[0];
-            Vector2::new(-step.y, step.x).try_normalize(1e-12).unwrap_or_else(Vector2::zeros)
+    let mut pieces = pieces(path);
+    let mut shifted = mitred(path, &pieces, distance);
+    let is_backward = |shifted: &[Point2], index: usize, piece: &Piece| {
+        (shifted[index + 1] - shifted[index]).dot(&piece.along) < 0.0
+    };
+    while pieces.len() > 1 {
+        let before = pieces.len();
+        let mut index = 0;
+        pieces.retain(|piece| {
+            index += 1;
+            !is_backward(&shifted, index - 1, piece)
+        });
+        if pieces.len() == before || pieces.is_empty() {
+            break;
+        }
+        shifted = joined(path, &pieces, distance);
+    }
+    shifted
+}
+
+/// A straight piece of a path: where it begins and its direction.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    start: Point2,
+    along: Vector2,
+}
+
+impl Piece {
+    fn left(&self) -> Vector2 {
+        Vector2::new(-self.along.y, self.along.x)
+    }
+}
+
+fn pieces(path: &[Point2]) -> Vec<Piece> {
+    path.windows(2)
+        .map(|pair| Piece {
+            start: pair[0],
+            along: (pair[1] - pair[0]).try_normalize(1e-12).unwrap_or_else(Vector2::zeros),
         })
-        .collect();
+        .collect()
+}
+
+/// Every point shifted along the bisector of its two pieces.
+fn mitred(path: &[Point2], pieces: &[Piece], distance: f64) -> Vec<Point2> {
     let shift = |index: usize| -> Vector2 {
-        let before = normals.get(index.wrapping_sub(1)).or(normals.first());
-        let after = normals.get(index).or(normals.last());
+        let before = pieces.get(index.wrapping_sub(1)).or(pieces.first());
+        let after = pieces.get(index).or(pieces.last());
         let (Some(before), Some(after)) = (before, after) else { return Vector2::zeros() };
-        let sum = before + after;
+        let sum = before.left() + after.left();
         let scale = (2.0 / sum.norm_squared().max(1e-12)).min(2.0);
         sum * scale
     };
     path.iter().enumerate().map(|(index, point)| point + shift(index) * distance).collect()
+}
+
+/// The lines of some of the pieces of a path, shifted, from where one meets the next; from beside the beginning of the
+/// path to beside its end.
+fn joined(path: &[Point2], pieces: &[Piece], distance: f64) -> Vec<Point2> {
+    let lines: Vec<Piece> =
+        pieces.iter().map(|piece| Piece { start: piece.start + piece.left() * distance, ..*piece }).collect();
+    let foot = |line: &Piece, point: Point2| line.start + line.along * (point - line.start).dot(&line.along);
+    let mut points = vec![foot(&lines[0], path[0])];
+    for pair in lines.windows(2) {
+        let meeting = meet(pair[0].start, pair[0].along, pair[1].start, pair[1].along);
+        // Lines that are nearly parallel meet nowhere near: the next one begins where it would.
+        points.push(meeting.unwrap_or(pair[1].start));
+    }
+    points.push(foot(&lines[lines.len() - 1], path[path.len() - 1]));
+    points
 }
 
 /// The same way backwards.
@@ -194,6 +248,28 @@ mod tests {
         assert!((inner[1] - Point2::new(9.0, 1.0)).norm() < 1e-12, "{}", inner[1]);
         let outer = offset(&bend(), -1.0);
         assert!((outer[1] - Point2::new(11.0, -1.0)).norm() < 1e-12, "{}", outer[1]);
+    }
+
+    #[test]
+    fn an_offset_leaves_out_what_would_run_backwards() {
+        // A stub of 0.2 m after a sharp bend to the left: at 3 m to the left there is no room for it.
+        let path = [Point2::new(0.0, 0.0), Point2::new(20.0, 0.0), Point2::new(20.1, 0.2)];
+        let inner = offset(&path, 3.0);
+        assert_eq!(inner.len(), 2);
+        assert!((inner[0] - Point2::new(0.0, 3.0)).norm() < 1e-12);
+        assert!(inner[1].x > 19.0 && (inner[1].y - 3.0).abs() < 1e-12, "{inner:?}");
+        // A bow tighter than the offset: no piece runs against its own part of the path.
+        let bow: Vec<Point2> = (0..=12)
+            .map(|index| {
+                let (sin, cos) = ops::sin_cos(f64::from(index) * std::f64::consts::PI / 12.0);
+                Point2::new(2.0 * sin, 2.0 - 2.0 * cos)
+            })
+            .collect();
+        let path = [vec![Point2::new(-30.0, 0.0)], bow, vec![Point2::new(-30.0, 4.0)]].concat();
+        let inner = offset(&path, 3.0);
+        let turned =
+            inner.windows(3).filter(|corner| (corner[1] - corner[0]).dot(&(corner[2] - corner[1])) < 0.0);
+        assert!(turned.count() <= 1, "{inner:?}");
     }
 
     #[test]

@@ -19,6 +19,7 @@ pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
 pub use world::{World, WorldError, WorldSnapshot};
 
+use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::geometry::{Aabb, Point2, Ray, Vector3};
@@ -107,6 +108,11 @@ pub trait Scene {
         None
     }
 
+    /// The assets that entities are made from, if the scene has any.
+    fn assets(&self) -> Option<&Arc<Catalogue>> {
+        None
+    }
+
     /// What every signal group shows now, indexed by [`SignalGroup`](crate::net::SignalGroup); empty without
     /// signals.
     fn signals(&self) -> &[Aspect] {
@@ -186,6 +192,9 @@ macro_rules! forward_scene {
             }
             fn roads(&self) -> Option<&Arc<RoadNetwork>> {
                 (**self).roads()
+            }
+            fn assets(&self) -> Option<&Arc<Catalogue>> {
+                (**self).assets()
             }
             fn signals(&self) -> &[Aspect] {
                 (**self).signals()

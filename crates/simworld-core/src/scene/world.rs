@@ -16,12 +16,13 @@ pub use snapshot::WorldSnapshot;
 use super::quadtree::Quadtree;
 use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Scene};
 use crate::action::Action;
+use crate::asset::{Asset, AssetError, Catalogue};
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::event::{Event, EventKind};
 use crate::geometry::{Aabb, Pose, Twist};
 use crate::hash::{StateDigest, StateHash, StateHasher};
-use crate::id::EntityId;
+use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
 use crate::net::{Aspect, RoadNetwork};
 
@@ -66,6 +67,7 @@ pub struct World {
     clock: Clock,
     environment: Environment,
     roads: Option<Arc<RoadNetwork>>,
+    assets: Arc<Catalogue>,
     signals: Vec<Aspect>,
 
     // What this step is told and what happened in it; emptied at its end.
@@ -89,6 +91,14 @@ impl World {
     pub fn set_roads(&mut self, roads: Arc<RoadNetwork>) {
         self.signals = vec![Aspect::Red; roads.signal_groups()];
         self.roads = Some(roads);
+    }
+
+    /// Adds an asset to those that entities are made from; one that is there already keeps its id.
+    ///
+    /// # Errors
+    /// An asset that is none, or another one of the same name.
+    pub fn add_asset(&mut self, asset: Asset) -> Result<AssetId, AssetError> {
+        Arc::make_mut(&mut self.assets).add(asset)
     }
 
     // ---- entities ----
@@ -122,7 +132,7 @@ impl World {
     /// Puts an entity into the world.
     ///
     /// # Errors
-    /// A pose out of the world, a shape that is no solid, or a carrier that does not exist.
+    /// A pose out of the world, a shape that is no solid, or a carrier or an asset that does not exist.
     pub fn spawn(&mut self, desc: EntityDesc) -> Result<EntityId, WorldError> {
         self.check(self.next_id(), &desc)?;
         let slot = self.free.pop().unwrap_or_else(|| self.new_slot());

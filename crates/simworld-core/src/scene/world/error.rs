@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use crate::id::EntityId;
+use crate::asset::AssetError;
+use crate::id::{AssetId, EntityId};
 use crate::scene::ShapeError;
 
 /// Why the store refused a change.
@@ -40,6 +41,17 @@ pub enum WorldError {
     /// The shape is no solid.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// The world has no such asset.
+    #[error("there is no asset {asset}, for the world has {count}: add it first")]
+    Asset {
+        /// The unknown id.
+        asset: AssetId,
+        /// How many assets there are.
+        count: usize,
+    },
+    /// An asset cannot be added.
+    #[error(transparent)]
+    Catalogue(#[from] AssetError),
     /// An entity cannot hang on itself, directly or through others.
     #[error("{child} cannot hang on {parent}: it would carry itself")]
     Cycle {

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::World;
+use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::geometry::{Aabb, Ray};
@@ -50,6 +51,10 @@ impl Scene for World {
 
     fn roads(&self) -> Option<&Arc<RoadNetwork>> {
         self.roads.as_ref()
+    }
+
+    fn assets(&self) -> Option<&Arc<Catalogue>> {
+        Some(&self.assets)
     }
 
     fn signals(&self) -> &[Aspect] {

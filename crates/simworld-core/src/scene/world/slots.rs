@@ -11,6 +11,9 @@ impl World {
         check_pose(&desc.pose)?;
         check_twist(id, &desc.twist)?;
         desc.info.shape.validate()?;
+        if let Some(asset) = desc.info.asset.filter(|asset| self.assets.get(*asset).is_none()) {
+            return Err(WorldError::Asset { asset, count: self.assets.len() });
+        }
         if let Some(bond) = &desc.attachment {
             self.check_alive(bond.parent)?;
             check_pose(&bond.parent_from_body)?;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Quadtree, World, WorldError};
 use crate::action::Action;
+use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::event::Event;
@@ -21,6 +22,7 @@ pub struct WorldSnapshot {
     environment: Environment,
     signals: Vec<Aspect>,
     roads: Option<Arc<RoadNetwork>>,
+    assets: Arc<Catalogue>,
     generations: Vec<u32>,
     entities: Vec<Option<EntityDesc>>,
     free: Vec<u32>,
@@ -39,6 +41,7 @@ impl World {
             environment: self.environment,
             signals: self.signals.clone(),
             roads: self.roads.clone(),
+            assets: Arc::clone(&self.assets),
             generations: self.generations.clone(),
             entities: (0..self.infos.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
             free: self.free.clone(),
@@ -81,6 +84,7 @@ impl World {
             clock: snapshot.clock,
             environment: snapshot.environment,
             roads: snapshot.roads,
+            assets: snapshot.assets,
             signals: snapshot.signals,
             actuations: snapshot.actuations,
             intents: snapshot.intents,
