@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release --example city
 //! cargo run --release --example city -- --style organic --size 3km --seed 7 --out city/
+//! cargo run --release --example city -- --osm monaco.osm.gz --out monaco/
 //! ```
 
 use std::path::PathBuf;
@@ -33,6 +34,9 @@ struct Arguments {
     /// How far the city reaches from one side to the other, such as 800m or 3km.
     #[arg(long, default_value = "1.5km")]
     size: Size,
+    /// A real place: an extract of OpenStreetMap, `.osm`, `.osm.gz` or `.osm.pbf`.
+    #[arg(long, value_name = "FILE", group = "source")]
+    osm: Option<PathBuf>,
     /// Roads from a `roads.json` of the Python release instead of grown ones.
     #[arg(long, value_name = "ROADS.json", group = "source")]
     roads: Option<PathBuf>,
@@ -156,10 +160,12 @@ fn stop_on_interrupt() -> Result<(Interrupt, Arc<AtomicBool>), ctrlc::Error> {
 }
 
 fn source(arguments: &Arguments) -> Source {
-    match (&arguments.city, &arguments.roads) {
-        (Some(path), _) => Source::Saved(path.clone()),
-        (None, Some(path)) => Source::Roads(path.clone()),
-        (None, None) => Source::Grown(arguments.style, arguments.size),
+    let Arguments { city, osm, roads, .. } = arguments;
+    match (city, osm, roads) {
+        (Some(path), _, _) => Source::Saved(path.clone()),
+        (None, Some(path), _) => Source::Osm(path.clone()),
+        (None, None, Some(path)) => Source::Roads(path.clone()),
+        (None, None, None) => Source::Grown(arguments.style, arguments.size),
     }
 }
 

@@ -18,6 +18,9 @@ pub enum CityError {
         /// What is allowed, in words.
         allowed: &'static str,
     },
+    /// A source without streets.
+    #[error("the source holds no street that can be built: give one with streets of 15 m and more")]
+    NoStreets,
     /// The streets cannot be built.
     #[error(transparent)]
     Network(#[from] NetworkError),

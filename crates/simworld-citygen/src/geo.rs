@@ -38,7 +38,7 @@ impl GeoOrigin {
     }
 
     /// Metres a degree of longitude and a degree of latitude at the origin.
-    fn metres_per_degree(&self) -> (f64, f64) {
+    pub(crate) fn metres_per_degree(&self) -> (f64, f64) {
         let (sin, cos) = ops::sin_cos(self.latitude.to_radians());
         let flattening = 1.0 - ECCENTRICITY_SQUARED * sin * sin;
         let prime_vertical = SEMI_MAJOR / flattening.sqrt();

@@ -5,6 +5,7 @@ pub mod block;
 pub mod building;
 mod city;
 mod config;
+mod doors;
 pub mod element;
 mod error;
 pub mod files;
@@ -14,6 +15,8 @@ pub mod growth;
 pub mod lot;
 pub mod map;
 pub mod occupancy;
+#[cfg(feature = "osm")]
+pub mod osm;
 mod populate;
 mod provenance;
 pub mod python;

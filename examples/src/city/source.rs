@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use simworld_citygen::files::save::SaveError;
+use simworld_citygen::osm::{OsmError, Place, PlaceOptions};
 use simworld_citygen::python::{FormatError, read_roads};
 use simworld_citygen::{City, CityConfig, CityError, Style};
 use simworld_core::seed::Seed;
@@ -16,6 +17,8 @@ use super::Size;
 pub enum Source {
     /// Grown from its seed, in a style, so far from one side to the other.
     Grown(Style, Size),
+    /// A real place, from an extract of OpenStreetMap.
+    Osm(PathBuf),
     /// Built on the roads of a `roads.json` of the Python release.
     Roads(PathBuf),
     /// Loaded as it was saved.
@@ -41,6 +44,14 @@ pub enum SourceError {
         path: PathBuf,
         /// Why.
         source: std::io::Error,
+    },
+    /// An extract that cannot be used.
+    #[error("{path}: {source}")]
+    Osm {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: OsmError,
     },
     /// A file of roads that cannot be used.
     #[error("{path}: {source}")]
@@ -75,6 +86,14 @@ pub fn make(source: &Source, seed: Seed) -> Result<Made, SourceError> {
             city.provenance.style = Some(*style);
             Ok(Made { city, warnings: Vec::new() })
         }
+        Source::Osm(path) => {
+            let place =
+                Place::read(path).map_err(|source| SourceError::Osm { path: path.clone(), source })?;
+            let made = City::from_place(&place, &PlaceOptions::default(), &CityConfig::default(), seed);
+            let (mut city, warnings) = made?;
+            city.provenance.title = title_of(path);
+            Ok(Made { city, warnings: warnings.iter().map(ToString::to_string).collect() })
+        }
         Source::Roads(path) => {
             let (plan, warnings) = read_roads(&read(path)?)
                 .map_err(|source| SourceError::Roads { path: path.clone(), source })?;
@@ -87,6 +106,17 @@ pub fn make(source: &Source, seed: Seed) -> Result<Made, SourceError> {
             Ok(Made { city, warnings: Vec::new() })
         }
     }
+}
+
+/// The name of the file in words: `campo-grande.osm.gz` is Campo Grande.
+fn title_of(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?.split('.').next()?;
+    let capital = |word: &str| {
+        let mut letters = word.chars();
+        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    };
+    let words: Vec<String> = name.split(['-', '_', ' ']).map(capital).collect();
+    Some(words.join(" ")).filter(|title| !title.is_empty())
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, SourceError> {

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
 use simworld_core::seed::StreamRng;
 
+use super::Surveyed;
+
 /// The form of an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -20,10 +22,12 @@ pub enum FootprintKind {
     Courtyard,
     /// A tower on a wider base.
     Stepped,
+    /// As it stands on a map.
+    Surveyed,
 }
 
 /// An outline within the rectangle of a building's width and depth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Footprint {
     /// All of it.
@@ -56,6 +60,8 @@ pub enum Footprint {
         /// m.
         setback: f64,
     },
+    /// As it stands on a map.
+    Surveyed(Box<Surveyed>),
 }
 
 /// A box of a building in its body frame: the middle of its bottom, its length along x and width along y, its storeys.
@@ -107,18 +113,20 @@ impl Footprint {
             Self::U { .. } => FootprintKind::U,
             Self::Courtyard { .. } => FootprintKind::Courtyard,
             Self::Stepped { .. } => FootprintKind::Stepped,
+            Self::Surveyed(_) => FootprintKind::Surveyed,
         }
     }
 
     /// Whether it lies within a rectangle of that size.
     pub fn fits(&self, width: f64, depth: f64) -> bool {
         let inside = |part: f64, whole: f64| part > 0.0 && part < whole;
-        match *self {
+        match self {
             Self::Rectangle => true,
-            Self::L { front, side } => inside(front, depth) && inside(side.abs(), width),
-            Self::U { front, side } => inside(front, depth) && inside(2.0 * side, width),
+            Self::L { front, side } => inside(*front, depth) && inside(side.abs(), width),
+            Self::U { front, side } => inside(*front, depth) && inside(2.0 * side, width),
             Self::Courtyard { wing } => inside(2.0 * wing, width.min(depth)),
             Self::Stepped { setback, .. } => inside(2.0 * setback, width.min(depth)),
+            Self::Surveyed(form) => form.fits(width, depth),
         }
     }
 
@@ -127,6 +135,7 @@ impl Footprint {
         let (x, y) = (depth * 0.5, width * 0.5);
         let point = Point2::new;
         match *self {
+            Self::Surveyed(ref form) => form.outline.clone(),
             Self::L { front, side } if side >= 0.0 => vec![
                 point(x, -y),
                 point(x, y),
@@ -164,9 +173,18 @@ impl Footprint {
         Some([Point2::new(x, -y), Point2::new(x, y), Point2::new(-x, y), Point2::new(-x, -y)])
     }
 
+    /// The corners of every courtyard, counter-clockwise.
+    pub fn courtyards(&self, width: f64, depth: f64) -> Vec<Vec<Point2>> {
+        match self {
+            Self::Surveyed(form) => form.courts.clone(),
+            _ => self.courtyard(width, depth).map(|court| court.to_vec()).into_iter().collect(),
+        }
+    }
+
     /// Area on the ground, m².
     pub fn area(&self, width: f64, depth: f64) -> f64 {
         let open = match *self {
+            Self::Surveyed(ref form) => return form.area(),
             Self::Rectangle | Self::Stepped { .. } => 0.0,
             Self::L { front, side } => (depth - front) * (width - side.abs()),
             Self::U { front, side } => (depth - front) * (width - 2.0 * side),
@@ -176,12 +194,17 @@ impl Footprint {
     }
 
     /// The boxes of which it is made, the one with the entrance first. They touch and do not overlap, but for a tower,
-    /// which goes through its base.
+    /// which goes through its base. Walls of a surveyed outline that run askew are laid in steps.
     pub fn parts(&self, width: f64, depth: f64, storeys: u32) -> impl Iterator<Item = Part> + use<> {
         let part = |x: f64, y: f64, length: f64, width: f64, storeys: u32| {
             Some(Part { middle: Point2::new(x, y), length, width, storeys })
         };
+        let surveyed = match self {
+            Self::Surveyed(form) => form.parts(storeys),
+            _ => Vec::new(),
+        };
         let parts: [Option<Part>; 4] = match *self {
+            Self::Surveyed(_) => [None; 4],
             Self::Rectangle => [part(0.0, 0.0, depth, width, storeys), None, None, None],
             Self::L { front, side } => {
                 let rear = (width - side.abs()) * 0.5 * side.signum();
@@ -204,7 +227,7 @@ impl Footprint {
                 [part(0.0, 0.0, depth, width, base), tower, None, None]
             }
         };
-        parts.into_iter().flatten()
+        parts.into_iter().flatten().chain(surveyed)
     }
 }
 

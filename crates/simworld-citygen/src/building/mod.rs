@@ -6,6 +6,7 @@ mod names;
 mod place;
 mod roof;
 mod site;
+mod surveyed;
 mod uses;
 mod weights;
 
@@ -14,11 +15,12 @@ pub use footprint::{Footprint, FootprintKind, Part};
 use nalgebra::Rotation2;
 pub use roof::RoofKind;
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Obb, Point2, Point3, Vector3, pose_facing};
+use simworld_core::geometry::{Obb, Point2, Point3, Vector2, Vector3, pose_facing};
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
 use simworld_core::scene::Place;
 use simworld_core::seed::Seed;
+pub use surveyed::Surveyed;
 
 use crate::BuildingConfig;
 use crate::lot::Land;
@@ -30,6 +32,8 @@ use weights::Weights;
 
 /// Lots that are planned at once: enough for many threads, few enough that the plans stay small.
 const BATCH: usize = 1 << 13;
+/// Buildings on a map share walls; what overlaps by less than twice this does not overlap, m.
+pub const SHARED_WALL: f64 = 0.1;
 /// Height of a wall above the highest ceiling, m.
 const PARAPET: f64 = 0.6;
 
@@ -96,6 +100,29 @@ impl Building {
         Some(court)
     }
 
+    /// The corners of all its courtyards, each counter-clockwise, m.
+    pub fn courtyards(&self) -> Vec<Vec<Point2>> {
+        let mut courts = self.footprint.courtyards(self.width, self.depth);
+        for court in &mut courts {
+            self.to_world(court);
+        }
+        courts
+    }
+
+    /// Convex pieces of the ground that nothing else may stand on: the rectangle round it, or the triangles of a
+    /// surveyed outline, drawn in by [`SHARED_WALL`], m.
+    pub fn ground(&self) -> Vec<Vec<Point2>> {
+        let Footprint::Surveyed(form) = &self.footprint else { return vec![self.obb().footprint().to_vec()] };
+        let mut pieces = Vec::new();
+        for triangle in form.triangles() {
+            if let Some(mut piece) = drawn_in(triangle, SHARED_WALL) {
+                self.to_world(&mut piece);
+                pieces.push(piece.to_vec());
+            }
+        }
+        pieces
+    }
+
     /// The solids of which it is made, the one with the entrance first; each stands on the ground. A tower goes through
     /// its base, so the two share walls and no face shows twice.
     pub fn solids(&self) -> impl Iterator<Item = Obb> + '_ {
@@ -122,7 +149,11 @@ impl Building {
                 let tower = (self.width - 2.0 * setback) * (self.depth - 2.0 * setback);
                 f64::from(base) * self.footprint_area() + f64::from(self.storeys.saturating_sub(base)) * tower
             }
-            _ => f64::from(self.storeys) * self.footprint_area(),
+            Footprint::Rectangle
+            | Footprint::L { .. }
+            | Footprint::U { .. }
+            | Footprint::Courtyard { .. }
+            | Footprint::Surveyed(_) => f64::from(self.storeys) * self.footprint_area(),
         }
     }
 
@@ -133,6 +164,18 @@ impl Building {
             *point = self.center + turn * point.coords;
         }
     }
+}
+
+/// A triangle with every side moved inwards; `None` if nothing is left.
+fn drawn_in(corners: [Point2; 3], distance: f64) -> Option<[Point2; 3]> {
+    let sides = [0, 1, 2].map(|corner| (corners[(corner + 2) % 3] - corners[(corner + 1) % 3]).norm());
+    let around: f64 = sides.iter().sum();
+    let doubled = (corners[1] - corners[0]).perp(&(corners[2] - corners[0])).abs();
+    // The middle of the inscribed circle, and its radius.
+    let middle =
+        corners.iter().zip(sides).fold(Vector2::zeros(), |sum, (corner, side)| sum + corner.coords * side);
+    let (middle, radius) = (Point2::from(middle / around), doubled / around);
+    (radius > distance).then(|| corners.map(|corner| middle + (corner - middle) * (1.0 - distance / radius)))
 }
 
 /// What was built.

@@ -59,8 +59,8 @@ enum Geometry<'a> {
     Line(&'a [Point2]),
     /// Without its last point, which is its first.
     Polygon(&'a [Point2]),
-    /// A polygon with a hole, both counter-clockwise.
-    Ring(&'a [Point2], &'a [Point2]),
+    /// A polygon with holes, all counter-clockwise.
+    Area(&'a [Point2], &'a [Vec<Point2>]),
 }
 
 impl<W: Write> Features<'_, W> {
@@ -123,12 +123,8 @@ impl<W: Write> Features<'_, W> {
                 "roof": building.roof,
                 "height_m": millimetres(building.height()),
             });
-            let (outline, court) = (building.outline(), building.courtyard());
-            let geometry = match &court {
-                Some(court) => Geometry::Ring(&outline, court),
-                None => Geometry::Polygon(&outline),
-            };
-            self.feature("building", index, &geometry, properties)?;
+            let (outline, courts) = (building.outline(), building.courtyards());
+            self.feature("building", index, &Geometry::Area(&outline, &courts), properties)?;
         }
         for (index, element) in city.elements.iter().enumerate() {
             let properties = json!({ "kind": element.kind, "height_m": millimetres(element.shape.size().z) });
@@ -166,10 +162,14 @@ impl<W: Write> Features<'_, W> {
             Geometry::Point(point) => json!({ "type": "Point", "coordinates": self.position(*point) }),
             Geometry::Line(line) => json!({ "type": "LineString", "coordinates": self.positions(line) }),
             Geometry::Polygon(ring) => json!({ "type": "Polygon", "coordinates": [self.ring(ring)] }),
-            Geometry::Ring(ring, hole) => {
-                let mut hole = self.ring(hole);
-                hole.reverse();
-                json!({ "type": "Polygon", "coordinates": [self.ring(ring), hole] })
+            Geometry::Area(outline, holes) => {
+                let mut rings = vec![self.ring(outline)];
+                for hole in *holes {
+                    let mut ring = self.ring(hole);
+                    ring.reverse();
+                    rings.push(ring);
+                }
+                json!({ "type": "Polygon", "coordinates": rings })
             }
         }
     }

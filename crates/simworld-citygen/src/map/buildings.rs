@@ -20,7 +20,7 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt:
     for building in &city.buildings {
         let pen = pens.entry(building.place).or_insert_with(|| Pen::at(page.middle));
         pen.polygon(&building.outline());
-        if let Some(mut court) = building.courtyard() {
+        for mut court in building.courtyards() {
             // The other way round, so that it is a hole.
             court.reverse();
             pen.polygon(&court);

@@ -12,9 +12,17 @@ const LONGEST_STRIP: f64 = 40.0;
 impl Occupancy {
     /// The land that roads take: carriageways, sidewalks and the walkways round corners.
     pub fn of_roads(network: &RoadNetwork) -> Self {
+        Self::of_roads_where(network, |_| true)
+    }
+
+    /// The land that some of the roads take: those on the ground.
+    pub(crate) fn of_roads_where(network: &RoadNetwork, counts: impl Fn(RoadId) -> bool) -> Self {
         let mut taken = Self::with_capacity(network.roads.len() * 6);
         for (index, road) in network.roads.iter().enumerate() {
             let id = RoadId::from_index(index);
+            if !counts(id) {
+                continue;
+            }
             let walk = |side| network.sidewalk(id, side);
             // From the outer edge of a sidewalk to the centreline, or from kerb to kerb.
             let (left, right) = (walk(Side::Left), walk(Side::Right));
@@ -30,6 +38,9 @@ impl Occupancy {
             }
         }
         for intersection in &network.intersections {
+            if !intersection.roads.iter().any(|road| counts(*road)) {
+                continue;
+            }
             for corner in &intersection.corners {
                 let half = intersection_walk(network, &intersection.roads) * 0.5;
                 add_path(&mut taken, corner, half, half);

@@ -7,8 +7,7 @@
 use std::sync::Arc;
 
 use simworld_core::geometry::{Point2, heading};
-use simworld_core::id::RoadId;
-use simworld_core::net::{RoadNetwork, Side, polyline};
+use simworld_core::net::RoadNetwork;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, Shape};
 use simworld_core::seed::Seed;
@@ -17,6 +16,7 @@ use thiserror::Error;
 use super::files::Bounds;
 use super::{BuildingRecord, BuildingsFile, ElementRecord, ElementsFile, FormatError, RoadsFile, Warning};
 use crate::building::{ARCHETYPES, Archetype, Building, Footprint, RoofKind};
+use crate::doors::Doors;
 use crate::element::Element;
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
@@ -74,7 +74,7 @@ impl City {
         let zoning = Zoning::new(&config.zoning, seed);
         let mut taken = Occupancy::of_roads(&network);
         let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
-        let doors = Doors::of(&network);
+        let doors = Doors::of(&network, FARTHEST_DOOR);
         let mut built = Vec::with_capacity(buildings.buildings.len());
         for (index, record) in buildings.buildings.iter().enumerate() {
             match building(record, &network, &doors, &zoning)
@@ -196,57 +196,4 @@ fn kind_of(name: &str) -> EntityKind {
     let known = EntityKind::from_name(&lower);
     let asset = || ASSETS.iter().find(|(word, _)| lower.contains(word)).map(|(_, kind)| *kind);
     known.or_else(asset).unwrap_or(EntityKind::Prop)
-}
-
-/// A place before a building.
-struct Door {
-    at: Point2,
-    road: RoadId,
-    side: Side,
-}
-
-/// Sidewalks by the cells of a grid that they pass, in the order of cells.
-struct Doors {
-    cells: Vec<((i32, i32), u32)>,
-}
-
-/// Width of a cell, m: no smaller than what is looked for.
-const CELL: f64 = FARTHEST_DOOR;
-
-fn cell(point: Point2) -> (i32, i32) {
-    ((point.x / CELL).floor() as i32, (point.y / CELL).floor() as i32)
-}
-
-impl Doors {
-    fn of(network: &RoadNetwork) -> Self {
-        let mut cells = Vec::new();
-        for (index, sidewalk) in network.sidewalks.iter().enumerate() {
-            let length = polyline::length(&sidewalk.path);
-            // Twice a cell, so that none is stepped over by more than its corner.
-            let steps = (length / (CELL * 0.5)).ceil().max(1.0) as u32;
-            let at = |step: u32| polyline::at(&sidewalk.path, length * f64::from(step) / f64::from(steps)).0;
-            cells.extend((0..=steps).map(|step| (cell(at(step)), index as u32)));
-        }
-        cells.sort_unstable();
-        cells.dedup();
-        Self { cells }
-    }
-
-    fn nearest(&self, network: &RoadNetwork, point: Point2) -> Option<Door> {
-        let (column, row) = cell(point);
-        let around = (-1..=1).flat_map(|dx: i32| {
-            let column = column.saturating_add(dx);
-            let from = self.cells.partition_point(|entry| entry.0 < (column, row.saturating_sub(1)));
-            let to = self.cells.partition_point(|entry| entry.0 <= (column, row.saturating_add(1)));
-            &self.cells[from..to]
-        });
-        let candidates = around.filter_map(|(_, index)| {
-            let near = polyline::closest(&network.sidewalks[*index as usize].path, &point)?;
-            Some((near.distance, near.station, *index))
-        });
-        let (distance, station, index) = candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))?;
-        let sidewalk = &network.sidewalks[index as usize];
-        let at = polyline::at(&sidewalk.path, station).0;
-        (distance <= FARTHEST_DOOR).then_some(Door { at, road: sidewalk.road, side: sidewalk.side })
-    }
 }

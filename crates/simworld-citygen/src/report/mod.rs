@@ -65,9 +65,11 @@ fn overlaps(city: &City) -> usize {
     let mut standing = Occupancy::default();
     let mut count = 0;
     for building in &city.buildings {
-        let obb = building.obb();
-        count += usize::from(!standing.is_free_box(&obb));
-        standing.add_box(&obb);
+        let ground = building.ground();
+        count += usize::from(ground.iter().any(|piece| !standing.is_free(piece)));
+        for piece in &ground {
+            standing.add(piece);
+        }
     }
     count
 }

@@ -20,9 +20,10 @@ pub(super) fn node(builder: &mut Builder, city: &City) -> Node {
     let (mut flat, mut tiles) = (Mesh::default(), Mesh::default());
     for building in &city.buildings {
         let walls = walls.entry(building.place).or_default();
-        match (building.roof, building.footprint) {
+        match (building.roof, &building.footprint) {
             (RoofKind::Flat, Footprint::Stepped { .. }) => stepped(builder, walls, &mut flat, building),
-            (RoofKind::Flat, _) => level(builder, walls, &mut flat, building),
+            // A pitched roof over an outline of any form is a subject of its own.
+            (RoofKind::Flat, _) | (_, Footprint::Surveyed(_)) => level(builder, walls, &mut flat, building),
             _ => pitched(builder, walls, &mut tiles, building),
         }
     }
@@ -34,15 +35,14 @@ pub(super) fn node(builder: &mut Builder, city: &City) -> Node {
 
 fn level(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
     let (outline, height) = (building.outline(), building.height());
-    let court = building.courtyard();
     builder.walls(walls, &outline, GROUND, height);
-    let hole = court.as_ref().map_or(&[][..], |court| court.as_slice());
-    if let Some(mut court) = court {
+    let mut courts = building.courtyards();
+    for court in &mut courts {
         // The walls round a courtyard look into it.
         court.reverse();
-        builder.walls(walls, &court, GROUND, height);
+        builder.walls(walls, court, GROUND, height);
     }
-    builder.plate(roofs, &outline, hole, height - PARAPET);
+    builder.plate(roofs, &outline, &courts, height - PARAPET);
 }
 
 /// Boxes that stand in one another.

@@ -37,15 +37,20 @@ impl Builder {
     }
 
     /// A level polygon that looks up, counter-clockwise or not, perhaps with a hole.
-    pub(super) fn plate(&mut self, mesh: &mut Mesh, outline: &[Point2], hole: &[Point2], z: f64) {
+    pub(super) fn plate(&mut self, mesh: &mut Mesh, outline: &[Point2], holes: &[Vec<Point2>], z: f64) {
         self.corners.clear();
         // About the origin, where the triangulation keeps the most digits.
-        let corners = outline.iter().chain(hole);
+        let corners = outline.iter().chain(holes.iter().flatten());
         self.corners.extend(corners.map(|point| [point.x - self.origin.x, point.y - self.origin.y]));
-        let holes: &[u32] = if hole.is_empty() { &[] } else { &[outline.len() as u32] };
-        self.earcut.earcut_slice(&self.corners, holes, &mut self.triangles);
+        let mut start = outline.len() as u32;
+        let mut starts = Vec::with_capacity(holes.len());
+        for hole in holes {
+            starts.push(start);
+            start += hole.len() as u32;
+        }
+        self.earcut.earcut_slice(&self.corners, &starts, &mut self.triangles);
         let first = mesh.positions.len() as u32;
-        for point in outline.iter().chain(hole) {
+        for point in outline.iter().chain(holes.iter().flatten()) {
             mesh.vertex(self.origin, *point, z);
         }
         for triangle in self.triangles.chunks_exact(3) {

@@ -1,0 +1,231 @@
+//! A city on the streets of a real place, with its buildings and what stands in its streets.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::Point2;
+use simworld_core::net::RoadNetwork;
+use simworld_core::scene::EntityKind;
+use simworld_core::seed::Seed;
+
+use super::building::{self, Outline, raise};
+use super::error::Warning;
+use super::place::Place;
+use super::street::{Planned, StreetOptions};
+use super::{CREDIT, things};
+use crate::building::Building;
+use crate::doors::Doors;
+use crate::element::{self, Setting};
+use crate::lot::Land;
+use crate::occupancy::Occupancy;
+use crate::zoning::Zoning;
+use crate::{City, CityConfig, CityError, Provenance};
+
+/// Whether something is generated where the map has nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fill {
+    /// Where the map has nothing far and wide.
+    #[default]
+    WhereMissing,
+    /// Never: nothing stands but what the map has.
+    Never,
+}
+
+/// How a place becomes a city.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlaceOptions {
+    /// How ways become streets.
+    pub streets: StreetOptions,
+    /// Whether buildings are generated on lots far from all of the map's.
+    pub buildings: Fill,
+    /// Whether trees, lamps and the like are generated along streets, each kind if the map has few of it.
+    pub elements: Fill,
+}
+
+/// A building farther than this from every sidewalk has no way in, m.
+const FARTHEST_DOOR: f64 = 150.0;
+/// Lots nearer than one or two of these to a building of the map are not filled, m.
+const FILLED_CELL: f64 = 90.0;
+/// A kind of thing of which the map has less than one on so much sidewalk is generated, m.
+const FEW: f64 = 150.0;
+/// How far a building may reach over a carriageway, m: maps are not that exact.
+const OVERHANG: f64 = 0.5;
+
+impl City {
+    /// Builds a city of a real place: its streets, its buildings, and what stands in its streets. The same place,
+    /// settings and seed give the same city; the seed decides of what is generated only. Parks are not invented: their
+    /// share is set to nothing in the configuration of the city.
+    ///
+    /// # Errors
+    /// A setting out of range, or a place without a street that can be built.
+    pub fn from_place(
+        place: &Place,
+        options: &PlaceOptions,
+        config: &CityConfig,
+        seed: Seed,
+    ) -> Result<(Self, Vec<Warning>), CityError> {
+        let mut config = config.clone();
+        config.zoning.parks = 0.0;
+        config.validate()?;
+        options.streets.validate()?;
+        let mut warnings = place.warnings.clone();
+        let outlines = building::outlines(place, &mut warnings);
+        let Planned { plan, off_ground } = place.plan_between(&options.streets, &outlines, &mut warnings);
+        if plan.streets.is_empty() {
+            return Err(CityError::NoStreets);
+        }
+        let network = RoadNetwork::derive(&plan, &config.network)?;
+        let ground = Ground::of(&network, &off_ground);
+        let mut taken = Occupancy::of_roads_where(&network, |road| !off_ground[road.index()]);
+        let zoning = Zoning::new(&config.zoning, seed);
+        let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
+        let mut buildings = stand(place, outlines, &network, &ground, &mut warnings);
+        buildings.iter().flat_map(Building::ground).for_each(|piece| taken.add(&piece));
+        let mut frontage_used = buildings.iter().map(|building| building.width).sum::<f64>();
+        if options.buildings == Fill::WhereMissing {
+            let open = without_lots_near(&land, &buildings);
+            let built = crate::building::build(&network, &open, &config.buildings, seed, &mut taken);
+            buildings.extend(built.buildings);
+            frontage_used += built.frontage_used;
+        }
+        let mut elements = things::set(place, &network, &ground.carriageways, &mut taken, &mut warnings);
+        if options.elements == Fill::WhereMissing {
+            let mut wanted = config.elements.clone();
+            leave_to_the_map(&mut wanted, &elements, &network);
+            let setting = Setting {
+                plan: &plan,
+                network: &network,
+                zoning: &zoning,
+                land: &land,
+                buildings: &buildings,
+            };
+            elements.extend(element::furnish(&setting, &wanted, seed, &mut taken));
+        }
+        let provenance = Provenance {
+            credit: Some(CREDIT.to_owned()),
+            origin: Some(place.origin),
+            ..Provenance::of_seed(seed)
+        };
+        let city = Self {
+            config,
+            provenance,
+            plan,
+            network: Arc::new(network),
+            buildings,
+            elements,
+            frontage_used: frontage_used.min(land.frontage),
+            frontage: land.frontage,
+        };
+        Ok((city, warnings))
+    }
+}
+
+/// What is driven on, at the level of the ground.
+struct Ground {
+    carriageways: Occupancy,
+}
+
+impl Ground {
+    fn of(network: &RoadNetwork, off_ground: &[bool]) -> Self {
+        let mut carriageways = Occupancy::with_capacity(network.lanes.len() * 4);
+        let on_ground = |lane: usize| !off_ground[network.lanes[lane].road.index()];
+        for lane in network.lanes.iter().filter(|lane| !off_ground[lane.road.index()]) {
+            add_strip(&mut carriageways, &lane.path, lane.width * 0.5 - OVERHANG);
+        }
+        for way in &network.connections {
+            if on_ground(way.from.index()) && on_ground(way.to.index()) {
+                add_strip(
+                    &mut carriageways,
+                    &way.path,
+                    network.lanes[way.from.index()].width * 0.5 - OVERHANG,
+                );
+            }
+        }
+        Self { carriageways }
+    }
+}
+
+fn add_strip(taken: &mut Occupancy, path: &[Point2], half: f64) {
+    for pair in path.windows(2).filter(|pair| (pair[1] - pair[0]).norm() > 0.01) {
+        taken.add_box(&crate::strips::strip(pair[0], pair[1], half, half, 0.0));
+    }
+}
+
+/// Raises the buildings of the map that have a way in and do not stand in the way of traffic or in each other.
+fn stand(
+    place: &Place,
+    mut outlines: Vec<Outline>,
+    network: &RoadNetwork,
+    ground: &Ground,
+    warnings: &mut Vec<Warning>,
+) -> Vec<Building> {
+    let doors = Doors::of(network, FARTHEST_DOOR);
+    let mut standing = Occupancy::with_capacity(outlines.len() * 4);
+    building::adopt(place, &mut outlines);
+    let mut buildings = Vec::with_capacity(outlines.len());
+    // The largest first: what overlaps it is a part of it.
+    outlines.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.element.cmp(&b.element)));
+    for outline in &outlines {
+        let mut leave_out = |what: &str| {
+            let at = outline.corners.first().map(|corner| place.geographic(*corner));
+            let what = format!("a building {what}; left out");
+            warnings.push(Warning { what, element: Some(outline.element), at });
+        };
+        let Some(building) = raise(outline, network, &doors) else {
+            leave_out("has no sidewalk within 150 m");
+            continue;
+        };
+        let pieces = building.ground();
+        if pieces.iter().any(|piece| !ground.carriageways.is_free(piece)) {
+            leave_out("stands on a carriageway");
+        } else if pieces.iter().any(|piece| !standing.is_free(piece)) {
+            leave_out("stands in another one");
+        } else {
+            for piece in &pieces {
+                standing.add(piece);
+            }
+            buildings.push(building);
+        }
+    }
+    buildings
+}
+
+/// The land without the lots that lie near a building.
+fn without_lots_near(land: &Land, buildings: &[Building]) -> Land {
+    let cell =
+        |point: Point2| ((point.x / FILLED_CELL).floor() as i64, (point.y / FILLED_CELL).floor() as i64);
+    let mut built: Vec<(i64, i64)> = buildings.iter().map(|building| cell(building.center)).collect();
+    built.sort_unstable();
+    built.dedup();
+    let mut open = land.clone();
+    open.lots.retain(|lot| {
+        let outline = land.outline(lot);
+        let Some(corner) = outline.first() else { return false };
+        let (column, row) = cell(*corner);
+        let around = (column - 1..=column + 1).flat_map(|x| (row - 1..=row + 1).map(move |y| (x, y)));
+        around.into_iter().all(|cell| built.binary_search(&cell).is_err())
+    });
+    open
+}
+
+/// Nothing is generated of what the map has already.
+fn leave_to_the_map(
+    config: &mut crate::ElementConfig,
+    elements: &[crate::element::Element],
+    network: &RoadNetwork,
+) {
+    let sidewalks: f64 =
+        network.sidewalks.iter().map(|sidewalk| simworld_core::net::polyline::length(&sidewalk.path)).sum();
+    let are_many = |kind: EntityKind| {
+        let count = elements.iter().filter(|element| element.kind == kind).count();
+        count as f64 * FEW > sidewalks
+    };
+    if are_many(EntityKind::Tree) {
+        (config.trees, config.green_trees) = (0.0, 0.0);
+    }
+    if are_many(EntityKind::StreetLamp) {
+        config.lamps = 0.0;
+    }
+}

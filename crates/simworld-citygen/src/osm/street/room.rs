@@ -1,0 +1,150 @@
+//! How much room the buildings leave: streets become narrower where walls stand close.
+//!
+//! Tags rarely say how wide a sidewalk is. Walls do: what is taken from the kind of street is cut to what there is.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::polyline;
+
+use super::profile::Profile;
+use super::web::Web;
+use crate::osm::building::Outline;
+
+/// Walls farther away than this do not matter, m.
+const REACH: f64 = 16.0;
+/// Width of a cell of the search grid, m.
+const CELL: f64 = 16.0;
+/// Distance of the places where a street is measured, m.
+const STEP: f64 = 4.0;
+/// How far from its ends a street is measured, m; there the walls are those of the next street.
+const ENDS: f64 = 8.0;
+/// The share of the places that may be narrower: a single oriel does not narrow a street.
+const IGNORED: f64 = 0.08;
+/// What is kept between sidewalk and wall, m.
+const GAP: f64 = 0.1;
+/// The narrowest sidewalk, dm; where there is less room there is none.
+const LEAST_SIDEWALK: u16 = 10;
+/// The narrowest lane, dm.
+const LEAST_LANE: u16 = 22;
+
+/// Walls by the cells that they pass, in the order of cells.
+struct Walls {
+    cells: Vec<((i32, i32), [Point2; 2])>,
+}
+
+fn cell(point: Point2) -> (i32, i32) {
+    ((point.x / CELL).floor() as i32, (point.y / CELL).floor() as i32)
+}
+
+impl Walls {
+    fn of(buildings: &[Outline]) -> Self {
+        let mut cells = Vec::new();
+        for building in buildings {
+            let next = building.corners.iter().cycle().skip(1);
+            for (a, b) in building.corners.iter().zip(next) {
+                // In pieces no longer than a cell, so that each lies in few of them.
+                let count = ((b - a).norm() / CELL).ceil().max(1.0);
+                for index in 0..count as u32 {
+                    let at = |index: u32| a + (b - a) * (f64::from(index) / count);
+                    let piece = [at(index), at(index + 1)];
+                    let (p, q) = (cell(piece[0].inf(&piece[1])), cell(piece[0].sup(&piece[1])));
+                    cells.extend((p.0..=q.0).flat_map(|x| (p.1..=q.1).map(move |y| ((x, y), piece))));
+                }
+            }
+        }
+        cells.sort_by_key(|(cell, _)| *cell);
+        Self { cells }
+    }
+
+    /// How far one sees from a point in a direction, m; at most [`REACH`].
+    fn distance(&self, from: Point2, towards: Vector2) -> f64 {
+        let to = from + towards * REACH;
+        let (low, high) = (cell(from.inf(&to)), cell(from.sup(&to)));
+        let mut share: f64 = 1.0;
+        for column in low.0..=high.0 {
+            let start = self.cells.partition_point(|entry| entry.0 < (column, low.1));
+            let walls = self.cells[start..].iter().take_while(|entry| entry.0 <= (column, high.1));
+            for (_, [a, b]) in walls {
+                if let Some((along, _)) = polyline::crossing(from, to, *a, *b) {
+                    share = share.min(along);
+                }
+            }
+        }
+        share * REACH
+    }
+}
+
+/// Narrows all streets to the room between the buildings.
+pub(super) fn fit(web: &mut Web, buildings: &[Outline]) {
+    if buildings.is_empty() {
+        return;
+    }
+    let walls = Walls::of(buildings);
+    let mut sides = [Vec::new(), Vec::new()];
+    for edge in 0..web.edges.len() as u32 {
+        let character = web.edge(edge).character;
+        if !web.edge(edge).lives || character.is_covered || character.level != 0 {
+            continue;
+        }
+        measure(&web.course(edge), &walls, &mut sides);
+        let [left, right] = &mut sides;
+        if let (Some(left), Some(right)) = (narrowest(left), narrowest(right)) {
+            narrow(&mut web.edges[edge as usize].character.profile, [left, right]);
+        }
+    }
+}
+
+/// The room to the left and right of a line, place by place.
+fn measure(line: &[Point2], walls: &Walls, sides: &mut [Vec<f64>; 2]) {
+    sides.iter_mut().for_each(Vec::clear);
+    let length = polyline::length(line);
+    let ends = ENDS.min(length * 0.3);
+    let (mut next, mut station) = (ends, 0.0);
+    for pair in line.windows(2) {
+        let step = pair[1] - pair[0];
+        let span = step.norm();
+        while next <= station + span && next <= length - ends && span > 0.0 {
+            let at = pair[0] + step * ((next - station) / span);
+            let left = Vector2::new(-step.y, step.x) / span;
+            sides[0].push(walls.distance(at, left));
+            sides[1].push(walls.distance(at, -left));
+            next += STEP;
+        }
+        station += span;
+    }
+}
+
+/// The room that all but a few places have.
+fn narrowest(room: &mut [f64]) -> Option<f64> {
+    if room.is_empty() {
+        return None;
+    }
+    let rank = (room.len() as f64 * IGNORED) as usize;
+    Some(*room.select_nth_unstable_by(rank, f64::total_cmp).1)
+}
+
+/// Narrows sidewalks, then what lies beside the lanes, then the lanes.
+fn narrow(profile: &mut Profile, room: [f64; 2]) {
+    let room = room.map(|room| ((room - GAP) * 10.0).max(0.0) as u16);
+    let half = |profile: &Profile| (profile.carriageway() * 5.0).ceil() as u16;
+    let least = room[0].min(room[1]);
+    // The line is the middle of the carriageway: both halves must fit.
+    while half(profile) > least {
+        if profile.parking != [0, 0] {
+            profile.parking = [0, 0];
+        } else if profile.cycle != [0, 0] {
+            profile.cycle = [0, 0];
+        } else if profile.median > 10 {
+            profile.median = 10;
+        } else {
+            let lanes = u16::from(profile.forward + profile.backward);
+            profile.lane = (2 * least).saturating_sub(profile.median) / lanes;
+            break;
+        }
+    }
+    profile.lane = profile.lane.clamp(LEAST_LANE, 60);
+    let half = half(profile);
+    for (sidewalk, room) in profile.sidewalk.iter_mut().zip(room) {
+        let left = room.saturating_sub(half);
+        *sidewalk = if left < LEAST_SIDEWALK { 0 } else { (*sidewalk).min(left) };
+    }
+}
