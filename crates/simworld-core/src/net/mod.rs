@@ -17,6 +17,8 @@ pub use network::{
 pub use plan::{SHORTEST_STREET, Street, StreetPlan};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
+#[cfg(feature = "hierarchy")]
+pub use waypoint::{HierarchyScratch, RouteHierarchy};
 pub use waypoint::{
     Route, RouteScratch, Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind,
 };

@@ -3,6 +3,8 @@
 
 mod build;
 mod grid;
+#[cfg(feature = "hierarchy")]
+mod hierarchy;
 mod route;
 #[cfg(feature = "petgraph")]
 mod visit;
@@ -13,6 +15,8 @@ use serde::{Deserialize, Serialize};
 use super::{NetworkError, RoadNetwork};
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId, LaneId, WaypointId};
+#[cfg(feature = "hierarchy")]
+pub use hierarchy::{HierarchyScratch, RouteHierarchy};
 pub use route::{Route, RouteScratch};
 
 /// What a waypoint stands on.
