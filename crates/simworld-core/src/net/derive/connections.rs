@@ -1,9 +1,12 @@
 //! Connections: the ways across an intersection, which of them touch, and who gives way.
 
 use super::legs::Leg;
+use super::trace::Trace;
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, IntersectionId, LaneId};
-use crate::net::{Connection, Control, RoadClass, RoadNetwork, SignalGroup, Turn, polyline};
+use crate::net::{
+    Connection, Control, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, Turn, polyline,
+};
 use crate::ops::wrap_angle;
 
 /// Paths nearer than this touch: a vehicle's width and a margin, m.
@@ -143,28 +146,37 @@ fn curve(start: Point2, leaving: Vector2, end: Point2, arriving: Vector2) -> Vec
         .collect()
 }
 
+/// What decides between two connections that touch.
+struct Claim<'a> {
+    id: ConnectionId,
+    from: LaneId,
+    to: LaneId,
+    trace: Trace<'a>,
+    /// Paths nearer than this touch; narrow lanes side by side do not, or nobody could use them.
+    near: f64,
+    rank: (u8, u8, ConnectionId),
+    signal: Option<SignalGroup>,
+}
+
 fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[ConnectionId]) {
-    for (index, a) in own.iter().enumerate() {
-        for b in &own[index + 1..] {
-            let (first, second) = (&network.connections[a.index()], &network.connections[b.index()]);
-            if first.from == second.from {
-                continue; // one file of vehicles: the follower sees its leader
+    let plan = network.signals.last().filter(|plan| plan.intersection == id);
+    let claims: Vec<Claim<'_>> = own.iter().map(|id| claim(network, *id)).collect();
+    let mut met: Vec<(ConnectionId, ConnectionId, Option<bool>)> = Vec::with_capacity(claims.len() * 4);
+    for (index, a) in claims.iter().enumerate() {
+        for b in &claims[index + 1..] {
+            // From one lane it is one file of vehicles: the follower sees its leader.
+            if a.from != b.from && (a.to == b.to || a.trace.touches(&b.trace, a.near)) {
+                met.push((a.id, b.id, go_together(plan, a, b).then(|| a.rank > b.rank)));
             }
-            // Narrow lanes side by side do not touch, or nobody could use them.
-            let near = TOUCHING.min(0.9 * network.lanes[first.from.index()].width);
-            let touch = first.to == second.to || polyline::nearer_than(&first.path, &second.path, near);
-            if !touch {
-                continue;
-            }
-            let yields = go_together(network, id, first, second)
-                .then(|| right_of_way(network, *a) > right_of_way(network, *b));
-            network.connections[a.index()].conflicts.push(*b);
-            network.connections[b.index()].conflicts.push(*a);
-            match yields {
-                Some(true) => network.connections[a.index()].yields_to.push(*b),
-                Some(false) => network.connections[b.index()].yields_to.push(*a),
-                None => {}
-            }
+        }
+    }
+    for (a, b, yields) in met {
+        network.connections[a.index()].conflicts.push(b);
+        network.connections[b.index()].conflicts.push(a);
+        match yields {
+            Some(true) => network.connections[a.index()].yields_to.push(b),
+            Some(false) => network.connections[b.index()].yields_to.push(a),
+            None => {}
         }
     }
     for connection in own {
@@ -174,11 +186,24 @@ fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[Connectio
     }
 }
 
+fn claim(network: &RoadNetwork, id: ConnectionId) -> Claim<'_> {
+    let connection = &network.connections[id.index()];
+    Claim {
+        id,
+        from: connection.from,
+        to: connection.to,
+        trace: Trace::of(&connection.path),
+        near: TOUCHING.min(0.9 * network.lanes[connection.from.index()].width),
+        rank: right_of_way(network, id),
+        signal: connection.signal,
+    }
+}
+
 /// Whether signals ever let both go at once; always without signals.
-fn go_together(network: &RoadNetwork, id: IntersectionId, a: &Connection, b: &Connection) -> bool {
+fn go_together(plan: Option<&SignalPlan>, a: &Claim<'_>, b: &Claim<'_>) -> bool {
     let (Some(first), Some(second)) = (a.signal, b.signal) else { return true };
-    let plan = network.signals.iter().rev().find(|plan| plan.intersection == id);
-    plan.is_some_and(|plan| plan.phases.iter().any(|p| p.green.contains(&first) && p.green.contains(&second)))
+    let both = |phase: &Phase| phase.green.contains(&first) && phase.green.contains(&second);
+    plan.is_some_and(|plan| first == second || plan.phases.iter().any(both))
 }
 
 /// The place in the order of right of way, lowest first: the higher road class, then straight before right before

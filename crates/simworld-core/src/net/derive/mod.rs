@@ -4,6 +4,7 @@ mod connections;
 mod lanes;
 mod legs;
 mod signals;
+mod trace;
 mod walkways;
 
 use serde::{Deserialize, Serialize};
