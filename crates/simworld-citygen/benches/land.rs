@@ -44,8 +44,14 @@ fn land(criterion: &mut Criterion) {
         |taken: &mut Occupancy| building::build(&network, &land, &BuildingConfig::default(), seed, taken);
     let mut taken = roads.clone();
     let buildings = build(&mut taken).buildings;
-    let setting =
-        Setting { plan: &plan, network: &network, zoning: &zoning, land: &land, buildings: &buildings };
+    let setting = Setting {
+        plan: &plan,
+        network: &network,
+        zoning: &zoning,
+        land: &land,
+        buildings: &buildings,
+        within: None,
+    };
     let furnish = |taken: &mut Occupancy| element::furnish(&setting, &config.elements, seed, taken);
     let elements = furnish(&mut taken.clone()).len();
 

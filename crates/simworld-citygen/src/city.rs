@@ -75,6 +75,7 @@ impl City {
             zoning: &zoning,
             land: &land,
             buildings: &built.buildings,
+            within: None,
         };
         let elements = element::furnish(&setting, &config.elements, seed, &mut taken);
         Ok(Self {

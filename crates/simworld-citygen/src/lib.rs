@@ -24,6 +24,7 @@ mod report;
 mod source;
 mod strips;
 mod style;
+pub mod tile;
 pub mod zoning;
 
 pub use city::City;

@@ -13,7 +13,8 @@ mod walk;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Obb, Point2, Point3, pose_facing};
-use simworld_core::net::{RoadNetwork, StreetPlan};
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, Side, StreetPlan};
 use simworld_core::scene::{EntityKind, Shape};
 use simworld_core::seed::Seed;
 
@@ -59,6 +60,36 @@ pub struct Setting<'a> {
     pub land: &'a Land,
     /// What stands on it.
     pub buildings: &'a [Building],
+    /// The streets along which elements are set; all of them if nothing is said.
+    pub within: Option<&'a Extent>,
+}
+
+/// A part of the streets of a plan.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// So many streets, the first ones of the plan, belong to it with their carriageway.
+    pub streets: usize,
+    /// For each street, whether what lies on its left and on its right belongs to it.
+    pub sides: Vec<[bool; 2]>,
+}
+
+impl Extent {
+    /// Whether what lies on one side of a road belongs to it.
+    pub fn has_side(&self, road: RoadId, side: Side) -> bool {
+        self.sides.get(road.index()).is_some_and(|sides| sides[usize::from(side == Side::Right)])
+    }
+}
+
+impl Setting<'_> {
+    /// Whether elements are set on one side of a road.
+    fn has_side(&self, road: RoadId, side: Side) -> bool {
+        self.within.is_none_or(|extent| extent.has_side(road, side))
+    }
+
+    /// How many streets, the first ones, have parked cars.
+    fn streets(&self) -> usize {
+        self.within.map_or(self.plan.streets.len(), |extent| extent.streets)
+    }
 }
 
 /// Sets elements along every sidewalk, in parking lanes and on greens; `taken` holds the land of the roads and the

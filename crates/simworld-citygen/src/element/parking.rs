@@ -40,7 +40,7 @@ pub(super) fn park(
                 .collect()
         })
         .collect();
-    for (index, street) in setting.plan.streets.iter().enumerate() {
+    for (index, street) in setting.plan.streets.iter().enumerate().take(setting.streets()) {
         let Some(strips) = strips.get(street.section as usize).filter(|strips| !strips.is_empty()) else {
             continue;
         };

@@ -60,7 +60,9 @@ pub(super) fn line(
     elements: &mut Vec<Element>,
 ) {
     let doors = Doors::of(setting);
-    let sidewalks: Vec<(usize, &Sidewalk)> = setting.network.sidewalks.iter().enumerate().collect();
+    let all = setting.network.sidewalks.iter().enumerate();
+    let sidewalks: Vec<(usize, &Sidewalk)> =
+        all.filter(|(_, sidewalk)| setting.has_side(sidewalk.road, sidewalk.side)).collect();
     for batch in sidewalks.chunks(BATCH) {
         // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
         let wishes: Vec<Vec<Wish>> = batch

@@ -37,6 +37,10 @@ struct Node {
 pub(super) struct Fabric {
     nodes: Vec<Node>,
     segments: Vec<Segment>,
+    /// The first so many segments and nodes are a wall round the land, counter-clockwise: nothing splits or crosses it.
+    walls: u32,
+    /// The middle of the land.
+    middle: Point2,
     /// Half the width of the land, and the width of a cell, m.
     reach: f64,
     cell: f64,
@@ -54,10 +58,17 @@ pub(super) struct Fabric {
 impl Fabric {
     /// Empty land within `reach` m of the origin, in cells of `cell` m.
     pub(super) fn new(reach: f64, cell: f64) -> Self {
+        Self::around(Point2::origin(), reach, cell)
+    }
+
+    /// Empty land within `reach` m of a point, in cells of `cell` m.
+    pub(super) fn around(middle: Point2, reach: f64, cell: f64) -> Self {
         let columns = (2.0 * reach / cell).ceil() as usize + 1;
         Self {
             nodes: Vec::new(),
             segments: Vec::new(),
+            walls: 0,
+            middle,
             reach,
             cell,
             columns,
@@ -98,7 +109,47 @@ impl Fabric {
 
     /// Whether a point lies within the land, a little inside its edge.
     pub(super) fn holds(&self, point: Point2) -> bool {
-        point.coords.norm() < self.reach - self.cell
+        (point - self.middle).norm() < self.reach - self.cell
+    }
+
+    /// Builds a wall round the land, counter-clockwise; each corner takes so many streets, the wall's two among them. The
+    /// fabric must be empty.
+    pub(super) fn wall_in(&mut self, corners: impl Iterator<Item = (Point2, u8)>, class: RoadClass) {
+        for (at, limit) in corners {
+            self.add_node(at, limit);
+        }
+        let count = self.nodes.len() as u32;
+        for from in 0..count {
+            let to = (from + 1) % count;
+            let along = (self.at(to) - self.at(from)).normalize();
+            self.add_segment(Segment { from, to, class, along });
+        }
+        self.walls = count;
+    }
+
+    /// How many segments and nodes are wall.
+    pub(super) fn walls(&self) -> usize {
+        self.walls as usize
+    }
+
+    /// Whether a segment is a piece of the wall.
+    pub(super) fn is_wall(&self, segment: u32) -> bool {
+        segment < self.walls
+    }
+
+    /// Whether a street that leaves a node in a direction leads into the land; it may lead out of the wall.
+    pub(super) fn leads_inside(&self, node: u32, along: Vector2) -> bool {
+        if node >= self.walls {
+            return true;
+        }
+        // The land is the sector from the wall that leaves, counter-clockwise, to the wall that arrives.
+        let next = self.segments[node as usize].along;
+        let before = -self.segments[((node + self.walls - 1) % self.walls) as usize].along;
+        if next.perp(&before) >= 0.0 {
+            next.perp(&along) > 0.0 && along.perp(&before) > 0.0
+        } else {
+            next.perp(&along) > 0.0 || along.perp(&before) > 0.0
+        }
     }
 
     pub(super) fn streets(&self, node: u32) -> &[u32] {
@@ -165,15 +216,23 @@ impl Fabric {
         self.streets(a).iter().any(|segment| self.other_end(*segment, a) == b)
     }
 
+    fn column_of(&self, x: f64) -> usize {
+        self.cell_of(x - self.middle.x)
+    }
+
+    fn row_of(&self, y: f64) -> usize {
+        self.cell_of(y - self.middle.y)
+    }
+
     fn cell_of(&self, x: f64) -> usize {
         (((x + self.reach) / self.cell).floor().max(0.0) as usize).min(self.columns - 1)
     }
 
     /// Calls with every node of the cells within a distance; they may lie somewhat farther off.
     pub(super) fn visit_nodes(&self, point: Point2, distance: f64, mut visit: impl FnMut(u32, Point2)) {
-        let rows = self.cell_of(point.y - distance)..=self.cell_of(point.y + distance);
+        let rows = self.row_of(point.y - distance)..=self.row_of(point.y + distance);
         for row in rows {
-            for column in self.cell_of(point.x - distance)..=self.cell_of(point.x + distance) {
+            for column in self.column_of(point.x - distance)..=self.column_of(point.x + distance) {
                 let mut node = self.node_heads[row * self.columns + column];
                 while node != END {
                     visit(node, self.nodes[node as usize].at);
@@ -187,8 +246,8 @@ impl Fabric {
     pub(super) fn segments_near(&mut self, a: Point2, b: Point2, margin: f64, found: &mut Vec<u32>) {
         found.clear();
         self.question = self.question.wrapping_add(1);
-        let rows = self.cell_of(a.y.min(b.y) - margin)..=self.cell_of(a.y.max(b.y) + margin);
-        let columns = self.cell_of(a.x.min(b.x) - margin)..=self.cell_of(a.x.max(b.x) + margin);
+        let rows = self.row_of(a.y.min(b.y) - margin)..=self.row_of(a.y.max(b.y) + margin);
+        let columns = self.column_of(a.x.min(b.x) - margin)..=self.column_of(a.x.max(b.x) + margin);
         for row in rows {
             for column in columns.clone() {
                 let mut entry = self.entry_heads[row * self.columns + column];
@@ -208,7 +267,7 @@ impl Fabric {
     pub(super) fn add_node(&mut self, at: Point2, limit: u8) -> u32 {
         let node = self.nodes.len() as u32;
         self.nodes.push(Node { at, streets: [END; MOST_STREETS], count: 0, limit });
-        let cell = self.cell_of(at.y) * self.columns + self.cell_of(at.x);
+        let cell = self.row_of(at.y) * self.columns + self.column_of(at.x);
         self.node_next.push(self.node_heads[cell]);
         self.node_heads[cell] = node;
         node
@@ -249,8 +308,8 @@ impl Fabric {
     fn file(&mut self, index: u32) {
         let Segment { from, to, .. } = self.segments[index as usize];
         let (a, b) = (self.at(from), self.at(to));
-        for row in self.cell_of(a.y.min(b.y))..=self.cell_of(a.y.max(b.y)) {
-            for column in self.cell_of(a.x.min(b.x))..=self.cell_of(a.x.max(b.x)) {
+        for row in self.row_of(a.y.min(b.y))..=self.row_of(a.y.max(b.y)) {
+            for column in self.column_of(a.x.min(b.x))..=self.column_of(a.x.max(b.x)) {
                 let cell = row * self.columns + column;
                 self.entries.push((index, self.entry_heads[cell]));
                 self.entry_heads[cell] = self.entries.len() as u32 - 1;

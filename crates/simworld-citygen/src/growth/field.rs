@@ -29,6 +29,19 @@ impl Field {
         }
     }
 
+    /// The layout of land without end: its grain turns about east, and nothing is remote.
+    pub(super) fn endless(config: &RoadConfig, seed: Seed) -> Self {
+        let radius = f64::INFINITY;
+        let stream = seed.stream("citygen/field");
+        Self {
+            orientation: ValueNoise::new(stream.named("orientation"), config.patch),
+            density: ValueNoise::new(stream.named("density"), QUARTER),
+            base: 0.0,
+            turning: config.turning,
+            radius,
+        }
+    }
+
     /// Radius of the land, m.
     pub(super) fn radius(&self) -> f64 {
         self.radius
@@ -36,7 +49,11 @@ impl Field {
 
     /// What is to be known of a place; looked up once for all streets that begin there.
     pub(super) fn site(&self, at: Point2) -> Site {
-        Site { grain: self.orientation(at), density: self.density(at), remoteness: at.coords.norm() }
+        let grain = self.orientation(at);
+        if self.radius.is_infinite() {
+            return Site { grain, density: -0.1 + 1.2 * self.density.uniform_at(at), remoteness: 0.0 };
+        }
+        Site { grain, density: self.density(at), remoteness: at.coords.norm() }
     }
 
     /// The direction of the main streets at a place, radians.
@@ -52,6 +69,9 @@ impl Field {
         0.55 * centrality + 0.45 * self.density.at(at)
     }
 }
+
+/// Distance over which the density of people changes on land without end, m.
+const QUARTER: f64 = 500.0;
 
 /// A place and what is to be known of it.
 #[derive(Clone, Copy, Debug)]

@@ -11,6 +11,7 @@ mod fabric;
 mod field;
 mod finish;
 mod proposal;
+mod within;
 
 use std::collections::BinaryHeap;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -24,6 +25,7 @@ use crate::RoadConfig;
 use fabric::{Fabric, MOST_STREETS};
 use field::{Field, Site};
 use proposal::{Fitter, Measures, Proposal, Start};
+pub(crate) use within::{Gate, Within, grow_within};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.
 const REVIVALS: u32 = 40;
@@ -104,8 +106,9 @@ struct Growth<'a> {
     queue: BinaryHeap<End>,
     serial: u64,
     revivals: u32,
-    /// Segments that are streets still.
+    /// Segments that are streets still, and how many there are to be.
     standing: usize,
+    wanted: usize,
     rng: StreamRng,
 }
 
@@ -124,6 +127,7 @@ impl<'a> Growth<'a> {
             serial: 0,
             revivals: attempts(config),
             standing: 0,
+            wanted: config.count as usize,
             rng: seed.stream("citygen/roads").rng(),
         }
     }
@@ -142,7 +146,7 @@ impl<'a> Growth<'a> {
     }
 
     fn run(&mut self) {
-        while self.standing < self.config.count as usize {
+        while self.standing < self.wanted {
             let Some(end) = self.queue.pop() else {
                 if self.revivals == 0 {
                     return;
@@ -214,6 +218,9 @@ impl<'a> Growth<'a> {
     }
 
     fn class_of_branch(&mut self, from: RoadClass) -> RoadClass {
+        if self.fabric.walls() > 0 {
+            return RoadClass::Local;
+        }
         let main = match from {
             RoadClass::Highway => 0.5,
             RoadClass::Arterial => 0.2,
@@ -283,12 +290,7 @@ impl<'a> Growth<'a> {
     /// The grown streets as a plan, some of them bent between their ends.
     fn plan(&self, seed: Seed) -> StreetPlan {
         let bends = seed.stream("citygen/bends");
-        let mut plan = StreetPlan {
-            sections: vec![self.section(1).with_parking(self.config.parking_width)],
-            ..StreetPlan::default()
-        };
-        let arterial = plan.add_section(self.section(self.config.arterial_lanes));
-        let highway = plan.add_section(self.highway());
+        let (mut plan, sections) = plan_of_sections(self.config);
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
         let standing = |index: &usize| self.fabric.is_standing(*index as u32);
         for index in (0..self.fabric.segments().len()).filter(standing) {
@@ -303,17 +305,10 @@ impl<'a> Growth<'a> {
             });
             let mut rng = bends.indexed(index as u64).rng();
             let bent = segment.class != RoadClass::Highway && rng.chance(self.config.bends);
-            let (from, to) = (plan.nodes[ends[0]], plan.nodes[ends[1]]);
-            let most = BOW_LIMIT * self.config.length;
-            let section = [0, arterial, highway][segment.class as usize];
-            // So that its inner sidewalk is a bend still, not a knot.
-            let least_radius = 2.0 * plan.sections[section as usize].left_of_reference();
+            let section = sections[segment.class as usize];
+            let reach = plan.sections[section as usize].left_of_reference();
             plan.streets.push(Street {
-                via: if bent {
-                    bend::course(from, to, self.config.bow, most, least_radius, &mut rng)
-                } else {
-                    Vec::new()
-                },
+                via: if bent { self.course(index as u32, reach, &mut rng) } else { Vec::new() },
                 class: segment.class,
                 section,
                 ..Street::simple(ends[0], ends[1])
@@ -322,21 +317,36 @@ impl<'a> Growth<'a> {
         plan
     }
 
-    fn section(&self, lanes: u8) -> CrossSection {
-        CrossSection::plain(lanes, lanes, self.config.lane_width, self.config.sidewalk_width)
+    /// A bent course of a segment that reaches so far to its left.
+    fn course(&self, segment: u32, reach: f64, rng: &mut StreamRng) -> Vec<Point2> {
+        let segment = self.fabric.segment(segment);
+        let (from, to) = (self.fabric.at(segment.from), self.fabric.at(segment.to));
+        // So that its inner sidewalk is a bend still, not a knot.
+        bend::course(from, to, self.config.bow, BOW_LIMIT * self.config.length, 2.0 * reach, rng)
     }
+}
 
-    /// Two lanes each way with a median between them.
-    fn highway(&self) -> CrossSection {
-        let mut section = self.section(2);
-        let width = 1.5;
-        let middle = section.lanes.len() / 2;
-        section
-            .lanes
-            .insert(middle, LaneSpec { kind: LaneKind::Median, direction: LaneDirection::Both, width });
-        section.reference += width * 0.5;
-        section
-    }
+/// A plan without streets, and its cross-sections of local streets, arterials and highways.
+pub(crate) fn plan_of_sections(config: &RoadConfig) -> (StreetPlan, [u32; 3]) {
+    let local = section(config, 1).with_parking(config.parking_width);
+    let mut plan = StreetPlan { sections: vec![local], ..StreetPlan::default() };
+    let arterial = plan.add_section(section(config, config.arterial_lanes));
+    let highway = plan.add_section(highway(config));
+    (plan, [0, arterial, highway])
+}
+
+fn section(config: &RoadConfig, lanes: u8) -> CrossSection {
+    CrossSection::plain(lanes, lanes, config.lane_width, config.sidewalk_width)
+}
+
+/// Two lanes each way with a median between them.
+fn highway(config: &RoadConfig) -> CrossSection {
+    let mut section = section(config, 2);
+    let width = 1.5;
+    let middle = section.lanes.len() / 2;
+    section.lanes.insert(middle, LaneSpec { kind: LaneKind::Median, direction: LaneDirection::Both, width });
+    section.reference += width * 0.5;
+    section
 }
 
 /// Streets are longer and blocks wider where fewer live; 1 in the middle of the range.

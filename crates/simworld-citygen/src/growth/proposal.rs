@@ -176,7 +176,7 @@ impl Rules<'_> {
         let segment = self.fabric.segment(index);
         let distance = |node: u32| (self.fabric.at(node) - point).norm();
         let (to_start, to_end) = (distance(segment.from), distance(segment.to));
-        if to_start.min(to_end) >= self.measures.least_length {
+        if to_start.min(to_end) >= self.measures.least_length && !self.fabric.is_wall(index) {
             Arrival::Interior(index, point)
         } else if to_start <= to_end {
             Arrival::Node(segment.from)
@@ -193,9 +193,17 @@ impl Rules<'_> {
             return false;
         }
         let along = (end - self.start) / length;
-        self.angles_allow(self.fabric.ways_from(self.from), along)
+        self.stays_inside(arrival, along)
+            && self.angles_allow(self.fabric.ways_from(self.from), along)
             && self.arrival_allows(arrival, -along)
             && self.is_clear(arrival, end)
+    }
+
+    /// Whether the segment lies within the walls; none crosses them on its way.
+    fn stays_inside(&self, arrival: Arrival, along: Vector2) -> bool {
+        let leaves = |node: u32, along: Vector2| self.fabric.leads_inside(node, along);
+        let start = !matches!(self.from, Start::Node(node) if !leaves(node, along));
+        start && !matches!(arrival, Arrival::Node(node) if !leaves(node, -along))
     }
 
     fn end(&self, arrival: Arrival) -> Point2 {

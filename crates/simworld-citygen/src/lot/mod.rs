@@ -89,7 +89,17 @@ impl Land {
         seed: Seed,
         taken: &Occupancy,
     ) -> Self {
-        let blocks = Block::of_network(network);
+        Self::of_blocks(Block::of_network(network), zoning, config, seed, taken)
+    }
+
+    /// Divides some blocks of a network. `taken` is what no lot of an open block may touch: the land of the roads.
+    pub(crate) fn of_blocks(
+        blocks: Vec<Block>,
+        zoning: &Zoning,
+        config: &LotConfig,
+        seed: Seed,
+        taken: &Occupancy,
+    ) -> Self {
         let streams = seed.stream("citygen/lots");
         let numbered: Vec<(u32, &Block)> = (0..).zip(&blocks).collect();
         // Closed blocks are functions of themselves, so they are divided on all threads.

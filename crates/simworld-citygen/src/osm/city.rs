@@ -100,6 +100,7 @@ impl City {
                 zoning: &zoning,
                 land: &land,
                 buildings: &buildings,
+                within: None,
             };
             elements.extend(element::furnish(&setting, &wanted, seed, &mut taken));
         }

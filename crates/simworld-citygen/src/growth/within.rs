@@ -1,0 +1,131 @@
+//! Growth within walls: the streets of one superblock, from the gates in its main streets inwards.
+//!
+//! What grows depends on the walls, the configuration and two seeds alone: that of the fields, which all superblocks share,
+//! and its own.
+
+use std::f64::consts::FRAC_PI_2;
+
+use simworld_core::geometry::{Point2, heading};
+use simworld_core::net::{RoadClass, Street};
+use simworld_core::seed::Seed;
+
+use super::fabric::Fabric;
+use super::field::Field;
+use super::proposal::{Fitter, Measures, Start};
+use super::{Growth, ROUNDS, plan_of_sections};
+use crate::RoadConfig;
+
+/// Attempts to revive growth for each node of the wall: enough to fill what is left empty.
+const REVIVALS: u32 = 0;
+/// Cost by which ends at gates are spread, so that no gate is always first.
+const SPREAD: f64 = 1.0;
+
+/// A corner or a gate of a wall.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gate {
+    /// Where it is, m.
+    pub(crate) at: Point2,
+    /// Whether a street may lead in from it.
+    pub(crate) is_open: bool,
+}
+
+/// The streets within a wall.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Within {
+    /// The nodes of the wall, then the junctions within, m.
+    pub(crate) nodes: Vec<Point2>,
+    /// The streets within: none of the wall. Their cross-section is that of local streets.
+    pub(crate) streets: Vec<Street>,
+}
+
+/// Grows streets within a wall, counter-clockwise. `fields` seeds what the land is like, `own` all choices.
+pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, fields: Seed, own: Seed) -> Within {
+    let mut growth = Growth::within(wall, config, fields, own);
+    growth.open_gates(wall);
+    for _ in 0..ROUNDS {
+        growth.run();
+        let before = growth.standing;
+        growth.attach_loose_ends();
+        growth.prune();
+        if growth.revivals == 0 || growth.standing >= before {
+            break;
+        }
+    }
+    growth.inside(own)
+}
+
+impl<'a> Growth<'a> {
+    fn within(wall: &[Gate], config: &'a RoadConfig, fields: Seed, own: Seed) -> Self {
+        let (low, high) = wall
+            .iter()
+            .fold((wall[0].at, wall[0].at), |(low, high), gate| (low.inf(&gate.at), high.sup(&gate.at)));
+        let reach = (high - low).norm() * 0.5 + 2.0 * config.length;
+        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length);
+        // Two streets are the wall's own; the third leads in.
+        let corners = wall.iter().map(|gate| (gate.at, if gate.is_open { 3 } else { 2 }));
+        fabric.wall_in(corners, RoadClass::Arterial);
+        Self {
+            config,
+            measures: Measures::new(config),
+            field: Field::endless(config, fields),
+            fabric,
+            fitter: Fitter::default(),
+            queue: std::collections::BinaryHeap::new(),
+            serial: 0,
+            revivals: REVIVALS * wall.len() as u32,
+            standing: 0,
+            wanted: usize::MAX,
+            rng: own.stream("citygen/roads").rng(),
+        }
+    }
+
+    /// Proposes a street inwards from every gate.
+    fn open_gates(&mut self, wall: &[Gate]) {
+        let count = wall.len();
+        for index in (0..count).filter(|index| wall[*index].is_open) {
+            let chord = wall[(index + 1) % count].at - wall[(index + count - 1) % count].at;
+            let inwards = heading(&chord) + FRAC_PI_2;
+            let site = self.field.site(wall[index].at);
+            let start = Start::Node(index as u32);
+            let cost = self.rng.uniform(0.0, SPREAD);
+            let led = self.guided(&site, inwards);
+            self.push(cost, (start, &site), led, RoadClass::Local);
+            // Where the grain leads it into the wall, it goes straight in.
+            self.push(cost + SPREAD, (start, &site), inwards, RoadClass::Local);
+        }
+    }
+
+    /// The streets that stand within the wall, some of them bent.
+    fn inside(&self, own: Seed) -> Within {
+        let bends = own.stream("citygen/bends");
+        let reach = plan_of_sections(self.config).0.sections[0].left_of_reference();
+        let walls = self.fabric.walls();
+        let mut within = Within::default();
+        within.nodes.extend((0..walls as u32).map(|node| self.fabric.at(node)));
+        let mut numbers = vec![u32::MAX; self.fabric.node_count()];
+        for (node, number) in (0..).zip(numbers.iter_mut().take(walls)) {
+            *number = node;
+        }
+        for index in
+            (walls..self.fabric.segments().len()).filter(|index| self.fabric.is_standing(*index as u32))
+        {
+            let segment = self.fabric.segment(index as u32);
+            let [from, to] = [segment.from, segment.to].map(|node| {
+                let number = &mut numbers[node as usize];
+                if *number == u32::MAX {
+                    *number = within.nodes.len() as u32;
+                    within.nodes.push(self.fabric.at(node));
+                }
+                *number as usize
+            });
+            let mut rng = bends.indexed(index as u64).rng();
+            let via = if rng.chance(self.config.bends) {
+                self.course(index as u32, reach, &mut rng)
+            } else {
+                Vec::new()
+            };
+            within.streets.push(Street { via, ..Street::simple(from, to) });
+        }
+        within
+    }
+}

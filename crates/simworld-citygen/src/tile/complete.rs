@@ -1,0 +1,69 @@
+//! A complete tile: streets, lanes, lots, buildings and elements.
+
+use std::sync::Arc;
+
+use simworld_core::net::{RoadNetwork, StreetPlan};
+
+use super::draft::Draft;
+use super::{TileId, TileSource};
+use crate::CityError;
+use crate::block::Block;
+use crate::building::{self, Building};
+use crate::element::{self, Element, Extent, Setting};
+use crate::lot::Land;
+use crate::occupancy::Occupancy;
+use crate::zoning::Zoning;
+
+/// A tile and all that stands on it: a function of the source and its id.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tile {
+    /// Which it is.
+    pub id: TileId,
+    /// Its streets, and those of its neighbours that meet its outline.
+    pub plan: StreetPlan,
+    /// What of the streets is its own: the first [`Extent::streets`] of the plan and the land on the sides marked.
+    pub extent: Extent,
+    /// Lanes, crossings and all else that follows from the plan; along the outline the same as its neighbours'.
+    pub network: Arc<RoadNetwork>,
+    /// Its buildings.
+    pub buildings: Vec<Building>,
+    /// Its street elements.
+    pub elements: Vec<Element>,
+}
+
+impl Tile {
+    /// Makes a tile.
+    pub(super) fn of(source: &TileSource, id: TileId) -> Result<Self, CityError> {
+        let (config, seed) = (&source.config().city, source.seed());
+        let Draft { plan, own, sides, .. } = Draft::of(source, id);
+        let extent = Extent { streets: own, sides };
+        let network = RoadNetwork::derive(&plan, &config.network)?;
+        let mut taken = Occupancy::of_roads(&network);
+        let zoning = Zoning::new(&config.zoning, seed);
+        let mut blocks = Block::of_network(&network);
+        blocks.retain(|block| is_inside(block, &extent));
+        let land = Land::of_blocks(blocks, &zoning, &config.lots, seed, &taken);
+        // Places and names are drawn tile by tile.
+        let own_seed = seed.stream("citygen/tiles").indexed(id.x as u64).indexed(id.y as u64).seed();
+        let buildings = building::build(&network, &land, &config.buildings, own_seed, &mut taken).buildings;
+        let setting = Setting {
+            plan: &plan,
+            network: &network,
+            zoning: &zoning,
+            land: &land,
+            buildings: &buildings,
+            within: Some(&extent),
+        };
+        let elements = element::furnish(&setting, &config.elements, seed, &mut taken);
+        Ok(Self { id, plan, extent, network: Arc::new(network), buildings, elements })
+    }
+}
+
+/// Whether a block lies within the tile: all sidewalks round it do.
+fn is_inside(block: &Block, extent: &Extent) -> bool {
+    block
+        .borders
+        .iter()
+        .filter_map(|border| border.as_street())
+        .all(|(road, side)| extent.has_side(road, side))
+}
