@@ -8,6 +8,8 @@ mod control;
 mod cross;
 mod emit;
 mod kind;
+mod merge;
+mod pair;
 mod profile;
 mod room;
 mod split;
@@ -102,7 +104,13 @@ impl Place {
         web.join_all();
         cross::cut_crossings(&mut web, self, warnings);
         web.simplify();
+        if options.merge > 0.0 {
+            merge::merge_junctions(&mut web, self, options.merge);
+            pair::join_carriageways(&mut web, options.merge);
+            web.join_all();
+        }
         collapse::collapse(&mut web, self, warnings);
+        pair::join_carriageways(&mut web, options.merge);
         tidy::part_doubles(&mut web, self, warnings);
         if options.parts == Parts::Largest {
             tidy::keep_largest(&mut web, self, warnings);

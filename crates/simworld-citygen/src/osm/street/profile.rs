@@ -126,7 +126,8 @@ impl Profile {
     pub(super) fn carriageway(&self) -> f64 {
         let lanes = u16::from(self.forward + self.backward) * self.lane;
         let beside: u16 = self.cycle.iter().chain(&self.parking).sum();
-        f64::from(lanes + beside + self.median) * 0.1
+        let median = if self.median < 3 { 0 } else { self.median };
+        f64::from(lanes + beside + median) * 0.1
     }
 
     /// As a cross-section; the line on the map is the middle of the carriageway.
@@ -156,7 +157,8 @@ impl Profile {
             for rank in 0..count(left) {
                 push(if rank < bus(left) { LaneKind::Bus } else { LaneKind::Driving }, left, self.lane);
             }
-            push(LaneKind::Median, Both, self.median);
+            // Less is a double line.
+            push(LaneKind::Median, Both, if self.median < 3 { 0 } else { self.median });
         }
         for rank in (0..count(right)).rev() {
             push(if rank < bus(right) { LaneKind::Bus } else { LaneKind::Driving }, right, self.lane);

@@ -56,6 +56,8 @@ pub(super) struct Edge {
     pub(super) ends: [u32; 2],
     pub(super) via: Vec<Point2>,
     pub(super) character: Character,
+    /// How far to the right of each end, seen along the course, the street was drawn before that end was moved, m.
+    pub(super) aside: [f64; 2],
     pub(super) lives: bool,
 }
 
@@ -85,7 +87,7 @@ impl Web {
         for end in ends {
             self.nodes[end as usize].edges.push(number);
         }
-        self.edges.push(Edge { ends, via, character, lives: true });
+        self.edges.push(Edge { ends, via, character, aside: [0.0; 2], lives: true });
         number
     }
 
@@ -160,6 +162,11 @@ impl Web {
         if turned[longer] {
             character = character.mirrored();
         }
+        let aside = |edge: u32, is_turned: bool| {
+            let [start, end] = self.edge(edge).aside;
+            if is_turned { [-end, -start] } else { [start, end] }
+        };
+        let aside = [aside(first, turned[0])[0], aside(second, turned[1])[1]];
         let mut via = std::mem::take(&mut self.edges[first as usize].via);
         if turned[0] {
             via.reverse();
@@ -173,13 +180,16 @@ impl Web {
         self.remove(first);
         self.remove(second);
         // A street driven one way runs the way it is driven.
-        let (ends, via, character) = if character.profile.forward == 0 {
+        let is_against = character.profile.forward == 0;
+        let (ends, aside, character) = if is_against {
             via.reverse();
-            ([after, before], via, character.mirrored())
+            ([after, before], [-aside[1], -aside[0]], character.mirrored())
         } else {
-            ([before, after], via, character)
+            ([before, after], aside, character)
         };
-        Some(self.add_edge(ends, via, character))
+        let joined = self.add_edge(ends, via, character);
+        self.edges[joined as usize].aside = aside;
+        Some(joined)
     }
 
     /// Joins edges that are alike at all nodes where only two meet.
@@ -210,8 +220,9 @@ impl Web {
                 if walked < station { before.push(pair[1]) } else { after.push(pair[1]) }
             }
         }
-        let Edge { ends, character, .. } = *self.edge(edge);
+        let Edge { ends, character, aside, .. } = *self.edge(edge);
         self.edges[edge as usize].via = before;
+        self.edges[edge as usize].aside[1] = 0.0;
         self.edges[edge as usize].ends[1] = node;
         let there = &mut self.nodes[ends[1] as usize].edges;
         // A loop stands there twice; its end is the later.
@@ -220,11 +231,15 @@ impl Web {
         }
         self.nodes[node as usize].edges.push(edge);
         let second = self.add_edge([node, ends[1]], after, character);
+        self.edges[second as usize].aside[1] = aside[1];
         (node, second)
     }
 
     /// Moves all edges of one node to another, which then lies at a point.
     pub(super) fn merge(&mut self, from: u32, into: u32, at: Point2) {
+        for node in [from, into] {
+            self.note_move(node, at);
+        }
         for edge in std::mem::take(&mut self.nodes[from as usize].edges) {
             for end in &mut self.edges[edge as usize].ends {
                 if *end == from {
@@ -237,6 +252,23 @@ impl Web {
         let spread = (a.spread + (a.at - at).norm()).max(b.spread + (b.at - at).norm());
         let node = &mut self.nodes[into as usize];
         (node.at, node.spread) = (at, spread);
+    }
+
+    /// Notes how far the edges of a node move sideways when it moves.
+    fn note_move(&mut self, node: u32, to: Point2) {
+        let was = self.node(node).at;
+        for edge in self.node(node).edges.clone() {
+            let Edge { ends, via, .. } = self.edge(edge);
+            let [start, end] = ends.map(|end| self.node(end).at);
+            let first = via.first().copied().unwrap_or(end) - start;
+            let last = end - via.last().copied().unwrap_or(start);
+            let is_end = ends.map(|end| end == node);
+            for (index, along) in [first, last].into_iter().enumerate().filter(|(index, _)| is_end[*index]) {
+                if let Some(along) = along.try_normalize(1e-6) {
+                    self.edges[edge as usize].aside[index] += (was - to).perp(&along);
+                }
+            }
+        }
     }
 
     /// Takes points out of all courses that say nothing.
