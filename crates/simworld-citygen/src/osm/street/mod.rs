@@ -7,6 +7,7 @@ mod collapse;
 mod control;
 mod cross;
 mod emit;
+mod ends;
 mod kind;
 mod merge;
 mod pair;
@@ -116,6 +117,7 @@ impl Place {
             tidy::keep_largest(&mut web, self, warnings);
         }
         room::fit(&mut web, buildings);
+        ends::straighten(&mut web);
         emit::plan(&web, self, warnings)
     }
 }
