@@ -50,8 +50,8 @@ const FARTHEST_DOOR: f64 = 150.0;
 const FILLED_CELL: f64 = 90.0;
 /// A kind of thing of which the map has less than one on so much sidewalk is generated, m.
 const FEW: f64 = 150.0;
-/// How far a building may reach over a carriageway, m: maps are not that exact.
-const OVERHANG: f64 = 0.5;
+/// Half the width that a car needs on its lane, m. What stands beside that stands: maps are not that exact.
+const HALF_CAR: f64 = 0.8;
 
 impl City {
     /// Builds a city of a real place: its streets, its buildings, and what stands in its streets. The same place,
@@ -133,15 +133,11 @@ impl Ground {
         let mut carriageways = Occupancy::with_capacity(network.lanes.len() * 4);
         let on_ground = |lane: usize| !off_ground[network.lanes[lane].road.index()];
         for lane in network.lanes.iter().filter(|lane| !off_ground[lane.road.index()]) {
-            add_strip(&mut carriageways, &lane.path, lane.width * 0.5 - OVERHANG);
+            add_strip(&mut carriageways, &lane.path, HALF_CAR);
         }
         for way in &network.connections {
             if on_ground(way.from.index()) && on_ground(way.to.index()) {
-                add_strip(
-                    &mut carriageways,
-                    &way.path,
-                    network.lanes[way.from.index()].width * 0.5 - OVERHANG,
-                );
+                add_strip(&mut carriageways, &way.path, HALF_CAR);
             }
         }
         Self { carriageways }

@@ -6,6 +6,7 @@ use std::collections::BinaryHeap;
 use simworld_core::geometry::Point2;
 use simworld_core::net::{SHORTEST_STREET, polyline};
 
+use super::ends::reaches;
 use super::web::Web;
 use crate::osm::error::{OsmId, Warning};
 use crate::osm::place::Place;
@@ -14,6 +15,11 @@ use crate::osm::place::Place;
 pub(super) const SHORTEST: f64 = SHORTEST_STREET + 0.5;
 /// Loops shorter than this have no room for the nodes that they need, m.
 pub(super) const SHORTEST_LOOP: f64 = 3.0 * SHORTEST + 1.5;
+
+/// Streets longer than this stay, however far their junctions reach, m.
+const LONGEST_TIGHT: f64 = 28.0;
+/// Junctions that reach so many lengths of the street between them into it are one.
+const TIGHT: f64 = 1.15;
 
 /// Draws all short edges together, the shortest first.
 pub(super) fn collapse(web: &mut Web, place: &Place, warnings: &mut Vec<Warning>) {
@@ -38,6 +44,34 @@ pub(super) fn collapse(web: &mut Web, place: &Place, warnings: &mut Vec<Warning>
             if web.edge(near).lives && is_short(web, near) {
                 pending.push(Reverse((key(web, near), near)));
             }
+        }
+    }
+}
+
+/// Draws junctions together that reach into each other: between them is no room for a street.
+pub(super) fn collapse_tight(web: &mut Web) {
+    let mut tight: Vec<(f64, u32)> = Vec::new();
+    for (index, edge) in web.living() {
+        let length = web.length(index);
+        let is_inner = edge.ends.iter().all(|node| web.degree(*node) >= 3);
+        if length > LONGEST_TIGHT || !is_inner || edge.character.is_roundabout || edge.ends[0] == edge.ends[1]
+        {
+            continue;
+        }
+        let reach = |end: usize| {
+            let reaches = reaches(web, edge.ends[end]);
+            reaches.iter().find(|found| (found.0, found.1) == (index, end)).map_or(0.0, |found| found.2)
+        };
+        if reach(0) + reach(1) > length * TIGHT {
+            tight.push((length, index));
+        }
+    }
+    tight.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    for (_, edge) in tight {
+        let ends = web.edge(edge).ends;
+        let is_spread = ends.iter().any(|node| web.node(*node).spread > LONGEST_TIGHT);
+        if web.edge(edge).lives && ends[0] != ends[1] && !is_spread && web.length(edge) <= LONGEST_TIGHT {
+            draw_together(web, edge);
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use simworld_core::geometry::{Point2, heading};
+use simworld_core::geometry::{Point2, direction, heading};
 use simworld_core::net::polyline;
 use simworld_core::ops;
 
@@ -20,17 +20,33 @@ const OFF: (f64, f64) = (1.5, 0.15);
 /// What a crossing and its stop line add to the reach of a junction, m.
 const CROSSING: f64 = 3.0;
 
+/// Streets that leave a junction nearer to each other than this are spread to it, radians: a ramp begins beside its road.
+const NARROW: f64 = 0.46;
+/// How far from the junction they are spread, m.
+const SPREAD: f64 = 30.0;
+/// Two streets that turn back at a node more sharply than this are one street with a bend, radians.
+const HAIRPIN: f64 = 1.1;
+
 /// Straightens the ends of all streets, first a little, and then as far as their junctions reach.
 pub(super) fn straighten(web: &mut Web) {
+    dissolve_hairpins(web);
     for edge in 0..web.edges.len() as u32 {
         for end in 0..2 {
             straighten_end(web, edge, end, LEAST);
         }
     }
-    for node in 0..web.nodes.len() as u32 {
+    let nodes = 0..web.nodes.len() as u32;
+    for node in nodes.clone() {
+        spread(web, node);
+    }
+    for node in nodes.clone() {
         for (edge, end, reach) in reaches(web, node) {
             straighten_end(web, edge, end, reach + CROSSING);
         }
+    }
+    // What was straightened may have come near to its neighbour again.
+    for node in nodes {
+        spread(web, node);
     }
 }
 
@@ -46,9 +62,10 @@ fn straighten_end(web: &mut Web, edge: u32, end: usize, distance: f64) {
         course.reverse();
     }
     let length = polyline::length(&course);
-    for share in [1.0, 0.7, 0.45] {
+    // Rather a shorter end than one that moves the street, but rather that than a junction beyond its street.
+    for (share, most) in [(1.0, 1.0), (0.7, 1.0), (1.0, 3.0), (0.45, 2.0)] {
         let reach = (distance * share).min(length * SHARE);
-        if let Some(kept) = straightened(&course, reach) {
+        if let Some(kept) = straightened(&course, reach, most) {
             let mut via = kept[1..kept.len() - 1].to_vec();
             if end == 1 {
                 via.reverse();
@@ -60,7 +77,7 @@ fn straighten_end(web: &mut Web, edge: u32, end: usize, distance: f64) {
 }
 
 /// The course without its points nearer to its beginning than that, or with none left out if it would move too far.
-fn straightened(course: &[Point2], reach: f64) -> Option<Vec<Point2>> {
+fn straightened(course: &[Point2], reach: f64, times: f64) -> Option<Vec<Point2>> {
     let mut walked = 0.0;
     let mut first = 1;
     while first + 1 < course.len() {
@@ -77,7 +94,7 @@ fn straightened(course: &[Point2], reach: f64) -> Option<Vec<Point2>> {
     let at = polyline::at(course, reach).0;
     let chord = [course[0], at];
     let off = |point: &Point2| polyline::closest(&chord, point).map_or(0.0, |near| near.distance);
-    let most = OFF.0 + OFF.1 * reach;
+    let most = (OFF.0 + OFF.1 * reach) * times;
     if course[1..first].iter().any(|point| off(point) > most) {
         return None;
     }
@@ -89,35 +106,123 @@ fn straightened(course: &[Point2], reach: f64) -> Option<Vec<Point2>> {
     Some(kept)
 }
 
-/// How far the junction at a node reaches into each of its streets, by their widths and the angles between them.
-fn reaches(web: &Web, node: u32) -> Vec<(u32, usize, f64)> {
+/// A street as it leaves a node.
+#[derive(Clone, Copy)]
+struct Leg {
+    angle: f64,
+    edge: u32,
+    end: usize,
+    /// Half its width, sidewalks included, m.
+    half: f64,
+}
+
+/// The streets of a node, counter-clockwise.
+fn legs(web: &Web, node: u32) -> Vec<Leg> {
     let at = web.node(node).at;
-    let mut legs: Vec<(f64, u32, usize, f64)> = Vec::new();
+    let mut legs = Vec::new();
     for edge in &web.node(node).edges {
         let found = web.edge(*edge);
-        let half = found.character.profile.carriageway() * 0.5 + f64::from(found.character.profile.sidewalk[0].max(found.character.profile.sidewalk[1])) * 0.1;
+        let profile = &found.character.profile;
+        let sidewalk = f64::from(profile.sidewalk[0].max(profile.sidewalk[1])) * 0.1;
         for end in (0..2).filter(|end| found.ends[*end] == node) {
             let far = web.node(found.ends[1 - end]).at;
             let next = if end == 0 { found.via.first() } else { found.via.last() };
-            let towards = next.copied().unwrap_or(far) - at;
-            legs.push((heading(&towards), *edge, end, half));
+            let angle = heading(&(next.copied().unwrap_or(far) - at));
+            legs.push(Leg { angle, edge: *edge, end, half: profile.carriageway() * 0.5 + sidewalk });
         }
     }
-    legs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    legs.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.edge.cmp(&b.edge)));
+    legs
+}
+
+/// The angle from one leg to the next, counter-clockwise, in [0, 2π).
+fn between(leg: &Leg, next: &Leg) -> f64 {
+    (next.angle - leg.angle).rem_euclid(TAU)
+}
+
+/// How far the junction at a node reaches into each of its streets, by their widths and the angles between them.
+pub(super) fn reaches(web: &Web, node: u32) -> Vec<(u32, usize, f64)> {
+    let legs = legs(web, node);
     let count = legs.len();
     let reach = |index: usize| {
-        let (angle, edge, end, half) = legs[index];
+        let leg = legs[index];
         let beside = [legs[(index + 1) % count], legs[(index + count - 1) % count]];
-        let reaches = beside.into_iter().map(|(other, _, _, width)| {
-            let between = (other - angle).rem_euclid(TAU);
-            let between = between.min(TAU - between);
-            if between > PI - 0.05 || between < 1e-3 {
+        let reaches = beside.into_iter().map(|other| {
+            let angle = between(&leg, &other).min(between(&other, &leg));
+            if angle > PI - 0.05 || angle < 1e-3 {
                 return 0.0;
             }
-            let (sin, cos) = ops::sin_cos(between);
-            ((width + half * cos) / sin).max(0.0)
+            let (sin, cos) = ops::sin_cos(angle);
+            ((other.half + leg.half * cos) / sin).max(0.0)
         });
-        (edge, end, reaches.fold(0.0, f64::max))
+        (leg.edge, leg.end, reaches.fold(0.0, f64::max))
     };
     if count < 2 { Vec::new() } else { (0..count).map(reach).collect() }
+}
+
+/// Joins streets that turn back at a node where nothing else meets.
+fn dissolve_hairpins(web: &mut Web) {
+    for node in 0..web.nodes.len() as u32 {
+        if let [a, b] = legs(web, node)[..]
+            && between(&a, &b).min(between(&b, &a)) < HAIRPIN
+        {
+            web.dissolve(node);
+        }
+    }
+}
+
+/// Spreads streets that leave a node almost together: the lesser of two gives way, if there is room on its other side.
+fn spread(web: &mut Web, node: u32) {
+    for _ in 0..web.degree(node) {
+        let legs = legs(web, node);
+        let count = legs.len();
+        let at = |index: usize| legs[index % count];
+        let gap = |index: usize| between(&at(index), &at(index + 1));
+        // The narrowest first, so that what is moved for one pair is seen by the next.
+        let narrowest = (0..count).min_by(|a, b| gap(*a).total_cmp(&gap(*b)));
+        let Some(index) = narrowest.filter(|index| count >= 3 && gap(*index) < NARROW - 1e-3) else { return };
+        let (leg, next) = (at(index), at(index + 1));
+        let (before, after) = (gap(index + count - 1), gap(index + 1));
+        let rank = |leg: &Leg| {
+            let character = web.edge(leg.edge).character;
+            (!character.is_link, character.class)
+        };
+        let room = 2.0 * NARROW;
+        let moves_next = match rank(&next).cmp(&rank(&leg)) {
+            _ if before.min(after) < room => after > before,
+            std::cmp::Ordering::Equal => web.length(next.edge) < web.length(leg.edge),
+            order => order.is_lt(),
+        };
+        if leg.edge == next.edge {
+            return;
+        }
+        let (moved, turned) =
+            if moves_next { (next, leg.angle + NARROW) } else { (leg, next.angle - NARROW) };
+        turn_end(web, moved, turned);
+    }
+}
+
+/// Lets a street leave its node in another direction, and come back to its course after a while.
+fn turn_end(web: &mut Web, leg: Leg, angle: f64) {
+    let Leg { edge, end, .. } = leg;
+    let mut course = web.course(edge);
+    if end == 1 {
+        course.reverse();
+    }
+    let length = polyline::length(&course);
+    let reach = SPREAD.min(length * SHARE);
+    let turned = course[0] + direction(angle) * reach;
+    let mut via = vec![turned];
+    let mut walked = 0.0;
+    for pair in course.windows(2).take(course.len() - 2) {
+        walked += (pair[1] - pair[0]).norm();
+        // The other end is another junction's.
+        if walked > (reach * 1.3).min(length * 0.5) {
+            via.push(pair[1]);
+        }
+    }
+    if end == 1 {
+        via.reverse();
+    }
+    web.edges[edge as usize].via = via;
 }

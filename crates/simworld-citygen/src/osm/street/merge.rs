@@ -22,8 +22,11 @@ const ACROSS: f64 = 0.75;
 /// Draws the nodes of one junction together, up to `reach` m apart, and takes away turning lanes within it.
 pub(super) fn merge_junctions(web: &mut Web, place: &Place, reach: f64) {
     let signals = Signals::of(place);
-    let mut short: Vec<(f64, u32)> =
-        web.living().map(|(edge, _)| (web.length(edge), edge)).filter(|(length, _)| *length <= reach).collect();
+    let mut short: Vec<(f64, u32)> = web
+        .living()
+        .map(|(edge, _)| (web.length(edge), edge))
+        .filter(|(length, _)| *length <= reach)
+        .collect();
     short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (_, edge) in short {
         let Edge { ends: [a, b], lives, character, .. } = *web.edge(edge);
@@ -59,7 +62,9 @@ fn is_crossover(web: &Web, edge: u32) -> bool {
     let (at_a, at_b) = (passing(web, a, edge), passing(web, b, edge));
     at_a.iter().any(|first| {
         at_b.iter().any(|second| {
-            first.dot(second) < -OPPOSITE && across.perp(first).abs() > ACROSS && across.perp(second).abs() > ACROSS
+            first.dot(second) < -OPPOSITE
+                && across.perp(first).abs() > ACROSS
+                && across.perp(second).abs() > ACROSS
         })
     })
 }

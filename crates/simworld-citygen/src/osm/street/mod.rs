@@ -111,6 +111,7 @@ impl Place {
             web.join_all();
         }
         collapse::collapse(&mut web, self, warnings);
+        collapse::collapse_tight(&mut web);
         pair::join_carriageways(&mut web, options.merge);
         tidy::part_doubles(&mut web, self, warnings);
         if options.parts == Parts::Largest {

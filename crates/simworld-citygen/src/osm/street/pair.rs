@@ -110,6 +110,7 @@ fn joined(there: &Profile, back: &Profile, apart: f64) -> Profile {
         cycle: sides(there.cycle, back.cycle),
         parking: sides(there.parking, back.parking),
         sidewalk: sides(there.sidewalk, back.sidewalk),
+        shift: 0,
         is_left_hand: there.is_left_hand,
     }
 }

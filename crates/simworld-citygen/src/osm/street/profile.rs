@@ -39,6 +39,8 @@ pub(super) struct Profile {
     pub(super) parking: [u16; 2],
     /// Sidewalks at the two sides.
     pub(super) sidewalk: [u16; 2],
+    /// How far the middle of the carriageway lies to the left of the line on the map.
+    pub(super) shift: i16,
     /// Whether traffic keeps left.
     pub(super) is_left_hand: bool,
 }
@@ -82,6 +84,7 @@ impl Profile {
             ),
             parking: parking(tags),
             sidewalk: sidewalks(tags, kind),
+            shift: 0,
             is_left_hand,
         };
         if one_way == OneWay::Against {
@@ -118,6 +121,7 @@ impl Profile {
             cycle: swap(self.cycle),
             parking: swap(self.parking),
             sidewalk: swap(self.sidewalk),
+            shift: -self.shift,
             ..*self
         }
     }
@@ -130,7 +134,7 @@ impl Profile {
         f64::from(lanes + beside + median) * 0.1
     }
 
-    /// As a cross-section; the line on the map is the middle of the carriageway.
+    /// As a cross-section; the line on the map is the middle of the carriageway, unless it is shifted.
     pub(super) fn section(&self) -> CrossSection {
         use LaneDirection::{Backward, Both, Forward};
         let width = |decimetres: u16| f64::from(decimetres) * 0.1;
@@ -166,7 +170,8 @@ impl Profile {
         push(LaneKind::Cycle, right, self.cycle[1]);
         push(LaneKind::Parking, right, self.parking[1]);
         push(LaneKind::Sidewalk, Both, self.sidewalk[1]);
-        CrossSection { reference: width(self.sidewalk[0]) + self.carriageway() * 0.5, lanes }
+        let middle = width(self.sidewalk[0]) + self.carriageway() * 0.5;
+        CrossSection { reference: middle + f64::from(self.shift) * 0.1, lanes }
     }
 }
 

@@ -23,6 +23,8 @@ const IGNORED: f64 = 0.08;
 const GAP: f64 = 0.1;
 /// The narrowest sidewalk, dm; where there is less room there is none.
 const LEAST_SIDEWALK: u16 = 10;
+/// How far a carriageway is moved from where it was drawn, dm: maps are not more exact.
+const MOST_SHIFT: i32 = 20;
 /// The narrowest lane, dm.
 const LEAST_LANE: u16 = 22;
 
@@ -122,13 +124,12 @@ fn narrowest(room: &mut [f64]) -> Option<f64> {
     Some(*room.select_nth_unstable_by(rank, f64::total_cmp).1)
 }
 
-/// Narrows sidewalks, then what lies beside the lanes, then the lanes.
+/// Moves the carriageway from a wall that is too near to the other side, if there is room; then narrows what lies beside
+/// the lanes, the lanes, and the sidewalks.
 fn narrow(profile: &mut Profile, room: [f64; 2]) {
-    let room = room.map(|room| ((room - GAP) * 10.0).max(0.0) as u16);
-    let half = |profile: &Profile| (profile.carriageway() * 5.0).ceil() as u16;
-    let least = room[0].min(room[1]);
-    // The line is the middle of the carriageway: both halves must fit.
-    while half(profile) > least {
+    let [left, right] = room.map(|room| ((room - GAP) * 10.0).max(0.0) as i32);
+    let half = |profile: &Profile| (profile.carriageway() * 5.0).ceil() as i32;
+    while 2 * half(profile) > left + right {
         if profile.parking != [0, 0] {
             profile.parking = [0, 0];
         } else if profile.cycle != [0, 0] {
@@ -136,15 +137,23 @@ fn narrow(profile: &mut Profile, room: [f64; 2]) {
         } else if profile.median > 10 {
             profile.median = 10;
         } else {
-            let lanes = u16::from(profile.forward + profile.backward);
-            profile.lane = (2 * least).saturating_sub(profile.median) / lanes;
+            let lanes = i32::from(profile.forward + profile.backward);
+            let lane = (left + right - i32::from(profile.median)) / lanes;
+            profile.lane = lane.clamp(i32::from(LEAST_LANE), 60) as u16;
             break;
         }
     }
-    profile.lane = profile.lane.clamp(LEAST_LANE, 60);
     let half = half(profile);
-    for (sidewalk, room) in profile.sidewalk.iter_mut().zip(room) {
-        let left = room.saturating_sub(half);
-        *sidewalk = if left < LEAST_SIDEWALK { 0 } else { (*sidewalk).min(left) };
+    // To the left where the right wall is too near, and the other way round; to the middle where both are.
+    let shift = if left + right < 2 * half {
+        (left - right) / 2
+    } else {
+        (half - right).max(0) - (half - left).max(0)
+    };
+    let shift = shift.clamp(-MOST_SHIFT, MOST_SHIFT);
+    profile.shift = shift as i16;
+    for (sidewalk, room) in profile.sidewalk.iter_mut().zip([left - shift, right + shift]) {
+        let free = (room - half).max(0) as u16;
+        *sidewalk = if free < LEAST_SIDEWALK { 0 } else { (*sidewalk).min(free) };
     }
 }

@@ -157,7 +157,11 @@ pub(super) fn outline(center: Point2, legs: &[Leg]) -> Vec<Point2> {
             for (index, leg) in legs.iter().enumerate() {
                 outline.push(leg.point(leg.reach, -leg.right));
                 outline.push(leg.point(leg.reach, leg.left));
-                outline.extend(corner(leg, &legs[(index + 1) % legs.len()], (0.0, 0.0)));
+                let next = &legs[(index + 1) % legs.len()];
+                // A corner farther out than the area reaches would fold it over itself.
+                let is_inside = |met: &Point2, leg: &Leg| (met - center).dot(&leg.direction()) <= leg.reach;
+                let met = corner(leg, next, (0.0, 0.0));
+                outline.extend(met.filter(|met| is_inside(met, leg) && is_inside(met, next)));
             }
             outline
         }
