@@ -37,8 +37,8 @@ fn check(bytes: &[u8]) {
     let made = City::from_place(&place, &PlaceOptions::default(), &CityConfig::default(), Seed(1));
     match made {
         Ok((city, _)) => {
-            city.plan.validate().unwrap();
-            city.network.check().unwrap();
+            assert_eq!(city.plan.validate(), Ok(()));
+            assert_eq!(city.network.check(), Ok(()));
         }
         Err(error) => assert_eq!(error, CityError::NoStreets),
     }

@@ -149,7 +149,7 @@ pub(super) fn reaches(web: &Web, node: u32) -> Vec<(u32, usize, f64)> {
         let beside = [legs[(index + 1) % count], legs[(index + count - 1) % count]];
         let reaches = beside.into_iter().map(|other| {
             let angle = between(&leg, &other).min(between(&other, &leg));
-            if angle > PI - 0.05 || angle < 1e-3 {
+            if !(1e-3..=PI - 0.05).contains(&angle) {
                 return 0.0;
             }
             let (sin, cos) = ops::sin_cos(angle);
