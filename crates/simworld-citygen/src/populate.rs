@@ -5,7 +5,7 @@ use std::sync::Arc;
 use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
 use simworld_core::id::{AssetId, EntityId};
-use simworld_core::net::Crossing;
+use simworld_core::net::{Crossing, DrivingSide};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World, WorldError};
 
 use crate::City;
@@ -66,7 +66,7 @@ impl City {
             entities.elements.push(world.spawn(desc)?);
         }
         for crossing in self.network.crossings.iter().filter(|crossing| crossing.signal.is_some()) {
-            let mut desc = describe_signal(crossing);
+            let mut desc = describe_signal(crossing, self.network.driving_side);
             desc.info.asset = assets.of_kind(EntityKind::TrafficSignal, world)?;
             entities.signals.push(world.spawn(desc)?);
         }
@@ -201,11 +201,15 @@ fn describe_solid(building: &Building, solid: &Obb, asset: AssetId) -> EntityDes
     desc
 }
 
-/// A post at the kerb that vehicles pass on their right, beyond the crossing; it looks at those who come.
-fn describe_signal(crossing: &Crossing) -> EntityDesc {
+/// A post at the kerb along which vehicles come, beyond the crossing; it looks at those who come.
+fn describe_signal(crossing: &Crossing, driving_side: DrivingSide) -> EntityDesc {
     let across = (crossing.end - crossing.start).normalize();
     let outwards = Vector2::new(-across.y, across.x);
-    let at = crossing.start - across * POST_SETBACK + outwards * (crossing.width * 0.5 + POST_SETBACK);
+    let kerb = match driving_side {
+        DrivingSide::Right => crossing.start - across * POST_SETBACK,
+        DrivingSide::Left => crossing.end + across * POST_SETBACK,
+    };
+    let at = kerb + outwards * (crossing.width * 0.5 + POST_SETBACK);
     let pose = pose_facing(Point3::new(at.x, at.y, 0.0), heading(&outwards));
     EntityDesc::new(EntityKind::TrafficSignal, pose, Shape::Cylinder { radius: 0.08, height: 3.5 })
 }

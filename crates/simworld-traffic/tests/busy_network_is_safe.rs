@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::{Obb, Point3, pose_facing};
-use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::geometry::{Obb, Point2, Point3, direction, pose_facing};
+use simworld_core::net::{Aspect, CrossSection, DrivingSide, NetworkConfig, RoadNetwork, Street, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_traffic::{Body, Traffic, TrafficConfig};
 
@@ -31,15 +31,13 @@ fn collisions(bodies: &mut [Body]) -> usize {
     count
 }
 
-#[test]
-fn ten_thousand_steps_without_a_collision_or_a_red_light_violation() {
-    let mut traffic = grid(4, 110, 150);
-    assert_eq!((traffic.placed().vehicles, traffic.placed().pedestrians), (110, 150));
+/// Drives on, and sees to it that nobody touches anybody and nobody enters on red.
+fn drive(traffic: &mut Traffic, steps: u32) {
     let network = Arc::clone(traffic.network());
     let lanes = network.lanes.len() as u32;
-    let mut before: Vec<(u32, f64)> = vec![(u32::MAX, 0.0); 110];
+    let mut before: Vec<(u32, f64)> = vec![(u32::MAX, 0.0); traffic.placed().vehicles as usize];
     let mut bodies = Vec::new();
-    for step in 0..10_000 {
+    for step in 0..steps {
         let aspects = traffic.signals().to_vec();
         traffic.step(0.1);
         for (id, track, station, _) in traffic.stations() {
@@ -67,9 +65,67 @@ fn ten_thousand_steps_without_a_collision_or_a_red_light_violation() {
     let counters = traffic.counters();
     assert_eq!(counters.dilemmas, 0, "yellow is long enough for everybody to stop or to pass: {counters:?}");
     assert_eq!(counters.forced_stops, 0, "brakes suffice: {counters:?}");
+}
+
+#[test]
+fn ten_thousand_steps_without_a_collision_or_a_red_light_violation() {
+    let mut traffic = grid(4, 110, 150);
+    assert_eq!((traffic.placed().vehicles, traffic.placed().pedestrians), (110, 150));
+    drive(&mut traffic, 10_000);
+    let counters = traffic.counters();
     assert!(counters.long_waits < 20, "hardly anybody stands for three minutes: {counters:?}");
     // On average everybody crosses an intersection every minute: less would be a jam at this density.
     assert!(counters.crossings > 110 * 1000 / 60, "traffic flows: {counters:?}");
+}
+
+#[test]
+fn traffic_on_the_left_is_as_safe() {
+    let mut plan = StreetPlan { driving_side: DrivingSide::Left, ..StreetPlan::grid(4, 4, 130.0) };
+    plan.sections[0].lanes.reverse();
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network");
+    let config = TrafficConfig { vehicles: 100, pedestrians: 100, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::new(network), &config, Seed(12)).expect("the settings are in range");
+    drive(&mut traffic, 4000);
+    let counters = traffic.counters();
+    assert!(counters.crossings > 100 * 400 / 60, "traffic flows: {counters:?}");
+}
+
+/// A road with a roundabout at either end, and three more arms at each.
+fn two_roundabouts() -> StreetPlan {
+    let mut plan = StreetPlan::default();
+    let ring = plan.add_section(CrossSection::plain(1, 0, 4.5, 0.0));
+    let quarter = |index: usize| direction(std::f64::consts::FRAC_PI_2 * index as f64);
+    for center in [Point2::new(0.0, 0.0), Point2::new(260.0, 0.0)] {
+        let first = plan.nodes.len();
+        plan.nodes.extend((0..4).map(|index| center + quarter(index) * 24.0));
+        for index in 0..4 {
+            let middle = (quarter(index) + quarter(index + 1)).normalize();
+            plan.streets.push(Street {
+                section: ring,
+                roundabout: true,
+                via: vec![center + middle * 24.0],
+                ..Street::simple(first + index, first + (index + 1) % 4)
+            });
+        }
+    }
+    // East of the first to west of the second; the others end in the open.
+    plan.streets.push(Street::simple(0, 6));
+    for (node, arm) in [(1, 1), (2, 2), (3, 3), (4, 0), (5, 1), (7, 3)] {
+        let end = plan.nodes[node] + quarter(arm) * 150.0;
+        plan.nodes.push(end);
+        plan.streets.push(Street::simple(node, plan.nodes.len() - 1));
+    }
+    plan
+}
+
+#[test]
+fn roundabouts_are_safe_and_flow() {
+    let network = RoadNetwork::derive(&two_roundabouts(), &NetworkConfig::default()).expect("it is a plan");
+    let config = TrafficConfig { vehicles: 30, pedestrians: 20, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::new(network), &config, Seed(13)).expect("the settings are in range");
+    drive(&mut traffic, 6000);
+    let counters = traffic.counters();
+    assert!(counters.crossings > 30 * 600 / 30, "traffic flows: {counters:?}");
 }
 
 #[test]

@@ -37,6 +37,7 @@ impl StreetGraph {
         let nodes = plan.nodes.iter().enumerate().map(|(index, at)| Node {
             at: *at,
             out: NONE,
+            elevation: plan.elevation(index),
             control: plan.controls.get(&index).copied(),
             lives: true,
         });
@@ -53,6 +54,7 @@ impl StreetGraph {
             grid: grid_for(plan),
             sections: plan.sections.clone(),
             names: plan.names.clone(),
+            driving_side: plan.driving_side,
         };
         for index in 0..count {
             if let Some(mut street) = graph.streets[index].take() {

@@ -120,7 +120,7 @@ impl StreetGraph {
 
 impl Edit<'_> {
     pub(super) fn add_node(&mut self, at: Point2) -> u32 {
-        let node = Node { at, out: NONE, control: None, lives: true };
+        let node = Node { at, out: NONE, elevation: 0.0, control: None, lives: true };
         let number = if let Some(number) = self.graph.free_nodes.pop() {
             self.graph.nodes[number as usize] = node;
             number
@@ -189,6 +189,7 @@ impl Edit<'_> {
     pub(super) fn cut(&mut self, number: u32, station: f64, at: Point2) -> Result<u32, GraphError> {
         let node = self.add_node(at);
         let Some(street) = self.take_out(number) else { return Err(GraphError::NoStreet(StreetId(number))) };
+        let [from, to] = [street.from, street.to].map(|end| self.graph.nodes[end].elevation);
         let mut course = vec![self.graph.nodes[street.from].at];
         course.extend(&street.via);
         let mut passed = 0;
@@ -204,6 +205,13 @@ impl Edit<'_> {
         first.via.retain(|point| (point - at).norm() > LEAST_PIECE);
         second.via.retain(|point| (point - at).norm() > LEAST_PIECE);
         (first.to, second.from) = (node as usize, node as usize);
+        // Arrows are before the ends that were.
+        first.turns.forward.clear();
+        second.turns.backward.clear();
+        let rest: f64 = course.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>()
+            + (self.graph.nodes[second.to].at - course[course.len() - 1]).norm();
+        let share = if rest > 0.0 { (station / rest).clamp(0.0, 1.0) } else { 0.0 };
+        self.graph.nodes[node as usize].elevation = from + (to - from) * share;
         self.put_in(first, Some(number))?;
         self.put_in(second, None)?;
         Ok(node)

@@ -17,7 +17,7 @@ mod piece;
 mod rotation;
 
 use simworld_core::geometry::Point2;
-use simworld_core::net::{Control, CrossSection, Street, StreetPlan};
+use simworld_core::net::{Control, CrossSection, DrivingSide, Street, StreetPlan};
 
 pub use change::Change;
 pub use error::GraphError;
@@ -35,6 +35,8 @@ struct Node {
     at: Point2,
     /// One of the half-edges that leave it; none if it is alone.
     out: u32,
+    /// Height, m.
+    elevation: f64,
     control: Option<Control>,
     lives: bool,
 }
@@ -81,6 +83,7 @@ pub struct StreetGraph {
     grid: PieceGrid,
     sections: Vec<CrossSection>,
     names: Vec<String>,
+    driving_side: DrivingSide,
 }
 
 impl StreetGraph {
@@ -172,6 +175,7 @@ impl StreetGraph {
         let mut plan = StreetPlan {
             sections: self.sections.clone(),
             names: self.names.clone(),
+            driving_side: self.driving_side,
             ..StreetPlan::default()
         };
         let mut numbers = vec![0; self.nodes.len()];
@@ -180,6 +184,11 @@ impl StreetGraph {
             numbers[node.index()] = plan.nodes.len();
             plan.controls.extend(here.control.map(|control| (plan.nodes.len(), control)));
             plan.nodes.push(here.at);
+            plan.elevations.push(here.elevation);
+        }
+        // A flat plan has no heights.
+        if plan.elevations.iter().all(|height| *height == 0.0) {
+            plan.elevations.clear();
         }
         let renumbered =
             |street: &Street| Street { from: numbers[street.from], to: numbers[street.to], ..street.clone() };

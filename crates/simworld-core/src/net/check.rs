@@ -144,6 +144,7 @@ impl RoadNetwork {
             let points = place.outline.iter().chain(place.corners.iter().flatten());
             match () {
                 () if !(roads && ways && walks && corners) => LOST,
+                () if place.height.is_nan() || place.height.abs() > FARTHEST => SHAPELESS,
                 () if !(is_near(&place.center) && points.into_iter().all(is_near)) => SHAPELESS,
                 () => None,
             }

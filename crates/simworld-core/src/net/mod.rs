@@ -7,6 +7,7 @@ mod plan;
 pub mod polyline;
 mod section;
 mod signal;
+mod turn_lanes;
 mod waypoint;
 
 pub use check::NetworkFault;
@@ -14,9 +15,10 @@ pub use derive::{NetworkConfig, NetworkError};
 pub use network::{
     Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Turn,
 };
-pub use plan::{SHORTEST_STREET, Street, StreetPlan};
+pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
+pub use turn_lanes::{TurnLanes, TurnSet};
 #[cfg(feature = "hierarchy")]
 pub use waypoint::{HierarchyScratch, RouteHierarchy};
 pub use waypoint::{

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{LaneKind, SignalGroup, SignalPlan};
+use super::{DrivingSide, LaneKind, SignalGroup, SignalPlan, polyline};
 use crate::geometry::Point2;
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
 
@@ -45,9 +45,13 @@ pub struct Road {
     pub backward: Vec<LaneId>,
     /// The sidewalks on its left and on its right.
     pub sidewalks: [Option<SidewalkId>; 2],
+    /// Whether it is a part of the ring of a roundabout.
+    pub roundabout: bool,
+    /// 0 on the ground, above it on bridges, below it in tunnels.
+    pub level: i8,
 }
 
-/// A directed strip of road, for one file of vehicles. Traffic keeps right.
+/// A directed strip of road, for one file of vehicles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lane {
     /// The road it belongs to.
@@ -76,9 +80,9 @@ pub struct Lane {
 pub enum Turn {
     /// Straight on.
     Straight,
-    /// To the right.
+    /// To the right; across oncoming traffic where that keeps left.
     Right,
-    /// To the left, across oncoming traffic.
+    /// To the left; across oncoming traffic where that keeps right.
     Left,
     /// Back where one came from; only at dead ends.
     UTurn,
@@ -126,6 +130,8 @@ pub enum Control {
 pub struct Intersection {
     /// The middle, where the centrelines meet, m.
     pub center: Point2,
+    /// Height above the ground level of the world, m.
+    pub height: f64,
     /// The paved area, counter-clockwise, m.
     pub outline: Vec<Point2>,
     /// The roads that meet here, counter-clockwise from east by the direction in which they leave.
@@ -200,6 +206,8 @@ pub struct RoadNetwork {
     pub signals: Vec<SignalPlan>,
     /// Names of roads.
     pub names: Vec<String>,
+    /// The side on which traffic keeps.
+    pub driving_side: DrivingSide,
 }
 
 impl RoadNetwork {
@@ -218,6 +226,14 @@ impl RoadNetwork {
     pub fn road_name(&self, road: RoadId) -> Option<&str> {
         let name = self.roads.get(road.index())?.name?;
         self.names.get(name as usize).map(String::as_str)
+    }
+
+    /// Height of a road at a station along its centreline, m: even from one end to the other.
+    pub fn height(&self, road: RoadId, station: f64) -> f64 {
+        let Some(road) = self.roads.get(road.index()) else { return 0.0 };
+        let [from, to] = [road.from, road.to].map(|end| self.intersections[end.index()].height);
+        let length = polyline::length(&road.centerline);
+        if length > 0.0 { from + (to - from) * (station / length).clamp(0.0, 1.0) } else { from }
     }
 
     /// The rectangle around all centrelines, least and greatest corner; `None` without roads.

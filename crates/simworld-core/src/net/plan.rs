@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Control, CrossSection, NetworkError, RoadClass, polyline};
+use super::{Control, CrossSection, NetworkError, RoadClass, Turn, TurnLanes, TurnSet, polyline};
 use crate::geometry::Point2;
 
 /// The shortest street that can hold two junctions and a lane between them, m.
@@ -27,12 +27,51 @@ pub struct Street {
     pub name: Option<u32>,
     /// Its speed limit, m/s; that of its class if there is none.
     pub speed_limit: Option<f64>,
+    /// The arrows on its lanes.
+    pub turns: TurnLanes,
+    /// Whether it is a part of the ring of a roundabout, where those in the ring go first.
+    pub roundabout: bool,
+    /// 0 on the ground, above it on bridges, below it in tunnels. Streets of different levels pass over one another where
+    /// they cross without a node.
+    pub level: i8,
 }
 
 impl Street {
     /// A straight local street of the first cross-section.
     pub fn simple(from: usize, to: usize) -> Self {
-        Self { from, to, via: Vec::new(), class: RoadClass::Local, section: 0, name: None, speed_limit: None }
+        Self {
+            from,
+            to,
+            via: Vec::new(),
+            class: RoadClass::Local,
+            section: 0,
+            name: None,
+            speed_limit: None,
+            turns: TurnLanes::default(),
+            roundabout: false,
+            level: 0,
+        }
+    }
+}
+
+/// The side of the road on which traffic keeps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DrivingSide {
+    /// On the right, as in most countries.
+    #[default]
+    Right,
+    /// On the left, as in Britain, India, Japan or Australia.
+    Left,
+}
+
+impl DrivingSide {
+    /// The turn that crosses oncoming traffic.
+    pub const fn turn_across(self) -> Turn {
+        match self {
+            Self::Right => Turn::Left,
+            Self::Left => Turn::Right,
+        }
     }
 }
 
@@ -61,6 +100,11 @@ pub struct StreetPlan {
     pub names: Vec<String>,
     /// Who may go, at nodes where that is known; elsewhere the number of streets says.
     pub controls: BTreeMap<usize, Control>,
+    /// The side on which traffic keeps. Cross-sections are as they lie, left to right: with traffic on the left, the
+    /// lanes along the centreline lie to the left.
+    pub driving_side: DrivingSide,
+    /// Height of each node above the ground level of the world, m; empty if all is flat.
+    pub elevations: Vec<f64>,
 }
 
 impl Default for StreetPlan {
@@ -72,6 +116,8 @@ impl Default for StreetPlan {
             sections: vec![CrossSection::default()],
             names: Vec::new(),
             controls: BTreeMap::new(),
+            driving_side: DrivingSide::Right,
+            elevations: Vec::new(),
         }
     }
 }
@@ -112,6 +158,11 @@ impl StreetPlan {
         line
     }
 
+    /// The height of a node, m.
+    pub fn elevation(&self, node: usize) -> f64 {
+        self.elevations.get(node).copied().unwrap_or(0.0)
+    }
+
     /// Checks that every node is somewhere and every street can be built.
     ///
     /// # Errors
@@ -120,6 +171,7 @@ impl StreetPlan {
         if let Some(node) = self.nodes.iter().position(|point| !is_near(point)) {
             return Err(NetworkError::Node { node, x: self.nodes[node].x, y: self.nodes[node].y });
         }
+        self.check_elevations()?;
         let faults: Vec<Option<String>> = self.sections.iter().map(CrossSection::fault).collect();
         let mut pairs: Vec<(usize, usize, usize)> = Vec::with_capacity(self.streets.len());
         for (index, street) in self.streets.iter().enumerate() {
@@ -136,6 +188,17 @@ impl StreetPlan {
                     pair[0].2
                 ),
             }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_elevations(&self) -> Result<(), NetworkError> {
+        let height = |node: usize| self.elevation(node);
+        if !matches!(self.elevations.len(), 0) && self.elevations.len() != self.nodes.len() {
+            return Err(NetworkError::Elevations { given: self.elevations.len(), nodes: self.nodes.len() });
+        }
+        match (0..self.elevations.len()).find(|node| !(-1e4..=1e4).contains(&height(*node))) {
+            Some(node) => Err(NetworkError::Elevation { node, height: height(node) }),
             None => Ok(()),
         }
     }
@@ -164,6 +227,16 @@ impl StreetPlan {
         }
         if let Some(limit) = street.speed_limit.filter(|limit| !(1.0..=70.0).contains(limit)) {
             return Err(format!("has a speed limit of {limit} m/s: give 1 to 70 m/s"));
+        }
+        let driven = self.section(street).driven();
+        for (arrows, lanes) in [(&street.turns.forward, driven.0), (&street.turns.backward, driven.1)] {
+            if !(arrows.is_empty() || arrows.len() == lanes && arrows.iter().copied().all(TurnSet::is_known))
+            {
+                return Err(format!(
+                    "has {} arrows on {lanes} lanes: give one a lane, or none",
+                    arrows.len()
+                ));
+            }
         }
         if !street.via.iter().all(is_near) {
             return Err("has a point of its course that is not within ±1e7 m".to_owned());

@@ -4,7 +4,7 @@
 //! nobody is on the strips that it passes over, and there is room behind it. Leave ends when the vehicle's rear is
 //! out. Two vehicles on touching ways are therefore never in the junction at once, whatever their drivers do.
 
-use simworld_core::net::{Aspect, Turn};
+use simworld_core::net::Aspect;
 
 use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager, room_for};
 use super::tracks::{Track, Tracks};
@@ -53,10 +53,11 @@ pub(super) fn revoke(
             let Some(group) = tracks.network.connections[way].signal else { continue };
             let distance = end - vehicle.s;
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
-            let turns_left = tracks.network.connections[way].turn == Turn::Left;
+            let crosses_oncoming =
+                tracks.network.connections[way].turn == tracks.network.driving_side.turn_across();
             let gone = match sight.aspects[group.index()] {
                 Aspect::Green => false,
-                Aspect::Yellow => needed <= COMFORTABLE && !(turns_left && distance < AT_LINE),
+                Aspect::Yellow => needed <= COMFORTABLE && !(crosses_oncoming && distance < AT_LINE),
                 Aspect::Red => needed <= HARDEST_BRAKING,
             };
             if gone {
@@ -161,10 +162,10 @@ fn signal_allows(tracks: &Tracks, sight: &Sight<'_>, way: usize, vehicle: &Vehic
         Aspect::Green => true,
         Aspect::Red => false,
         Aspect::Yellow => {
-            // Too late to stop; or a left turn that waited through the whole green for its gap.
+            // Too late to stop; or a turn across oncoming traffic that waited through the whole green for its gap.
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
             needed > COMFORTABLE
-                || (connection.turn == Turn::Left
+                || (connection.turn == tracks.network.driving_side.turn_across()
                     && distance < AT_LINE
                     && vehicle.stood > 5.0
                     && sight.shown[group.index()] < FRESH)

@@ -24,7 +24,7 @@ use std::{fs, io, thread};
 
 use frame::{Sections, Tag};
 use serde::{Deserialize, Serialize};
-use simworld_core::net::{NetworkError, NetworkFault, RoadNetwork, StreetPlan};
+use simworld_core::net::{DrivingSide, NetworkError, NetworkFault, RoadNetwork, StreetPlan};
 use thiserror::Error;
 
 use super::atomic;
@@ -35,7 +35,7 @@ use crate::{City, CityConfig, CityError, Provenance};
 /// The first bytes of a saved city: no text, no other format, and damaged by tools that mend line ends.
 pub const MAGIC: [u8; 8] = *b"\x89SIMCTY\n";
 /// Version of the format; it changes when the meaning of any byte does.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// The usual ending of the name of a saved city.
 pub const EXTENSION: &str = "simcity";
 /// Files larger than this are refused, bytes.
@@ -127,6 +127,7 @@ struct Head {
     provenance: Provenance,
     frontage: f64,
     frontage_used: f64,
+    driving_side: DrivingSide,
     counts: Counts,
 }
 
@@ -184,6 +185,7 @@ impl City {
             provenance: self.provenance.clone(),
             frontage: self.frontage,
             frontage_used: self.frontage_used,
+            driving_side: self.network.driving_side,
             counts: Counts::of(self),
         };
         let mut frames = frame::Writer::begin(writer)?;
@@ -216,7 +218,7 @@ impl City {
         let counts = &head.counts;
         // The roads take about as long as all the rest.
         let (network, things) = thread::scope(|scope| {
-            let roads = scope.spawn(|| read_network(&sections, counts));
+            let roads = scope.spawn(|| read_network(&sections, counts, head.driving_side));
             let things = read_things(&sections, counts);
             (roads.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), things)
         });
@@ -282,8 +284,13 @@ fn read_things(
     Ok((plan, buildings, elements))
 }
 
-fn read_network(sections: &Sections<'_>, counts: &Counts) -> Result<RoadNetwork, SaveError> {
+fn read_network(
+    sections: &Sections<'_>,
+    counts: &Counts,
+    driving_side: DrivingSide,
+) -> Result<RoadNetwork, SaveError> {
     let network = RoadNetwork {
+        driving_side,
         roads: sections.list(Tag::Roads, counts.roads)?,
         lanes: sections.list(Tag::Lanes, counts.lanes)?,
         connections: sections.list(Tag::Connections, counts.connections)?,

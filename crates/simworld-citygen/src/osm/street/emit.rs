@@ -53,6 +53,8 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
             section,
             name,
             speed_limit,
+            level: character.level,
+            ..Street::simple(from, to)
         });
     }
     if plan.sections.is_empty() {

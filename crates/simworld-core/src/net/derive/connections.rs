@@ -5,7 +5,8 @@ use super::trace::Trace;
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, IntersectionId, LaneId};
 use crate::net::{
-    Connection, Control, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, Turn, polyline,
+    Connection, Control, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, StreetPlan, Turn, TurnSet,
+    polyline,
 };
 use crate::ops::wrap_angle;
 
@@ -15,13 +16,13 @@ const TOUCHING: f64 = 2.4;
 const STRAIGHT: f64 = 0.7;
 
 /// Adds the connections of one intersection.
-pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg]) {
+pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, id: IntersectionId, legs: &[Leg]) {
     let first = network.connections.len();
     let vehicle_groups =
         network.signals.last().filter(|plan| plan.intersection == id).map(|plan| plan.groups.clone());
     for (index, leg) in legs.iter().enumerate() {
         let signal = vehicle_groups.as_ref().map(|groups| groups[index]);
-        for (from, to, turn) in movements(network, legs, leg) {
+        for (from, to, turn) in movements(network, plan, legs, leg) {
             add_connection(network, id, from, to, turn, signal);
         }
     }
@@ -43,28 +44,45 @@ fn leaving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
 }
 
 /// Which lanes of a leg lead to which lanes of the others.
-fn movements(network: &RoadNetwork, legs: &[Leg], leg: &Leg) -> Vec<(LaneId, LaneId, Turn)> {
+fn movements(
+    network: &RoadNetwork,
+    plan: &StreetPlan,
+    legs: &[Leg],
+    leg: &Leg,
+) -> Vec<(LaneId, LaneId, Turn)> {
     let from = arriving(network, leg);
+    let arrows = arrows(plan, leg);
     let mut found = Vec::new();
     for other in legs.iter().filter(|other| other.street != leg.street) {
+        let turn = turn_between(plan, leg, other);
         let to = leaving(network, other);
-        if from.is_empty() || to.is_empty() {
+        // Where only two roads meet, all lanes follow the bend.
+        if legs.len() == 2 {
+            lane_to_lane(from, to, turn, &mut found);
             continue;
         }
-        let turn = turn_between(leg, other);
+        let usable: Vec<LaneId> = match turn {
+            _ if arrows.len() == from.len() => from
+                .iter()
+                .zip(arrows)
+                .filter(|(_, arrow)| arrow.allows(turn))
+                .map(|(lane, _)| *lane)
+                .collect(),
+            Turn::Straight => from.to_vec(),
+            Turn::Right => from.last().copied().into_iter().collect(),
+            Turn::Left | Turn::UTurn => from.first().copied().into_iter().collect(),
+        };
         match turn {
-            // Where only two roads meet, all lanes follow the bend.
-            _ if legs.len() == 2 => lane_to_lane(from, to, turn, &mut found),
-            Turn::Straight => lane_to_lane(from, to, turn, &mut found),
-            Turn::Right => found.push((from[from.len() - 1], to[to.len() - 1], turn)),
-            Turn::Left | Turn::UTurn => found.push((from[0], to[0], turn)),
+            Turn::Straight => lane_to_lane(&usable, to, turn, &mut found),
+            // Side by side, along the outer kerb or along the middle.
+            Turn::Right => {
+                found.extend(usable.iter().rev().zip(to.iter().rev()).map(|(a, b)| (*a, *b, turn)));
+            }
+            Turn::Left | Turn::UTurn => found.extend(usable.iter().zip(to).map(|(a, b)| (*a, *b, turn))),
         }
     }
     if found.is_empty() {
-        let back = leaving(network, leg);
-        if !back.is_empty() {
-            lane_to_lane(from, back, Turn::UTurn, &mut found);
-        }
+        lane_to_lane(from, leaving(network, leg), Turn::UTurn, &mut found);
     }
     let stranded: Vec<LaneId> =
         from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
@@ -73,6 +91,12 @@ fn movements(network: &RoadNetwork, legs: &[Leg], leg: &Leg) -> Vec<(LaneId, Lan
     }
     found.sort_unstable();
     found
+}
+
+/// The arrows on the lanes that arrive over a leg, from the middle outwards; none if there are none.
+fn arrows<'a>(plan: &'a StreetPlan, leg: &Leg) -> &'a [TurnSet] {
+    let turns = &plan.streets[leg.street].turns;
+    if leg.at_start { &turns.backward } else { &turns.forward }
 }
 
 /// Each lane to the one of its rank; those in excess on either side share the outermost. Nothing where one side is a
@@ -86,14 +110,15 @@ fn lane_to_lane(from: &[LaneId], to: &[LaneId], turn: Turn, found: &mut Vec<(Lan
     }
 }
 
-fn turn_between(from: &Leg, to: &Leg) -> Turn {
+/// The turn from one leg to another. On to the ring of a roundabout and off it one turns right, whatever the angle.
+fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
     let change = wrap_angle(to.heading - from.heading - std::f64::consts::PI);
-    if change.abs() <= STRAIGHT {
-        Turn::Straight
-    } else if change > 0.0 {
-        Turn::Left
-    } else {
-        Turn::Right
+    let in_ring = |leg: &Leg| plan.streets[leg.street].roundabout;
+    match (in_ring(from), in_ring(to)) {
+        (true, true) => Turn::Straight,
+        (false, false) if change.abs() <= STRAIGHT => Turn::Straight,
+        (false, false) if change > 0.0 => Turn::Left,
+        _ => Turn::Right,
     }
 }
 
@@ -206,17 +231,20 @@ fn go_together(plan: Option<&SignalPlan>, a: &Claim<'_>, b: &Claim<'_>) -> bool 
     plan.is_some_and(|plan| first == second || plan.phases.iter().any(both))
 }
 
-/// The place in the order of right of way, lowest first: the higher road class, then straight before right before
+/// The place in the order of right of way, lowest first: the ring of a roundabout, the higher road class, then straight before right before
 /// left; the index settles the rest, so that two never give way to each other.
 fn right_of_way(network: &RoadNetwork, id: ConnectionId) -> (u8, u8, ConnectionId) {
     let connection = &network.connections[id.index()];
     let road = network.lanes[connection.from.index()].road;
     let controlled = network.intersections[connection.intersection.index()].control == Control::Signals;
-    let class = match network.roads[road.index()].class {
-        _ if controlled => 0,
-        RoadClass::Highway => 0,
-        RoadClass::Arterial => 1,
-        RoadClass::Local => 2,
+    let road = &network.roads[road.index()];
+    let class = match road.class {
+        // Who is in a roundabout goes first.
+        _ if road.roundabout => 0,
+        _ if controlled => 1,
+        RoadClass::Highway => 1,
+        RoadClass::Arterial => 2,
+        RoadClass::Local => 3,
     };
     let turn = match connection.turn {
         Turn::Straight => 0,

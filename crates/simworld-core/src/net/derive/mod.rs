@@ -3,6 +3,7 @@
 mod connections;
 mod lanes;
 mod legs;
+mod mirror;
 mod signals;
 mod trace;
 mod walkways;
@@ -10,7 +11,7 @@ mod walkways;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Control, Intersection, Road, RoadClass, RoadNetwork, Street, StreetPlan};
+use super::{Control, DrivingSide, Intersection, Road, RoadClass, RoadNetwork, Street, StreetPlan};
 use crate::geometry::Point2;
 use crate::id::{IntersectionId, RoadId};
 use legs::Leg;
@@ -65,6 +66,22 @@ pub enum NetworkError {
         value: f64,
         /// What is allowed, in words.
         allowed: &'static str,
+    },
+    /// Heights that are not one a node.
+    #[error("there are {given} heights for {nodes} nodes: give one a node, or none")]
+    Elevations {
+        /// How many there are.
+        given: usize,
+        /// How many there should be.
+        nodes: usize,
+    },
+    /// A node at no height.
+    #[error("node {node} lies at {height} m: give -10 000 to 10 000 m")]
+    Elevation {
+        /// Its index in the plan.
+        node: usize,
+        /// Its height, m.
+        height: f64,
     },
     /// A street that cannot be built.
     #[error("street {street}: {reason}")]
@@ -136,6 +153,13 @@ impl RoadNetwork {
     pub fn derive(plan: &StreetPlan, config: &NetworkConfig) -> Result<Self, NetworkError> {
         config.validate()?;
         plan.validate()?;
+        Ok(match plan.driving_side {
+            DrivingSide::Right => Self::keeping_right(plan, config),
+            DrivingSide::Left => mirror::network(Self::keeping_right(&mirror::plan(plan), config)),
+        })
+    }
+
+    fn keeping_right(plan: &StreetPlan, config: &NetworkConfig) -> Self {
         let legs = legs::of_plan(plan, config);
         let mut network = Self::default();
         for street in &plan.streets {
@@ -144,16 +168,19 @@ impl RoadNetwork {
         network.names.clone_from(&plan.names);
         for (node, legs) in legs.iter().enumerate() {
             let control = plan.controls.get(&node).copied();
-            network.intersections.push(intersection(plan.nodes[node], legs, control, config));
+            let in_ring = legs.iter().any(|leg| plan.streets[leg.street].roundabout);
+            let control = control.or(in_ring.then_some(Control::Priority));
+            let height = plan.elevation(node);
+            network.intersections.push(intersection((plan.nodes[node], height), legs, control, config));
         }
         lanes::add(&mut network, plan, &legs, config);
         walkways::add(&mut network, plan, &legs, config);
         for (node, legs) in legs.iter().enumerate() {
             let id = IntersectionId::from_index(node);
             signals::add(&mut network, id, legs, config);
-            connections::add(&mut network, id, legs);
+            connections::add(&mut network, plan, id, legs);
         }
-        Ok(network)
+        network
     }
 }
 
@@ -171,11 +198,13 @@ fn road(plan: &StreetPlan, street: &Street) -> Road {
         forward: Vec::new(),
         backward: Vec::new(),
         sidewalks: [None; 2],
+        roundabout: street.roundabout,
+        level: street.level,
     }
 }
 
 fn intersection(
-    center: Point2,
+    (center, height): (Point2, f64),
     legs: &[Leg],
     known: Option<Control>,
     config: &NetworkConfig,
@@ -188,6 +217,7 @@ fn intersection(
     };
     Intersection {
         center,
+        height,
         outline: legs::outline(center, legs),
         roads: legs.iter().map(|leg| RoadId::from_index(leg.street)).collect(),
         control,

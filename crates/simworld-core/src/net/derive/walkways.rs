@@ -12,7 +12,8 @@ pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>
     for (node, legs) in legs.iter().enumerate() {
         let id = IntersectionId::from_index(node);
         for leg in legs.iter().filter(|_| legs.len() >= 3) {
-            if joins_two_sidewalks(network, leg) {
+            // Nobody crosses the ring of a roundabout.
+            if joins_two_sidewalks(network, leg) && !plan.streets[leg.street].roundabout {
                 add_crossing(network, id, leg, config);
             }
         }

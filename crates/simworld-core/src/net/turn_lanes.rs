@@ -1,0 +1,104 @@
+//! What is painted on lanes before a junction: which turns they are for.
+
+use serde::{Deserialize, Serialize};
+
+use super::Turn;
+
+/// A set of turns; an empty one allows whatever the junction does.
+///
+/// ```
+/// use simworld_core::net::{Turn, TurnSet};
+/// let arrow = TurnSet::of(&[Turn::Straight, Turn::Right]);
+/// assert!(arrow.allows(Turn::Right) && !arrow.allows(Turn::Left));
+/// assert!(TurnSet::ANY.allows(Turn::Left));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct TurnSet(u8);
+
+impl TurnSet {
+    /// No arrow: whatever the junction allows.
+    pub const ANY: Self = Self(0);
+
+    /// An arrow for these turns.
+    pub const fn of(turns: &[Turn]) -> Self {
+        let (mut bits, mut index) = (0, 0);
+        while index < turns.len() {
+            bits |= Self::bit(turns[index]);
+            index += 1;
+        }
+        Self(bits)
+    }
+
+    const fn bit(turn: Turn) -> u8 {
+        match turn {
+            Turn::Straight => 1,
+            Turn::Right => 2,
+            Turn::Left => 4,
+            Turn::UTurn => 8,
+        }
+    }
+
+    /// Whether there is no arrow.
+    pub const fn is_any(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether one may turn so.
+    pub const fn allows(self, turn: Turn) -> bool {
+        self.is_any() || self.0 & Self::bit(turn) != 0
+    }
+
+    /// With left and right exchanged.
+    #[must_use]
+    pub const fn mirrored(self) -> Self {
+        Self(self.0 & !6 | (self.0 & 2) << 1 | (self.0 & 4) >> 1)
+    }
+
+    pub(crate) const fn is_known(self) -> bool {
+        self.0 < 16
+    }
+}
+
+/// The arrows on the driven lanes of a street, for each of its two directions from left to right as drivers see them;
+/// an empty list has none.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct TurnLanes {
+    /// On the lanes along the centreline, before its end.
+    pub forward: Vec<TurnSet>,
+    /// On the lanes against it, before its beginning.
+    pub backward: Vec<TurnSet>,
+}
+
+impl TurnLanes {
+    /// Whether there are none at all.
+    pub fn is_empty(&self) -> bool {
+        self.forward.is_empty() && self.backward.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mirror_exchanges_left_and_right_alone() {
+        let all = [Turn::Straight, Turn::Right, Turn::Left, Turn::UTurn];
+        let mirrored = |turn| match turn {
+            Turn::Left => Turn::Right,
+            Turn::Right => Turn::Left,
+            other => other,
+        };
+        for bits in 1..16_u8 {
+            let turns: Vec<Turn> = all
+                .into_iter()
+                .enumerate()
+                .filter(|(bit, _)| bits >> bit & 1 == 1)
+                .map(|(_, turn)| turn)
+                .collect();
+            let set = TurnSet::of(&turns);
+            assert!(set.is_known() && set.mirrored().mirrored() == set);
+            assert!(all.iter().all(|turn| set.allows(*turn) == set.mirrored().allows(mirrored(*turn))));
+        }
+    }
+}
