@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
-use simworld_core::id::{AssetId, EntityId};
-use simworld_core::net::{Crossing, DrivingSide};
+use simworld_core::id::{AssetId, EntityId, RoadId};
+use simworld_core::net::{Crossing, DrivingSide, RoadNetwork, Side};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World, WorldError};
 
 use crate::City;
 use crate::building::{Archetype, Building, STOREY};
-use crate::element::Element;
+use crate::element::{Element, Extent};
 use crate::strips::{lane_reach, strip};
 
 /// Tops of the flat layers, m: a hair apart, so that each covers the one below; people stand on the sidewalk's.
@@ -48,10 +48,53 @@ impl City {
     /// The world refused an entity.
     pub fn populate(&self, world: &mut World) -> Result<CityEntities, WorldError> {
         world.set_roads(Arc::clone(&self.network));
+        let parts = Parts {
+            network: &self.network,
+            buildings: &self.buildings,
+            elements: &self.elements,
+            within: None,
+            ground: self.network.bounds(),
+            margin: MARGIN,
+        };
+        parts.spawn(world)
+    }
+}
+
+impl CityEntities {
+    /// Every one of them.
+    pub fn iter(&self) -> impl Iterator<Item = EntityId> + '_ {
+        let Self { buildings, wings, elements, surfaces, signals } = self;
+        [buildings, wings, elements, surfaces, signals].into_iter().flatten().copied()
+    }
+
+    /// Takes all of them out of the world; those that are gone already are no fault.
+    pub fn leave(self, world: &mut World) {
+        for id in self.iter() {
+            // Who removed it before us had the right to.
+            let _ = world.remove(id);
+        }
+    }
+}
+
+/// What is put into a world: a city, or a part of one.
+pub(crate) struct Parts<'a> {
+    pub(crate) network: &'a RoadNetwork,
+    pub(crate) buildings: &'a [Building],
+    pub(crate) elements: &'a [Element],
+    /// The part of the network that is meant; all of it if nothing is said.
+    pub(crate) within: Option<&'a Extent>,
+    /// The rectangle of the ground, least and greatest corner, and how far the ground goes on beyond it, m.
+    pub(crate) ground: Option<(Point2, Point2)>,
+    pub(crate) margin: f64,
+}
+
+impl Parts<'_> {
+    /// Spawns all of it.
+    pub(crate) fn spawn(&self, world: &mut World) -> Result<CityEntities, WorldError> {
         let mut assets = Assets::new();
         let mut entities = CityEntities::default();
         self.spawn_surfaces(world, &mut entities.surfaces)?;
-        for building in &self.buildings {
+        for building in self.buildings {
             let mut solids = building.solids();
             let Some(front) = solids.next() else { continue };
             let asset = assets.of_building(building.archetype, world)?;
@@ -60,12 +103,12 @@ impl City {
                 entities.wings.push(world.spawn(describe_solid(building, &wing, asset))?);
             }
         }
-        for element in &self.elements {
+        for element in self.elements {
             let mut desc = describe_element(element);
             desc.info.asset = assets.of_kind(element.kind, world)?;
             entities.elements.push(world.spawn(desc)?);
         }
-        for crossing in self.network.crossings.iter().filter(|crossing| crossing.signal.is_some()) {
+        for crossing in self.crossings().filter(|crossing| crossing.signal.is_some()) {
             let mut desc = describe_signal(crossing, self.network.driving_side);
             desc.info.asset = assets.of_kind(EntityKind::TrafficSignal, world)?;
             entities.signals.push(world.spawn(desc)?);
@@ -73,19 +116,45 @@ impl City {
         Ok(entities)
     }
 
+    fn has_road(&self, road: RoadId) -> bool {
+        self.within.is_none_or(|extent| road.index() < extent.streets)
+    }
+
+    fn has_side(&self, road: RoadId, side: Side) -> bool {
+        self.within.is_none_or(|extent| extent.has_side(road, side))
+    }
+
+    fn crossings(&self) -> impl Iterator<Item = &Crossing> {
+        self.network.crossings.iter().filter(|crossing| self.has_road(crossing.road))
+    }
+
+    /// The walkways along streets and round corners.
+    fn walkways(&self) -> impl Iterator<Item = &Vec<Point2>> {
+        let along = self.network.sidewalks.iter().filter(|walk| self.has_side(walk.road, walk.side));
+        let corners = self.network.intersections.iter().enumerate().flat_map(move |(index, place)| {
+            let meant = move |rank: usize| {
+                place.roads.get(rank).is_none_or(|road| {
+                    // A corner begins on the left of its road, seen from the intersection.
+                    let leaves = self.network.roads[road.index()].from.index() == index;
+                    self.has_side(*road, if leaves { Side::Left } else { Side::Right })
+                })
+            };
+            place.corners.iter().enumerate().filter(move |(rank, _)| meant(*rank)).map(|(_, corner)| corner)
+        });
+        along.map(|walk| &walk.path).chain(corners)
+    }
+
     fn spawn_surfaces(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
-        let network = &self.network;
-        if let Some((low, high)) = network.bounds() {
-            let (a, b) =
-                (Point2::new(low.x, (low.y + high.y) * 0.5), Point2::new(high.x, (low.y + high.y) * 0.5));
-            let half = (high.y - low.y) * 0.5 + MARGIN;
-            spawned.push(world.spawn(layer(
-                EntityKind::Ground,
-                &Stripe { a, b, half, extend: MARGIN },
-                GROUND_TOP,
-            ))?);
+        if let Some((low, high)) = self.ground {
+            let middle = (low.y + high.y) * 0.5;
+            let (a, b) = (Point2::new(low.x, middle), Point2::new(high.x, middle));
+            let stripe = Stripe { a, b, half: (high.y - low.y) * 0.5 + self.margin, extend: self.margin };
+            spawned.push(world.spawn(layer(EntityKind::Ground, &stripe, GROUND_TOP))?);
         }
-        for road in &network.roads {
+        for (index, road) in self.network.roads.iter().enumerate() {
+            if !self.has_road(RoadId::from_index(index)) {
+                continue;
+            }
             let half = lane_reach(road);
             // Beyond its ends a road reaches as far as it is wide, and so covers its junctions.
             for piece in road.centerline.windows(2) {
@@ -93,15 +162,13 @@ impl City {
                 spawned.push(world.spawn(layer(EntityKind::Road, &stripe, ROAD_TOP))?);
             }
         }
-        for crossing in &network.crossings {
+        for crossing in self.crossings() {
             let stripe =
                 Stripe { a: crossing.start, b: crossing.end, half: crossing.width * 0.5, extend: 0.0 };
             spawned.push(world.spawn(layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP))?);
         }
-        let width = network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
-        let walks = network.sidewalks.iter().map(|sidewalk| &sidewalk.path);
-        let corners = network.intersections.iter().flat_map(|intersection| &intersection.corners);
-        for path in walks.chain(corners) {
+        let width = self.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
+        for path in self.walkways() {
             for piece in path.windows(2).filter(|piece| (piece[1] - piece[0]).norm() > 0.01) {
                 let stripe = Stripe { a: piece[0], b: piece[1], half: width * 0.5, extend: 0.0 };
                 spawned.push(world.spawn(layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP))?);

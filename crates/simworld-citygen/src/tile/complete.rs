@@ -2,17 +2,20 @@
 
 use std::sync::Arc;
 
+use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadNetwork, StreetPlan};
+use simworld_core::scene::World;
 
 use super::draft::Draft;
 use super::{TileId, TileSource};
-use crate::CityError;
 use crate::block::Block;
 use crate::building::{self, Building};
 use crate::element::{self, Element, Extent, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
+use crate::populate::Parts;
 use crate::zoning::Zoning;
+use crate::{CityEntities, CityError};
 
 /// A tile and all that stands on it: a function of the source and its id.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +32,8 @@ pub struct Tile {
     pub buildings: Vec<Building>,
     /// Its street elements.
     pub elements: Vec<Element>,
+    /// Its square, the least and the greatest corner, m.
+    square: (Point2, Point2),
 }
 
 impl Tile {
@@ -55,7 +60,32 @@ impl Tile {
             within: Some(&extent),
         };
         let elements = element::furnish(&setting, &config.elements, seed, &mut taken);
-        Ok(Self { id, plan, extent, network: Arc::new(network), buildings, elements })
+        Ok(Self {
+            id,
+            plan,
+            extent,
+            network: Arc::new(network),
+            buildings,
+            elements,
+            square: source.square(id),
+        })
+    }
+
+    /// Puts the tile into a world: its ground, streets, buildings and elements as entities. The roads of the world stay as
+    /// they are; [`CityEntities::leave`] takes the tile out again.
+    ///
+    /// # Errors
+    /// The world refused an entity.
+    pub fn enter(&self, world: &mut World) -> Result<CityEntities, CityError> {
+        let parts = Parts {
+            network: &self.network,
+            buildings: &self.buildings,
+            elements: &self.elements,
+            within: Some(&self.extent),
+            ground: Some(self.square),
+            margin: 0.0,
+        };
+        Ok(parts.spawn(world)?)
     }
 }
 

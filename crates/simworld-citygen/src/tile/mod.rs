@@ -10,19 +10,23 @@ mod complete;
 mod config;
 mod draft;
 mod lattice;
+mod stream;
 mod window;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
+use simworld_core::net::StreetPlan;
 use simworld_core::seed::{Seed, Stream};
 
 pub use complete::Tile;
 pub use config::{LatticeConfig, TileConfig};
+pub use stream::{CityStream, StreamConfig, TileChanges, WorldStream};
 pub use window::Window;
 
 use crate::CityError;
 use crate::growth::{self, Within};
+use draft::{Beyond, Drawer};
 use lattice::Lattice;
 
 /// A tile: the square from (x, y) to (x + 1, y + 1) times its side, but for the jitter of its main streets.
@@ -124,6 +128,26 @@ impl TileSource {
     /// No tiles, more than 10 000, or tiles too far from the origin.
     pub fn window(&self, south_west: TileId, north_east: TileId) -> Result<Window<'_>, CityError> {
         Window::new(self, south_west, north_east)
+    }
+
+    /// The square of a tile, its least and its greatest corner, m.
+    pub fn square(&self, id: TileId) -> (Point2, Point2) {
+        let side = self.config.lattice.tile_side();
+        let corner = |x: i32, y: i32| Point2::new(f64::from(x) * side, f64::from(y) * side);
+        (corner(id.x, id.y), corner(id.x + 1, id.y + 1))
+    }
+
+    /// The streets of some tiles and the main streets round them, joined.
+    pub(crate) fn plan_of(&self, ids: &[TileId]) -> StreetPlan {
+        let mut sorted = ids.to_vec();
+        sorted.sort_unstable();
+        let has = |x: i32, y: i32| sorted.binary_search(&TileId { x, y }).is_ok();
+        let mut drawer = Drawer::new(self);
+        for id in ids {
+            let beyond = Beyond::Seam { north: !has(id.x, id.y + 1), east: !has(id.x + 1, id.y) };
+            drawer.tile(self, *id, beyond);
+        }
+        drawer.plan
     }
 
     fn lattice(&self) -> &Lattice {

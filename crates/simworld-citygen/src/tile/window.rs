@@ -3,7 +3,6 @@
 use simworld_core::net::StreetPlan;
 use simworld_core::seed::Seed;
 
-use super::draft::{Beyond, Drawer};
 use super::{TileId, TileSource};
 use crate::{CityError, RoadSource};
 
@@ -54,12 +53,8 @@ impl<'a> Window<'a> {
 
     /// The streets of its tiles and the main streets round them, joined.
     pub fn plan(&self) -> StreetPlan {
-        let mut drawer = Drawer::new(self.source);
-        for id in self.tiles() {
-            let beyond = Beyond::Seam { north: id.y == self.high.y, east: id.x == self.high.x };
-            drawer.tile(self.source, id, beyond);
-        }
-        drawer.plan
+        let ids: Vec<TileId> = self.tiles().collect();
+        self.source.plan_of(&ids)
     }
 }
 
