@@ -46,6 +46,8 @@ pub struct PlaceOptions {
 
 /// A building farther than this from every sidewalk has no way in, m.
 const FARTHEST_DOOR: f64 = 150.0;
+/// Most are nearer than this to one, m.
+const USUAL_DOOR: f64 = 40.0;
 /// Lots nearer than one or two of these to a building of the map are not filled, m.
 const FILLED_CELL: f64 = 90.0;
 /// A kind of thing of which the map has less than one on so much sidewalk is generated, m.
@@ -158,7 +160,8 @@ fn stand(
     ground: &Ground,
     warnings: &mut Vec<Warning>,
 ) -> Vec<Building> {
-    let doors = Doors::of(network, FARTHEST_DOOR);
+    // Most doors are near: the wide search is for the others.
+    let doors = [Doors::of(network, USUAL_DOOR), Doors::of(network, FARTHEST_DOOR)];
     let mut standing = Occupancy::with_capacity(outlines.len() * 4);
     building::adopt(place, &mut outlines);
     let mut buildings = Vec::with_capacity(outlines.len());

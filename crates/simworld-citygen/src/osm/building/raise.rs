@@ -21,10 +21,10 @@ struct Round {
     width: f64,
 }
 
-/// Raises a building on an outline; `None` if no sidewalk is near.
-pub(in crate::osm) fn raise(outline: &Outline, network: &RoadNetwork, doors: &Doors) -> Option<Building> {
+/// Raises a building on an outline; `None` if no sidewalk is near. The doors are asked in turn.
+pub(in crate::osm) fn raise(outline: &Outline, network: &RoadNetwork, doors: &[Doors]) -> Option<Building> {
     let round = round(&outline.corners);
-    let door = doors.nearest(network, round.middle)?;
+    let door = doors.iter().find_map(|doors| doors.nearest(network, round.middle))?;
     // Of the four sides the one that looks to the sidewalk has the entrance.
     let to_street = heading(&(door.at - round.middle));
     let quarter = std::f64::consts::FRAC_PI_2;
