@@ -14,6 +14,7 @@ pub mod graph;
 pub mod growth;
 pub mod lot;
 pub mod map;
+pub mod name;
 pub mod occupancy;
 #[cfg(feature = "osm")]
 pub mod osm;

@@ -3,7 +3,7 @@
 use simworld_core::net::StreetPlan;
 use simworld_core::seed::Seed;
 
-use crate::{CityError, RoadConfig, growth};
+use crate::{CityError, RoadConfig, growth, name};
 
 /// A source of streets; everything else of a city follows from them.
 ///
@@ -49,7 +49,9 @@ pub trait RoadSource {
 impl RoadSource for RoadConfig {
     fn streets(&self, seed: Seed) -> Result<StreetPlan, CityError> {
         self.validate()?;
-        Ok(growth::grow(self, seed))
+        let mut plan = growth::grow(self, seed);
+        name::streets(&mut plan, seed);
+        Ok(plan)
     }
 }
 
