@@ -9,6 +9,7 @@ use crate::building::{self, Building};
 use crate::element::{self, Element, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
+use crate::terrain::{self, Terrain};
 use crate::zoning::Zoning;
 use crate::{CityConfig, CityError, CityReport, Provenance, RoadSource};
 
@@ -62,8 +63,14 @@ impl City {
     ///
     /// # Errors
     /// A setting out of range, or streets that cannot be built.
-    pub fn from_plan(plan: StreetPlan, config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
+    pub fn from_plan(mut plan: StreetPlan, config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
         config.validate()?;
+        plan.validate()?;
+        // Streets that know their heights keep them.
+        if config.terrain.relief > 0.0 && plan.elevations.is_empty() {
+            let land = Terrain::new(&config.terrain, seed);
+            plan.elevations = terrain::elevations(&plan, &land, &config.terrain);
+        }
         let network = RoadNetwork::derive(&plan, &config.network)?;
         let mut taken = Occupancy::of_roads(&network);
         let zoning = Zoning::new(&config.zoning, seed);
@@ -101,6 +108,11 @@ impl City {
         let seed = self.provenance.seed;
         let zoning = Zoning::new(&self.config.zoning, seed);
         Land::of_network(&self.network, &zoning, &self.config.lots, seed, &Occupancy::of_roads(&self.network))
+    }
+
+    /// The land under it, before streets were cut into it.
+    pub fn terrain(&self) -> Terrain {
+        Terrain::new(&self.config.terrain, self.provenance.seed)
     }
 
     /// The statistics of the city.

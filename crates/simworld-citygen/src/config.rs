@@ -5,6 +5,7 @@ use simworld_core::net::{LANE_WIDTH, NetworkConfig, SIDEWALK_WIDTH};
 
 use crate::CityError;
 use crate::lot::LotConfig;
+use crate::terrain::TerrainConfig;
 use crate::zoning::ZoningConfig;
 
 /// How streets grow.
@@ -186,6 +187,8 @@ pub struct CityConfig {
     pub elements: ElementConfig,
     /// Limits and signals.
     pub network: NetworkConfig,
+    /// The heights under it.
+    pub terrain: TerrainConfig,
 }
 
 impl CityConfig {
@@ -199,7 +202,7 @@ impl CityConfig {
     /// # Errors
     /// The first field out of range; NaN always is.
     pub fn validate(&self) -> Result<(), CityError> {
-        let Self { roads, zoning, lots, buildings, elements, network } = self;
+        let Self { roads, zoning, lots, buildings, elements, network, terrain } = self;
         let checks = [
             ("buildings.setback", buildings.setback, 0.5, 50.0, "0.5 to 50 m"),
             ("buildings.gap", buildings.gap, 0.0, 50.0, "0 to 50 m"),
@@ -214,6 +217,7 @@ impl CityConfig {
         check(&checks)?;
         zoning.validate()?;
         lots.validate()?;
+        terrain.validate()?;
         Ok(network.validate()?)
     }
 }

@@ -25,6 +25,7 @@ mod report;
 mod source;
 mod strips;
 mod style;
+pub mod terrain;
 pub mod tile;
 pub mod zoning;
 

@@ -12,6 +12,7 @@ use crate::City;
 use crate::building::{Archetype, Building, STOREY};
 use crate::element::{Element, Extent};
 use crate::strips::{lane_reach, strip};
+use crate::terrain::Ground;
 
 /// Tops of the flat layers, m: a hair apart, so that each covers the one below; people stand on the sidewalk's.
 const GROUND_TOP: f64 = -0.03;
@@ -22,6 +23,9 @@ const SIDEWALK_TOP: f64 = 0.0;
 const LAYER: f64 = 0.05;
 /// Distance of a signal post from the kerb and from its crossing, m.
 const POST_SETBACK: f64 = 0.35;
+/// Width of a plate of hilly ground, and its top: a little lower, for between its ends it is straight, m.
+const PLATE: f64 = 30.0;
+const PLATE_TOP: f64 = -0.35;
 /// Ground beyond the outermost street, m.
 const MARGIN: f64 = 120.0;
 
@@ -48,7 +52,10 @@ impl City {
     /// The world refused an entity.
     pub fn populate(&self, world: &mut World) -> Result<CityEntities, WorldError> {
         world.set_roads(Arc::clone(&self.network));
+        let land = self.terrain();
+        let heights = Ground::new(&self.network, &land);
         let parts = Parts {
+            heights: &heights,
             network: &self.network,
             buildings: &self.buildings,
             elements: &self.elements,
@@ -78,6 +85,7 @@ impl CityEntities {
 
 /// What is put into a world: a city, or a part of one.
 pub(crate) struct Parts<'a> {
+    pub(crate) heights: &'a Ground<'a>,
     pub(crate) network: &'a RoadNetwork,
     pub(crate) buildings: &'a [Building],
     pub(crate) elements: &'a [Element],
@@ -98,19 +106,24 @@ impl Parts<'_> {
             let mut solids = building.solids();
             let Some(front) = solids.next() else { continue };
             let asset = assets.of_building(building.archetype, world)?;
-            entities.buildings.push(world.spawn(describe_building(building, &front, asset))?);
+            // Its threshold is level with the sidewalk.
+            let base = self.heights.height(building.access);
+            entities.buildings.push(world.spawn(lifted(describe_building(building, &front, asset), base))?);
             for wing in solids {
-                entities.wings.push(world.spawn(describe_solid(building, &wing, asset))?);
+                entities.wings.push(world.spawn(lifted(describe_solid(building, &wing, asset), base))?);
             }
         }
         for element in self.elements {
             let mut desc = describe_element(element);
             desc.info.asset = assets.of_kind(element.kind, world)?;
+            let desc = lifted(desc, self.heights.height(element.position));
             entities.elements.push(world.spawn(desc)?);
         }
         for crossing in self.crossings().filter(|crossing| crossing.signal.is_some()) {
             let mut desc = describe_signal(crossing, self.network.driving_side);
             desc.info.asset = assets.of_kind(EntityKind::TrafficSignal, world)?;
+            let at = desc.pose.translation.vector.xy();
+            let desc = lifted(desc, self.heights.height(at.into()));
             entities.signals.push(world.spawn(desc)?);
         }
         Ok(entities)
@@ -144,13 +157,59 @@ impl Parts<'_> {
         along.map(|walk| &walk.path).chain(corners)
     }
 
-    fn spawn_surfaces(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
-        if let Some((low, high)) = self.ground {
+    /// One level plate, or many that follow the hills.
+    fn spawn_ground(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
+        let Some((low, high)) = self.ground else { return Ok(()) };
+        if self.heights.is_level() {
             let middle = (low.y + high.y) * 0.5;
             let (a, b) = (Point2::new(low.x, middle), Point2::new(high.x, middle));
-            let stripe = Stripe { a, b, half: (high.y - low.y) * 0.5 + self.margin, extend: self.margin };
+            let half = (high.y - low.y) * 0.5 + self.margin;
+            let stripe = Stripe { a, b, half, extend: self.margin };
             spawned.push(world.spawn(layer(EntityKind::Ground, &stripe, GROUND_TOP))?);
+            return Ok(());
         }
+        let margin = Vector2::repeat(self.margin);
+        let (low, high) = (low - margin, high + margin);
+        let count = ((high - low) / PLATE).map(f64::ceil);
+        for row in 0..count.y as u32 {
+            let y = low.y + (f64::from(row) + 0.5) * PLATE;
+            for column in 0..count.x as u32 {
+                let x = low.x + f64::from(column) * PLATE;
+                let stripe = Stripe {
+                    a: Point2::new(x, y),
+                    b: Point2::new(x + PLATE, y),
+                    half: PLATE * 0.5,
+                    extend: 0.0,
+                };
+                spawned.push(world.spawn(self.layer(EntityKind::Ground, &stripe, PLATE_TOP))?);
+            }
+        }
+        Ok(())
+    }
+
+    /// A flat layer along a line, which rises as the ground does from one end to the other.
+    fn layer(&self, kind: EntityKind, stripe: &Stripe, top: f64) -> EntityDesc {
+        let mut desc = layer(kind, stripe, top);
+        if self.heights.is_level() {
+            return desc;
+        }
+        let (from, to) = (self.heights.height(stripe.a), self.heights.height(stripe.b));
+        let (run, rise) = ((stripe.b - stripe.a).norm(), to - from);
+        let climb = nalgebra::UnitQuaternion::from_axis_angle(
+            &nalgebra::Vector3::y_axis(),
+            -simworld_core::ops::atan2(rise, run),
+        );
+        desc.pose.translation.z += (from + to) * 0.5;
+        desc.pose.rotation *= climb;
+        let size = desc.info.shape.size();
+        // As long as the slope is, so that it still reaches both ends.
+        let length = size.x * (run * run + rise * rise).sqrt() / run.max(1e-6);
+        desc.info.shape = Shape::cuboid(length, size.y, size.z);
+        desc
+    }
+
+    fn spawn_surfaces(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
+        self.spawn_ground(world, spawned)?;
         for (index, road) in self.network.roads.iter().enumerate() {
             if !self.has_road(RoadId::from_index(index)) {
                 continue;
@@ -159,19 +218,19 @@ impl Parts<'_> {
             // Beyond its ends a road reaches as far as it is wide, and so covers its junctions.
             for piece in road.centerline.windows(2) {
                 let stripe = Stripe { a: piece[0], b: piece[1], half, extend: half };
-                spawned.push(world.spawn(layer(EntityKind::Road, &stripe, ROAD_TOP))?);
+                spawned.push(world.spawn(self.layer(EntityKind::Road, &stripe, ROAD_TOP))?);
             }
         }
         for crossing in self.crossings() {
             let stripe =
                 Stripe { a: crossing.start, b: crossing.end, half: crossing.width * 0.5, extend: 0.0 };
-            spawned.push(world.spawn(layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP))?);
+            spawned.push(world.spawn(self.layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP))?);
         }
         let width = self.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
         for path in self.walkways() {
             for piece in path.windows(2).filter(|piece| (piece[1] - piece[0]).norm() > 0.01) {
                 let stripe = Stripe { a: piece[0], b: piece[1], half: width * 0.5, extend: 0.0 };
-                spawned.push(world.spawn(layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP))?);
+                spawned.push(world.spawn(self.layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP))?);
             }
         }
         Ok(())
@@ -230,6 +289,15 @@ fn asset_of(kind: &Archetype) -> Asset {
         source: "simworld, procedural".to_owned(),
         ..Asset::new(kind.name, EntityKind::Building, collider)
     }
+}
+
+/// The same, so much higher.
+fn lifted(mut desc: EntityDesc, height: f64) -> EntityDesc {
+    desc.pose.translation.z += height;
+    if let Some(point) = &mut desc.info.access {
+        point.z += height;
+    }
+    desc
 }
 
 /// A rectangle along a line.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadNetwork, StreetPlan};
 use simworld_core::scene::World;
+use simworld_core::seed::Seed;
 
 use super::draft::Draft;
 use super::{TileId, TileSource};
@@ -14,6 +15,7 @@ use crate::element::{self, Element, Extent, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
 use crate::populate::Parts;
+use crate::terrain::{Ground, Terrain, TerrainConfig};
 use crate::zoning::Zoning;
 use crate::{CityEntities, CityError};
 
@@ -77,7 +79,11 @@ impl Tile {
     /// # Errors
     /// The world refused an entity.
     pub fn enter(&self, world: &mut World) -> Result<CityEntities, CityError> {
+        // Tiles are level: their streets have no heights.
+        let land = Terrain::new(&TerrainConfig::default(), Seed(0));
+        let heights = Ground::new(&self.network, &land);
         let parts = Parts {
+            heights: &heights,
             network: &self.network,
             buildings: &self.buildings,
             elements: &self.elements,
