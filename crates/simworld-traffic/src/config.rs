@@ -5,6 +5,7 @@ use simworld_core::net::NetworkError;
 use simworld_core::scene::WorldError;
 use thiserror::Error;
 
+use crate::crowd::AnticipationVelocity;
 use crate::vehicle::{Idm, Mobil};
 
 /// How much traffic there is, and how it behaves.
@@ -27,6 +28,8 @@ pub struct TrafficConfig {
     pub lateral_acceleration: f64,
     /// Weights of going straight, right and left at an intersection, each in [0, 1000], one of them positive.
     pub turns: [f64; 3],
+    /// How people walk among people.
+    pub walking: AnticipationVelocity,
     /// Mean free walking speed, m/s, in [0.3, 3] (Weidmann 1993: 1.34).
     pub walking_speed: f64,
     /// Its standard deviation, m/s, in [0, 1] (Weidmann 1993: 0.26).
@@ -46,6 +49,7 @@ impl Default for TrafficConfig {
             vans: 0.1,
             lateral_acceleration: 2.5,
             turns: [0.6, 0.2, 0.2],
+            walking: AnticipationVelocity::default(),
             walking_speed: 1.34,
             walking_deviation: 0.26,
             crossing_weight: 0.6,
@@ -126,7 +130,7 @@ impl TrafficConfig {
             ("walking_deviation", self.walking_deviation, 0.0, 1.0, "0 to 1 m/s"),
             ("crossing_weight", self.crossing_weight, 0.0, 10.0, "0 to 10"),
         ];
-        for (field, value, low, high, allowed) in checks {
+        for (field, value, low, high, allowed) in checks.into_iter().chain(self.walking.ranges()) {
             if !(low..=high).contains(&value) {
                 return Err(TrafficError::Config { field, value, allowed });
             }

@@ -3,6 +3,7 @@
 
 mod config;
 pub mod control;
+pub mod crowd;
 mod demand;
 mod dynamics;
 mod pedestrian;

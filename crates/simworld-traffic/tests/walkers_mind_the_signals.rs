@@ -1,4 +1,5 @@
-//! Walkers begin to cross on walk alone, are across before the cars come, and leave the carriageway otherwise.
+//! Walkers begin to cross on walk alone, are across before the cars come, and leave the carriageway otherwise; however many
+//! they are, they keep apart and get on.
 
 use std::sync::Arc;
 
@@ -57,5 +58,35 @@ fn walkers_keep_off_the_lanes() {
                 .expect("there are roads");
             assert!(road.0 > road.1.width * 0.5 - 1.0, "a walker is {:.1} m from a centreline", road.0);
         }
+    }
+}
+
+#[test]
+fn many_walkers_keep_apart_and_get_on() {
+    let network =
+        Arc::new(RoadNetwork::derive(&StreetPlan::grid(3, 3, 110.0), &NetworkConfig::default()).unwrap());
+    let config = TrafficConfig { vehicles: 20, pedestrians: 1200, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(network, &config, Seed(5)).unwrap();
+    assert_eq!(traffic.placed().pedestrians, 1200);
+    let apart = 2.0 * config.walking.radius;
+    let mut places = Vec::new();
+    for minute in 0..5 {
+        let before: Vec<_> = traffic.pedestrians().iter().map(|walker| walker.position).collect();
+        for _ in 0..600 {
+            traffic.step(0.1);
+            places.clear();
+            places.extend(traffic.pedestrians().iter().map(|walker| walker.position));
+            places.sort_by(|a, b| a.x.total_cmp(&b.x));
+            for (index, place) in places.iter().enumerate() {
+                let near = places[index + 1..].iter().take_while(|other| other.x - place.x < apart);
+                for other in near {
+                    assert!((other - place).norm() > apart - 1e-9, "{place} and {other} overlap");
+                }
+            }
+        }
+        let moved =
+            traffic.pedestrians().iter().zip(&before).filter(|(w, old)| (w.position - *old).norm() > 5.0);
+        let moved = moved.count();
+        assert!(moved > 1000, "only {moved} of 1200 got on in minute {minute}");
     }
 }

@@ -1,25 +1,24 @@
 //! The pedestrian manager: walkers on sidewalks and crossings.
 //!
-//! A walker turns towards its next waypoint by at most its turning rate and walks where it looks (the paper's model). It
-//! slows down behind others, passes oncoming ones on the right, waits at the kerb until it may walk, and never hurries back.
+//! A walker heads for its next waypoint, within the width of the walkway, and finds its way among the others as a
+//! [`crowd`](crate::crowd) does. It waits at the kerb until it may walk, and never hurries back.
 
-mod crowd;
+mod place;
 
-use crowd::Crowd;
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Point2, Vector2, direction, heading};
+use simworld_core::geometry::{Point2, Vector2, heading};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::{CrossingId, WaypointId};
 use simworld_core::net::{Aspect, RoadNetwork, WaypointGraph};
-use simworld_core::ops::wrap_angle;
 use simworld_core::seed::Stream;
 
 use crate::TrafficConfig;
+use crate::crowd::{Crowd, Person, Wall, Wish};
 
-/// Turning rate, rad/s.
-const TURNING_RATE: f64 = 4.0;
-/// A waypoint counts as reached within this distance, m.
+/// A waypoint counts as reached within this distance, or beside it, m.
 const REACHED: f64 = 0.5;
+/// Room that one keeps to the edge of a walkway where there is so much, m.
+const MARGIN: f64 = 0.3;
 /// Nobody crosses a road more slowly, m/s: signals leave time for 1.0.
 const CROSSING_SPEED: f64 = 1.25;
 
@@ -36,6 +35,8 @@ pub struct Pedestrian {
     pub crossing: Option<CrossingId>,
     /// The crossing at whose kerb it waits.
     pub waits_at: Option<CrossingId>,
+    /// Where it walks, of length one: the heading as a vector.
+    direction: Vector2,
     free_speed: f64,
     /// How far to the right of the middle it keeps, m.
     keep_right: f64,
@@ -55,6 +56,10 @@ pub(crate) struct PedestrianManager {
     #[serde(skip)]
     crowd: Crowd,
     #[serde(skip)]
+    people: Vec<Person>,
+    #[serde(skip)]
+    wishes: Vec<Wish>,
+    #[serde(skip)]
     weights: Vec<f64>,
 }
 
@@ -73,44 +78,24 @@ impl PedestrianManager {
         Self { on_crossing: vec![0; crossings], waiting: vec![0; crossings], ..Self::default() }
     }
 
-    /// Places walkers along walkways and returns how many found a place: none without walkways.
-    pub(crate) fn spawn(&mut self, ways: &WaypointGraph, config: &TrafficConfig, streams: Stream) -> u32 {
-        let mut rng = streams.named("places").rng();
-        let walkways: Vec<(WaypointId, WaypointId)> = (0..ways.waypoints().len())
-            .map(WaypointId::from_index)
-            .flat_map(|from| ways.edges(from).iter().map(move |edge| (from, edge)))
-            .filter(|(_, edge)| edge.crossing.is_none() && edge.length > 0.1)
-            .map(|(from, edge)| (from, edge.to))
-            .collect();
-        for index in 0..config.pedestrians {
-            let Some((from, to)) = rng.choose(&walkways).copied() else { return index };
-            let (a, b) = (ways.waypoint(from).position, ways.waypoint(to).position);
-            let speed = rng.normal_clamped(config.walking_speed, config.walking_deviation, 0.5, 2.5);
-            self.walkers.push(Pedestrian {
-                position: a + (b - a) * rng.unit(),
-                heading: heading(&(b - a)),
-                speed,
-                crossing: None,
-                waits_at: None,
-                free_speed: speed,
-                keep_right: rng.uniform(0.1, 0.8),
-                from,
-                to,
-                decisions: 0,
-            });
-        }
-        config.pedestrians
-    }
-
     pub(crate) fn step(&mut self, sight: &Sight<'_>, config: &TrafficConfig, streams: Stream, dt: f64) {
-        self.crowd.rebuild(self.walkers.iter().map(|walker| (walker.position, walker.heading)));
+        let mut weights = std::mem::take(&mut self.weights);
+        self.people.clear();
+        self.wishes.clear();
+        for (index, walker) in self.walkers.iter_mut().enumerate() {
+            walker.decide(sight, config, streams.indexed(index as u64), &mut weights);
+            self.people.push(walker.person());
+            self.wishes.push(walker.wish(sight.ways));
+        }
+        self.weights = weights;
+        let walkers = &self.walkers;
+        let edges =
+            |index: usize, at: Point2, walls: &mut Vec<Wall>| walkers[index].edges(sight.ways, at, walls);
+        self.crowd.step(&config.walking, &mut self.people, &self.wishes, &[], &edges, dt);
         self.on_crossing.fill(0);
         self.waiting.fill(0);
-        let mut weights = std::mem::take(&mut self.weights);
-        for (index, walker) in self.walkers.iter_mut().enumerate() {
-            let stream = streams.indexed(index as u64);
-            walker.decide(sight, config, stream, &mut weights);
-            walker.walk(sight, &self.crowd, index, dt);
+        for (walker, person) in self.walkers.iter_mut().zip(&self.people) {
+            walker.take_up(person);
             if let Some(crossing) = walker.crossing {
                 self.on_crossing[crossing.index()] += 1;
             }
@@ -118,7 +103,6 @@ impl PedestrianManager {
                 self.waiting[crossing.index()] += 1;
             }
         }
-        self.weights = weights;
     }
 
     /// Whether a saved state is one of this network.
@@ -151,8 +135,7 @@ fn shows_walk(sight: &Sight<'_>, crossing: CrossingId) -> bool {
 impl Pedestrian {
     /// At a waypoint: where to go on, and whether one may.
     fn decide(&mut self, sight: &Sight<'_>, config: &TrafficConfig, stream: Stream, weights: &mut Vec<f64>) {
-        let reached = (self.target(sight.ways) - self.position).norm() < REACHED;
-        if !reached && self.waits_at.is_none() {
+        if !self.has_arrived(sight.ways) && self.waits_at.is_none() {
             return;
         }
         if self.waits_at.is_none() {
@@ -183,31 +166,55 @@ impl Pedestrian {
         }
     }
 
-    fn walk(&mut self, sight: &Sight<'_>, crowd: &Crowd, index: usize, dt: f64) {
-        if self.waits_at.is_some() {
-            self.speed = 0.0;
-            return;
-        }
-        let around = crowd.ahead_of(index, self.position, self.heading);
-        let wanted =
-            heading(&(self.target(sight.ways) - self.position)) - if around.oncoming { 0.35 } else { 0.0 };
-        let error = wrap_angle(wanted - self.heading);
-        self.heading = wrap_angle(self.heading + error.clamp(-TURNING_RATE * dt, TURNING_RATE * dt));
-        let free = if self.crossing.is_some() {
-            self.free_speed.max(CROSSING_SPEED)
-        } else {
-            self.free_speed * around.freedom
+    /// Whether the next waypoint is reached, or where one would wait beside others who stand there.
+    fn has_arrived(&self, ways: &WaypointGraph) -> bool {
+        let offset = self.target(ways) - self.position;
+        let (along, half) = self.walkway(ways);
+        let beside = along.dot(&offset) < REACHED && along.perp(&offset).abs() < half.max(REACHED);
+        beside || offset.norm_squared() < REACHED * REACHED
+    }
+
+    fn person(&self) -> Person {
+        Person { position: self.position, direction: self.direction, speed: self.speed }
+    }
+
+    fn wish(&self, ways: &WaypointGraph) -> Wish {
+        let direction = (self.target(ways) - self.position).try_normalize(1e-9).unwrap_or(self.direction);
+        let speed = match (self.waits_at, self.crossing) {
+            (Some(_), _) => 0.0,
+            (None, Some(_)) => self.free_speed.max(CROSSING_SPEED),
+            (None, None) => self.free_speed,
         };
-        // Walking where one looks, more slowly while turning, so that nobody circles round a waypoint.
-        let facing = 1.0 - (error.abs() / std::f64::consts::PI).min(1.0);
-        self.speed = free * (facing * facing).max(0.05);
-        self.position += direction(self.heading) * (self.speed * dt);
+        Wish { direction, speed }
+    }
+
+    fn take_up(&mut self, person: &Person) {
+        if person.direction != self.direction {
+            self.heading = heading(&person.direction);
+        }
+        (self.position, self.direction, self.speed) = (person.position, person.direction, person.speed);
+    }
+
+    /// The direction of the walkway, and half its width, m.
+    fn walkway(&self, ways: &WaypointGraph) -> (Vector2, f64) {
+        let (from, to) = (ways.waypoint(self.from).position, ways.waypoint(self.to).position);
+        let width = ways.edge(self.from, self.to).map_or(0.0, |edge| f64::from(edge.width));
+        ((to - from).try_normalize(1e-9).unwrap_or_else(Vector2::x), width * 0.5)
+    }
+
+    /// The edges of the walkway, which one does not cross outwards.
+    fn edges(&self, ways: &WaypointGraph, at: Point2, walls: &mut Vec<Wall>) {
+        let (along, half) = self.walkway(ways);
+        let left = Vector2::new(-along.y, along.x);
+        let aside = left.dot(&(at - ways.waypoint(self.from).position));
+        walls.push(Wall { toward: left, distance: half - aside });
+        walls.push(Wall { toward: -left, distance: half + aside });
     }
 
     /// The next waypoint, a little to the right of it.
     fn target(&self, ways: &WaypointGraph) -> Point2 {
-        let (from, to) = (ways.waypoint(self.from).position, ways.waypoint(self.to).position);
-        let along = (to - from).try_normalize(1e-9).unwrap_or_else(Vector2::x);
-        to + Vector2::new(along.y, -along.x) * self.keep_right
+        let (along, half) = self.walkway(ways);
+        let right = self.keep_right.min((half - MARGIN).max(0.0));
+        ways.waypoint(self.to).position + Vector2::new(along.y, -along.x) * right
     }
 }

@@ -19,14 +19,15 @@ impl Builder {
         WaypointId::from_index(self.waypoints.len() - 1)
     }
 
-    fn join_one_way(&mut self, from: WaypointId, to: WaypointId, length: f64) {
-        self.edges.push((from, WaypointEdge { to, length, crossing: None }));
+    fn join_one_way(&mut self, from: WaypointId, to: WaypointId, length: f64, width: f64) {
+        self.edges.push((from, WaypointEdge { to, length, crossing: None, width: width as f32 }));
     }
 
-    fn join(&mut self, a: WaypointId, b: WaypointId, crossing: Option<CrossingId>) {
+    fn join(&mut self, a: WaypointId, b: WaypointId, width: f64, crossing: Option<CrossingId>) {
+        let width = width as f32;
         let length = (self.waypoints[a.index()].position - self.waypoints[b.index()].position).norm();
-        self.edges.push((a, WaypointEdge { to: b, length, crossing }));
-        self.edges.push((b, WaypointEdge { to: a, length, crossing }));
+        self.edges.push((a, WaypointEdge { to: b, length, crossing, width }));
+        self.edges.push((b, WaypointEdge { to: a, length, crossing, width }));
     }
 
     /// Adds waypoints at these places; returns them in order.
@@ -58,10 +59,10 @@ pub(super) fn coarse(network: &RoadNetwork) -> WaypointGraph {
         let length = polyline::length(&road.centerline);
         let (from, to) = (WaypointId(road.from.0), WaypointId(road.to.0));
         if !road.forward.is_empty() {
-            builder.join_one_way(from, to, length);
+            builder.join_one_way(from, to, length, road.width);
         }
         if !road.backward.is_empty() {
-            builder.join_one_way(to, from, length);
+            builder.join_one_way(to, from, length, road.width);
         }
     }
     builder.finish()
@@ -83,7 +84,7 @@ fn inner<T>(items: &[T]) -> &[T] {
     if items.len() < 2 { &[] } else { &items[1..items.len() - 1] }
 }
 
-/// The first and last waypoint of a sidewalk.
+/// The first and last waypoint of a sidewalk or lane.
 type Ends = (WaypointId, WaypointId);
 
 pub(super) fn walkable(network: &RoadNetwork, config: &WaypointConfig) -> WaypointGraph {
@@ -93,7 +94,7 @@ pub(super) fn walkable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
         let path = shifted(&sidewalk.path, sidewalk.side, config.offset);
         let walk = builder.add_all(&interpolated(&path, config.step), WaypointKind::Sidewalk);
         for pair in walk.windows(2) {
-            builder.join(pair[0], pair[1], None);
+            builder.join(pair[0], pair[1], sidewalk.width, None);
         }
         // A sidewalk has at least two points, so its walk is not empty.
         ends.push((walk[0], walk[walk.len() - 1]));
@@ -144,15 +145,23 @@ fn join_corners(builder: &mut Builder, network: &RoadNetwork, at: IntersectionId
         let from = walk_end(network, at, road, Side::Left, ends);
         let to = walk_end(network, at, next, Side::Right, ends);
         let (Some(from), Some(to)) = (from, to) else { continue };
+        let width = narrower(network, road, next);
         let mut last = from;
         // The ends of the walkway are the ends of the sidewalks, which are waypoints already.
         for place in inner(&interpolated(corner, step)) {
             let waypoint = builder.add(*place, WaypointKind::Sidewalk);
-            builder.join(last, waypoint, None);
+            builder.join(last, waypoint, width, None);
             last = waypoint;
         }
-        builder.join(last, to, None);
+        builder.join(last, to, width, None);
     }
+}
+
+/// Width of the narrowest sidewalk of two roads, m.
+fn narrower(network: &RoadNetwork, a: RoadId, b: RoadId) -> f64 {
+    let sidewalks = [a, b].into_iter().flat_map(|road| network.roads[road.index()].sidewalks);
+    let widths = sidewalks.flatten().map(|id| network.sidewalks[id.index()].width);
+    widths.fold(f64::INFINITY, f64::min)
 }
 
 fn join_crossing(builder: &mut Builder, network: &RoadNetwork, id: CrossingId, ends: &[Ends]) {
@@ -162,9 +171,9 @@ fn join_crossing(builder: &mut Builder, network: &RoadNetwork, id: CrossingId, e
     let (Some(left), Some(right)) = (left, right) else { return };
     let start = builder.add(crossing.start, WaypointKind::Kerb(id));
     let end = builder.add(crossing.end, WaypointKind::Kerb(id));
-    builder.join(left, start, None);
-    builder.join(start, end, Some(id));
-    builder.join(end, right, None);
+    builder.join(left, start, crossing.width, None);
+    builder.join(start, end, crossing.width, Some(id));
+    builder.join(end, right, crossing.width, None);
 }
 
 pub(super) fn drivable(network: &RoadNetwork, config: &WaypointConfig) -> WaypointGraph {
@@ -174,7 +183,7 @@ pub(super) fn drivable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
         let offset = polyline::offset(&lane.path, -config.offset);
         let kind = WaypointKind::Lane(LaneId::from_index(index));
         let way = builder.add_all(&interpolated(&offset, config.step), kind);
-        drive(&mut builder, &way);
+        drive(&mut builder, &way, lane.width);
         // A lane has at least two points, so its way is not empty.
         ends.push((way[0], way[way.len() - 1]));
     }
@@ -186,7 +195,7 @@ pub(super) fn drivable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
             .chain(way)
             .chain([ends[connection.to.index()].0])
             .collect();
-        drive(&mut builder, &whole);
+        drive(&mut builder, &whole, network.lanes[connection.from.index()].width);
     }
     builder.finish()
 }
@@ -198,10 +207,10 @@ fn coarsened(path: &[Point2], step: f64) -> Vec<Point2> {
     (0..=count as u64).map(|index| polyline::at(path, length * index as f64 / count).0).collect()
 }
 
-fn drive(builder: &mut Builder, way: &[WaypointId]) {
+fn drive(builder: &mut Builder, way: &[WaypointId], width: f64) {
     for pair in way.windows(2) {
         let apart: Vector2 =
             builder.waypoints[pair[1].index()].position - builder.waypoints[pair[0].index()].position;
-        builder.join_one_way(pair[0], pair[1], apart.norm());
+        builder.join_one_way(pair[0], pair[1], apart.norm(), width);
     }
 }

@@ -52,6 +52,8 @@ pub struct WaypointEdge {
     pub length: f64,
     /// The crossing it uses, if it crosses a road.
     pub crossing: Option<CrossingId>,
+    /// Width of the walkway, lane or road that it follows, m; in single precision, where it takes no room.
+    pub width: f32,
 }
 
 /// How fine the fine level is.

@@ -21,6 +21,7 @@ fn graph_of(count: usize, edges: &[(usize, usize, u32)]) -> WaypointGraph {
             to: WaypointId::from_index(*to),
             length: f64::from(*length) * 1e-3,
             crossing: None,
+            width: 2.0,
         }));
         starts.push(all.len() as u32);
     }
