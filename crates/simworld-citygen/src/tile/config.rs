@@ -25,7 +25,7 @@ pub struct LatticeConfig {
 
 impl Default for LatticeConfig {
     fn default() -> Self {
-        Self { spacing: 500.0, superblocks: 2, jitter: 0.1, bow: 0.04, gates: 95.0, crossroads: 0.5 }
+        Self { spacing: 500.0, superblocks: 2, jitter: 0.1, bow: 0.04, gates: 95.0, crossroads: 0.6 }
     }
 }
 
@@ -61,35 +61,44 @@ impl TileConfig {
                     crossroads: 1.0,
                     ..LatticeConfig::default()
                 },
-                RoadConfig { length: 128.0, length_variation: 0.35, dead_ends: 0.16, ..roads },
+                RoadConfig {
+                    length: 128.0,
+                    length_variation: 0.22,
+                    branching: 0.97,
+                    snap: 42.0,
+                    dead_ends: 0.13,
+                    ..roads
+                },
             ),
             Style::Mixed => (
                 LatticeConfig::default(),
-                RoadConfig { length: 112.0, dead_ends: 0.3, branching: 0.6, continuation: 0.86, ..roads },
+                RoadConfig { length: 109.0, dead_ends: 0.3, branching: 0.6, continuation: 0.86, ..roads },
             ),
             Style::Organic => (
                 LatticeConfig {
                     jitter: 0.15,
                     bow: 0.1,
-                    gates: 105.0,
+                    gates: 99.0,
                     crossroads: 0.1,
                     ..LatticeConfig::default()
                 },
-                RoadConfig { dead_ends: 0.34, ..roads },
+                RoadConfig { length: 82.0, dead_ends: 0.34, ..roads },
             ),
             Style::Suburb => (
                 LatticeConfig {
                     jitter: 0.12,
                     bow: 0.08,
-                    gates: 120.0,
+                    gates: 128.0,
                     crossroads: 0.1,
                     ..LatticeConfig::default()
                 },
                 RoadConfig {
                     dead_ends: 0.55,
-                    length: 118.0,
+                    length: 123.0,
+                    crossroads: 0.38,
+                    heading_variation: 0.32,
                     length_variation: 0.6,
-                    bow: 0.13,
+                    bow: 0.2,
                     bends: 1.0,
                     branching: 0.24,
                     ..roads
