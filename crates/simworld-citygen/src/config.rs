@@ -5,6 +5,7 @@ use simworld_core::net::{LANE_WIDTH, NetworkConfig, SIDEWALK_WIDTH};
 
 use crate::CityError;
 use crate::lot::LotConfig;
+use crate::range::check;
 use crate::terrain::TerrainConfig;
 use crate::zoning::ZoningConfig;
 
@@ -219,16 +220,5 @@ impl CityConfig {
         lots.validate()?;
         terrain.validate()?;
         Ok(network.validate()?)
-    }
-}
-
-/// A setting: its path, its value, the least and the greatest that is allowed, and both in words.
-pub(crate) type Check = (&'static str, f64, f64, f64, &'static str);
-
-/// The first setting out of its range is the error; NaN always is.
-pub(crate) fn check(checks: &[Check]) -> Result<(), CityError> {
-    match checks.iter().find(|(_, value, low, high, _)| !(*low..=*high).contains(value)) {
-        Some((field, value, _, _, allowed)) => Err(CityError::Config { field, value: *value, allowed }),
-        None => Ok(()),
     }
 }

@@ -21,6 +21,7 @@ pub mod osm;
 mod populate;
 mod provenance;
 pub mod python;
+mod range;
 mod report;
 mod source;
 mod strips;

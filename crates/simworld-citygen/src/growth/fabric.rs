@@ -6,7 +6,7 @@
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::RoadClass;
 
-use super::proposal::{Arrival, Fitted, Start};
+use super::fitted::{Arrival, Fitted, Start};
 
 /// More streets than this do not meet at one junction.
 pub(super) const MOST_STREETS: usize = 4;

@@ -1,7 +1,8 @@
 //! What is done once the streets stand: loose ends are attached, and dead ends of which there are too many are taken away.
 
 use super::Growth;
-use super::proposal::{Proposal, Start};
+use super::fitted::Start;
+use super::proposal::Proposal;
 use simworld_core::net::RoadClass;
 
 impl Growth<'_> {

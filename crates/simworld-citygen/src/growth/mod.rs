@@ -10,6 +10,7 @@ mod bend;
 mod fabric;
 mod field;
 mod finish;
+mod fitted;
 mod proposal;
 mod within;
 
@@ -24,7 +25,8 @@ use simworld_core::seed::{Seed, StreamRng};
 use crate::RoadConfig;
 use fabric::{Fabric, MOST_STREETS};
 use field::{Field, Site};
-use proposal::{Fitter, Measures, Proposal, Start};
+use fitted::Start;
+use proposal::{Fitter, Measures, Proposal};
 pub(crate) use within::{Gate, Within, grow_within};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.

@@ -4,21 +4,13 @@ use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::{RoadClass, polyline};
 
 use super::fabric::Fabric;
+use super::fitted::{Arrival, Fitted, Start};
 use crate::RoadConfig;
 
 /// Nothing shorter than this share of the mean length is built.
 const LEAST_SHARE: f64 = 0.38;
 /// Streets that do not meet keep this share of the mean length apart.
 const CLEARANCE_SHARE: f64 = 0.36;
-
-/// Where a segment begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Start {
-    /// At a junction.
-    Node(u32),
-    /// In the middle of a street, which is split there.
-    Middle(u32),
-}
 
 /// A segment that an end would like to build.
 #[derive(Clone, Copy, Debug)]
@@ -29,32 +21,6 @@ pub(super) struct Proposal {
     pub(super) class: RoadClass,
     /// How far the land must be empty on both its sides, m: more than nothing if it is to divide a large block.
     pub(super) emptiness: f64,
-}
-
-/// Where a segment arrives.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Arrival {
-    /// In the open.
-    New(Point2),
-    /// At a junction.
-    Node(u32),
-    /// On a street, which is split there.
-    Interior(u32, Point2),
-}
-
-/// A proposal that may be built.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fitted {
-    pub(super) from: Start,
-    pub(super) class: RoadClass,
-    pub(super) arrival: Arrival,
-}
-
-impl Fitted {
-    /// Whether it arrives in the open.
-    pub(super) fn is_open(&self) -> bool {
-        matches!(self.arrival, Arrival::New(_))
-    }
 }
 
 /// The measures by which proposals are judged, m; and the cosine of the least angle.

@@ -11,7 +11,8 @@ use simworld_core::seed::Seed;
 
 use super::fabric::Fabric;
 use super::field::Field;
-use super::proposal::{Fitter, Measures, Start};
+use super::fitted::Start;
+use super::proposal::{Fitter, Measures};
 use super::{Growth, ROUNDS, plan_of_sections};
 use crate::RoadConfig;
 

@@ -101,7 +101,7 @@ impl LotConfig {
         macro_rules! check_size {
             ($zone:ident) => {{
                 let size = &self.$zone;
-                crate::config::check(&[
+                crate::range::check(&[
                     (
                         concat!("lots.", stringify!($zone), ".least_width"),
                         size.least_width,

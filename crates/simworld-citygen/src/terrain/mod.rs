@@ -17,7 +17,7 @@ use simworld_core::net::RoadClass;
 use simworld_core::seed::Seed;
 
 use crate::CityError;
-use crate::config::check;
+use crate::range::check;
 use crate::zoning::ValueNoise;
 
 /// The heights under a city, and how steep its streets may be.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::config::check;
+use crate::range::check;
 use crate::{CityConfig, CityError, RoadConfig, Style};
 
 /// The lattice of main streets.

@@ -9,7 +9,7 @@ use simworld_core::net::StreetPlan;
 use simworld_core::scene::World;
 
 use super::{Tile, TileId, TileSource};
-use crate::config::check;
+use crate::range::check;
 use crate::{CityEntities, CityError};
 
 /// What is held around the point.

@@ -79,7 +79,7 @@ impl Default for ZoningConfig {
 
 impl ZoningConfig {
     pub(crate) fn validate(&self) -> Result<(), CityError> {
-        crate::config::check(&[
+        crate::range::check(&[
             ("zoning.density_scale", self.density_scale, 50.0, 2e4, "50 to 20 000 m"),
             ("zoning.use_scale", self.use_scale, 50.0, 2e4, "50 to 20 000 m"),
             ("zoning.center_radius", self.center_radius, 0.0, 5e4, "0 to 50 000 m"),

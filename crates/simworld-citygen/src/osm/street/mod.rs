@@ -76,7 +76,7 @@ impl StreetOptions {
     /// # Errors
     /// The first field out of range; NaN always is.
     pub fn validate(&self) -> Result<(), CityError> {
-        crate::config::check(&[("streets.merge", self.merge, 0.0, 60.0, "0 to 60 m")])
+        crate::range::check(&[("streets.merge", self.merge, 0.0, 60.0, "0 to 60 m")])
     }
 }
 
