@@ -18,7 +18,7 @@ const SIDE: i64 = 100;
 /// A town as OSM XML, with the attributes that such files carry.
 fn town() -> String {
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<osm version=\"0.6\">\n");
-    let mut node = |text: &mut String, id: i64, x: f64, y: f64| {
+    let node = |text: &mut String, id: i64, x: f64, y: f64| {
         let (longitude, latitude) = (8.0 + x / 71_695.8, 50.0 + y / 111_229.0);
         writeln!(
             text,
@@ -38,7 +38,10 @@ fn town() -> String {
         }
     }
     let way = |text: &mut String, id: i64, nodes: &[i64], tags: &str| {
-        let references: String = nodes.iter().map(|node| format!("    <nd ref=\"{node}\"/>\n")).collect();
+        let mut references = String::new();
+        for node in nodes {
+            writeln!(references, "    <nd ref=\"{node}\"/>").expect("a string takes all");
+        }
         writeln!(text, "  <way id=\"{id}\" version=\"2\" changeset=\"1\">\n{references}{tags}  </way>")
             .expect("a string takes all");
     };
