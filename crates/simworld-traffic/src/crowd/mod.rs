@@ -27,7 +27,7 @@ mod walls;
 
 use grid::Grid;
 pub use model::AnticipationVelocity;
-use model::{Near, Rules};
+use model::{Nearby, Rules};
 use simworld_core::geometry::{Point2, Vector2};
 pub use walls::Walls;
 
@@ -92,7 +92,7 @@ impl<F: Fn(usize, Point2, &mut Vec<Wall>)> Surroundings for F {
 #[derive(Clone, Debug, Default)]
 pub struct Crowd {
     grid: Grid,
-    near: Vec<Near>,
+    near: Nearby,
     walls: Vec<Wall>,
 }
 
@@ -132,7 +132,7 @@ impl Crowd {
             for other in self.grid.around(person.position).flatten() {
                 let offset = other.person.position - person.position;
                 if offset.norm_squared() <= REACH * REACH && other.index != seen.index {
-                    change += rules.notice(person, wish, &other.person, &mut self.near);
+                    change += rules.notice(person, wish, &other.person, offset, &mut self.near);
                 }
             }
             around.near(index, person.position, &mut self.walls);

@@ -7,7 +7,7 @@ use simworld_core::ops;
 use super::{Person, Wall, Wish};
 
 /// Repulsion below this share of the wish is left out.
-const FAINT: f64 = 1e-3;
+const FAINT: f64 = 5e-3;
 /// Who walks more slowly than this stands, m/s.
 const STANDING: f64 = 0.1;
 /// Distance over which the wish to step back falls to 1/e, m.
@@ -94,11 +94,26 @@ pub(super) struct Rules {
 
 /// Somebody within reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Near {
+struct Near {
     /// The unit vector towards them.
     toward: Vector2,
     /// Between the middles, m.
     distance: f64,
+}
+
+/// Those within reach who matter.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Nearby {
+    in_view: Vec<Near>,
+    /// Those who could be run into in one step, wherever they are.
+    close: Vec<Near>,
+}
+
+impl Nearby {
+    pub(super) fn clear(&mut self) {
+        self.in_view.clear();
+        self.close.clear();
+    }
 }
 
 impl Rules {
@@ -107,23 +122,37 @@ impl Rules {
         Self { model: *model, contact: 2.0 * model.radius, wide, dt }
     }
 
-    /// Takes note of somebody, and returns by how much they change one's wish.
-    pub(super) fn notice(&self, me: &Person, wish: &Wish, other: &Person, near: &mut Vec<Near>) -> Vector2 {
-        let offset = other.position - me.position;
-        let distance = offset.norm();
-        // Two in the same place, by error, part along their wishes.
-        let toward = if distance > 0.0 { offset / distance } else { -wish.direction };
-        let behind = wish.direction.dot(&toward) < 0.0 && me.direction.dot(&toward) < 0.0;
-        if behind && distance > self.contact + 2.0 * wish.speed * self.dt {
+    /// Takes note of somebody at an offset, and returns by how much they change one's wish.
+    pub(super) fn notice(
+        &self,
+        me: &Person,
+        wish: &Wish,
+        other: &Person,
+        offset: Vector2,
+        near: &mut Nearby,
+    ) -> Vector2 {
+        let behind = wish.direction.dot(&offset) < 0.0 && me.direction.dot(&offset) < 0.0;
+        let close = self.contact + 2.0 * wish.speed * self.dt;
+        let square = offset.norm_squared();
+        if behind && square > close * close {
             return Vector2::zeros();
         }
-        near.push(Near { toward, distance });
+        let distance = square.sqrt();
+        // Two in the same place, by error, part along their wishes.
+        let toward = if distance > 0.0 { offset / distance } else { -wish.direction };
+        if distance <= close {
+            near.close.push(Near { toward, distance });
+        }
         if behind {
             return Vector2::zeros();
         }
+        near.in_view.push(Near { toward, distance });
+        let aside = self.aside(me, wish, other, offset, toward);
+        if me.speed >= STANDING {
+            return aside;
+        }
         let touching = -(distance - self.contact).max(0.0) / TOUCH;
-        let back = if me.speed < STANDING { self.model.giving_way * ops::exp(touching) } else { 0.0 };
-        self.aside(me, wish, other, offset, toward) - toward * back
+        aside - toward * (self.model.giving_way * ops::exp(touching))
     }
 
     /// How somebody in view turns one aside.
@@ -136,7 +165,8 @@ impl Rules {
         if gap > self.wide {
             return Vector2::zeros();
         }
-        let strength = self.model.strength * (1.0 + 0.5 * (1.0 - along)) * ops::exp(-gap / self.model.range);
+        let share = if gap > 0.0 { ops::exp(-gap / self.model.range) } else { 1.0 };
+        let strength = self.model.strength * (1.0 + 0.5 * (1.0 - along)) * share;
         // Away from where they will be; to the right of those who come straight on.
         let then = offset + theirs * self.model.anticipation;
         let right = wish.direction.perp(&then) >= 0.0;
@@ -158,21 +188,23 @@ impl Rules {
     }
 
     /// How fast the gap ahead in a direction lets one walk, m/s.
-    pub(super) fn speed(&self, direction: Vector2, free: f64, near: &[Near]) -> f64 {
+    pub(super) fn speed(&self, direction: Vector2, free: f64, near: &Nearby) -> f64 {
         let in_the_way = |other: &&Near| {
             direction.dot(&other.toward) > 0.0
                 && direction.perp(&other.toward).abs() * other.distance <= self.contact
         };
-        let gap = near.iter().filter(in_the_way).map(|other| other.distance).fold(f64::INFINITY, f64::min)
-            - self.contact;
+        let gap =
+            near.in_view.iter().filter(in_the_way).map(|other| other.distance).fold(f64::INFINITY, f64::min)
+                - self.contact;
         free.min(gap.max(0.0) / self.model.time_gap)
     }
 
     /// The velocity nearest to the wanted one with which nobody and nothing is run into in this step: each of two may use up
     /// half of the gap between them.
-    pub(super) fn safe(&self, mut velocity: Vector2, near: &[Near], walls: &[Wall]) -> Vector2 {
+    pub(super) fn safe(&self, mut velocity: Vector2, near: &Nearby, walls: &[Wall]) -> Vector2 {
         let people = || {
-            near.iter()
+            near.close
+                .iter()
                 .map(|other| (other.toward, (other.distance - self.contact).max(0.0) / (2.0 * self.dt)))
         };
         let walls =

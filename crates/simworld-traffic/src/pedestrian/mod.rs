@@ -60,6 +60,8 @@ pub(crate) struct PedestrianManager {
     #[serde(skip)]
     wishes: Vec<Wish>,
     #[serde(skip)]
+    walkways: Vec<Walkway>,
+    #[serde(skip)]
     weights: Vec<f64>,
 }
 
@@ -82,15 +84,20 @@ impl PedestrianManager {
         let mut weights = std::mem::take(&mut self.weights);
         self.people.clear();
         self.wishes.clear();
+        self.walkways.clear();
         for (index, walker) in self.walkers.iter_mut().enumerate() {
-            walker.decide(sight, config, streams.indexed(index as u64), &mut weights);
+            let mut walkway = walker.walkway(sight.ways);
+            if walker.waits_at.is_some() || walkway.is_walked(walker.position) {
+                walker.decide(sight, config, streams.indexed(index as u64), &mut weights);
+                walkway = walker.walkway(sight.ways);
+            }
             self.people.push(walker.person());
-            self.wishes.push(walker.wish(sight.ways));
+            self.wishes.push(walker.wish(&walkway));
+            self.walkways.push(walkway);
         }
         self.weights = weights;
-        let walkers = &self.walkers;
-        let edges =
-            |index: usize, at: Point2, walls: &mut Vec<Wall>| walkers[index].edges(sight.ways, at, walls);
+        let walkways = &self.walkways;
+        let edges = |index: usize, at: Point2, walls: &mut Vec<Wall>| walkways[index].edges(at, walls);
         self.crowd.step(&config.walking, &mut self.people, &self.wishes, &[], &edges, dt);
         self.on_crossing.fill(0);
         self.waiting.fill(0);
@@ -135,9 +142,6 @@ fn shows_walk(sight: &Sight<'_>, crossing: CrossingId) -> bool {
 impl Pedestrian {
     /// At a waypoint: where to go on, and whether one may.
     fn decide(&mut self, sight: &Sight<'_>, config: &TrafficConfig, stream: Stream, weights: &mut Vec<f64>) {
-        if !self.has_arrived(sight.ways) && self.waits_at.is_none() {
-            return;
-        }
         if self.waits_at.is_none() {
             self.crossing = None;
             let here = self.to;
@@ -166,20 +170,12 @@ impl Pedestrian {
         }
     }
 
-    /// Whether the next waypoint is reached, or where one would wait beside others who stand there.
-    fn has_arrived(&self, ways: &WaypointGraph) -> bool {
-        let offset = self.target(ways) - self.position;
-        let (along, half) = self.walkway(ways);
-        let beside = along.dot(&offset) < REACHED && along.perp(&offset).abs() < half.max(REACHED);
-        beside || offset.norm_squared() < REACHED * REACHED
-    }
-
     fn person(&self) -> Person {
         Person { position: self.position, direction: self.direction, speed: self.speed }
     }
 
-    fn wish(&self, ways: &WaypointGraph) -> Wish {
-        let direction = (self.target(ways) - self.position).try_normalize(1e-9).unwrap_or(self.direction);
+    fn wish(&self, walkway: &Walkway) -> Wish {
+        let direction = (walkway.target - self.position).try_normalize(1e-9).unwrap_or(self.direction);
         let speed = match (self.waits_at, self.crossing) {
             (Some(_), _) => 0.0,
             (None, Some(_)) => self.free_speed.max(CROSSING_SPEED),
@@ -195,26 +191,40 @@ impl Pedestrian {
         (self.position, self.direction, self.speed) = (person.position, person.direction, person.speed);
     }
 
-    /// The direction of the walkway, and half its width, m.
-    fn walkway(&self, ways: &WaypointGraph) -> (Vector2, f64) {
+    fn walkway(&self, ways: &WaypointGraph) -> Walkway {
         let (from, to) = (ways.waypoint(self.from).position, ways.waypoint(self.to).position);
-        let width = ways.edge(self.from, self.to).map_or(0.0, |edge| f64::from(edge.width));
-        ((to - from).try_normalize(1e-9).unwrap_or_else(Vector2::x), width * 0.5)
-    }
-
-    /// The edges of the walkway, which one does not cross outwards.
-    fn edges(&self, ways: &WaypointGraph, at: Point2, walls: &mut Vec<Wall>) {
-        let (along, half) = self.walkway(ways);
-        let left = Vector2::new(-along.y, along.x);
-        let aside = left.dot(&(at - ways.waypoint(self.from).position));
-        walls.push(Wall { toward: left, distance: half - aside });
-        walls.push(Wall { toward: -left, distance: half + aside });
-    }
-
-    /// The next waypoint, a little to the right of it.
-    fn target(&self, ways: &WaypointGraph) -> Point2 {
-        let (along, half) = self.walkway(ways);
+        let half = ways.edge(self.from, self.to).map_or(0.0, |edge| f64::from(edge.width) * 0.5);
+        let along = (to - from).try_normalize(1e-9).unwrap_or_else(Vector2::x);
         let right = self.keep_right.min((half - MARGIN).max(0.0));
-        ways.waypoint(self.to).position + Vector2::new(along.y, -along.x) * right
+        Walkway { from, along, half, target: to + Vector2::new(along.y, -along.x) * right }
+    }
+}
+
+/// The way from one waypoint to the next, for one walker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Walkway {
+    from: Point2,
+    along: Vector2,
+    /// Half the width, m.
+    half: f64,
+    /// The next waypoint, a little to the right of it.
+    target: Point2,
+}
+
+impl Walkway {
+    /// Whether its end is reached, or where one would wait beside others who stand there.
+    fn is_walked(&self, at: Point2) -> bool {
+        let offset = self.target - at;
+        let aside = self.along.perp(&offset).abs();
+        let beside = self.along.dot(&offset) < REACHED && aside < self.half.max(REACHED);
+        beside || offset.norm_squared() < REACHED * REACHED
+    }
+
+    /// Its edges, which one does not cross outwards.
+    fn edges(&self, at: Point2, walls: &mut Vec<Wall>) {
+        let left = Vector2::new(-self.along.y, self.along.x);
+        let aside = left.dot(&(at - self.from));
+        walls.push(Wall { toward: left, distance: self.half - aside });
+        walls.push(Wall { toward: -left, distance: self.half + aside });
     }
 }
