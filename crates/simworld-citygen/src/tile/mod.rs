@@ -2,7 +2,7 @@
 //!
 //! Growth from one seed has a global order and cannot be cut into tiles. Here the plane is divided coarse to fine: main
 //! streets run along a jittered lattice ([`LatticeConfig`]), the gates in them through which streets may lead are fixed
-//! first, and the superblock between is filled by the rules of [`growth`](crate::growth) from its gates inwards. Each step
+//! first, and the superblock between is filled by the rules of [`growth`] from its gates inwards. Each step
 //! draws from a stream named by whole numbers, so a tile is a function of the seed and its [`TileId`] alone: the same
 //! alone or beside others, in any order, on any thread; and the streets of neighbours meet exactly at the seam.
 
