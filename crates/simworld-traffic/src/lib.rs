@@ -17,4 +17,6 @@ pub use demand::{Arrivals, Flow, Trip, TripEnd};
 pub use dynamics::TrafficDynamics;
 pub use pedestrian::Pedestrian;
 pub use route::{Leg, Route, Router};
+#[cfg(feature = "hierarchy")]
+pub use route::{LegHierarchy, LegScratch};
 pub use traffic::{Body, Counters, Foreign, Placed, Traffic};

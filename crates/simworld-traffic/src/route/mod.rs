@@ -1,5 +1,12 @@
 //! Routes: chains of legs, a leg being one direction of a road; and the quickest one between two.
 
+#[cfg(feature = "hierarchy")]
+mod dissection;
+#[cfg(feature = "hierarchy")]
+mod hierarchy;
+
+#[cfg(feature = "hierarchy")]
+pub use hierarchy::{LegHierarchy, LegScratch};
 use petgraph::algo::astar;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::EdgeRef;
@@ -129,6 +136,24 @@ impl Router {
             |_| 0.0,
         )?;
         Some(Route(found.1.into_iter().map(|node| Leg(node.index() as u32)).collect()))
+    }
+
+    /// Free travel time of a route after its first leg, s: what [`quickest`](Self::quickest) makes least. `None` if a leg
+    /// does not lead on to the next.
+    pub fn time(&self, route: &Route) -> Option<f64> {
+        let node = |leg: Leg| NodeIndex::new(leg.0 as usize);
+        let time = |pair: &[Leg]| {
+            let edge = self.graph.find_edge(node(pair[0]), node(pair[1]))?;
+            self.graph.edge_weight(edge).copied()
+        };
+        route.0.windows(2).map(time).sum()
+    }
+
+    /// Every pair of legs that follow one another, with the time that the second takes, s.
+    #[cfg(feature = "hierarchy")]
+    fn edges(&self) -> impl Iterator<Item = (Leg, Leg, f64)> {
+        let leg = |node: NodeIndex| Leg(node.index() as u32);
+        self.graph.edge_references().map(move |edge| (leg(edge.source()), leg(edge.target()), *edge.weight()))
     }
 
     /// The legs that follow one, ascending.
