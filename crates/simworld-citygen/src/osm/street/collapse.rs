@@ -53,7 +53,7 @@ pub(super) fn collapse_tight(web: &mut Web) {
     let mut tight: Vec<(f64, u32)> = Vec::new();
     for (index, edge) in web.living() {
         let length = web.length(index);
-        let is_inner = edge.ends.iter().all(|node| web.degree(*node) >= 3);
+        let is_inner = edge.ends.iter().all(|node| web.degree(*node) >= 2);
         if length > LONGEST_TIGHT || !is_inner || edge.character.is_roundabout || edge.ends[0] == edge.ends[1]
         {
             continue;
@@ -70,7 +70,12 @@ pub(super) fn collapse_tight(web: &mut Web) {
     for (_, edge) in tight {
         let ends = web.edge(edge).ends;
         let is_spread = ends.iter().any(|node| web.node(*node).spread > LONGEST_TIGHT);
-        if web.edge(edge).lives && ends[0] != ends[1] && !is_spread && web.length(edge) <= LONGEST_TIGHT {
+        if !web.edge(edge).lives || ends[0] == ends[1] || is_spread || web.length(edge) > LONGEST_TIGHT {
+            continue;
+        }
+        // Where only two streets meet they become one; a junction takes the other in.
+        let bend = ends.into_iter().find(|node| web.degree(*node) == 2);
+        if bend.is_none_or(|node| web.dissolve(node).is_none()) {
             draw_together(web, edge);
         }
     }

@@ -143,10 +143,7 @@ fn file(piece: &Piece, index: u32, cells: &mut Vec<(u64, u32)>) -> bool {
 
 /// Where two pieces cross, unless they do at a common node.
 fn meeting(web: &Web, a: &Piece, b: &Piece) -> Option<Crossing> {
-    let (a, b) = if a.edge <= b.edge { (a, b) } else { (b, a) };
-    if a.edge == b.edge {
-        return None;
-    }
+    let (a, b) = if (a.edge, a.station) <= (b.edge, b.station) { (a, b) } else { (b, a) };
     let (share, other) = polyline::crossing(a.ends[0], a.ends[1], b.ends[0], b.ends[1])?;
     let at = a.ends[0] + (a.ends[1] - a.ends[0]) * share;
     let (first, second) = (web.edge(a.edge), web.edge(b.edge));
@@ -155,5 +152,8 @@ fn meeting(web: &Web, a: &Piece, b: &Piece) -> Option<Crossing> {
         return None;
     }
     let station = |piece: &Piece, share: f64| piece.station + (piece.ends[1] - piece.ends[0]).norm() * share;
-    Some(Crossing { edges: [a.edge, b.edge], stations: [station(a, share), station(b, other)], at })
+    let stations = [station(a, share), station(b, other)];
+    // The pieces of one course meet where they follow each other.
+    let follows = a.edge == b.edge && stations[1] - stations[0] < NEAR_END;
+    (!follows).then_some(Crossing { edges: [a.edge, b.edge], stations, at })
 }

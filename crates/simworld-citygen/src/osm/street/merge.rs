@@ -60,17 +60,20 @@ fn is_crossover(web: &Web, edge: u32) -> bool {
     let [a, b] = web.edge(edge).ends;
     let Some(across) = (web.node(b).at - web.node(a).at).try_normalize(1e-6) else { return false };
     let (at_a, at_b) = (passing(web, a, edge), passing(web, b, edge));
-    at_a.iter().any(|first| {
-        at_b.iter().any(|second| {
-            first.dot(second) < -OPPOSITE
+    at_a.iter().any(|(first, passes, name)| {
+        at_b.iter().any(|(second, passes_too, other)| {
+            let is_one_road = (*passes && *passes_too) || name == other;
+            is_one_road
+                && first.dot(second) < -OPPOSITE
                 && across.perp(first).abs() > ACROSS
                 && across.perp(second).abs() > ACROSS
         })
     })
 }
 
-/// The directions in which one-way traffic passes a node, one edge apart.
-fn passing(web: &Web, node: u32, except: u32) -> Vec<Vector2> {
+/// The directions of one-way traffic at a node, one edge apart, whether it passes the node, and the name of its road;
+/// a carriageway that ends there has the direction of its end.
+fn passing(web: &Web, node: u32, except: u32) -> Vec<(Vector2, bool, u32)> {
     let edges = &web.node(node).edges;
     if edges.len() > MOST_EDGES {
         return Vec::new();
@@ -80,14 +83,17 @@ fn passing(web: &Web, node: u32, except: u32) -> Vec<Vector2> {
             let found = web.edge(*edge);
             let is_one_way = found.character.profile.backward == 0 && !found.character.is_roundabout;
             let goes = found.ends[usize::from(!leaves)] == node && found.ends[0] != found.ends[1];
-            (*edge != except && is_one_way && goes).then(|| heading(web, found, leaves)).flatten()
+            let counts = *edge != except && is_one_way && goes;
+            counts.then(|| heading(web, found, leaves)).flatten().map(|along| (along, found.character.name))
         })
     };
-    let leaving: Vec<Vector2> = one_way(true).collect();
-    let mut found = Vec::new();
-    for arriving in one_way(false) {
-        let goes_on = leaving.iter().find(|leaving| leaving.dot(&arriving) > GOES_ON);
-        found.extend(goes_on.and_then(|leaving| (leaving + arriving).try_normalize(1e-6)));
+    let leaving: Vec<(Vector2, u32)> = one_way(true).collect();
+    let mut found: Vec<(Vector2, bool, u32)> =
+        leaving.iter().map(|(along, name)| (*along, false, *name)).collect();
+    for (arriving, name) in one_way(false) {
+        let goes_on = leaving.iter().find(|(leaving, _)| leaving.dot(&arriving) > GOES_ON);
+        let along = goes_on.and_then(|(leaving, _)| (leaving + arriving).try_normalize(1e-6));
+        found.push((along.unwrap_or(arriving), along.is_some(), name));
     }
     found
 }

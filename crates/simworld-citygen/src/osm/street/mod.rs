@@ -113,6 +113,8 @@ impl Place {
         collapse::collapse(&mut web, self, warnings);
         collapse::collapse_tight(&mut web);
         pair::join_carriageways(&mut web, options.merge);
+        // Joined carriageways are wider, and their junctions reach farther.
+        collapse::collapse_tight(&mut web);
         tidy::part_doubles(&mut web, self, warnings);
         if options.parts == Parts::Largest {
             tidy::keep_largest(&mut web, self, warnings);

@@ -127,18 +127,27 @@ fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
     ((other + own * cos) / sin).max(0.0)
 }
 
-/// Shortens the reaches at both ends of a street that is too short for them.
+/// Shortens what both ends take of a street that is too short for it: first the room for crossings and stop lines, then
+/// the reaches, for an area cut short of where kerbs meet would fold over itself.
 fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
-    let mut wanted = vec![0.0; lengths.len()];
+    let mut wanted = vec![(0.0, 0.0); lengths.len()];
     for leg in legs.iter().flatten() {
-        wanted[leg.street] += leg.stop;
+        wanted[leg.street].0 += leg.reach;
+        wanted[leg.street].1 += leg.stop;
     }
     for leg in legs.iter_mut().flatten() {
         let room = lengths[leg.street] - LEAST_LANE;
-        let scale = (room / wanted[leg.street]).min(1.0);
-        leg.reach *= scale;
-        leg.stop *= scale;
-        leg.walk *= scale;
+        let (reach, stop) = wanted[leg.street];
+        if stop <= room {
+            continue;
+        }
+        let scale = (room / reach).min(1.0);
+        let beyond = ((room - reach) / (stop - reach).max(1e-9)).clamp(0.0, 1.0);
+        let (own, walk, stop) = (leg.reach, leg.walk - leg.reach, leg.stop - leg.reach);
+        leg.reach = own * scale;
+        leg.stop = leg.reach + stop * beyond;
+        // At a dead end sidewalks go on to the end.
+        leg.walk = (leg.reach + walk * if walk < 0.0 { scale } else { beyond }).max(0.0);
     }
 }
 
