@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::net::{SHORTEST_STREET, Street, StreetPlan, polyline};
+use simworld_core::net::{DrivingSide, SHORTEST_STREET, Street, StreetPlan, polyline};
 
 use super::Planned;
 use super::collapse::warn;
@@ -54,12 +54,15 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
             name,
             speed_limit,
             level: character.level,
+            roundabout: character.is_roundabout,
             ..Street::simple(from, to)
         });
     }
     if plan.sections.is_empty() {
         plan.sections = StreetPlan::default().sections;
     }
+    let is_left_hand = web.living().next().is_some_and(|(_, edge)| edge.character.profile.is_left_hand);
+    plan.driving_side = if is_left_hand { DrivingSide::Left } else { DrivingSide::Right };
     plan.controls = control::controls(&plan, place);
     Planned { plan, off_ground }
 }
