@@ -22,7 +22,7 @@ fn plan(sketch: &Sketch) -> StreetPlan {
 /// The node nearest to a point, and the number of streets there.
 fn junction(plan: &StreetPlan, x: f64, y: f64) -> (Point2, usize, Option<Control>) {
     let away = |node: usize| (plan.nodes[node] - Point2::new(x, y)).norm();
-    let node = (0..plan.nodes.len()).min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap();
+    let node = (0..plan.nodes.len()).min_by(|a, b| away(*a).total_cmp(&away(*b))).expect("a plan has nodes");
     let streets = plan.streets.iter().filter(|street| street.from == node || street.to == node).count();
     (plan.nodes[node], streets, plan.controls.get(&node).copied())
 }
