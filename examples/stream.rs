@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let view = (-reach, -end.y - reach, end.x + 2.0 * reach, end.y + 2.0 * reach);
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.0} {:.0} {:.0} {:.0}\" width=\"2400\">\
-         <rect x=\"{0:.0}\" y=\"{1:.0}\" width=\"100%\" height=\"100%\" fill=\"#f7f5ee\"/>{drawing}\
+         <rect x=\"{0:.0}\" y=\"{1:.0}\" width=\"100%\" height=\"100%\" fill=\"#dfe3d3\"/>{drawing}\
          <path d=\"M0 0L{:.0} {:.0}\" stroke=\"#c0392b\" stroke-width=\"25\"/></svg>",
         view.0, view.1, view.2, view.3, end.x, -end.y
     );
@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Streets as lines and buildings as their outlines, to the metre.
 fn draw(tile: &Tile, svg: &mut String) -> std::fmt::Result {
-    for (class, color, width) in [(RoadClass::Local, "#fff", 11), (RoadClass::Arterial, "#f0c869", 16)] {
+    for (class, color, width) in [(RoadClass::Local, "#fff", 12), (RoadClass::Arterial, "#f3cf7c", 18)] {
         write!(svg, "<path fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" d=\"")?;
         for street in tile.plan.streets[..tile.extent.streets].iter().filter(|street| street.class == class) {
             line(&tile.plan.centerline(street), svg)?;

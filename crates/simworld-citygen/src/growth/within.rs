@@ -16,8 +16,8 @@ use super::proposal::{Fitter, Measures};
 use super::{Growth, ROUNDS, plan_of_sections};
 use crate::RoadConfig;
 
-/// Attempts to revive growth for each node of the wall: enough to fill what is left empty.
-const REVIVALS: u32 = 0;
+/// Attempts to revive growth for each node of the wall where hardly anything grew; elsewhere what is left over stays open.
+const REVIVALS: u32 = 8;
 /// Cost by which ends at gates are spread, so that no gate is always first.
 const SPREAD: f64 = 1.0;
 
@@ -43,6 +43,10 @@ pub(crate) struct Within {
 pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, fields: Seed, own: Seed) -> Within {
     let mut growth = Growth::within(wall, config, fields, own);
     growth.open_gates(wall);
+    growth.run();
+    if growth.standing < wall.len() / 4 {
+        growth.revivals = REVIVALS * wall.len() as u32;
+    }
     for _ in 0..ROUNDS {
         growth.run();
         let before = growth.standing;
@@ -73,7 +77,7 @@ impl<'a> Growth<'a> {
             fitter: Fitter::default(),
             queue: std::collections::BinaryHeap::new(),
             serial: 0,
-            revivals: REVIVALS * wall.len() as u32,
+            revivals: 0,
             standing: 0,
             wanted: usize::MAX,
             rng: own.stream("citygen/roads").rng(),
