@@ -5,20 +5,19 @@ use std::path::PathBuf;
 
 use simworld_citygen::osm::Place;
 
-/// The folder of the real extracts: that named by `SIMWORLD_DATA`, or the one beside the project's folder.
-fn folder() -> PathBuf {
-    let beside = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/osm"));
-    std::env::var_os("SIMWORLD_DATA").map_or_else(beside, PathBuf::from)
+/// The folder of the real extracts, which `SIMWORLD_DATA` names.
+fn folder() -> Option<PathBuf> {
+    std::env::var_os("SIMWORLD_DATA").map(PathBuf::from)
 }
 
 /// A real extract; says so where it is not there.
 #[allow(dead_code)] // not every test reads them
 pub(crate) fn real(file: &str) -> Option<Place> {
-    let path = folder().join(file);
-    if !path.exists() {
-        println!("skipped: {} is not there; set SIMWORLD_DATA to the folder of the extracts", path.display());
+    let path = folder().map(|folder| folder.join(file)).filter(|path| path.exists());
+    let Some(path) = path else {
+        println!("skipped: {file} is not at hand; set SIMWORLD_DATA to the folder of the extracts");
         return None;
-    }
+    };
     Some(Place::read(&path).expect("a real extract is read"))
 }
 
