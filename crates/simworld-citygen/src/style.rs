@@ -99,74 +99,12 @@ impl Style {
 
     /// The road settings of the style, for a city of `count` segments. Cities of some size have two highways.
     pub fn roads(self, count: u32) -> RoadConfig {
-        let mixed = RoadConfig { count, highways: if count >= 400 { 2 } else { 0 }, ..RoadConfig::default() };
+        let base = RoadConfig { count, highways: if count >= 400 { 2 } else { 0 }, ..RoadConfig::default() };
         match self {
-            Self::Mixed => RoadConfig {
-                aspect: 3.0,
-                length_variation: 0.6,
-                snap: 36.0,
-                branching: 0.72,
-                crossroads: 0.95,
-                bends: 0.45,
-                bow: 0.065,
-                widest_block: 270.0,
-                ..mixed
-            },
-            Self::Grid => RoadConfig {
-                heading_variation: 0.015,
-                order: 1.0,
-                turning: 0.0,
-                bends: 0.1,
-                bow: 0.05,
-                length: 116.0,
-                aspect: 3.0,
-                length_variation: 0.12,
-                snap: 34.0,
-                continuation: 0.98,
-                branching: 0.9,
-                crossroads: 1.0,
-                dead_ends: 0.1,
-                widest_block: 200.0,
-                ..mixed
-            },
-            Self::Organic => RoadConfig {
-                length: 85.0,
-                aspect: 2.8,
-                length_variation: 0.6,
-                heading_variation: 0.3,
-                order: 0.35,
-                turning: 2.2,
-                patch: 350.0,
-                snap: 34.0,
-                least_angle: 0.8,
-                continuation: 0.9,
-                branching: 0.55,
-                crossroads: 0.33,
-                dead_ends: 0.22,
-                bends: 0.9,
-                bow: 0.14,
-                widest_block: 360.0,
-                ..mixed
-            },
-            Self::Suburb => RoadConfig {
-                length: 125.0,
-                length_variation: 0.25,
-                heading_variation: 0.25,
-                order: 0.4,
-                turning: 0.6,
-                patch: 600.0,
-                snap: 36.0,
-                least_angle: 0.9,
-                continuation: 0.72,
-                branching: 0.3,
-                crossroads: 0.45,
-                dead_ends: 0.34,
-                bends: 0.65,
-                bow: 0.095,
-                widest_block: 700.0,
-                aspect: 1.0,
-                ..mixed
-            },
+            Self::Mixed => mixed_roads(&base),
+            Self::Grid => grid_roads(&base),
+            Self::Organic => organic_roads(&base),
+            Self::Suburb => suburb_roads(&base),
         }
     }
 
@@ -214,6 +152,84 @@ impl Style {
             median_length: median,
             intersection_density: density,
         }
+    }
+}
+
+fn mixed_roads(base: &RoadConfig) -> RoadConfig {
+    RoadConfig {
+        aspect: 3.0,
+        length_variation: 0.6,
+        snap: 36.0,
+        branching: 0.72,
+        crossroads: 0.95,
+        bends: 0.45,
+        bow: 0.065,
+        widest_block: 270.0,
+        ..base.clone()
+    }
+}
+
+fn grid_roads(base: &RoadConfig) -> RoadConfig {
+    RoadConfig {
+        heading_variation: 0.015,
+        order: 1.0,
+        turning: 0.0,
+        bends: 0.1,
+        bow: 0.05,
+        length: 116.0,
+        aspect: 3.0,
+        length_variation: 0.12,
+        snap: 34.0,
+        continuation: 0.98,
+        branching: 0.9,
+        crossroads: 1.0,
+        dead_ends: 0.1,
+        widest_block: 200.0,
+        ..base.clone()
+    }
+}
+
+fn organic_roads(base: &RoadConfig) -> RoadConfig {
+    RoadConfig {
+        length: 85.0,
+        aspect: 2.8,
+        length_variation: 0.6,
+        heading_variation: 0.3,
+        order: 0.35,
+        turning: 2.2,
+        patch: 350.0,
+        snap: 34.0,
+        least_angle: 0.8,
+        continuation: 0.9,
+        branching: 0.55,
+        crossroads: 0.33,
+        dead_ends: 0.22,
+        bends: 0.9,
+        bow: 0.14,
+        widest_block: 360.0,
+        ..base.clone()
+    }
+}
+
+fn suburb_roads(base: &RoadConfig) -> RoadConfig {
+    RoadConfig {
+        length: 125.0,
+        length_variation: 0.25,
+        heading_variation: 0.25,
+        order: 0.4,
+        turning: 0.6,
+        patch: 600.0,
+        snap: 36.0,
+        least_angle: 0.9,
+        continuation: 0.72,
+        branching: 0.3,
+        crossroads: 0.45,
+        dead_ends: 0.34,
+        bends: 0.65,
+        bow: 0.095,
+        widest_block: 700.0,
+        aspect: 1.0,
+        ..base.clone()
     }
 }
 

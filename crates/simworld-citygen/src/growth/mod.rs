@@ -195,13 +195,13 @@ impl<'a> Growth<'a> {
         let site = self.field.site(self.fabric.at(node));
         let start = Start::Node(node);
         let main = from.class != RoadClass::Local;
-        if main || self.rng.chance(self.config.continuation) {
+        let goes_on = main || self.rng.chance(self.config.continuation);
+        let towards = self.guided(&site, came);
+        if goes_on {
             // Depth runs ahead: a continuation costs less than a branch, and that of a main road least.
             let step = [1.0, 0.6, 0.4][from.class as usize];
-            let towards = self.guided(&site, came);
             self.push(steps + step / (1.0 + self.config.depth_bias), (start, &site), towards, from.class);
         } else {
-            let towards = self.guided(&site, came);
             self.push_division(steps, (start, &site), towards);
         }
         let first = if self.rng.chance(0.5) { FRAC_PI_2 } else { -FRAC_PI_2 };

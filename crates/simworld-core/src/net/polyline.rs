@@ -164,50 +164,6 @@ pub fn distance_between(a: &[Point2], b: &[Point2]) -> f64 {
     if cross { 0.0 } else { one_way(a, b).min(one_way(b, a)) }
 }
 
-/// Whether two paths come nearer to each other than `limit` m, which is positive; the same as to compare
-/// [`distance_between`], and much faster.
-pub fn nearer_than(a: &[Point2], b: &[Point2], limit: f64) -> bool {
-    if a.is_empty() || b.is_empty() || boxes_apart(a, b, limit) {
-        return false;
-    }
-    if has_vertex_near(a, b, limit) || has_vertex_near(b, a, limit) {
-        return true;
-    }
-    // Where paths cross, the nearer end of a segment is at most half its length away: it was seen above.
-    let longest = a.windows(2).map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
-    longest >= 2.0 * limit && distance_between(a, b) < limit
-}
-
-/// Whether the rectangles around two paths are at least `limit` m apart along an axis.
-fn boxes_apart(a: &[Point2], b: &[Point2], limit: f64) -> bool {
-    let around = |path: &[Point2]| {
-        path.iter().fold((path[0], path[0]), |(low, high), point| (low.inf(point), high.sup(point)))
-    };
-    let ((a_low, a_high), (b_low, b_high)) = (around(a), around(b));
-    let gap = (b_low - a_high).sup(&(a_low - b_high));
-    gap.max() >= limit
-}
-
-/// Whether a vertex of one path lies nearer to the other than `limit` m. Vertices that cannot be that near, because
-/// the one before was too far away, are passed over.
-fn has_vertex_near(vertices: &[Point2], path: &[Point2], limit: f64) -> bool {
-    let mut slack = 0.0;
-    for (index, vertex) in vertices.iter().enumerate() {
-        if index > 0 {
-            slack -= (vertex - vertices[index - 1]).norm();
-        }
-        if slack > 1e-6 {
-            continue;
-        }
-        let distance = closest(path, vertex).map_or(f64::INFINITY, |closest| closest.distance);
-        if distance < limit {
-            return true;
-        }
-        slack = distance - limit;
-    }
-    false
-}
-
 /// Where two segments cross, as shares of their lengths; `None` if they do not or are parallel.
 pub fn crossing(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<(f64, f64)> {
     let (r, s, between) = (b - a, d - c, c - a);
@@ -270,30 +226,6 @@ mod tests {
         let turned =
             inner.windows(3).filter(|corner| (corner[1] - corner[0]).dot(&(corner[2] - corner[1])) < 0.0);
         assert!(turned.count() <= 1, "{inner:?}");
-    }
-
-    #[test]
-    fn the_short_way_to_nearness_agrees_with_the_long_one() {
-        let mut rng = crate::seed::Seed(5).stream("polyline").rng();
-        let mut near = 0;
-        for _ in 0..2000 {
-            let mut path = |stride: f64| -> Vec<Point2> {
-                let mut at = Point2::new(rng.uniform(0.0, 15.0), rng.uniform(0.0, 15.0));
-                let mut step = || Vector2::new(rng.uniform(-stride, stride), rng.uniform(-stride, stride));
-                (0..6)
-                    .map(|_| {
-                        at += step();
-                        at
-                    })
-                    .collect()
-            };
-            let (a, b) = (path(2.0), path(9.0));
-            let expected = distance_between(&a, &b) < 1.5;
-            near += usize::from(expected);
-            assert_eq!(nearer_than(&a, &b, 1.5), expected, "{a:?} {b:?}");
-            assert_eq!(nearer_than(&b, &a, 1.5), expected, "{a:?} {b:?}");
-        }
-        assert!((400..1600).contains(&near), "{near} of 2000 say nothing");
     }
 
     #[test]

@@ -100,7 +100,19 @@ impl Edges {
                 Shape(&path)
             )?;
         }
-        for lane in lanes(road, direction).iter().rev() {
+        self.write_lanes(network, lanes(road, direction), (&edge, length), out)?;
+        writeln!(out, "</edge>")
+    }
+
+    /// The lanes for vehicles of an edge, from the outside inwards, all of one length.
+    fn write_lanes(
+        &self,
+        network: &RoadNetwork,
+        lanes: &[LaneId],
+        (edge, length): (&str, f64),
+        out: &mut impl Write,
+    ) -> io::Result<()> {
+        for lane in lanes.iter().rev() {
             let (rank, lane) = (self.rank(*lane), &network.lanes[lane.index()]);
             let who = match lane.kind {
                 LaneKind::Bus => r#"allow="bus""#.to_owned(),
@@ -116,7 +128,7 @@ impl Edges {
                 Shape(&lane.path)
             )?;
         }
-        writeln!(out, "</edge>")
+        Ok(())
     }
 }
 
