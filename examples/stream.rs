@@ -16,22 +16,29 @@ use simworld_core::net::RoadClass;
 use simworld_core::scene::World;
 use simworld_core::seed::Seed;
 
+/// Drives through a city without end, prints how fast its tiles are made, and draws what was seen.
 #[derive(Parser)]
 struct Args {
     /// grid, mixed, organic or suburb
     #[arg(long, default_value_t)]
     style: Style,
-    /// Length of the drive, km
-    #[arg(long, default_value_t = 20.0)]
+    /// Length of the drive, km, from 0.1 to 1000
+    #[arg(long, default_value_t = 20.0, value_parser = kilometres)]
     km: f64,
     /// How far one sees, m
     #[arg(long, default_value_t = 600.0)]
     reach: f64,
+    /// Seed of the city
     #[arg(long, default_value_t = 7)]
     seed: u64,
     /// The picture
     #[arg(long, default_value = "stream.svg")]
     out: PathBuf,
+}
+
+fn kilometres(text: &str) -> Result<f64, String> {
+    let km = text.parse::<f64>().map_err(|error| error.to_string())?;
+    if (0.1..=1000.0).contains(&km) { Ok(km) } else { Err("give 0.1 to 1000 km".to_owned()) }
 }
 
 #[allow(clippy::disallowed_methods, reason = "the drive is timed for the report only")]
