@@ -11,6 +11,7 @@ use crate::environment::{Environment, EnvironmentError};
 use crate::geometry::{Pose, Twist};
 use crate::id::EntityId;
 use crate::intent::Intent;
+use crate::net::{NetworkPatch, PatchError};
 use crate::scene::{Attachment, EntityDesc, InteractionError, Scene, World, WorldError};
 use crate::value::Value;
 
@@ -72,6 +73,8 @@ pub enum Command {
     },
     /// Sets sun and weather.
     SetEnvironment(Environment),
+    /// Changes the roads.
+    PatchRoads(Box<NetworkPatch>),
     /// Tells a body to act.
     Actuate {
         /// Which body.
@@ -98,6 +101,9 @@ pub enum CommandError {
     /// The condition is out of range.
     #[error(transparent)]
     Environment(#[from] EnvironmentError),
+    /// The roads cannot be changed so.
+    #[error(transparent)]
+    Roads(#[from] PatchError),
     /// The action is impossible.
     #[error(transparent)]
     Interaction(#[from] InteractionError),
@@ -167,6 +173,9 @@ impl World {
             Command::SetEnvironment(environment) => {
                 Some(Command::SetEnvironment(self.set_environment(*environment)?))
             }
+            Command::PatchRoads(patch) => {
+                Some(Command::PatchRoads(Box::new(self.patch_roads((**patch).clone())?)))
+            }
             Command::Actuate { who, action } => {
                 self.actuate(*who, action.clone())?;
                 None
@@ -177,6 +186,29 @@ impl World {
             }
         };
         Ok(Applied { spawned: None, undo })
+    }
+
+    /// Carries out commands in their order: all of them, or none. Gives the commands that take them back, in the order in
+    /// which they are to be carried out; actions and intents among them cannot be taken back.
+    ///
+    /// # Errors
+    /// The first command that is impossible; then nothing has changed but what actions and intents before it did.
+    pub fn apply_all(&mut self, commands: &[Command]) -> Result<Vec<Command>, CommandError> {
+        let mut undo = Vec::with_capacity(commands.len());
+        for command in commands {
+            match self.apply(command) {
+                Ok(done) => undo.extend(done.undo),
+                Err(error) => {
+                    for back in undo.iter().rev() {
+                        // What was just done can be taken back: nothing else changed since.
+                        let _ = self.apply(back);
+                    }
+                    return Err(error);
+                }
+            }
+        }
+        undo.reverse();
+        Ok(undo)
     }
 
     /// The command that brings an entity back to where it is now.

@@ -136,14 +136,19 @@ impl RoadNetwork {
     }
 
     fn check_intersections(&self) -> Result<(), NetworkFault> {
-        all("intersection", &self.intersections, |_, place| {
+        all("intersection", &self.intersections, |index, place| {
             let roads = place.roads.iter().all(|road| road.index() < self.roads.len());
             let ways = place.connections.iter().all(|way| way.index() < self.connections.len());
             let walks = place.crossings.iter().all(|crossing| crossing.index() < self.crossings.len());
             let corners = place.corners.len() <= place.roads.len();
+            let own = |plan: u32| {
+                let plan = self.signals.get(plan as usize);
+                plan.is_some_and(|plan| plan.intersection.index() == index)
+            };
+            let signals = place.signals.is_none_or(own);
             let points = place.outline.iter().chain(place.corners.iter().flatten());
             match () {
-                () if !(roads && ways && walks && corners) => LOST,
+                () if !(roads && ways && walks && corners && signals) => LOST,
                 () if place.height.is_nan() || place.height.abs() > FARTHEST => SHAPELESS,
                 () if !(is_near(&place.center) && points.into_iter().all(is_near)) => SHAPELESS,
                 () => None,

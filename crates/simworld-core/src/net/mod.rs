@@ -3,8 +3,10 @@
 mod check;
 mod derive;
 mod network;
+mod part;
 mod plan;
 pub mod polyline;
+mod repair;
 mod section;
 mod signal;
 mod turn_lanes;
@@ -15,7 +17,9 @@ pub use derive::{NetworkConfig, NetworkError};
 pub use network::{
     Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Turn,
 };
+pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};
+pub use repair::{ArrayPatch, NetworkPatch, PatchError, PlanChange};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use turn_lanes::{TurnLanes, TurnSet};

@@ -138,6 +138,8 @@ pub struct Intersection {
     pub roads: Vec<RoadId>,
     /// Who may go.
     pub control: Control,
+    /// Index of its plan in [`RoadNetwork::signals`], if it has signals.
+    pub signals: Option<u32>,
     /// The paths across.
     pub connections: Vec<ConnectionId>,
     /// The crossings on its legs.
@@ -211,9 +213,11 @@ pub struct RoadNetwork {
 }
 
 impl RoadNetwork {
-    /// The number of signal groups, the length of [`Scene::signals`](crate::scene::Scene::signals).
+    /// The number of signal groups, the length of [`Scene::signals`](crate::scene::Scene::signals). After a repair some may
+    /// be nobody's.
     pub fn signal_groups(&self) -> usize {
-        self.signals.iter().map(|plan| plan.groups.len()).sum()
+        let last = |plan: &SignalPlan| plan.groups.last().map_or(0, |group| group.index() + 1);
+        self.signals.iter().map(last).max().unwrap_or(0)
     }
 
     /// The sidewalk on one side of a road, if it has one.

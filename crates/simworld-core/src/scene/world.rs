@@ -24,7 +24,7 @@ use crate::geometry::{Aabb, Pose, Twist};
 use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
-use crate::net::{Aspect, RoadNetwork};
+use crate::net::{Aspect, NetworkPatch, PatchError, RoadNetwork};
 
 /// Positions farther out than this are refused, m: a third of the way round the Earth.
 const WORLD_LIMIT: f64 = 1.3e7;
@@ -91,6 +91,19 @@ impl World {
     pub fn set_roads(&mut self, roads: Arc<RoadNetwork>) {
         self.signals = vec![Aspect::Red; roads.signal_groups()];
         self.roads = Some(roads);
+    }
+
+    /// Changes the roads; gives the patch that takes the change back. Signal groups that are new show red. A network that
+    /// somebody else holds too is copied first, so that theirs stays as it is.
+    ///
+    /// # Errors
+    /// No roads, or a patch that is for other ones; then nothing has changed.
+    pub fn patch_roads(&mut self, patch: NetworkPatch) -> Result<NetworkPatch, PatchError> {
+        let roads = Arc::make_mut(self.roads.as_mut().ok_or(PatchError::NoRoads)?);
+        let back = roads.put_checked(patch)?;
+        self.signals.resize(roads.signal_groups(), Aspect::Red);
+        self.revision += 1;
+        Ok(back)
     }
 
     /// Adds an asset to those that entities are made from; one that is there already keeps its id.

@@ -1,6 +1,8 @@
 //! Conformance checks: what every implementor of a seam must hold to. Each panics with a sentence that says what
 //! does not hold; call them from a test of your own.
 
+mod network;
+
 use std::collections::BTreeSet;
 use std::fmt::{Debug, Write};
 use std::ops::ControlFlow;
@@ -16,6 +18,8 @@ use crate::seam::{
     TaskOutput,
 };
 use crate::seed::Seed;
+
+pub use network::numbered_in_order;
 
 /// Everything, in the plane.
 fn everywhere() -> Aabb {

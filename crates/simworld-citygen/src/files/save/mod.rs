@@ -35,7 +35,7 @@ use crate::{City, CityConfig, CityError, Provenance};
 /// The first bytes of a saved city: no text, no other format, and damaged by tools that mend line ends.
 pub const MAGIC: [u8; 8] = *b"\x89SIMCTY\n";
 /// Version of the format; it changes when the meaning of any byte does.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// The usual ending of the name of a saved city.
 pub const EXTENSION: &str = "simcity";
 /// Files larger than this are refused, bytes.

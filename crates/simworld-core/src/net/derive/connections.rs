@@ -89,7 +89,8 @@ fn movements(
     if let Some((_, to, turn)) = found.first().copied() {
         found.extend(stranded.into_iter().map(|lane| (lane, to, turn)));
     }
-    found.sort_unstable();
+    // Of one lane in the order of the legs to which its ways lead, whatever the numbers of those.
+    found.sort_by_key(|(from, ..)| *from);
     found
 }
 

@@ -75,6 +75,12 @@ pub enum NetworkError {
         /// How many there should be.
         nodes: usize,
     },
+    /// A change that does not lead from the network to the plan.
+    #[error("the change is none of this network: {reason}; derive the network anew from its plan")]
+    Change {
+        /// What is wrong.
+        reason: String,
+    },
     /// A node at no height.
     #[error("node {node} lies at {height} m: give -10 000 to 10 000 m")]
     Elevation {
@@ -221,6 +227,7 @@ fn intersection(
         outline: legs::outline(center, legs),
         roads: legs.iter().map(|leg| RoadId::from_index(leg.street)).collect(),
         control,
+        signals: None,
         connections: Vec::new(),
         crossings: Vec::new(),
         corners: Vec::new(),

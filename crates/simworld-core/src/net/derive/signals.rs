@@ -6,6 +6,7 @@ use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId};
 use crate::net::{Control, Phase, RoadNetwork, SignalGroup, SignalPlan};
 use crate::ops::wrap_angle;
+use crate::seed::Seed;
 
 /// Walking speed for which the clearance of a crossing is laid out, m/s.
 const CLEARANCE_SPEED: f64 = 1.0;
@@ -58,10 +59,16 @@ pub(super) fn add(network: &mut RoadNetwork, id: IntersectionId, legs: &[Leg], c
     }
     phases.retain(|phase| phase.duration > 0.0);
     let cycle: f64 = phases.iter().map(|phase| phase.duration).sum();
-    // The golden ratio spreads the offsets of neighbours evenly over the cycle.
-    let offset = (f64::from(id.0) * 0.618_033_988_749_894_9).fract() * cycle;
+    let offset = share_of_cycle(network.intersections[id.index()].center) * cycle;
     let groups = (first..first + 2 * count).map(SignalGroup).collect();
+    network.intersections[id.index()].signals = Some(network.signals.len() as u32);
     network.signals.push(SignalPlan { intersection: id, groups, offset, phases });
+}
+
+/// Where in its cycle a junction begins, as a share of it: a function of its place, so that it stays when others come and go.
+fn share_of_cycle(center: Point2) -> f64 {
+    let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    Seed(0).stream("core/signals").indexed(key(center.x)).indexed(key(center.y)).rng().unit()
 }
 
 /// The approaches that go together: opposite ones in pairs, the rest alone; legs ascending.
