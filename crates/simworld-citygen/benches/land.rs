@@ -43,7 +43,7 @@ fn land(criterion: &mut Criterion) {
     let build =
         |taken: &mut Occupancy| building::build(&network, &land, &BuildingConfig::default(), seed, taken);
     let mut taken = roads.clone();
-    let buildings = build(&mut taken).buildings;
+    let buildings = build(&mut taken);
     let setting = Setting {
         plan: &plan,
         network: &network,

@@ -29,7 +29,6 @@ pub struct City {
     /// Street elements, sidewalk by sidewalk.
     pub elements: Vec<Element>,
     pub(crate) frontage: f64,
-    pub(crate) frontage_used: f64,
 }
 
 impl City {
@@ -75,13 +74,13 @@ impl City {
         let mut taken = Occupancy::of_roads(&network);
         let zoning = Zoning::new(&config.zoning, seed);
         let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
-        let built = building::build(&network, &land, &config.buildings, seed, &mut taken);
+        let buildings = building::build(&network, &land, &config.buildings, seed, &mut taken);
         let setting = Setting {
             plan: &plan,
             network: &network,
             zoning: &zoning,
             land: &land,
-            buildings: &built.buildings,
+            buildings: &buildings,
             within: None,
         };
         let elements = element::furnish(&setting, &config.elements, seed, &mut taken);
@@ -90,16 +89,16 @@ impl City {
             provenance: Provenance::of_seed(seed),
             plan,
             network: Arc::new(network),
-            buildings: built.buildings,
+            buildings,
             elements,
             frontage: land.frontage,
-            frontage_used: built.frontage_used,
         })
     }
 
     /// Share of the frontage that buildings take, in [0, 1].
     pub fn frontage_used(&self) -> f64 {
-        if self.frontage > 0.0 { self.frontage_used / self.frontage } else { 0.0 }
+        let used: f64 = self.buildings.iter().map(|building| building.frontage).sum();
+        if self.frontage > 0.0 { (used / self.frontage).min(1.0) } else { 0.0 }
     }
 
     /// The blocks, lots and greens between its streets. They follow from the streets, the configuration and the seed, and

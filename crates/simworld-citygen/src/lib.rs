@@ -6,6 +6,7 @@ pub mod building;
 mod city;
 mod config;
 mod doors;
+pub mod edit;
 pub mod element;
 mod error;
 pub mod files;

@@ -15,6 +15,7 @@ pub mod intent;
 pub mod kinematic;
 pub mod net;
 pub mod ops;
+pub mod patch;
 pub mod record;
 pub mod scene;
 pub mod seam;

@@ -244,10 +244,7 @@ fn a_world_follows_by_commands() {
     worse.lanes.len = 3;
     worse.lanes.set.clear();
     let error = world.apply(&Command::PatchRoads(Box::new(worse))).unwrap_err();
-    assert!(
-        matches!(error, CommandError::Roads(PatchError::Fault(_) | PatchError::Misfit { .. })),
-        "{error}"
-    );
+    assert!(matches!(error, CommandError::Roads(PatchError::Fault(_) | PatchError::Misfit(_))), "{error}");
     assert_eq!(**world.roads().unwrap(), after);
     world.apply_all(&undo).unwrap();
     assert_eq!(**world.roads().unwrap(), before);

@@ -16,6 +16,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
 use trace::Boundary;
+pub(crate) use trace::sides_round;
 
 /// What lies beyond one edge of a block or a lot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,7 +64,8 @@ impl Block {
 
     /// The land within a boundary, if there is any.
     fn within(boundary: &Boundary) -> Option<Self> {
-        let ring = inset::inset(boundary)?;
+        let mut ring = inset::inset(boundary)?;
+        ring.begin_at_least();
         let area = ring.area();
         let is_closed = area > 0.0 && ring.is_simple();
         Some(Self { outline: ring.corners, borders: ring.borders, area: is_closed.then_some(area) })

@@ -30,6 +30,15 @@ impl Ring {
         self.borders.push(border);
     }
 
+    /// Turns the ring so that it begins at its westernmost corner, whatever the numbers of its streets.
+    pub(crate) fn begin_at_least(&mut self) {
+        let least = |a: &Point2, b: &Point2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+        if let Some((first, _)) = self.corners.iter().enumerate().min_by(|a, b| least(a.1, b.1)) {
+            self.corners.rotate_left(first);
+            self.borders.rotate_left(first);
+        }
+    }
+
     /// The corner after the i-th.
     pub(crate) fn next(&self, index: usize) -> Point2 {
         self.corners[if index + 1 == self.corners.len() { 0 } else { index + 1 }]

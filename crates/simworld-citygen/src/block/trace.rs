@@ -1,5 +1,7 @@
 //! The boundaries of the faces of a network: sidewalk, corner, sidewalk ... with the face on the left.
 
+use std::collections::BTreeSet;
+
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side, polyline};
@@ -23,7 +25,7 @@ pub(super) struct Piece {
 
 /// The boundary of every face, each once, in the order of its first road.
 pub(super) fn boundaries(network: &RoadNetwork) -> Vec<Boundary> {
-    let tracer = Tracer { network, ranks: ranks(network) };
+    let tracer = Tracer { network };
     let mut seen = vec![false; network.roads.len() * 2];
     let mut found = Vec::new();
     for start in 0..seen.len() {
@@ -43,20 +45,17 @@ pub(super) fn boundaries(network: &RoadNetwork) -> Vec<Boundary> {
     found
 }
 
-/// The place of each road among the roads of the intersections where it begins and where it ends.
-fn ranks(network: &RoadNetwork) -> Vec<[u32; 2]> {
-    let mut ranks = vec![[0; 2]; network.roads.len()];
-    for (index, intersection) in network.intersections.iter().enumerate() {
-        for (rank, road) in intersection.roads.iter().enumerate() {
-            let ends = &network.roads[road.index()];
-            if ends.from.index() == index {
-                ranks[road.index()][0] = rank as u32;
-            } else {
-                ranks[road.index()][1] = rank as u32;
-            }
+/// The sides of streets round the faces that some sides bound: side 2i is the left of road i, side 2i + 1 its right.
+pub(crate) fn sides_round(network: &RoadNetwork, some: impl IntoIterator<Item = usize>) -> BTreeSet<usize> {
+    let tracer = Tracer { network };
+    let mut all = BTreeSet::new();
+    for side in some {
+        let mut at = side;
+        while all.insert(at) {
+            at = tracer.next(at).0;
         }
     }
-    ranks
+    all
 }
 
 /// Whether a side is walked along its road.
@@ -66,7 +65,6 @@ const fn is_forward(half: usize) -> bool {
 
 struct Tracer<'a> {
     network: &'a RoadNetwork,
-    ranks: Vec<[u32; 2]>,
 }
 
 impl Tracer<'_> {
@@ -74,11 +72,8 @@ impl Tracer<'_> {
     /// follows. Side 2i is walked along road i, side 2i + 1 against it.
     fn follow(&self, half: usize, boundary: &mut Boundary) -> usize {
         let road = &self.network.roads[half / 2];
-        let (side, node, rank) = if is_forward(half) {
-            (Side::Left, road.to, self.ranks[half / 2][1])
-        } else {
-            (Side::Right, road.from, self.ranks[half / 2][0])
-        };
+        let (side, node) = if is_forward(half) { (Side::Left, road.to) } else { (Side::Right, road.from) };
+        let (next, before) = self.next(half);
         let id = RoadId::from_index(half / 2);
         let sidewalk = self.network.sidewalk(id, side);
         if let Some(sidewalk) = sidewalk {
@@ -90,16 +85,23 @@ impl Tracer<'_> {
         }
         // The corner leads from the left of one road to the right of the next, this one: it is walked against.
         let intersection = &self.network.intersections[node.index()];
-        let count = intersection.roads.len();
-        let before = (rank as usize + count - 1) % count;
         if let Some(corner) = intersection.corners.get(before).filter(|corner| corner.len() >= 2) {
             let offset = sidewalk.map_or(0.0, |sidewalk| sidewalk.width * 0.5);
             boundary.extend(corner, true, Piece { border: Border::CORNER, offset });
         }
-        let next = intersection.roads[before];
-        let leaves_forward =
-            self.network.roads[next.index()].from == node && self.ranks[next.index()][0] as usize == before;
-        2 * next.index() + usize::from(!leaves_forward)
+        next
+    }
+
+    /// The side that follows round the face, and the rank of its road at the intersection between.
+    fn next(&self, half: usize) -> (usize, usize) {
+        let road = &self.network.roads[half / 2];
+        let node = if is_forward(half) { road.to } else { road.from };
+        let roads = &self.network.intersections[node.index()].roads;
+        // No road leads from an intersection to itself, so each is there once.
+        let rank = roads.iter().position(|leg| leg.index() == half / 2).unwrap_or(0);
+        let before = (rank + roads.len() - 1) % roads.len().max(1);
+        let next = roads.get(before).map_or(half / 2, |road| road.index());
+        (2 * next + usize::from(self.network.roads[next].from != node), before)
     }
 
     /// The kerb of a road without a sidewalk, kept clear of the junctions at its ends.

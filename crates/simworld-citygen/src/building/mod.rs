@@ -69,6 +69,10 @@ pub struct Building {
     pub road: RoadId,
     /// The side of that road.
     pub side: Side,
+    /// Length of the frontage along which it stands, m.
+    pub frontage: f64,
+    /// Whether a map or a hand put it here: then it stays when the streets round its block change, as long as it has room.
+    pub given: bool,
 }
 
 impl Building {
@@ -178,26 +182,41 @@ fn drawn_in(corners: [Point2; 3], distance: f64) -> Option<[Point2; 3]> {
     (radius > distance).then(|| corners.map(|corner| middle + (corner - middle) * (1.0 - distance / radius)))
 }
 
-/// What was built.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Built {
-    /// The buildings, lot by lot.
-    pub buildings: Vec<Building>,
-    /// Length of the frontage along which they stand, m.
-    pub frontage_used: f64,
-}
-
-/// Builds on all lots. `taken` holds the land of the roads and receives the buildings.
+/// Builds on all lots and gives every place that people need, and its name. `taken` holds the land of the roads and receives
+/// the buildings.
 pub fn build(
     network: &RoadNetwork,
     land: &Land,
     config: &BuildingConfig,
     seed: Seed,
     taken: &mut Occupancy,
-) -> Built {
+) -> Vec<Building> {
+    let mut buildings = raise(network, land, config, seed, taken);
+    let streams = seed.stream("citygen/buildings");
+    uses::ensure(&mut buildings, &mut streams.named("places").rng());
+    uses::name(&mut buildings, &mut streams.named("names").rng());
+    buildings
+}
+
+/// A name for a building that came later: a function of where it stands, but for the names that are given already.
+pub(crate) fn name_for(building: &Building, seed: Seed, is_taken: impl Fn(&str) -> bool) -> Option<String> {
+    let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    let streams = seed.stream("citygen/buildings").named("later names");
+    let mut rng = streams.indexed(key(building.center.x)).indexed(key(building.center.y)).rng();
+    names::free(building.place, &mut rng, is_taken)
+}
+
+/// Builds on all lots what their zones say, without names.
+pub(crate) fn raise(
+    network: &RoadNetwork,
+    land: &Land,
+    config: &BuildingConfig,
+    seed: Seed,
+    taken: &mut Occupancy,
+) -> Vec<Building> {
     let streams = seed.stream("citygen/buildings");
     let weights = Weights::new();
-    let mut built = Built { buildings: Vec::with_capacity(land.lots.len() * 5 / 4), frontage_used: 0.0 };
+    let mut buildings = Vec::with_capacity(land.lots.len() * 5 / 4);
     taken.reserve(land.lots.len() * 5 / 4);
     for batch in land.lots.chunks(BATCH) {
         // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
@@ -208,12 +227,9 @@ pub fn build(
         for plan in plans.into_iter().flatten() {
             // Lots do not overlap, so this refuses only what would stand on a road.
             if taken.take(&plan.corners) {
-                built.frontage_used += plan.frontage;
-                built.buildings.push(plan.building);
+                buildings.push(plan.building);
             }
         }
     }
-    uses::ensure(&mut built.buildings, &mut streams.named("places").rng());
-    uses::name(&mut built.buildings, &mut streams.named("names").rng());
-    built
+    buildings
 }

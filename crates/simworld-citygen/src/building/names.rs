@@ -79,6 +79,22 @@ impl Names {
     }
 }
 
+/// A name for a place by itself, which nobody has: the first of an order that chance begins; `None` for places that bear no
+/// name.
+pub(super) fn free(place: Place, rng: &mut StreamRng, is_taken: impl Fn(&str) -> bool) -> Option<String> {
+    let nouns = noun(place)?;
+    let combinations = EPITHETS.len() * nouns.len();
+    let start = rng.below(combinations);
+    (0..).find_map(|step: usize| {
+        let index = (start + step * STEP) % combinations;
+        let (epithet, noun) = (EPITHETS[index % EPITHETS.len()], nouns[index / EPITHETS.len()]);
+        let round = step / combinations;
+        let name =
+            if round == 0 { format!("{epithet} {noun}") } else { format!("{epithet} {noun} {}", round + 1) };
+        (!is_taken(&name)).then_some(name)
+    })
+}
+
 /// Step from one name to the next; a prime greater than any number of words.
 const STEP: usize = 97;
 

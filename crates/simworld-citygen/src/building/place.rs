@@ -32,8 +32,6 @@ const AT_STREET: f64 = 4.0;
 pub(super) struct Plan {
     pub(super) building: Building,
     pub(super) corners: [Point2; 4],
-    /// Length of the fronts along which it stands, m.
-    pub(super) frontage: f64,
 }
 
 /// Plans buildings lot by lot.
@@ -219,9 +217,10 @@ impl<'a> Planner<'a> {
             access: site.access(self.network, door),
             road: site.road,
             side: site.side,
+            frontage: site.frontage(self.land, &corners, near + AT_STREET),
+            given: false,
         };
-        let frontage = site.frontage(self.land, &corners, near + AT_STREET);
-        self.plans.push(Plan { building, corners, frontage });
+        self.plans.push(Plan { building, corners });
     }
 }
 

@@ -37,6 +37,8 @@ pub(super) fn plant(
         if columns * rows > MOST_POINTS {
             continue;
         }
+        let borders = &setting.land.blocks[green.block as usize].borders;
+        let along = borders.iter().find_map(|border| border.as_street());
         let key = |x: f64| (x * 100.0).round() as i64 as u64;
         let mut rng = streams.indexed(key(low.x)).indexed(key(low.y)).rng();
         for index in 0..(columns * rows) as u64 {
@@ -47,7 +49,7 @@ pub(super) fn plant(
                 continue;
             }
             let shape = shape_of(EntityKind::Tree, &mut rng);
-            let element = Element { kind: EntityKind::Tree, position, facing: 0.0, shape };
+            let element = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
             if taken.take(&element.obb().footprint()) {
                 elements.push(element);
             }

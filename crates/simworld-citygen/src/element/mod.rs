@@ -38,6 +38,9 @@ pub struct Element {
     pub facing: f64,
     /// Its solid; a tree's is its trunk.
     pub shape: Shape,
+    /// The side of the street along which it was set, or of the block that it stands in; none of what a map or a hand put
+    /// here.
+    pub along: Option<(RoadId, Side)>,
 }
 
 impl Element {

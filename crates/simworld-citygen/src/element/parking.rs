@@ -59,7 +59,10 @@ pub(super) fn park(
                 let length = rng.uniform(3.7, 4.9);
                 let width = (length * 0.39).min(lane.width - 2.0 * EDGE_GAP);
                 let station = (f64::from(space) + 0.5) * SPACE;
-                elements.extend(car(&path, station, length, width, is_reversed(*offset, lane), lane.width));
+                let car = car(&path, station, length, width, is_reversed(*offset, lane), lane.width);
+                let side = if *offset > 0.0 { Side::Left } else { Side::Right };
+                elements
+                    .extend(car.map(|car| Element { along: Some((RoadId::from_index(index), side)), ..car }));
             }
         }
     }
@@ -89,7 +92,13 @@ fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, l
     let facing = if reversed { ops::wrap_angle(along + PI) } else { along };
     // In a bend the chord is shorter than the stretch: so is the car.
     let shape = Shape::cuboid(length.min(chord.norm()), width, 0.31 * length);
-    Some(Element { kind: EntityKind::Car, position: nalgebra::center(&front, &back), facing, shape })
+    Some(Element {
+        kind: EntityKind::Car,
+        position: nalgebra::center(&front, &back),
+        facing,
+        shape,
+        along: None,
+    })
 }
 
 /// Where along a road's centreline cars may park, clear of the junctions at its ends; `None` if nowhere.

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
 use simworld_core::geometry::Point2;
-use simworld_core::id::SidewalkId;
+use simworld_core::id::{RoadId, SidewalkId};
 use simworld_core::net::{RoadClass, Side, Sidewalk};
 use simworld_core::scene::{EntityKind, Place, Shape};
 use simworld_core::seed::{Stream, StreamRng};
@@ -71,7 +71,7 @@ pub(super) fn line(
                 let mut setter = Setter::default();
                 for (index, sidewalk) in sidewalks {
                     setter.begin(sidewalk, doors.at(*index), setting);
-                    setter.furnish(sidewalk, setting, config, &mut stream_of(sidewalk, streams).rng());
+                    setter.furnish(sidewalk, setting, config, stream_of(sidewalk, streams));
                 }
                 setter.wishes
             })
@@ -152,6 +152,7 @@ struct Setter {
     /// Stations of doors, and what is behind them.
     doors: Vec<(f64, Place)>,
     wishes: Vec<Wish>,
+    along: Option<(RoadId, Side)>,
 }
 
 impl Setter {
@@ -161,8 +162,9 @@ impl Setter {
         sidewalk: &Sidewalk,
         setting: &Setting<'_>,
         config: &ElementConfig,
-        rng: &mut StreamRng,
+        stream: Stream,
     ) {
+        let rng = &mut stream.rng();
         let zone = self.zone(setting);
         let (trees, furniture) = abundance(zone);
         let is_local = setting.network.roads[sidewalk.road.index()].class == RoadClass::Local;
@@ -170,7 +172,8 @@ impl Setter {
         if !is_local && rng.chance(usable / BUS_STOPS) {
             self.set(EntityKind::BusStop, Row::Back, CORNER_CLEARANCE + 4.0 + rng.unit() * 6.0, rng);
         }
-        self.terraces(rng);
+        // What is behind the doors changes nothing but the terraces.
+        self.terraces(&mut stream.named("terraces").rng());
         self.line_up(EntityKind::StreetLamp, config.lamps, rng);
         self.line_up(EntityKind::Tree, config.trees * trees, rng);
         let weights = FURNITURE.map(|(_, _, weights)| weights[zone as usize]);
@@ -182,6 +185,7 @@ impl Setter {
 
     fn begin(&mut self, sidewalk: &Sidewalk, buildings: &[u32], setting: &Setting<'_>) {
         self.walk.set(sidewalk);
+        self.along = Some((sidewalk.road, sidewalk.side));
         self.busy.clear();
         self.doors.clear();
         for index in buildings {
@@ -229,7 +233,7 @@ impl Setter {
                 if is_clear && !self.busy.iter().any(meets) {
                     self.busy.push(span);
                     if let Some((position, facing)) = self.walk.at(station, offset) {
-                        let element = Element { kind, position, facing, shape };
+                        let element = Element { kind, position, facing, shape, along: self.along };
                         self.wishes.push(Wish { element, needs: Need::Nothing });
                     }
                 }
@@ -256,7 +260,8 @@ impl Setter {
             return false;
         }
         let Some((position, facing)) = self.walk.at(station, offset) else { return false };
-        let element = Element { kind, position, facing: turned(facing, turn), shape };
+        let facing = turned(facing, turn);
+        let element = Element { kind, position, facing, shape, along: self.along };
         self.wishes.push(Wish { element, needs });
         true
     }

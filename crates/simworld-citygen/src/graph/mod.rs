@@ -112,6 +112,11 @@ impl StreetGraph {
         self.nodes.get(node.index()).filter(|node| node.lives).map(|node| node.at)
     }
 
+    /// How high a node lies, if it exists, m.
+    pub fn elevation(&self, node: NodeId) -> Option<f64> {
+        self.nodes.get(node.index()).filter(|node| node.lives).map(|node| node.elevation)
+    }
+
     /// A street, if it exists; `from` and `to` are numbers of nodes of the graph.
     pub fn street(&self, street: StreetId) -> Option<&Street> {
         self.streets.get(street.index())?.as_ref()

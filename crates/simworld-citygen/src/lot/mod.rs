@@ -121,7 +121,7 @@ impl Land {
         let mut ribbons = Occupancy::default();
         for (index, block) in numbered.into_iter().filter(|(_, block)| block.area.is_none()) {
             let mut divider = Divider::new(&mut land, index, zoning, config, stream_of(block, streams));
-            ribbon::line(&mut divider, block, taken, &mut ribbons);
+            ribbon::line(&mut divider, block, streams, taken, &mut ribbons);
         }
         land.blocks = blocks;
         land
@@ -190,6 +190,10 @@ impl Land {
 fn stream_of(block: &Block, streams: Stream) -> Stream {
     let low =
         block.outline.iter().fold(Vector2::repeat(f64::INFINITY), |low, corner| low.inf(&corner.coords));
+    stream_at(low.into(), streams)
+}
+
+fn stream_at(point: Point2, streams: Stream) -> Stream {
     let key = |x: f64| (x * 10.0).round() as i64 as u64;
-    streams.indexed(key(low.x)).indexed(key(low.y))
+    streams.indexed(key(point.x)).indexed(key(point.y))
 }

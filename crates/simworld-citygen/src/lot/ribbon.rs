@@ -1,10 +1,11 @@
 //! Lots along the streets of an open block, as deep as there is room.
 
 use simworld_core::geometry::Vector2;
+use simworld_core::seed::Stream;
 
-use super::GreenKind;
 use super::divide::{Divider, longest_front};
 use super::slabs::{Street, stations};
+use super::{GreenKind, stream_at};
 use crate::block::{Block, Border, Ring, Split};
 use crate::occupancy::Occupancy;
 use crate::zoning::Zone;
@@ -18,7 +19,13 @@ const NARROWEST_HALF: f64 = 7.0;
 const BEND: f64 = 0.3;
 
 /// Lines the streets of an open block with lots that touch neither `taken` nor one another.
-pub(super) fn line(divider: &mut Divider<'_>, block: &Block, taken: &Occupancy, ribbons: &mut Occupancy) {
+pub(super) fn line(
+    divider: &mut Divider<'_>,
+    block: &Block,
+    streams: Stream,
+    taken: &Occupancy,
+    ribbons: &mut Occupancy,
+) {
     let ring = block.ring();
     let mut fronts: Vec<(usize, f64)> = (0..ring.len())
         .filter(|index| ring.borders[*index].is_street())
@@ -31,6 +38,8 @@ pub(super) fn line(divider: &mut Divider<'_>, block: &Block, taken: &Occupancy, 
     for (index, length) in fronts {
         let along = ring.edge(index) / length;
         let street = Street { border: ring.borders[index], start: ring.corners[index], along };
+        // A stream for each front, so that a change elsewhere on the outskirts changes no lot here.
+        divider.rng = stream_at(street.start, streams).rng();
         let middle = street.start + along * (length * 0.5) + street.inwards() * 15.0;
         let is_park = divider.enter(middle) == Zone::Park;
         if !is_park {

@@ -85,12 +85,10 @@ impl City {
         let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
         let mut buildings = stand(place, outlines, &network, &ground, &mut warnings);
         buildings.iter().flat_map(Building::ground).for_each(|piece| taken.add(&piece));
-        let mut frontage_used = buildings.iter().map(|building| building.width).sum::<f64>();
         if options.buildings == Fill::WhereMissing {
             let open = without_lots_near(&land, &buildings);
             let built = crate::building::build(&network, &open, &config.buildings, seed, &mut taken);
-            buildings.extend(built.buildings);
-            frontage_used += built.frontage_used;
+            buildings.extend(built);
         }
         let mut elements = things::set(place, &network, &ground.carriageways, &mut taken, &mut warnings);
         if options.elements == Fill::WhereMissing {
@@ -118,7 +116,6 @@ impl City {
             network: Arc::new(network),
             buildings,
             elements,
-            frontage_used: frontage_used.min(land.frontage),
             frontage: land.frontage,
         };
         Ok((city, warnings))

@@ -91,7 +91,6 @@ impl City {
                 None => warnings.push(left_out("elements", index)),
             }
         }
-        let frontage_used = built.iter().map(|building| building.width).sum::<f64>().min(land.frontage);
         let city = Self {
             config: config.clone(),
             provenance: Provenance::of_seed(seed),
@@ -100,7 +99,6 @@ impl City {
             buildings: built,
             elements: set,
             frontage: land.frontage,
-            frontage_used,
         };
         Ok((city, warnings))
     }
@@ -151,6 +149,8 @@ fn building(
         access: door.at,
         road: door.road,
         side: door.side,
+        frontage: width,
+        given: true,
     })
 }
 
@@ -172,7 +172,7 @@ fn element(record: &ElementRecord) -> Option<Element> {
         EntityKind::Tree => TREE,
         _ => Shape::cuboid(record.bounds.width, record.bounds.height, ELEMENT_HEIGHT),
     };
-    Some(Element { kind, position, facing: wrap_angle(record.rotation.to_radians()), shape })
+    Some(Element { kind, position, facing: wrap_angle(record.rotation.to_radians()), shape, along: None })
 }
 
 /// Words in the names of the release's assets, and what they are here.

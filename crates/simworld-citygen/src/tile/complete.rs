@@ -52,7 +52,7 @@ impl Tile {
         let land = Land::of_blocks(blocks, &zoning, &config.lots, seed, &taken);
         // Places and names are drawn tile by tile.
         let own_seed = seed.stream("citygen/tiles").indexed(id.x as u64).indexed(id.y as u64).seed();
-        let buildings = building::build(&network, &land, &config.buildings, own_seed, &mut taken).buildings;
+        let buildings = building::build(&network, &land, &config.buildings, own_seed, &mut taken);
         let setting = Setting {
             plan: &plan,
             network: &network,

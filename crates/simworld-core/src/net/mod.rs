@@ -19,7 +19,7 @@ pub use network::{
 };
 pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};
-pub use repair::{ArrayPatch, NetworkPatch, PatchError, PlanChange};
+pub use repair::{NetworkPatch, PatchError, PlanChange};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use turn_lanes::{TurnLanes, TurnSet};

@@ -5,8 +5,12 @@ use super::StreetPlan;
 /// Some streets of a plan as a plan of their own, which knows their numbers in the whole.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanPart {
-    /// The streets and their nodes, without names.
+    /// The streets and their nodes, with the cross-sections and the names that they have.
     pub plan: StreetPlan,
+    /// The number in the whole of each of its cross-sections.
+    pub sections: Vec<u32>,
+    /// The number in the whole of each of its names.
+    pub names: Vec<u32>,
     /// The number in the whole of each of its streets, ascending.
     pub streets: Vec<usize>,
     /// The number in the whole of each of its nodes, ascending.
@@ -45,23 +49,18 @@ impl StreetPlan {
         for (local, node) in nodes.iter().enumerate() {
             plan.controls.extend(self.controls.get(node).map(|control| (local, *control)));
         }
-        let mut sections: Vec<u32> = Vec::new();
+        let (mut sections, mut names) = (Vec::new(), Vec::new());
         for street in &streets {
             let mut street = self.streets[*street].clone();
-            let known = sections.iter().position(|known| *known == street.section);
-            let section = known.or_else(|| {
-                plan.sections.push(self.sections.get(street.section as usize)?.clone());
-                sections.push(street.section);
-                Some(sections.len() - 1)
-            });
+            let section = number(&self.sections, street.section, &mut sections, &mut plan.sections);
+            street.name = street.name.and_then(|name| number(&self.names, name, &mut names, &mut plan.names));
             // What is not there stays so: the plan is no better than the whole.
             let local = |node: usize| nodes.binary_search(&node).unwrap_or(usize::MAX);
             (street.from, street.to) = (local(street.from), local(street.to));
-            street.section = section.map_or(u32::MAX, |section| section as u32);
-            street.name = None;
+            street.section = section.unwrap_or(u32::MAX);
             plan.streets.push(street);
         }
-        PlanPart { plan, streets, nodes }
+        PlanPart { plan, sections, names, streets, nodes }
     }
 }
 
@@ -75,4 +74,14 @@ impl PlanPart {
     pub fn street(&self, whole: usize) -> Option<usize> {
         self.streets.binary_search(&whole).ok()
     }
+}
+
+/// The number in a part of a thing of the whole; it is taken over when it is first asked for.
+fn number<T: Clone>(all: &[T], whole: u32, known: &mut Vec<u32>, own: &mut Vec<T>) -> Option<u32> {
+    if let Some(present) = known.iter().position(|other| *other == whole) {
+        return Some(present as u32);
+    }
+    own.push(all.get(whole as usize)?.clone());
+    known.push(whole);
+    Some(known.len() as u32 - 1)
 }

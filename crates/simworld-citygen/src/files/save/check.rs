@@ -38,6 +38,7 @@ pub(super) fn buildings(buildings: &[Building], network: &RoadNetwork) -> Result
             && size(building.width)
             && size(building.depth)
             && building.storeys <= MOST_STOREYS
+            && (0.0..=FARTHEST).contains(&building.frontage)
             && building.footprint.fits(building.width, building.depth)
     };
     fail(
@@ -54,6 +55,13 @@ pub(super) fn elements(elements: &[Element]) -> Result<(), SaveError> {
         is_near(&element.position) && element.facing.is_finite() && is_solid(&element.shape)
     };
     fail("element", elements.iter().position(|element| !is_sound(element)), "has no possible place or size")
+}
+
+/// What stands along a road stands along one that is there.
+pub(super) fn anchors(elements: &[Element], network: &RoadNetwork) -> Result<(), SaveError> {
+    let is_lost =
+        |element: &Element| element.along.is_some_and(|(road, _)| road.index() >= network.roads.len());
+    fail("element", elements.iter().position(is_lost), "stands along a road that is not there")
 }
 
 fn is_solid(shape: &Shape) -> bool {

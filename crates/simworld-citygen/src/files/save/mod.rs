@@ -126,7 +126,6 @@ struct Head {
     config: String,
     provenance: Provenance,
     frontage: f64,
-    frontage_used: f64,
     driving_side: DrivingSide,
     counts: Counts,
 }
@@ -184,7 +183,6 @@ impl City {
             config: config_to_json(&self.config)?,
             provenance: self.provenance.clone(),
             frontage: self.frontage,
-            frontage_used: self.frontage_used,
             driving_side: self.network.driving_side,
             counts: Counts::of(self),
         };
@@ -225,6 +223,7 @@ impl City {
         let (network, (plan, buildings, elements)) = (network?, things?);
         check::streets(&plan, &network)?;
         check::buildings(&buildings, &network)?;
+        check::anchors(&elements, &network)?;
         Ok(Self {
             config,
             provenance: head.provenance,
@@ -233,7 +232,6 @@ impl City {
             buildings,
             elements,
             frontage: head.frontage,
-            frontage_used: head.frontage_used,
         })
     }
 

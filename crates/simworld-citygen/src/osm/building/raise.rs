@@ -56,6 +56,8 @@ pub(in crate::osm) fn raise(outline: &Outline, network: &RoadNetwork, doors: &[D
         access: door.at,
         road: door.road,
         side: door.side,
+        frontage: width,
+        given: true,
     })
 }
 

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use super::NetworkPatch;
-use super::book::Book;
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
 use crate::net::{
     Connection, Crossing, Intersection, Lane, Road, RoadNetwork, Sidewalk, SignalGroup, SignalPlan,
 };
+use crate::patch::Book;
 
 /// A network under change.
 #[derive(Debug)]

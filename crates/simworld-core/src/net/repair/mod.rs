@@ -6,13 +6,12 @@
 //! what is gone: every array stays without gaps. The result is, but for the numbers of lanes, connections, sidewalks,
 //! crossings and signals, what [`RoadNetwork::derive`] makes of the whole plan.
 
-mod book;
 mod books;
 mod patch;
 mod put;
 mod work;
 
-pub use patch::{ArrayPatch, NetworkPatch, PatchError};
+pub use patch::{NetworkPatch, PatchError};
 
 use super::{NetworkConfig, NetworkError, RoadNetwork, StreetPlan};
 use work::Repair;

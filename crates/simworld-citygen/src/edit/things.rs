@@ -1,0 +1,238 @@
+//! Edits of single buildings and elements.
+
+use std::collections::BTreeSet;
+
+use simworld_core::geometry::Point2;
+use simworld_core::ops::wrap_angle;
+use simworld_core::patch::{ArrayPatch, Book};
+
+use super::cells::{Bounds, bounds, inflated};
+use super::touched::FARTHEST_DOOR;
+use super::{CityEditor, CityPatch, EditError, PlanPatch, is_place, missing};
+use crate::building::Building;
+use crate::element::Element;
+use crate::occupancy::{Occupancy, overlap};
+use crate::strips::strip;
+use crate::zoning::Zoning;
+
+/// The least and the greatest size of a thing, m.
+const SIZES: (f64, f64) = (0.01, 2000.0);
+/// Most storeys.
+const MOST_STOREYS: u32 = 500;
+
+fn is_size(x: f64) -> bool {
+    (SIZES.0..=SIZES.1).contains(&x)
+}
+
+/// The rectangle round some pieces of ground.
+fn around(ground: &[Vec<Point2>]) -> Option<Bounds> {
+    bounds(ground.iter().flatten())
+}
+
+fn meet(a: &[Vec<Point2>], b: &[Vec<Point2>]) -> bool {
+    a.iter().any(|a| b.iter().any(|b| overlap(a, b)))
+}
+
+fn ground_of(element: &Element) -> Vec<Vec<Point2>> {
+    vec![element.obb().footprint().to_vec()]
+}
+
+fn taken(at: Point2, by: impl Into<String>) -> EditError {
+    EditError::Taken { x: at.x, y: at.y, by: by.into() }
+}
+
+impl CityEditor {
+    pub(super) fn add_building(&mut self, building: &Building) -> Result<CityPatch, EditError> {
+        let mut building = self.fitted(building.clone())?;
+        let gone = self.room_for(&building, None)?;
+        let seed = self.city.provenance.seed;
+        if building.name.is_none() {
+            let names = &self.index.names;
+            building.name = crate::building::name_for(&building, seed, |name| names.contains(name));
+        }
+        self.exchange(&[], vec![building], &gone, Vec::new())
+    }
+
+    pub(super) fn move_building(
+        &mut self,
+        number: usize,
+        to: Point2,
+        facing: f64,
+    ) -> Result<CityPatch, EditError> {
+        missing("building", number, self.city.buildings.len())?;
+        let moved =
+            Building { center: to, facing: wrap_angle(facing), ..self.city.buildings[number].clone() };
+        let building = self.fitted(moved)?;
+        let gone = self.room_for(&building, Some(number))?;
+        self.exchange(&[number], vec![building], &gone, Vec::new())
+    }
+
+    pub(super) fn remove_building(&mut self, number: usize) -> Result<CityPatch, EditError> {
+        missing("building", number, self.city.buildings.len())?;
+        self.exchange(&[number], Vec::new(), &[], Vec::new())
+    }
+
+    pub(super) fn add_element(&mut self, element: Element) -> Result<CityPatch, EditError> {
+        let element = self.room_for_element(element, None)?;
+        self.exchange(&[], Vec::new(), &[], vec![element])
+    }
+
+    pub(super) fn move_element(
+        &mut self,
+        number: usize,
+        to: Point2,
+        facing: f64,
+    ) -> Result<CityPatch, EditError> {
+        missing("element", number, self.city.elements.len())?;
+        let moved = Element { position: to, facing: wrap_angle(facing), ..self.city.elements[number] };
+        let element = self.room_for_element(moved, Some(number))?;
+        self.exchange(&[], Vec::new(), &[number], vec![element])
+    }
+
+    pub(super) fn remove_element(&mut self, number: usize) -> Result<CityPatch, EditError> {
+        missing("element", number, self.city.elements.len())?;
+        self.exchange(&[], Vec::new(), &[number], Vec::new())
+    }
+
+    /// A building of possible size, with what follows from where it stands.
+    fn fitted(&self, building: Building) -> Result<Building, EditError> {
+        let is_sound = is_place(&building.center)
+            && building.facing.is_finite()
+            && is_size(building.width)
+            && is_size(building.depth)
+            && (1..=MOST_STOREYS).contains(&building.storeys)
+            && building.footprint.fits(building.width, building.depth);
+        if !is_sound {
+            return Err(EditError::Size { what: "building" });
+        }
+        let (x, y) = (building.center.x, building.center.y);
+        let zoning = Zoning::new(&self.city.config.zoning, self.city.provenance.seed);
+        let (zone, frontage) = (zoning.zone(building.center), building.width);
+        self.with_door(Building { zone, frontage, given: true, ..building }).ok_or(EditError::NoStreet {
+            x,
+            y,
+            reach: FARTHEST_DOOR,
+        })
+    }
+
+    /// Whether a building has room; gives the generated elements that stand in its way.
+    fn room_for(&self, building: &Building, but: Option<usize>) -> Result<Vec<usize>, EditError> {
+        let ground = building.ground();
+        let Some(near) = around(&ground) else { return Err(EditError::Size { what: "building" }) };
+        if !self.roads_free(near, &ground) {
+            return Err(taken(building.center, "a road"));
+        }
+        for number in self.index.buildings_near(near).into_iter().filter(|number| Some(*number) != but) {
+            let other = &self.city.buildings[number];
+            if meet(&other.ground(), &ground) {
+                let name = other.name.as_deref().unwrap_or(other.archetype.name);
+                return Err(taken(other.center, format!("building {number}, {name}")));
+            }
+        }
+        let mut gone = Vec::new();
+        for number in self.index.elements_near(near) {
+            let element = &self.city.elements[number];
+            if meet(&ground_of(element), &ground) {
+                if element.along.is_none() {
+                    return Err(taken(element.position, format!("element {number}, a {}", element.kind)));
+                }
+                gone.push(number);
+            }
+        }
+        Ok(gone)
+    }
+
+    /// An element that has room, in no lane that is driven on.
+    fn room_for_element(&self, element: Element, but: Option<usize>) -> Result<Element, EditError> {
+        let size = element.shape.size();
+        let is_sound = is_place(&element.position)
+            && element.facing.is_finite()
+            && (0..3).all(|axis| is_size(size[axis]));
+        if !is_sound {
+            return Err(EditError::Size { what: "element" });
+        }
+        let element = Element { along: None, ..element };
+        let ground = ground_of(&element);
+        let Some(near) = around(&ground) else { return Err(EditError::Size { what: "element" }) };
+        if !self.lanes_free(near, &ground) {
+            return Err(taken(element.position, "a lane that is driven on"));
+        }
+        for number in self.index.buildings_near(near) {
+            if meet(&self.city.buildings[number].ground(), &ground) {
+                return Err(taken(element.position, format!("building {number}")));
+            }
+        }
+        for number in self.index.elements_near(near).into_iter().filter(|number| Some(*number) != but) {
+            let other = &self.city.elements[number];
+            if meet(&ground_of(other), &ground) {
+                return Err(taken(other.position, format!("element {number}, a {}", other.kind)));
+            }
+        }
+        Ok(element)
+    }
+
+    /// Whether no road, with its sidewalks, lies on a piece of ground.
+    fn roads_free(&self, near: Bounds, ground: &[Vec<Point2>]) -> bool {
+        let roads = self.index.roads.near(inflated(near, 60.0));
+        let part = self.city.plan.part(super::streets::with_neighbours(&self.city.network, roads));
+        let network = simworld_core::net::RoadNetwork::derive(&part.plan, &self.city.config.network);
+        let land = network.map(|network| {
+            Occupancy::of_roads_where(&network, |road| network.roads[road.index()].level == 0)
+        });
+        land.is_ok_and(|land| ground.iter().all(|piece| land.is_free(piece)))
+    }
+
+    /// Whether no lane that is driven on lies on a piece of ground.
+    fn lanes_free(&self, near: Bounds, ground: &[Vec<Point2>]) -> bool {
+        let network = &self.city.network;
+        let mut lanes = Occupancy::default();
+        let mut lay = |path: &[Point2], half: f64| {
+            for pair in path.windows(2).filter(|pair| (pair[1] - pair[0]).norm() > 0.01) {
+                lanes.add_box(&strip(pair[0], pair[1], half, half, 0.0));
+            }
+        };
+        let mut junctions = BTreeSet::new();
+        for road in self.index.roads.near(inflated(near, 30.0)) {
+            let road = &network.roads[road];
+            junctions.extend([road.from, road.to]);
+            for lane in road.forward.iter().chain(&road.backward) {
+                let lane = &network.lanes[lane.index()];
+                lay(&lane.path, lane.width * 0.5);
+            }
+        }
+        for way in junctions.iter().flat_map(|place| &network.intersections[place.index()].connections) {
+            let way = &network.connections[way.index()];
+            lay(&way.path, network.lanes[way.from.index()].width * 0.5);
+        }
+        ground.iter().all(|piece| lanes.is_free(piece))
+    }
+
+    /// Takes some things out and puts others in.
+    fn exchange(
+        &mut self,
+        buildings_out: &[usize],
+        buildings_in: Vec<Building>,
+        elements_out: &[usize],
+        elements_in: Vec<Element>,
+    ) -> Result<CityPatch, EditError> {
+        let patch = CityPatch {
+            plan: PlanPatch::unchanged(&self.city.plan),
+            network: simworld_core::net::NetworkPatch::unchanged(&self.city.network),
+            buildings: exchanged(&mut self.city.buildings, buildings_out, buildings_in),
+            elements: exchanged(&mut self.city.elements, elements_out, elements_in),
+            frontage: self.city.frontage,
+        };
+        self.index.follow(&self.city, &patch);
+        Ok(patch)
+    }
+}
+
+fn exchanged<T: Clone>(array: &mut Vec<T>, out: &[usize], new: Vec<T>) -> ArrayPatch<T> {
+    let mut book = Book::open(array);
+    out.iter().for_each(|number| book.vacate(*number));
+    for thing in new {
+        book.fill(thing);
+    }
+    while book.close_gap().is_some() {}
+    book.close()
+}

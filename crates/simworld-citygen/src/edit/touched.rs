@@ -1,0 +1,311 @@
+//! After a change of streets: the land on both their sides is divided and built on anew.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, Side, polyline};
+use simworld_core::patch::{ArrayPatch, Book};
+
+use super::cells::{bounds, inflated};
+use super::faces::{Faces, Given, place_key, side_number};
+use super::index::Index;
+use super::patch::CityPatch;
+use super::streets::StreetsChanged;
+use super::{CityEditor, EditError};
+use crate::block::sides_round;
+use crate::building::{self, Building};
+use crate::element::Element;
+use crate::occupancy::Occupancy;
+
+/// A building farther than this from every sidewalk has no way in, m.
+pub(super) const FARTHEST_DOOR: f64 = 150.0;
+
+/// Both sides of some roads.
+fn both_sides(roads: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
+    roads.iter().flat_map(|road| [2 * road, 2 * road + 1])
+}
+
+/// What stood round the streets before they changed.
+struct Before {
+    /// The roads that were changed, or have another number.
+    roads: BTreeSet<usize>,
+    /// All sides round their faces.
+    sides: BTreeSet<usize>,
+    frontage: f64,
+    land: Occupancy,
+}
+
+/// What stands now where something was.
+struct After {
+    buildings: Vec<Building>,
+    elements: Vec<Element>,
+    /// Given buildings that moved to another road or door, and those that have no room any more.
+    doors: Vec<(usize, Building)>,
+    buildings_gone: BTreeSet<usize>,
+    elements_gone: BTreeSet<usize>,
+    frontage: f64,
+}
+
+impl CityEditor {
+    /// Repairs what stands at streets that changed; gives the patch that takes all of it back.
+    pub(super) fn follow_streets(&mut self, changed: StreetsChanged) -> Result<CityPatch, EditError> {
+        let forth = changed.network.mirrored(&self.city.network);
+        let roads_now: BTreeSet<usize> = forth.roads.set.iter().map(|(road, _)| *road as usize).collect();
+        let StreetsChanged { plan, network } = changed;
+        let roads: BTreeSet<usize> = network.roads.set.iter().map(|(road, _)| *road as usize).collect();
+        // Back to the streets as they were, for a look at their faces.
+        let plan = plan.put_on(&mut self.city.plan)?;
+        let network = self.network_mut().put(network)?;
+        let before = self.before(roads);
+        let plan = plan.put_on(&mut self.city.plan)?;
+        let network = self.network_mut().put(network)?;
+        let mut patch = CityPatch {
+            plan,
+            network,
+            buildings: ArrayPatch::unchanged(&self.city.buildings),
+            elements: ArrayPatch::unchanged(&self.city.elements),
+            frontage: self.city.frontage,
+        };
+        // Roads first, for they are looked for by place.
+        self.index.follow(&self.city, &patch);
+        let after = before.and_then(|before| Ok((self.after(&before, &roads_now)?, before)));
+        match after {
+            Ok((after, before)) => {
+                self.city.frontage += after.frontage - before.frontage;
+                let (buildings, elements) = self.replace(&before, after);
+                let roads = std::mem::replace(&mut patch.network, self.no_roads());
+                (patch.buildings, patch.elements) = (buildings, elements);
+                self.index.follow(&self.city, &patch);
+                patch.network = roads;
+                Ok(patch)
+            }
+            Err(error) => {
+                self.put(patch)?;
+                Err(error)
+            }
+        }
+    }
+
+    fn no_roads(&self) -> simworld_core::net::NetworkPatch {
+        simworld_core::net::NetworkPatch::unchanged(&self.city.network)
+    }
+
+    fn before(&self, roads: BTreeSet<usize>) -> Result<Before, EditError> {
+        let sides = sides_round(&self.city.network, both_sides(&roads));
+        let faces = Faces::of(&self.city, &self.index.roads, &sides)?;
+        let (frontage, land) = (faces.land.frontage, faces.land_of_roads(&roads));
+        Ok(Before { roads, sides, frontage, land })
+    }
+
+    /// Builds on the faces round the roads that changed.
+    fn after(&self, before: &Before, roads: &BTreeSet<usize>) -> Result<After, EditError> {
+        let city = &self.city;
+        let sides = sides_round(&city.network, both_sides(roads));
+        let mut faces = Faces::of(city, &self.index.roads, &sides)?;
+        let land = faces.land_of_roads(roads);
+        let mut after = After {
+            buildings: Vec::new(),
+            elements: Vec::new(),
+            doors: Vec::new(),
+            buildings_gone: BTreeSet::new(),
+            elements_gone: BTreeSet::new(),
+            frontage: faces.land.frontage,
+        };
+        let uses: BTreeMap<[u64; 2], &Building> = self
+            .generated_buildings(&before.sides)
+            .map(|number| &city.buildings[number])
+            .map(|building| (place_key(building.center), building))
+            .collect();
+        let stays = |ground: &[Vec<simworld_core::geometry::Point2>]| {
+            ground.iter().all(|piece| land.is_free(piece) || !before.land.is_free(piece))
+        };
+        let courses = || roads.iter().filter_map(|road| bounds(&city.network.roads[*road].centerline));
+        let mut near = self.given_at(&before.roads);
+        near.extend(courses().flat_map(|around| self.index.buildings_near(around)));
+        let given: BTreeSet<usize> =
+            courses().flat_map(|around| self.index.given_near(inflated(around, 100.0))).collect();
+        for number in near {
+            let building = &city.buildings[number];
+            if !building.given {
+                continue;
+            }
+            let is_lost = before.roads.contains(&building.road.index());
+            let door = if is_lost { self.with_door(building.clone()) } else { Some(building.clone()) };
+            match door.filter(|building| stays(&building.ground())) {
+                Some(there) if is_lost => after.doors.push((number, there)),
+                Some(_) => {}
+                None => {
+                    after.buildings_gone.insert(number);
+                }
+            }
+        }
+        let lost = |number: &usize| !stays(&[city.elements[*number].obb().footprint().to_vec()]);
+        after.elements_gone = given.iter().copied().filter(lost).collect();
+        let moved: BTreeMap<usize, &Building> =
+            after.doors.iter().map(|(number, there)| (*number, there)).collect();
+        let stand = Given {
+            buildings: self
+                .given_round(&sides, &before.roads)
+                .into_iter()
+                .filter(|number| !after.buildings_gone.contains(number))
+                .map(|number| moved.get(&number).copied().unwrap_or(&city.buildings[number]))
+                .collect(),
+            elements: given
+                .iter()
+                .filter(|number| !after.elements_gone.contains(number))
+                .map(|number| &city.elements[*number])
+                .collect(),
+        };
+        (after.buildings, after.elements) = faces.build(&stand, &uses);
+        Ok(after)
+    }
+
+    /// The generated buildings on some sides of streets.
+    fn generated_buildings<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
+        at_roads(sides).flat_map(|road| self.index.buildings_at(road)).map(|number| *number as usize).filter(
+            |number| {
+                let building = &self.city.buildings[*number];
+                !building.given && sides.contains(&side_number(building.road, building.side))
+            },
+        )
+    }
+
+    /// The generated elements on some sides of streets.
+    fn generated_elements<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
+        at_roads(sides).flat_map(|road| self.index.elements_at(road)).map(|number| *number as usize).filter(
+            |number| {
+                let along = self.city.elements[*number].along;
+                along.is_some_and(|(road, side)| sides.contains(&side_number(road, side)))
+            },
+        )
+    }
+
+    fn given_at(&self, roads: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let all = roads.iter().flat_map(|road| self.index.buildings_at(*road));
+        all.map(|number| *number as usize).filter(|number| self.city.buildings[*number].given).collect()
+    }
+
+    /// The given buildings near enough to some faces to take room there, and those at roads whose numbers changed.
+    fn given_round(&self, sides: &BTreeSet<usize>, renumbered: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let courses = at_roads(sides).filter_map(|road| bounds(&self.city.network.roads[road].centerline));
+        let near = courses.flat_map(|around| self.index.buildings_near(around));
+        let given = near.filter(|number| self.city.buildings[*number].given);
+        given.chain(self.given_at(renumbered)).collect()
+    }
+
+    /// A building with the door at the nearest sidewalk; `None` if there is none within reach.
+    pub(super) fn with_door(&self, mut building: Building) -> Option<Building> {
+        let (at, road, side) = nearest_walk(&self.city.network, &self.index, building.center)?;
+        (building.access, building.road, building.side) = (at, road, side);
+        Some(building)
+    }
+
+    /// Puts what stands now into the place of what stood there.
+    fn replace(&mut self, before: &Before, after: After) -> (ArrayPatch<Building>, ArrayPatch<Element>) {
+        let mut there: BTreeMap<[u64; 2], usize> = self
+            .generated_buildings(&before.sides)
+            .map(|number| (place_key(self.city.buildings[number].center), number))
+            .collect();
+        let mut set: BTreeMap<([u64; 2], u8), usize> = self
+            .generated_elements(&before.sides)
+            .map(|number| (element_key(&self.city.elements[number]), number))
+            .collect();
+        let doubles: Vec<usize> = {
+            let kept: BTreeSet<usize> = there.values().copied().collect();
+            self.generated_buildings(&before.sides).filter(|number| !kept.contains(number)).collect()
+        };
+        let element_doubles: Vec<usize> = {
+            let kept: BTreeSet<usize> = set.values().copied().collect();
+            self.generated_elements(&before.sides).filter(|number| !kept.contains(number)).collect()
+        };
+        let seed = self.city.provenance.seed;
+        let mut names = std::mem::take(&mut self.index.names);
+        let mut buildings = Book::open(&mut self.city.buildings);
+        for (number, building) in after.doors {
+            *buildings.edit(number) = building;
+        }
+        let mut new = Vec::new();
+        for mut building in after.buildings {
+            let present = there.get(&place_key(building.center)).copied();
+            match present.filter(|number| is_same(buildings.get(*number), &building)) {
+                Some(number) => {
+                    there.remove(&place_key(building.center));
+                    let old = buildings.get(number);
+                    (building.place, building.name) = (old.place, old.name.clone());
+                    if *old != building {
+                        *buildings.edit(number) = building;
+                    }
+                }
+                None => new.push(building),
+            }
+        }
+        let gone = there.into_values().chain(doubles).chain(after.buildings_gone);
+        gone.for_each(|number| buildings.vacate(number));
+        for mut building in new {
+            building.name = building::name_for(&building, seed, |name| names.contains(name));
+            names.extend(building.name.clone());
+            buildings.fill(building);
+        }
+        while buildings.close_gap().is_some() {}
+        let mut elements = Book::open(&mut self.city.elements);
+        let mut new = Vec::new();
+        for element in after.elements {
+            let key = element_key(&element);
+            let present = set.get(&key).copied();
+            let same = |number: &usize| Element { along: element.along, ..*elements.get(*number) } == element;
+            match present.filter(same) {
+                Some(number) => {
+                    set.remove(&key);
+                    if *elements.get(number) != element {
+                        *elements.edit(number) = element;
+                    }
+                }
+                None => new.push(element),
+            }
+        }
+        let gone = set.into_values().chain(element_doubles).chain(after.elements_gone);
+        gone.for_each(|number| elements.vacate(number));
+        for element in new {
+            elements.fill(element);
+        }
+        while elements.close_gap().is_some() {}
+        let patches = (buildings.close(), elements.close());
+        self.index.names = names;
+        patches
+    }
+}
+
+/// The roads of some sides, each once.
+fn at_roads(sides: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
+    let mut last = None;
+    sides.iter().map(|side| side / 2).filter(move |road| last.replace(*road) != Some(*road))
+}
+
+fn element_key(element: &Element) -> ([u64; 2], u8) {
+    (place_key(element.position), element.kind as u8)
+}
+
+/// Whether two buildings at the same place differ in nothing but their use, their name and the numbers of their road.
+fn is_same(old: &Building, new: &Building) -> bool {
+    let Building { place, name, road, side, given, .. } = old.clone();
+    Building { place, name, road, side, given, ..new.clone() } == *old
+}
+
+/// The nearest place on a sidewalk, if one is within reach.
+fn nearest_walk(
+    network: &RoadNetwork,
+    index: &Index,
+    from: simworld_core::geometry::Point2,
+) -> Option<(simworld_core::geometry::Point2, RoadId, Side)> {
+    let near = index.roads.near(inflated((from, from), FARTHEST_DOOR));
+    let walks = near
+        .into_iter()
+        .flat_map(|road| [Side::Left, Side::Right].map(move |side| (RoadId::from_index(road), side)));
+    let found = walks.filter_map(|(road, side)| {
+        let walk = network.sidewalk(road, side)?;
+        let near = polyline::closest(&walk.path, &from)?;
+        Some((near.distance, polyline::at(&walk.path, near.station).0, road, side))
+    });
+    let (distance, at, road, side) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))?;
+    (distance <= FARTHEST_DOOR).then_some((at, road, side))
+}

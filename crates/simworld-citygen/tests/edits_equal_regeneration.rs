@@ -1,0 +1,231 @@
+//! An edited city is what the whole city would be on its new streets, edits reach no farther than the blocks that they
+//! touch, and each is taken back to the bit.
+
+use simworld_citygen::building::Building;
+use simworld_citygen::edit::{CityEdit, CityEditor, EditError, NewStreet};
+use simworld_citygen::element::Element;
+use simworld_citygen::{City, CityConfig, Style};
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::{IntersectionId, RoadId};
+use simworld_core::net::RoadNetwork;
+use simworld_core::scene::{EntityKind, Place, Shape};
+use simworld_core::seed::{Seed, StreamRng};
+use simworld_core::testing::numbered_in_order;
+
+fn city(style: Style, roads: u32, seed: u64) -> City {
+    let config = CityConfig { roads: style.roads(roads), ..CityConfig::default() };
+    City::generate(&config, Seed(seed)).expect("presets are valid")
+}
+
+/// An edit of the streets by chance.
+fn any_edit(city: &City, rng: &mut StreamRng) -> CityEdit {
+    let roads = &city.network.roads;
+    let middle = |road: usize| nalgebra::center(&roads[road].centerline[0], &roads[road].centerline[1]);
+    match rng.below(4) {
+        0 => CityEdit::RemoveStreet(RoadId::from_index(rng.below(roads.len()))),
+        1 => {
+            let node = rng.below(city.network.intersections.len());
+            let shift = Vector2::new(rng.uniform(-9.0, 9.0), rng.uniform(-9.0, 9.0));
+            let to = city.network.intersections[node].center + shift;
+            CityEdit::MoveIntersection { intersection: IntersectionId::from_index(node), to }
+        }
+        2 => {
+            // Out into the open, from anywhere.
+            let from = middle(rng.below(roads.len()));
+            let away = simworld_core::geometry::direction(rng.uniform(0.0, 6.28)) * rng.uniform(40.0, 160.0);
+            CityEdit::AddStreet(NewStreet::local([from, from + away]))
+        }
+        _ => {
+            let (a, b) = (rng.below(roads.len()), rng.below(roads.len()));
+            CityEdit::AddStreet(NewStreet {
+                name: Some("New Way".to_owned()),
+                ..NewStreet::local([middle(a), middle(b)])
+            })
+        }
+    }
+}
+
+/// What may differ between a building that stayed and one that is built anew: its use, its name, and where its road stands in
+/// the list.
+fn forms(buildings: &[Building]) -> Vec<Building> {
+    let mut forms: Vec<Building> = buildings
+        .iter()
+        .map(|building| Building { place: Place::Home, name: None, ..building.clone() })
+        .collect();
+    forms.sort_by(|a, b| a.center.x.total_cmp(&b.center.x).then(a.center.y.total_cmp(&b.center.y)));
+    forms
+}
+
+/// Elements in the order of their places, but for terraces, which follow the use of the building behind.
+fn without_terraces(elements: &[Element]) -> Vec<Element> {
+    let is_terrace = |element: &Element| matches!(element.kind, EntityKind::Table | EntityKind::Chair);
+    let mut set: Vec<Element> = elements.iter().filter(|element| !is_terrace(element)).copied().collect();
+    set.sort_by(|a, b| a.position.x.total_cmp(&b.position.x).then(a.position.y.total_cmp(&b.position.y)));
+    set
+}
+
+fn assert_like_the_whole(city: &City, after: &str) {
+    let whole = City::from_plan(city.plan.clone(), &city.config, city.provenance.seed).expect("it was built");
+    assert_eq!(city.network.check(), Ok(()), "{after}");
+    let derived = RoadNetwork::derive(&city.plan, &city.config.network).expect("it was derived");
+    assert!(numbered_in_order(&city.network) == numbered_in_order(&derived), "{after}: other roads");
+    let (ours, theirs) = (forms(&city.buildings), forms(&whole.buildings));
+    let stray = ours.iter().zip(&theirs).find(|(a, b)| a != b);
+    assert!(ours == theirs, "{after}: {} buildings for {}, first {stray:#?}", ours.len(), theirs.len());
+    let (ours, theirs) = (without_terraces(&city.elements), without_terraces(&whole.elements));
+    // What stood on a terrace may leave room for a thing behind the sidewalk.
+    let missing = |a: &[Element], b: &[Element]| {
+        let find = |element: &Element| {
+            b.binary_search_by(|other| {
+                other
+                    .position
+                    .x
+                    .total_cmp(&element.position.x)
+                    .then(other.position.y.total_cmp(&element.position.y))
+            })
+            .is_ok()
+        };
+        a.iter().filter(|element| !find(element)).count()
+    };
+    let differ = missing(&ours, &theirs) + missing(&theirs, &ours);
+    assert!(differ * 500 <= ours.len(), "{after}: {differ} of {} elements differ", ours.len());
+    assert!((city.frontage_used() - whole.frontage_used()).abs() < 1e-9, "{after}: other frontage");
+}
+
+#[test]
+fn edits_of_streets_give_the_city_of_the_new_streets() {
+    let whole = std::env::var_os("SIMWORLD_SOAK").is_some();
+    let seeds = if whole { 0..40 } else { 0..2 };
+    for seed in seeds {
+        for style in Style::ALL {
+            let mut editor = CityEditor::new(city(style, 60, seed));
+            let mut rng = Seed(seed).stream("edits").rng();
+            let mut done = 0;
+            for step in 0..8 {
+                let before = editor.city().clone();
+                let edit = any_edit(&before, &mut rng);
+                let after = format!("{style:?} {seed}, step {step}, {edit:?}");
+                let Ok(undo) = editor.apply(&edit) else {
+                    assert!(*editor.city() == before, "{after}: a refused edit changed something");
+                    continue;
+                };
+                done += 1;
+                assert_like_the_whole(editor.city(), &after);
+                let edited = editor.city().clone();
+                let redo = editor.put(undo).expect("an undo fits");
+                assert!(*editor.city() == before, "{after}: not taken back");
+                editor.put(redo).expect("a redo fits");
+                assert!(*editor.city() == edited, "{after}: not done again");
+            }
+            assert!(done >= 3, "{style:?} {seed}: only {done} edits were possible");
+        }
+    }
+}
+
+/// Buildings away from an edit keep their names, their uses and their numbers.
+#[test]
+fn what_an_edit_does_not_touch_stays() {
+    let before = city(Style::Mixed, 400, 3);
+    let mut editor = CityEditor::new(before.clone());
+    let road = before.network.roads.len() / 2;
+    let undo = editor.apply(&CityEdit::RemoveStreet(RoadId::from_index(road))).expect("a street can go");
+    let touched = undo.buildings.set.len();
+    assert!(touched > 0 && touched * 5 < before.buildings.len(), "{touched} of {}", before.buildings.len());
+    let at = before.network.intersections[before.network.roads[road].from.index()].center;
+    let far = |building: &&Building| (building.center - at).norm() > 1500.0;
+    let after = editor.city();
+    let mut kept = 0;
+    for building in before.buildings.iter().filter(far) {
+        let same = after.buildings.iter().find(|other| other.center == building.center);
+        kept += usize::from(
+            same.is_some_and(|same| (&same.name, same.place) == (&building.name, building.place)),
+        );
+    }
+    let all = before.buildings.iter().filter(far).count();
+    assert!(all > 100 && kept == all, "{kept} of {all}");
+}
+
+#[test]
+fn buildings_and_elements_come_move_and_go() {
+    let before = city(Style::Grid, 80, 1);
+    let mut editor = CityEditor::new(before.clone());
+    let mut undos = Vec::new();
+    // The lot of a house that is taken away has room for another one.
+    let old = before.buildings[7].clone();
+    undos.push(editor.apply(&CityEdit::RemoveBuilding(7)).expect("a house can go"));
+    assert_eq!(editor.city().buildings.len(), before.buildings.len() - 1);
+    let new = Building { place: Place::Museum, name: None, storeys: 3, ..old.clone() };
+    undos.push(editor.apply(&CityEdit::AddBuilding(Box::new(new))).expect("its lot is free"));
+    let number = editor.city().buildings.len() - 1;
+    let museum = editor.city().buildings[number].clone();
+    assert!(museum.given && museum.name.is_some());
+    // Where one stands there is no room for a second one.
+    let error = editor.apply(&CityEdit::AddBuilding(Box::new(old))).expect_err("it is taken");
+    assert!(matches!(error, EditError::Taken { .. }), "{error}");
+    let road = museum.access;
+    let moved = CityEdit::MoveBuilding { building: number, to: road, facing: 0.0 };
+    assert!(matches!(editor.apply(&moved), Err(EditError::Taken { .. })));
+    let lane = editor.city().network.lanes[3].path[0];
+    let bench = |position: Point2| Element {
+        kind: EntityKind::Bench,
+        position,
+        facing: 0.0,
+        shape: Shape::cuboid(0.6, 1.8, 0.8),
+        along: None,
+    };
+    assert!(matches!(editor.apply(&CityEdit::AddElement(bench(lane))), Err(EditError::Taken { .. })));
+    let walk = &editor.city().network.sidewalks[5];
+    let free = (0..40)
+        .map(|step| simworld_core::net::polyline::at(&walk.path, 2.0 * f64::from(step)).0)
+        .collect::<Vec<_>>();
+    let set = free.into_iter().find_map(|at| editor.apply(&CityEdit::AddElement(bench(at))).ok());
+    undos.push(set.expect("a sidewalk has room for a bench"));
+    let number = editor.city().elements.len() - 1;
+    undos.push(editor.apply(&CityEdit::RemoveElement(number)).expect("a bench can go"));
+    for error in [
+        editor.apply(&CityEdit::RemoveBuilding(1 << 40)).unwrap_err(),
+        editor.apply(&CityEdit::RemoveStreet(RoadId(u32::MAX))).unwrap_err(),
+    ] {
+        assert!(matches!(error, EditError::Missing { .. }), "{error}");
+    }
+    let nowhere = CityEdit::MoveElement { element: 0, to: Point2::new(f64::NAN, 0.0), facing: 0.0 };
+    assert!(matches!(editor.apply(&nowhere), Err(EditError::Size { .. })));
+    for undo in undos.into_iter().rev() {
+        editor.put(undo).expect("an undo fits");
+    }
+    assert!(editor.into_city() == before);
+}
+
+/// What a hand put there stands when the street before it is moved, and goes when a street runs through it.
+#[test]
+fn what_was_given_stays_as_long_as_it_has_room() {
+    let before = city(Style::Grid, 80, 2);
+    let mut editor = CityEditor::new(before.clone());
+    let old = before.buildings[11].clone();
+    editor.apply(&CityEdit::RemoveBuilding(11)).expect("a house can go");
+    editor
+        .apply(&CityEdit::AddBuilding(Box::new(Building { storeys: 2, ..old.clone() })))
+        .expect("its lot is free");
+    let stands = |editor: &CityEditor| {
+        editor.city().buildings.iter().any(|building| building.given && building.center == old.center)
+    };
+    // The next street to the house, but not its own, goes.
+    let network = &editor.city().network;
+    let own = network.roads[old.road.index()].clone();
+    let neighbour = network.intersections[own.to.index()].roads.iter().find(|road| **road != old.road);
+    let neighbour = *neighbour.expect("streets of a grid meet");
+    editor.apply(&CityEdit::RemoveStreet(neighbour)).expect("a street can go");
+    assert!(stands(&editor), "it had room");
+    let building = editor.city().buildings.iter().find(|building| building.given).expect("it stands").clone();
+    assert!(editor.city().network.sidewalk(building.road, building.side).is_some());
+    // A street from its own one straight through it.
+    let length = simworld_core::net::polyline::length(&own.centerline);
+    let from = simworld_core::net::polyline::at(&own.centerline, length * 0.5).0;
+    let away = (old.center - from).normalize();
+    let through = [15.0, 25.0, 40.0, 60.0].map(|beyond| old.center + away * beyond);
+    let done = through
+        .into_iter()
+        .any(|to| editor.apply(&CityEdit::AddStreet(NewStreet::local([from, to]))).is_ok());
+    assert!(done, "there is room for a street");
+    assert!(!stands(&editor), "a street runs through it");
+}
