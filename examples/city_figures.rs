@@ -115,8 +115,8 @@ fn stages(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
         full = taken.clone();
         building::build(&network, &land, &config.buildings, seed, &mut full)
     });
-    table.add_row(["buildings placed, no overlap", &rate(built.buildings.len(), time), "1 M/s"]);
-    furnished(&config, (&plan, &network, &zoning, &land), &built.buildings, &full, table);
+    table.add_row(["buildings placed, no overlap", &rate(built.len(), time), "1 M/s"]);
+    furnished(&config, (&plan, &network, &zoning, &land), &built, &full, table);
     tiles(table)?;
     routes(arguments, table)
 }
