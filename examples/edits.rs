@@ -56,7 +56,7 @@ fn main() -> Outcome<()> {
     std::fs::write(args.out.join("before.svg"), city.svg())?;
     let mut editor = CityEditor::new(city.clone());
     let mut table = Table::new();
-    table.load_preset(UTF8_FULL_CONDENSED);
+    table.load_style(UTF8_FULL_CONDENSED);
     table.set_header(["edit", "roads", "buildings", "elements", "took", "of the whole"]);
     let mut undos = Vec::new();
     let mut marks = Vec::new();

@@ -30,10 +30,14 @@ impl Ring {
         self.borders.push(border);
     }
 
-    /// Turns the ring so that it begins at its westernmost corner, whatever the numbers of its streets.
+    /// Turns the ring so that it begins at the westernmost corner where one border ends and another begins, whatever the
+    /// numbers of its streets.
     pub(crate) fn begin_at_least(&mut self) {
         let least = |a: &Point2, b: &Point2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
-        if let Some((first, _)) = self.corners.iter().enumerate().min_by(|a, b| least(a.1, b.1)) {
+        let count = self.len();
+        let begins = |index: &usize| self.borders[*index] != self.borders[(index + count - 1) % count];
+        let first = (0..count).filter(begins).min_by(|a, b| least(&self.corners[*a], &self.corners[*b]));
+        if let Some(first) = first {
             self.corners.rotate_left(first);
             self.borders.rotate_left(first);
         }
