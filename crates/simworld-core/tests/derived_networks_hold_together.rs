@@ -113,10 +113,12 @@ fn check_paths(network: &RoadNetwork) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// From any lane, changing lanes within a road, one can drive to every other.
+/// From any lane, changing lanes within a road, one can drive to every other, and to no lane for bicycles.
 fn check_lanes_reach_all(network: &RoadNetwork) -> Result<(), TestCaseError> {
     let mut reached = BTreeSet::new();
-    let mut open = vec![LaneId(0)];
+    let driven = |lane: &LaneId| network.lanes[lane.index()].is_driven();
+    let all = (0..network.lanes.len()).map(LaneId::from_index).filter(driven);
+    let mut open: Vec<LaneId> = all.clone().take(1).collect();
     while let Some(lane) = open.pop() {
         if !reached.insert(lane) {
             continue;
@@ -127,7 +129,8 @@ fn check_lanes_reach_all(network: &RoadNetwork) -> Result<(), TestCaseError> {
         let ways = &network.lanes[lane.index()].outgoing;
         open.extend(ways.iter().map(|way| network.connections[way.index()].to));
     }
-    prop_assert_eq!(reached.len(), network.lanes.len(), "some lanes cannot be reached");
+    prop_assert!(reached.iter().all(driven), "a vehicle gets on to a cycle lane");
+    prop_assert_eq!(reached.len(), all.count(), "some lanes cannot be reached");
     Ok(())
 }
 

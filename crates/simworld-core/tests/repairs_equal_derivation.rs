@@ -39,7 +39,7 @@ fn any_edit() -> impl Strategy<Value = Edit> {
 /// A town of crooked blocks, streets of all widths, short ones among them.
 fn town(columns: usize, rows: usize, shifts: &[(f64, f64)], side: DrivingSide) -> StreetPlan {
     let mut plan = StreetPlan { driving_side: side, ..StreetPlan::grid(columns, rows, 60.0) };
-    plan.add_section(CrossSection::two_way(2, 2).with_parking(2.0));
+    plan.add_section(CrossSection::two_way(2, 2).with_parking(2.0).with_cycle_lanes(1.8));
     plan.add_section(CrossSection::plain(1, 1, 3.0, 0.0));
     for (node, (x, y)) in plan.nodes.iter_mut().zip(shifts) {
         *node += Vector2::new(*x, *y);

@@ -208,6 +208,11 @@ impl Edit<'_> {
         // Arrows are before the ends that were.
         first.turns.forward.clear();
         second.turns.backward.clear();
+        // Nobody turns round where the street goes on.
+        (first.turning[1], second.turning[0]) = (0.0, 0.0);
+        first.profile.retain(|(at, _)| *at < station);
+        second.profile.retain(|(at, _)| *at > station);
+        second.profile.iter_mut().for_each(|(at, _)| *at -= station);
         let rest: f64 = course.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>()
             + (self.graph.nodes[second.to].at - course[course.len() - 1]).norm();
         let share = if rest > 0.0 { (station / rest).clamp(0.0, 1.0) } else { 0.0 };

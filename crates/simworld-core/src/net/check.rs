@@ -84,14 +84,23 @@ impl RoadNetwork {
     fn check_roads(&self) -> Result<(), NetworkFault> {
         all("road", &self.roads, |_, road| {
             let ends = [road.from, road.to].iter().all(|end| end.index() < self.intersections.len());
-            let lanes = road.forward.iter().chain(&road.backward).all(|lane| lane.index() < self.lanes.len());
+            let mut lanes = road.forward.iter().chain(&road.backward).chain(&road.cycle);
+            let lanes = lanes.all(|lane| lane.index() < self.lanes.len());
+            let strips = road.strips.iter().all(|strip| {
+                let (from, to) = strip.stations;
+                let is_along = is_within(from, LONGEST) && is_within(to, LONGEST);
+                is_along && strip.offset.abs() <= WIDEST && is_within(strip.width, WIDEST)
+            });
             let walks = road.sidewalks.iter().flatten().all(|walk| walk.index() < self.sidewalks.len());
+            let is_height =
+                |(station, height): &(f64, f64)| is_within(*station, LONGEST) && height.abs() <= FARTHEST;
+            let profile = road.profile.iter().all(is_height) && road.profile.is_sorted_by(|a, b| a.0 < b.0);
             let name = road.name.is_none_or(|name| (name as usize) < self.names.len());
             let kerbs = [road.left_kerb, road.right_kerb].iter().all(|kerb| kerb.abs() <= WIDEST);
             match () {
                 () if !(ends && lanes && walks && name) => LOST,
-                () if !is_line(&road.centerline) => SHAPELESS,
-                () if !(kerbs && is_within(road.width, WIDEST)) => SIZELESS,
+                () if !(is_line(&road.centerline) && profile) => SHAPELESS,
+                () if !(kerbs && strips && is_within(road.width, WIDEST)) => SIZELESS,
                 () => None,
             }
         })
@@ -146,9 +155,14 @@ impl RoadNetwork {
                 plan.is_some_and(|plan| plan.intersection.index() == index)
             };
             let signals = place.signals.is_none_or(own);
+            let kerbs = is_ascending(&place.kerbs)
+                && place.kerbs.iter().all(|kerb| (*kerb as usize) < place.outline.len());
             let points = place.outline.iter().chain(place.corners.iter().flatten());
+            let circle = place.turning.is_none_or(|it| is_near(&it.center) && is_within(it.radius, WIDEST));
             match () {
                 () if !(roads && ways && walks && corners && signals) => LOST,
+                () if !circle => SIZELESS,
+                () if !kerbs || place.kerbs.len() > place.roads.len() => DISORDERED,
                 () if place.height.is_nan() || place.height.abs() > FARTHEST => SHAPELESS,
                 () if !(is_near(&place.center) && points.into_iter().all(is_near)) => SHAPELESS,
                 () => None,

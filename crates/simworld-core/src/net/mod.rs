@@ -10,12 +10,14 @@ mod repair;
 mod section;
 mod signal;
 mod turn_lanes;
+mod turning;
 mod waypoint;
 
 pub use check::NetworkFault;
 pub use derive::{NetworkConfig, NetworkError};
 pub use network::{
-    Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Turn,
+    Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Strip,
+    Turn, TurningCircle,
 };
 pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};
@@ -23,6 +25,7 @@ pub use repair::{NetworkPatch, PatchError, PlanChange};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use turn_lanes::{TurnLanes, TurnSet};
+pub use turning::{CAR_TURNING, LORRY_TURNING};
 #[cfg(feature = "hierarchy")]
 pub use waypoint::{HierarchyScratch, RouteHierarchy};
 pub use waypoint::{

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{DrivingSide, LaneKind, SignalGroup, SignalPlan, polyline};
+use super::{DrivingSide, LaneDirection, LaneKind, SignalGroup, SignalPlan, polyline};
 use crate::geometry::Point2;
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
 
@@ -43,12 +43,68 @@ pub struct Road {
     pub forward: Vec<LaneId>,
     /// Lanes driven against the centreline, from the middle outwards.
     pub backward: Vec<LaneId>,
+    /// Lanes for bicycles alone, from left to right; see [`Lane::from`] for the way each goes.
+    pub cycle: Vec<LaneId>,
+    /// What lies beside its lanes up to its sidewalks: parking, medians, cycle lanes, shoulders, verges; from left to
+    /// right.
+    pub strips: Vec<Strip>,
     /// The sidewalks on its left and on its right.
     pub sidewalks: [Option<SidewalkId>; 2],
     /// Whether it is a part of the ring of a roundabout.
     pub roundabout: bool,
     /// 0 on the ground, above it on bridges, below it in tunnels.
     pub level: i8,
+    /// Heights on its way: station along the centreline and height above the ground level of the world, m, ascending; none
+    /// where it rises evenly from end to end. See [`RoadNetwork::height`].
+    pub profile: Vec<(f64, f64)>,
+}
+
+/// A strip of a road that is no lane for motor vehicles and no sidewalk. It ends where the lanes end, before its junctions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Strip {
+    /// What it is for.
+    pub kind: LaneKind,
+    /// The way traffic moves on it.
+    pub direction: LaneDirection,
+    /// Its middle lies so far to the left of the centreline, m.
+    pub offset: f64,
+    /// Width, m.
+    pub width: f64,
+    /// Stations along the centreline where it begins and ends, m.
+    pub stations: (f64, f64),
+}
+
+impl Road {
+    /// All its lanes: those along the centreline, those against it, and those for bicycles.
+    pub fn lanes(&self) -> impl Iterator<Item = LaneId> + '_ {
+        self.forward.iter().chain(&self.backward).chain(&self.cycle).copied()
+    }
+
+    /// The middle of one of its strips, in the direction of the centreline, m.
+    pub fn strip_path(&self, strip: &Strip) -> Vec<Point2> {
+        let (from, to) = strip.stations;
+        polyline::offset(&polyline::slice(&self.centerline, from, to), strip.offset)
+    }
+
+    /// The outline of one of its strips, counter-clockwise, m.
+    ///
+    /// ```
+    /// use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan};
+    /// let mut plan = StreetPlan::crossroads(100.0);
+    /// plan.sections[0] = CrossSection::two_way(1, 1).with_parking(2.0);
+    /// let network = RoadNetwork::derive(&plan, &NetworkConfig::default())?;
+    /// let road = &network.roads[0];
+    /// let bays = road.strip_outline(&road.strips[0]);
+    /// assert_eq!((bays.len(), bays[0].y, bays[2].y), (4, 3.5, 5.5));
+    /// # Ok::<(), simworld_core::net::NetworkError>(())
+    /// ```
+    pub fn strip_outline(&self, strip: &Strip) -> Vec<Point2> {
+        let (from, to) = strip.stations;
+        let middle = polyline::slice(&self.centerline, from, to);
+        let mut outline = polyline::offset(&middle, strip.offset - strip.width * 0.5);
+        outline.extend(polyline::offset(&middle, strip.offset + strip.width * 0.5).into_iter().rev());
+        outline
+    }
 }
 
 /// A directed strip of road, for one file of vehicles.
@@ -72,6 +128,13 @@ pub struct Lane {
     pub to: IntersectionId,
     /// The ways on from its end; empty only where the network ends.
     pub outgoing: Vec<ConnectionId>,
+}
+
+impl Lane {
+    /// Whether motor vehicles drive there; a lane for bicycles is left to them.
+    pub const fn is_driven(&self) -> bool {
+        self.kind.is_driven()
+    }
 }
 
 /// The direction a connection takes.
@@ -125,6 +188,15 @@ pub enum Control {
     None,
 }
 
+/// The round end of a street in which vehicles turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TurningCircle {
+    /// Its middle, m.
+    pub center: Point2,
+    /// Its radius up to the kerb, m.
+    pub radius: f64,
+}
+
 /// Where roads meet, or where one ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intersection {
@@ -134,6 +206,10 @@ pub struct Intersection {
     pub height: f64,
     /// The paved area, counter-clockwise, m.
     pub outline: Vec<Point2>,
+    /// Where in the outline the kerb on the left of each road begins, seen from here; see [`Intersection::kerb`].
+    pub kerbs: Vec<u32>,
+    /// The room to turn round, at a dead end that has it.
+    pub turning: Option<TurningCircle>,
     /// The roads that meet here, counter-clockwise from east by the direction in which they leave.
     pub roads: Vec<RoadId>,
     /// Who may go.
@@ -147,6 +223,16 @@ pub struct Intersection {
     /// The walkways round its corners: the i-th leads from the left sidewalk of `roads[i]`, seen from here, to the
     /// right sidewalk of the next road, ends included; without points where one of the two is missing.
     pub corners: Vec<Vec<Point2>>,
+}
+
+impl Intersection {
+    /// The kerb that leads from the left of `roads[rank]`, seen from here, round the corner to the right of the next road,
+    /// ends included; empty if there is none. All of them one after another are the outline.
+    pub fn kerb(&self, rank: usize) -> &[Point2] {
+        let Some(start) = self.kerbs.get(rank) else { return &[] };
+        let end = self.kerbs.get(rank + 1).map_or(self.outline.len(), |end| *end as usize);
+        self.outline.get(*start as usize..end).unwrap_or_default()
+    }
 }
 
 /// A side of a road, seen along its centreline.
@@ -232,12 +318,20 @@ impl RoadNetwork {
         self.names.get(name as usize).map(String::as_str)
     }
 
-    /// Height of a road at a station along its centreline, m: even from one end to the other.
+    /// Height of a road at a station along its centreline, m: even between its ends and the heights on its way.
     pub fn height(&self, road: RoadId, station: f64) -> f64 {
         let Some(road) = self.roads.get(road.index()) else { return 0.0 };
         let [from, to] = [road.from, road.to].map(|end| self.intersections[end.index()].height);
         let length = polyline::length(&road.centerline);
-        if length > 0.0 { from + (to - from) * (station / length).clamp(0.0, 1.0) } else { from }
+        let next = road.profile.partition_point(|(at, _)| *at <= station);
+        let before = next.checked_sub(1).map_or((0.0, from), |index| road.profile[index]);
+        let after = road.profile.get(next).copied().unwrap_or((length, to));
+        let span = after.0 - before.0;
+        if span > 0.0 {
+            before.1 + (after.1 - before.1) * ((station - before.0) / span).clamp(0.0, 1.0)
+        } else {
+            before.1
+        }
     }
 
     /// The rectangle around all centrelines, least and greatest corner; `None` without roads.

@@ -34,6 +34,12 @@ pub struct Street {
     /// 0 on the ground, above it on bridges, below it in tunnels. Streets of different levels pass over one another where
     /// they cross without a node.
     pub level: i8,
+    /// Radius of the turning circle at its beginning and at its end, if it is a dead end there, m; 0 without one. What
+    /// has no room along the street is left out. See [`StreetPlan::make_turning_room`].
+    pub turning: [f64; 2],
+    /// Heights on its way, as of a bridge: distance along the centreline from its beginning and height above the ground
+    /// level of the world, m, ascending by distance. Between them and its nodes it rises evenly.
+    pub profile: Vec<(f64, f64)>,
 }
 
 impl Street {
@@ -50,6 +56,8 @@ impl Street {
             turns: TurnLanes::default(),
             roundabout: false,
             level: 0,
+            turning: [0.0; 2],
+            profile: Vec::new(),
         }
     }
 }
@@ -237,6 +245,16 @@ impl StreetPlan {
                     arrows.len()
                 ));
             }
+        }
+        let is_possible =
+            |(station, height): &(f64, f64)| (0.0..=1e7).contains(station) && (-1e4..=1e4).contains(height);
+        if !street.profile.iter().all(is_possible) || !street.profile.is_sorted_by(|a, b| a.0 < b.0) {
+            return Err(
+                "has impossible heights on its way: give ascending distances and ±10 000 m".to_owned()
+            );
+        }
+        if let Some(radius) = street.turning.iter().find(|radius| !(0.0..=50.0).contains(*radius)) {
+            return Err(format!("has a turning circle of {radius} m: give 0 to 50 m"));
         }
         if !street.via.iter().all(is_near) {
             return Err("has a point of its course that is not within ±1e7 m".to_owned());

@@ -124,13 +124,48 @@ impl CrossSection {
     /// assert_eq!(street.kerbs(), (5.5, 5.5));
     /// ```
     #[must_use]
-    pub fn with_parking(mut self, width: f64) -> Self {
+    pub fn with_parking(self, width: f64) -> Self {
+        self.with_at_kerbs(LaneKind::Parking, width)
+    }
+
+    /// With a cycle lane of that width at either kerb, each in the direction of the traffic on the right; as it was if
+    /// the width is nothing. Parking comes after it, so that it lies at the kerb.
+    ///
+    /// ```
+    /// use simworld_core::net::CrossSection;
+    /// let street = CrossSection::two_way(1, 1).with_cycle_lanes(1.5).with_median(2.0);
+    /// assert_eq!(street.kerbs(), (6.0, 6.0));
+    /// assert_eq!(street.driven(), (1, 1));
+    /// ```
+    #[must_use]
+    pub fn with_cycle_lanes(self, width: f64) -> Self {
+        self.with_at_kerbs(LaneKind::Cycle, width)
+    }
+
+    /// With a median of that width where the two directions part, the centreline in its middle; as it was if the width
+    /// is nothing or all lanes go one way.
+    #[must_use]
+    pub fn with_median(mut self, width: f64) -> Self {
+        let is_driven = |lane: &LaneSpec| lane.kind.is_driven();
+        let parting = self
+            .lanes
+            .windows(2)
+            .position(|pair| pair.iter().all(is_driven) && pair[0].direction != pair[1].direction);
+        if let (Some(left), true) = (parting, width > 0.0) {
+            let median = LaneSpec { kind: LaneKind::Median, direction: LaneDirection::Both, width };
+            self.lanes.insert(left + 1, median);
+            self.reference = self.lanes[..=left].iter().map(|lane| lane.width).sum::<f64>() + width * 0.5;
+        }
+        self
+    }
+
+    fn with_at_kerbs(mut self, kind: LaneKind, width: f64) -> Self {
         let is_carriageway = |lane: &LaneSpec| lane.kind.is_carriageway();
         let ends = (self.lanes.iter().position(is_carriageway), self.lanes.iter().rposition(is_carriageway));
         if let (Some(first), Some(last), true) = (ends.0, ends.1, width > 0.0) {
-            let parking = |direction| LaneSpec { kind: LaneKind::Parking, direction, width };
-            self.lanes.insert(last + 1, parking(LaneDirection::Forward));
-            self.lanes.insert(first, parking(LaneDirection::Backward));
+            let strip = |direction| LaneSpec { kind, direction, width };
+            self.lanes.insert(last + 1, strip(LaneDirection::Forward));
+            self.lanes.insert(first, strip(LaneDirection::Backward));
             self.reference += width;
         }
         self

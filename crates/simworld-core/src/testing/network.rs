@@ -50,14 +50,17 @@ fn order_lanes(network: &RoadNetwork, ordered: &mut RoadNetwork) -> Vec<LaneId> 
             let (foot, heading) = polyline::at(&road.centerline, near);
             crate::geometry::direction(heading).perp(&(middle - foot))
         };
-        let mut across: Vec<(f64, LaneId)> =
-            road.forward.iter().chain(&road.backward).map(|lane| (left(lane), *lane)).collect();
+        let mut across: Vec<(f64, LaneId)> = road.lanes().map(|lane| (left(&lane), lane)).collect();
         across.sort_by(|a, b| b.0.total_cmp(&a.0));
         for (_, lane) in across {
             names[lane.index()] = LaneId::from_index(ordered.lanes.len());
             ordered.lanes.push(Lane { outgoing: Vec::new(), ..network.lanes[lane.index()].clone() });
         }
-        road.forward.iter_mut().chain(&mut road.backward).for_each(|lane| *lane = names[lane.index()]);
+        road.forward
+            .iter_mut()
+            .chain(&mut road.backward)
+            .chain(&mut road.cycle)
+            .for_each(|lane| *lane = names[lane.index()]);
     }
     names
 }

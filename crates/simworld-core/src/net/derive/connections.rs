@@ -2,6 +2,7 @@
 
 use super::legs::Leg;
 use super::trace::Trace;
+use super::{cycles, kerbs};
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, IntersectionId, LaneId};
 use crate::net::{
@@ -15,6 +16,9 @@ const TOUCHING: f64 = 2.4;
 /// A change of heading below this counts as straight on, radians.
 const STRAIGHT: f64 = 0.7;
 
+/// Distance between the kerb of a turning circle and a lane's width about the way round it, m.
+const KERB_CLEARANCE: f64 = 0.5;
+
 /// Adds the connections of one intersection.
 pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, id: IntersectionId, legs: &[Leg]) {
     let first = network.connections.len();
@@ -22,8 +26,10 @@ pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, id: Intersection
         network.signals.last().filter(|plan| plan.intersection == id).map(|plan| plan.groups.clone());
     for (index, leg) in legs.iter().enumerate() {
         let signal = vehicle_groups.as_ref().map(|groups| groups[index]);
-        for (from, to, turn) in movements(network, plan, legs, leg) {
-            add_connection(network, id, from, to, turn, signal);
+        let cycled = cycles::movements(network, plan, legs, leg);
+        for (from, to, turn) in movements(network, plan, legs, leg).into_iter().chain(cycled) {
+            let path = path(network, leg, (from, to), turn);
+            add_connection(network, id, (from, to), turn, signal, path);
         }
     }
     let own: Vec<ConnectionId> = (first..network.connections.len()).map(ConnectionId::from_index).collect();
@@ -38,7 +44,7 @@ fn arriving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
     if leg.at_start { &road.backward } else { &road.forward }
 }
 
-fn leaving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
+pub(super) fn leaving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
     let road = &network.roads[leg.street];
     if leg.at_start { &road.forward } else { &road.backward }
 }
@@ -112,7 +118,7 @@ fn lane_to_lane(from: &[LaneId], to: &[LaneId], turn: Turn, found: &mut Vec<(Lan
 }
 
 /// The turn from one leg to another. On to the ring of a roundabout and off it one turns right, whatever the angle.
-fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
+pub(super) fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
     let change = wrap_angle(to.heading - from.heading - std::f64::consts::PI);
     let in_ring = |leg: &Leg| plan.streets[leg.street].roundabout;
     match (in_ring(from), in_ring(to)) {
@@ -123,19 +129,36 @@ fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
     }
 }
 
-fn add_connection(
-    network: &mut RoadNetwork,
-    intersection: IntersectionId,
-    from: LaneId,
-    to: LaneId,
-    turn: Turn,
-    signal: Option<SignalGroup>,
-) {
-    let id = ConnectionId::from_index(network.connections.len());
+/// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve.
+fn path(network: &RoadNetwork, leg: &Leg, (from, to): (LaneId, LaneId), turn: Turn) -> Vec<Point2> {
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
     let (start, start_heading) = polyline::at(&entry.path, entry.length);
     let (end, end_heading) = polyline::at(&exit.path, 0.0);
-    let path = curve(start, direction(start_heading), end, direction(end_heading));
+    if turn == Turn::UTurn && leg.turning > 0.0 {
+        let ahead = leg.direction();
+        let left = |point: Point2| ahead.perp(&(point - leg.node));
+        let lanes = arriving(network, leg);
+        let outside = lanes.iter().rev().take_while(|lane| **lane != from).count() as f64;
+        let keep = KERB_CLEARANCE + entry.width * (0.5 + outside);
+        if let Some(mut path) = kerbs::turning_path(leg, (left(start), -left(end)), keep) {
+            // A street that bends before its end has its lanes end a little beside.
+            let last = path.len() - 1;
+            (path[0], path[last]) = (start, end);
+            return path;
+        }
+    }
+    curve(start, direction(start_heading), end, direction(end_heading))
+}
+
+fn add_connection(
+    network: &mut RoadNetwork,
+    intersection: IntersectionId,
+    (from, to): (LaneId, LaneId),
+    turn: Turn,
+    signal: Option<SignalGroup>,
+    path: Vec<Point2>,
+) {
+    let id = ConnectionId::from_index(network.connections.len());
     network.connections.push(Connection {
         from,
         to,

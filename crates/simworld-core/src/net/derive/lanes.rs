@@ -4,7 +4,12 @@ use super::NetworkConfig;
 use super::legs::Leg;
 use crate::geometry::Point2;
 use crate::id::{LaneId, RoadId};
-use crate::net::{Lane, LaneDirection, LaneSpec, RoadNetwork, StreetPlan, polyline};
+use crate::net::{
+    CrossSection, Lane, LaneDirection, LaneKind, LaneSpec, RoadNetwork, StreetPlan, Strip, polyline,
+};
+
+/// The most that is ridden on a cycle lane, m/s: 25 km/h, up to which a motor may help (EN 15194).
+const CYCLE_SPEED: f64 = 25.0 / 3.6;
 
 /// Cuts both ends off every centreline and lays the lanes beside what is left.
 pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>], config: &NetworkConfig) {
@@ -15,12 +20,24 @@ pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>
     }
     for (index, (street, (start, end))) in plan.streets.iter().zip(stops).enumerate() {
         let centerline = &network.roads[index].centerline;
-        let middle = polyline::slice(centerline, start, polyline::length(centerline) - end);
+        let stations = (start, polyline::length(centerline) - end);
+        let middle = polyline::slice(centerline, stations.0, stations.1);
         let speed_limit = street.speed_limit.unwrap_or_else(|| config.speed_limit(street.class));
-        for (offset, spec) in plan.section(street).strips().filter(|(_, spec)| spec.kind.is_driven()) {
-            lay(network, RoadId::from_index(index), &middle, offset, spec, speed_limit);
+        for (offset, spec) in plan.section(street).strips() {
+            match spec.kind {
+                LaneKind::Driving | LaneKind::Bus => {
+                    lay(network, RoadId::from_index(index), &middle, offset, spec, speed_limit);
+                }
+                LaneKind::Cycle => {
+                    let spec = LaneSpec { direction: cycled(offset, spec.direction), ..spec };
+                    let speed_limit = speed_limit.min(CYCLE_SPEED);
+                    lay(network, RoadId::from_index(index), &middle, offset, spec, speed_limit);
+                }
+                _ => {}
+            }
         }
         let road = &mut network.roads[index];
+        road.strips.extend(beside_lanes(plan.section(street), stations));
         // Strips run from left to right; the innermost lane of each direction is the one next to the other.
         let forward_is_right = match (road.forward.first(), road.backward.first()) {
             (Some(forward), Some(backward)) => forward > backward,
@@ -31,6 +48,27 @@ pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, legs: &[Vec<Leg>
         } else {
             road.forward.reverse();
         }
+    }
+}
+
+/// What of a cross-section is neither driven by motor vehicles nor walked on.
+fn beside_lanes(section: &CrossSection, stations: (f64, f64)) -> impl Iterator<Item = Strip> + '_ {
+    let is_meant = |(_, spec): &(f64, LaneSpec)| !spec.kind.is_driven() && spec.kind != LaneKind::Sidewalk;
+    section.strips().filter(is_meant).map(move |(offset, spec)| Strip {
+        kind: spec.kind,
+        direction: spec.direction,
+        offset,
+        width: spec.width,
+        stations: (stations.0, stations.1.max(stations.0)),
+    })
+}
+
+/// The way bicycles go on a strip: those on one that goes either way keep right.
+fn cycled(offset: f64, direction: LaneDirection) -> LaneDirection {
+    match direction {
+        LaneDirection::Both if offset > 0.0 => LaneDirection::Backward,
+        LaneDirection::Both => LaneDirection::Forward,
+        one_way => one_way,
     }
 }
 
@@ -46,14 +84,17 @@ fn lay(
     let id = LaneId::from_index(network.lanes.len());
     let owner = &mut network.roads[road.index()];
     let mut path = polyline::offset(line, offset);
-    let (from, to) = if spec.direction == LaneDirection::Backward {
-        path.reverse();
-        owner.backward.push(id);
-        (owner.to, owner.from)
-    } else {
-        owner.forward.push(id);
-        (owner.from, owner.to)
+    let is_backward = spec.direction == LaneDirection::Backward;
+    let list = match (spec.kind, is_backward) {
+        (LaneKind::Cycle, _) => &mut owner.cycle,
+        (_, true) => &mut owner.backward,
+        (_, false) => &mut owner.forward,
     };
+    list.push(id);
+    if is_backward {
+        path.reverse();
+    }
+    let (from, to) = if is_backward { (owner.to, owner.from) } else { (owner.from, owner.to) };
     network.lanes.push(Lane {
         road,
         kind: spec.kind,

@@ -2,16 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{NetworkConfig, StreetPlan};
+use super::{NetworkConfig, StreetPlan, kerbs};
 use crate::geometry::{Point2, Vector2, direction, heading};
-use crate::net::polyline;
+use crate::net::{RoadClass, polyline};
 
 /// Gap between the stop line and the crossing, m.
 const STOP_GAP: f64 = 1.0;
 /// How far a junction reaches into a leg where nothing asks for more, m.
 const LEAST_REACH: f64 = 2.0;
-/// Room to turn round at a dead end, m.
+/// Room to turn round at a dead end without a turning circle, m.
 const DEAD_END_REACH: f64 = 5.0;
+/// Corners more acute than this are rounded only as far as the junction reaches anyway, radians.
+const SHARPEST: f64 = 0.8;
 /// The lane that must remain of a street between its two junctions, m.
 const LEAST_LANE: f64 = 4.0;
 
@@ -37,8 +39,24 @@ pub(super) struct Leg {
     pub(super) stop: f64,
     /// Where sidewalks end, m from the node; the middle of the crossing if there is one.
     pub(super) walk: f64,
+    /// Radius of the kerb where it turns into another street of its class, m.
+    pub(super) rounding: f64,
+    /// How far the junction reaches beyond `reach` if there is room, for the rounding, m.
+    pub(super) wanted: f64,
+    /// Radius of the turning circle at a dead end, m; 0 without one.
+    pub(super) turning: f64,
     /// The centre of the junction.
     pub(super) node: Point2,
+}
+
+/// Radius of the kerb at a corner, m: 10 to 15 feet in streets, more where lorries turn at speed (NACTO Urban Street
+/// Design Guide 2013, "Corner radii").
+const fn rounding(class: RoadClass) -> f64 {
+    match class {
+        RoadClass::Local => 3.0,
+        RoadClass::Arterial => 4.5,
+        RoadClass::Highway => 6.0,
+    }
 }
 
 impl Leg {
@@ -79,6 +97,9 @@ pub(super) fn of_plan(plan: &StreetPlan, config: &NetworkConfig) -> Vec<Vec<Leg>
                 reach: 0.0,
                 stop: 0.0,
                 walk: 0.0,
+                rounding: rounding(street.class),
+                wanted: 0.0,
+                turning: street.turning[usize::from(!at_start)],
                 node: plan.nodes[node],
             }
         };
@@ -104,18 +125,36 @@ fn set_reaches(legs: &mut [Leg], config: &NetworkConfig) {
     for index in 0..count {
         let (before, after) = (&legs[(index + count - 1) % count], &legs[(index + 1) % count]);
         let leg = &legs[index];
+        let angles = (angle_between(leg, after), angle_between(before, leg));
         let (left, right) = (leg.left + leg.left_walk, leg.right + leg.right_walk);
-        let on_left = edge_meeting(left, after.right + after.right_walk, angle_between(leg, after));
-        let on_right = edge_meeting(right, before.left + before.left_walk, angle_between(before, leg));
+        let on_left = edge_meeting(left, after.right + after.right_walk, angles.0);
+        let on_right = edge_meeting(right, before.left + before.left_walk, angles.1);
         let reach = if count == 1 { DEAD_END_REACH } else { LEAST_REACH.max(on_left).max(on_right) };
+        let rounded = rounded_reach(leg.left, after.right, angles.0, leg.rounding.min(after.rounding))
+            .max(rounded_reach(leg.right, before.left, angles.1, leg.rounding.min(before.rounding)));
         let leg = &mut legs[index];
         leg.reach = reach;
+        leg.wanted = if count == 1 { 0.0 } else { (rounded - reach).max(0.0) };
         (leg.stop, leg.walk) = match count {
             1 => (reach, 0.0),
             2 => (reach, reach),
             _ => (reach + config.crossing_width + STOP_GAP, reach + config.crossing_width * 0.5),
         };
+        match kerbs::bulb_reach(leg).filter(|_| count == 1) {
+            Some(reach) => (leg.reach, leg.stop, leg.walk) = (reach, reach, reach),
+            None => leg.turning = 0.0,
+        }
     }
+}
+
+/// How far out the rounding of a corner between two kerbs begins, m; nothing where they diverge or the corner is so
+/// acute that it would begin far away.
+fn rounded_reach(own: f64, other: f64, angle: f64, radius: f64) -> f64 {
+    if !(SHARPEST..PI - 0.05).contains(&angle) {
+        return 0.0;
+    }
+    let (sin, cos) = crate::ops::sin_cos(angle);
+    edge_meeting(own, other, angle) + radius * (1.0 + cos) / sin
 }
 
 /// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
@@ -127,53 +166,45 @@ fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
     ((other + own * cos) / sin).max(0.0)
 }
 
-/// Shortens what both ends take of a street that is too short for it: first the room for crossings and stop lines, then
-/// the reaches, for an area cut short of where kerbs meet would fold over itself.
+/// Shortens what both ends take of a street that is too short for it: first turning circles and roundings, then the room
+/// for crossings and stop lines, then the reaches, for an area cut short of where kerbs meet would fold over itself.
 fn fit_into_streets(legs: &mut [Vec<Leg>], lengths: &[f64]) {
-    let mut wanted = vec![(0.0, 0.0); lengths.len()];
+    for legs in legs.iter_mut() {
+        if let [leg] = legs.as_mut_slice() {
+            // A street that is not much longer than its turning circle has none.
+            if leg.turning > 0.0 && lengths[leg.street] < 2.0 * leg.reach + LEAST_LANE {
+                leg.turning = 0.0;
+                (leg.reach, leg.stop, leg.walk) = (DEAD_END_REACH, DEAD_END_REACH, 0.0);
+            }
+        }
+    }
+    let mut asked = vec![(0.0, 0.0, 0.0); lengths.len()];
     for leg in legs.iter().flatten() {
-        wanted[leg.street].0 += leg.reach;
-        wanted[leg.street].1 += leg.stop;
+        let (reach, stop, wanted) = &mut asked[leg.street];
+        *reach += leg.reach;
+        *stop += leg.stop;
+        *wanted += leg.wanted;
     }
     for leg in legs.iter_mut().flatten() {
         let room = lengths[leg.street] - LEAST_LANE;
-        let (reach, stop) = wanted[leg.street];
+        let (reach, stop, wanted) = asked[leg.street];
         if stop <= room {
+            let more = leg.wanted * ((room - stop) / wanted.max(1e-9)).min(1.0);
+            leg.reach += more;
+            leg.stop += more;
+            leg.walk += more;
             continue;
         }
         let scale = (room / reach).min(1.0);
         let beyond = ((room - reach) / (stop - reach).max(1e-9)).clamp(0.0, 1.0);
         let (own, walk, stop) = (leg.reach, leg.walk - leg.reach, leg.stop - leg.reach);
+        if scale < 1.0 {
+            leg.turning = 0.0;
+        }
         leg.reach = own * scale;
         leg.stop = leg.reach + stop * beyond;
         // At a dead end sidewalks go on to the end.
         leg.walk = (leg.reach + walk * if walk < 0.0 { scale } else { beyond }).max(0.0);
-    }
-}
-
-/// The paved area of a junction, counter-clockwise.
-pub(super) fn outline(center: Point2, legs: &[Leg]) -> Vec<Point2> {
-    match legs {
-        [] => vec![center],
-        [leg] => vec![
-            leg.point(0.0, leg.left),
-            leg.point(0.0, -leg.right),
-            leg.point(leg.reach, -leg.right),
-            leg.point(leg.reach, leg.left),
-        ],
-        _ => {
-            let mut outline = Vec::with_capacity(legs.len() * 3);
-            for (index, leg) in legs.iter().enumerate() {
-                outline.push(leg.point(leg.reach, -leg.right));
-                outline.push(leg.point(leg.reach, leg.left));
-                let next = &legs[(index + 1) % legs.len()];
-                // A corner farther out than the area reaches would fold it over itself.
-                let is_inside = |met: &Point2, leg: &Leg| (met - center).dot(&leg.direction()) <= leg.reach;
-                let met = corner(leg, next, (0.0, 0.0));
-                outline.extend(met.filter(|met| is_inside(met, leg) && is_inside(met, next)));
-            }
-            outline
-        }
     }
 }
 

@@ -4,7 +4,7 @@
 use super::StreetPlan;
 use crate::geometry::{Point2, heading};
 use crate::id::RoadId;
-use crate::net::{DrivingSide, RoadNetwork, Side, Street, Turn, TurnLanes, TurnSet};
+use crate::net::{DrivingSide, RoadNetwork, Side, Street, Turn, TurnLanes, TurnSet, polyline};
 
 fn flip(point: &mut Point2) {
     point.y = -point.y;
@@ -42,6 +42,9 @@ pub(super) fn network(mut network: RoadNetwork) -> RoadNetwork {
         road.centerline.iter_mut().for_each(flip);
         std::mem::swap(&mut road.left_kerb, &mut road.right_kerb);
         road.sidewalks.swap(0, 1);
+        road.cycle.reverse();
+        road.strips.reverse();
+        road.strips.iter_mut().for_each(|strip| strip.offset = -strip.offset);
     }
     network.lanes.iter_mut().flat_map(|lane| &mut lane.path).for_each(flip);
     for connection in &mut network.connections {
@@ -64,8 +67,11 @@ pub(super) fn network(mut network: RoadNetwork) -> RoadNetwork {
     let roads = &network.roads;
     for (index, intersection) in network.intersections.iter_mut().enumerate() {
         flip(&mut intersection.center);
+        intersection.turning.iter_mut().for_each(|circle| flip(&mut circle.center));
         intersection.outline.iter_mut().for_each(flip);
-        intersection.outline.reverse();
+        let mut kerbs: Vec<Vec<Point2>> =
+            (0..intersection.kerbs.len()).map(|rank| polyline::reversed(intersection.kerb(rank))).collect();
+        kerbs.reverse();
         // Counter-clockwise again; what was the corner after a road is the one before it.
         intersection.roads.reverse();
         intersection.corners.iter_mut().flatten().for_each(flip);
@@ -73,6 +79,9 @@ pub(super) fn network(mut network: RoadNetwork) -> RoadNetwork {
         intersection.corners.reverse();
         if !intersection.corners.is_empty() {
             intersection.corners.rotate_left(1);
+        }
+        if !kerbs.is_empty() {
+            kerbs.rotate_left(1);
         }
         // Straight to the west is the last direction on either side of the mirror.
         let center = intersection.center;
@@ -85,6 +94,15 @@ pub(super) fn network(mut network: RoadNetwork) -> RoadNetwork {
         if !intersection.roads.is_sorted_by(|a, b| leaving(a) <= leaving(b)) {
             intersection.roads.rotate_left(1);
             intersection.corners.rotate_left(1);
+            kerbs.rotate_left(1);
+        }
+        if !kerbs.is_empty() {
+            let mut start = 0;
+            for (place, kerb) in intersection.kerbs.iter_mut().zip(&kerbs) {
+                *place = start;
+                start += kerb.len() as u32;
+            }
+            intersection.outline = kerbs.concat();
         }
     }
     network

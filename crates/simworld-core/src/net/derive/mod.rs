@@ -1,6 +1,8 @@
 //! From streets to lanes: everything a [`RoadNetwork`](super::RoadNetwork) holds follows from centrelines.
 
 mod connections;
+mod cycles;
+mod kerbs;
 mod lanes;
 mod legs;
 mod mirror;
@@ -190,7 +192,8 @@ impl RoadNetwork {
     }
 }
 
-fn road(plan: &StreetPlan, street: &Street) -> Road {
+/// A road as far as it follows from its street alone.
+pub(super) fn road(plan: &StreetPlan, street: &Street) -> Road {
     let (left, right) = plan.section(street).kerbs();
     Road {
         class: street.class,
@@ -203,9 +206,12 @@ fn road(plan: &StreetPlan, street: &Street) -> Road {
         right_kerb: right,
         forward: Vec::new(),
         backward: Vec::new(),
+        cycle: Vec::new(),
+        strips: Vec::new(),
         sidewalks: [None; 2],
         roundabout: street.roundabout,
         level: street.level,
+        profile: street.profile.clone(),
     }
 }
 
@@ -221,10 +227,13 @@ fn intersection(
         (n, None) if config.signals_from_roads > 0 && n >= config.signals_from_roads => Control::Signals,
         _ => Control::Priority,
     };
+    let (outline, starts) = kerbs::outline(center, legs);
     Intersection {
         center,
         height,
-        outline: legs::outline(center, legs),
+        outline,
+        kerbs: starts,
+        turning: kerbs::turning_circle(legs),
         roads: legs.iter().map(|leg| RoadId::from_index(leg.street)).collect(),
         control,
         signals: None,
@@ -232,4 +241,9 @@ fn intersection(
         crossings: Vec::new(),
         corners: Vec::new(),
     }
+}
+
+/// An intersection that no road leads to.
+pub(super) fn alone(plan: &StreetPlan, node: usize, config: &NetworkConfig) -> Intersection {
+    intersection((plan.nodes[node], plan.elevation(node)), &[], None, config)
 }

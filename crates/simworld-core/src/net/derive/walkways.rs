@@ -1,6 +1,7 @@
 //! Where people walk: sidewalks along the roads, walkways round the corners, crossings over the legs.
 
 use super::NetworkConfig;
+use super::kerbs;
 use super::legs::{self, Leg};
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId, RoadId, SidewalkId};
@@ -92,6 +93,12 @@ fn corners(network: &RoadNetwork, legs: &[Leg]) -> Vec<Vec<Point2>> {
         let mut walkway = vec![start];
         if legs.len() == 1 {
             // Round the back of a dead end.
+            if leg.turning > 0.0 {
+                let around = kerbs::walk_round_bulb(leg, left_margin.min(right_margin));
+                walkway.extend(&around[1..around.len().saturating_sub(1).max(1)]);
+                walkway.push(end);
+                return Some(walkway);
+            }
             walkway.push(leg.point(-left_margin, leg.left + left_margin));
             walkway.push(leg.point(-right_margin, -leg.right - right_margin));
         } else {

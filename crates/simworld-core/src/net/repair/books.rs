@@ -77,8 +77,8 @@ impl<'a> Books<'a> {
     /// Takes the lanes and the sidewalks of a road away; the intersections at its ends are clear.
     pub(super) fn clear_road(&mut self, index: usize) {
         let road = self.roads.edit(index);
-        let lanes = std::mem::take(&mut road.forward).into_iter().chain(std::mem::take(&mut road.backward));
-        for lane in lanes {
+        let lists = [&mut road.forward, &mut road.backward, &mut road.cycle].map(std::mem::take);
+        for lane in lists.into_iter().flatten() {
             self.lanes.vacate(lane.index());
         }
         for sidewalk in std::mem::take(&mut road.sidewalks).into_iter().flatten() {
@@ -99,7 +99,8 @@ impl<'a> Books<'a> {
         let last = self.roads.len() - 1;
         if index != last {
             let (old, new) = (RoadId::from_index(last), RoadId::from_index(index));
-            let Road { from, to, forward, backward, sidewalks, .. } = self.roads.get(last).clone();
+            let road = self.roads.get(last).clone();
+            let (from, to) = (road.from, road.to);
             for end in [from, to] {
                 let place = self.intersections.edit(end.index());
                 rename(&mut place.roads, old, new);
@@ -109,10 +110,10 @@ impl<'a> Books<'a> {
                     }
                 }
             }
-            for lane in forward.into_iter().chain(backward) {
+            for lane in road.lanes() {
                 self.lanes.edit(lane.index()).road = new;
             }
-            for sidewalk in sidewalks.into_iter().flatten() {
+            for sidewalk in road.sidewalks.into_iter().flatten() {
                 self.sidewalks.edit(sidewalk.index()).road = new;
             }
         }
@@ -129,8 +130,8 @@ impl<'a> Books<'a> {
             for road in roads {
                 let road = self.roads.edit(road.index());
                 rename([&mut road.from, &mut road.to], old, new);
-                let Road { forward, backward, .. } = road.clone();
-                for lane in forward.into_iter().chain(backward) {
+                let lanes: Vec<LaneId> = road.lanes().collect();
+                for lane in lanes {
                     let lane = self.lanes.edit(lane.index());
                     rename([&mut lane.from, &mut lane.to], old, new);
                 }
@@ -186,7 +187,7 @@ impl<'a> Books<'a> {
     fn renumber_lane(&mut self, old: LaneId, new: LaneId) {
         let Lane { road, from, outgoing, .. } = self.lanes.get(new.index()).clone();
         let road = self.roads.edit(road.index());
-        rename(road.forward.iter_mut().chain(&mut road.backward), old, new);
+        rename(road.forward.iter_mut().chain(&mut road.backward).chain(&mut road.cycle), old, new);
         for connection in outgoing {
             self.connections.edit(connection.index()).from = new;
         }

@@ -65,8 +65,8 @@ impl RoadNetwork {
         config.validate()?;
         change.check(self, plan)?;
         let groups = self.signal_groups();
-        let mut repair = Repair::open(self, plan);
-        let done = repair.carry_out(config, change, groups);
+        let mut repair = Repair::open(self, plan, config);
+        let done = repair.carry_out(change, groups);
         let back = repair.books.close();
         match done {
             Ok(()) => Ok(back),

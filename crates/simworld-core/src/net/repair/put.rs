@@ -1,8 +1,8 @@
 //! What was derived anew goes to the place of what was taken apart.
 
-use super::work::{Repair, Surroundings, alone};
+use super::work::{Repair, Surroundings};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
-use crate::net::{Crossing, Lane, Sidewalk, SignalGroup};
+use crate::net::{Crossing, Lane, Sidewalk, SignalGroup, derive};
 
 /// The numbers that derived things have in the network.
 struct Numbers<'a> {
@@ -49,15 +49,15 @@ impl Repair<'_> {
                 self.put_road(street, local, &mut numbers);
             } else {
                 let (road, same) = (self.books.roads.get(street), &derived.network.roads[local]);
-                for (ours, theirs) in [(&road.forward, &same.forward), (&road.backward, &same.backward)] {
-                    ours.iter().zip(theirs).for_each(|(ours, theirs)| numbers.lanes[theirs.index()] = *ours);
+                for (ours, theirs) in road.lanes().zip(same.lanes()) {
+                    numbers.lanes[theirs.index()] = ours;
                 }
             }
         }
         for node in touched {
             match derived.part.node(node) {
                 Some(local) => self.put_intersection(node, local, &mut numbers),
-                None => *self.books.intersections.edit(node) = alone(self.plan, node),
+                None => *self.books.intersections.edit(node) = derive::alone(self.plan, node, self.config),
             }
         }
     }
@@ -68,7 +68,7 @@ impl Repair<'_> {
         let mut road = network.roads[local].clone();
         (road.from, road.to) = (numbers.intersection(road.from), numbers.intersection(road.to));
         road.name = self.plan.streets[street].name;
-        for lane in road.forward.iter_mut().chain(&mut road.backward) {
+        for lane in road.forward.iter_mut().chain(&mut road.backward).chain(&mut road.cycle) {
             let found = network.lanes[lane.index()].clone();
             let (from, to) = (numbers.intersection(found.from), numbers.intersection(found.to));
             let number = self.books.lanes.fill(Lane { road: id, from, to, outgoing: Vec::new(), ..found });

@@ -5,14 +5,13 @@ use std::collections::BTreeSet;
 use super::PlanChange;
 use super::books::Books;
 use crate::id::{IntersectionId, RoadId};
-use crate::net::{
-    Control, Intersection, NetworkConfig, NetworkError, PlanPart, Road, RoadNetwork, Street, StreetPlan,
-};
+use crate::net::{NetworkConfig, NetworkError, PlanPart, RoadNetwork, StreetPlan, derive};
 
 /// A repair under way.
 pub(super) struct Repair<'a> {
     pub(super) books: Books<'a>,
     pub(super) plan: &'a StreetPlan,
+    pub(super) config: &'a NetworkConfig,
     /// Nodes that have other streets than before, or lie elsewhere.
     pub(super) stirred: BTreeSet<usize>,
 }
@@ -24,20 +23,19 @@ pub(super) struct Surroundings {
 }
 
 impl<'a> Repair<'a> {
-    pub(super) fn open(network: &'a mut RoadNetwork, plan: &'a StreetPlan) -> Self {
-        Self { books: Books::open(network), plan, stirred: BTreeSet::new() }
+    pub(super) fn open(
+        network: &'a mut RoadNetwork,
+        plan: &'a StreetPlan,
+        config: &'a NetworkConfig,
+    ) -> Self {
+        Self { books: Books::open(network), plan, config, stirred: BTreeSet::new() }
     }
 
     /// `groups` is the number of signal groups before.
-    pub(super) fn carry_out(
-        &mut self,
-        config: &NetworkConfig,
-        change: &PlanChange,
-        groups: usize,
-    ) -> Result<(), NetworkError> {
+    pub(super) fn carry_out(&mut self, change: &PlanChange, groups: usize) -> Result<(), NetworkError> {
         self.take_apart(change)?;
         self.attach(change);
-        let derived = self.derive(config)?;
+        let derived = self.derive()?;
         self.put_in(&derived, groups);
         self.books.close_gaps();
         Ok(())
@@ -91,12 +89,12 @@ impl<'a> Repair<'a> {
         let plan = self.plan;
         let nodes = self.books.intersections.len();
         for node in nodes..plan.nodes.len() {
-            self.books.intersections.push(alone(plan, node));
+            self.books.intersections.push(derive::alone(plan, node, self.config));
             self.stirred.insert(node);
         }
         let roads = self.books.roads.len();
         for street in &plan.streets[roads..] {
-            self.books.roads.push(blank(street));
+            self.books.roads.push(derive::road(plan, street));
         }
         for index in change.streets_changed.iter().copied().chain(roads..plan.streets.len()) {
             let street = &plan.streets[index];
@@ -145,12 +143,12 @@ impl<'a> Repair<'a> {
     }
 
     /// Derives the surroundings of what was stirred, so far out that its own junctions come out as in the whole.
-    fn derive(&self, config: &NetworkConfig) -> Result<Surroundings, NetworkError> {
+    fn derive(&self) -> Result<Surroundings, NetworkError> {
         let mut nodes = self.touched();
         nodes.extend(self.ends_of(&self.streets_at(&nodes)));
         let part = self.plan.part(self.streets_at(&nodes));
         let (streets, nodes) = (&part.streets, &part.nodes);
-        let network = RoadNetwork::derive(&part.plan, config).map_err(|error| match error {
+        let network = RoadNetwork::derive(&part.plan, self.config).map_err(|error| match error {
             NetworkError::Street { street, reason } => {
                 NetworkError::Street { street: streets[street], reason }
             }
@@ -159,40 +157,5 @@ impl<'a> Repair<'a> {
             other => other,
         })?;
         Ok(Surroundings { part, network })
-    }
-}
-
-/// A road before it is derived.
-fn blank(street: &Street) -> Road {
-    Road {
-        class: street.class,
-        from: IntersectionId::from_index(street.from),
-        to: IntersectionId::from_index(street.to),
-        centerline: Vec::new(),
-        name: street.name,
-        width: 0.0,
-        left_kerb: 0.0,
-        right_kerb: 0.0,
-        forward: Vec::new(),
-        backward: Vec::new(),
-        sidewalks: [None; 2],
-        roundabout: street.roundabout,
-        level: street.level,
-    }
-}
-
-/// An intersection without roads.
-pub(super) fn alone(plan: &StreetPlan, node: usize) -> Intersection {
-    let center = plan.nodes[node];
-    Intersection {
-        center,
-        height: plan.elevation(node),
-        outline: vec![center],
-        roads: Vec::new(),
-        control: Control::None,
-        signals: None,
-        connections: Vec::new(),
-        crossings: Vec::new(),
-        corners: Vec::new(),
     }
 }

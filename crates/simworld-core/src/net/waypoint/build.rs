@@ -178,23 +178,23 @@ fn join_crossing(builder: &mut Builder, network: &RoadNetwork, id: CrossingId, e
 
 pub(super) fn drivable(network: &RoadNetwork, config: &WaypointConfig) -> WaypointGraph {
     let mut builder = Builder::default();
-    let mut ends: Vec<Ends> = Vec::with_capacity(network.lanes.len());
-    for (index, lane) in network.lanes.iter().enumerate() {
+    // Of lanes for bicycles none.
+    let mut ends: Vec<Option<Ends>> = vec![None; network.lanes.len()];
+    for (index, lane) in network.lanes.iter().enumerate().filter(|(_, lane)| lane.is_driven()) {
         let offset = polyline::offset(&lane.path, -config.offset);
         let kind = WaypointKind::Lane(LaneId::from_index(index));
         let way = builder.add_all(&interpolated(&offset, config.step), kind);
         drive(&mut builder, &way, lane.width);
         // A lane has at least two points, so its way is not empty.
-        ends.push((way[0], way[way.len() - 1]));
+        ends[index] = Some((way[0], way[way.len() - 1]));
     }
     for connection in &network.connections {
+        let (Some(from), Some(to)) = (ends[connection.from.index()], ends[connection.to.index()]) else {
+            continue;
+        };
         let kind = WaypointKind::Lane(connection.from);
         let way = builder.add_all(inner(&coarsened(&connection.path, config.step)), kind);
-        let whole: Vec<WaypointId> = [ends[connection.from.index()].1]
-            .into_iter()
-            .chain(way)
-            .chain([ends[connection.to.index()].0])
-            .collect();
+        let whole: Vec<WaypointId> = [from.1].into_iter().chain(way).chain([to.0]).collect();
         drive(&mut builder, &whole, network.lanes[connection.from.index()].width);
     }
     builder.finish()
