@@ -2,6 +2,8 @@
 
 mod check;
 mod derive;
+#[cfg(feature = "hierarchy")]
+mod hierarchy;
 mod network;
 mod part;
 mod plan;
@@ -15,6 +17,8 @@ mod waypoint;
 
 pub use check::NetworkFault;
 pub use derive::{NetworkConfig, NetworkError};
+#[cfg(feature = "hierarchy")]
+pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
 pub use network::{
     Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Strip,
     Turn, TurningCircle,
@@ -27,7 +31,7 @@ pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use turn_lanes::{TurnLanes, TurnSet};
 pub use turning::{CAR_TURNING, LORRY_TURNING};
 #[cfg(feature = "hierarchy")]
-pub use waypoint::{HierarchyScratch, RouteHierarchy};
+pub use waypoint::RouteHierarchy;
 pub use waypoint::{
     Route, RouteScratch, Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind,
 };

@@ -1,8 +1,6 @@
 //! Routes: chains of legs, a leg being one direction of a road; and the quickest one between two.
 
 #[cfg(feature = "hierarchy")]
-mod dissection;
-#[cfg(feature = "hierarchy")]
 mod hierarchy;
 
 #[cfg(feature = "hierarchy")]

@@ -16,7 +16,7 @@ use super::{NetworkError, RoadNetwork};
 use crate::geometry::Point2;
 use crate::id::{CrossingId, IntersectionId, LaneId, WaypointId};
 #[cfg(feature = "hierarchy")]
-pub use hierarchy::{HierarchyScratch, RouteHierarchy};
+pub use hierarchy::RouteHierarchy;
 pub use route::{Route, RouteScratch};
 
 /// What a waypoint stands on.

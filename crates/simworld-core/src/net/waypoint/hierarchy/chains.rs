@@ -2,7 +2,7 @@
 
 use super::Route;
 use crate::id::WaypointId;
-use crate::net::WaypointGraph;
+use crate::net::{WaypointGraph, WeightedEdge};
 
 /// Weights are whole numbers, so that sums do not depend on their order: tenths of a millimetre.
 const UNITS: f64 = 1e4;
@@ -19,26 +19,63 @@ impl Place {
     const NOWHERE: Self = Self { chain: NONE, index: 0 };
 }
 
-/// One waypoint of a chain, with the way to it from the beginning of the chain.
+/// The ways between a waypoint and keys. They are two at most, for a waypoint between keys lies on two chains at most.
 #[derive(Clone, Copy, Debug)]
-struct Stop {
-    waypoint: WaypointId,
-    weight: usize,
+pub(super) struct Ways {
+    count: usize,
+    /// The number of the key that each leads to or comes from, and its weight.
+    keys: [(u32, u64); 2],
+    /// Where on its chain each begins or ends; nowhere, if the waypoint is the key.
+    places: [Place; 2],
+}
+
+impl Ways {
+    const NONE: Self = Self { count: 0, keys: [(NONE, 0); 2], places: [Place::NOWHERE; 2] };
+
+    fn push(&mut self, key: u32, weight: u64, place: Place) {
+        self.keys[self.count] = (key, weight);
+        self.places[self.count] = place;
+        self.count += 1;
+    }
+
+    /// The keys with what it costs to come there, or from there.
+    pub(super) fn keys(&self) -> &[(u32, u64)] {
+        &self.keys[..self.count]
+    }
+
+    pub(super) fn place(&self, index: usize) -> Place {
+        self.places[index]
+    }
+}
+
+/// A whole chain, so that to follow it is to look at one place.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    /// The indices of its first and last stop.
+    first: u32,
+    last: u32,
+    /// m.
     length: f64,
 }
 
 /// A graph as chains between key waypoints.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Chains {
-    /// The stops of chain i, both keys included, are `stops[starts[i]..starts[i + 1]]`.
+    /// The stops of chain i, both keys included, are those from `starts[i]` to `starts[i + 1]`.
     starts: Vec<u32>,
-    stops: Vec<Stop>,
+    stops: Vec<WaypointId>,
+    /// Of each stop, the weight of the way to it from the beginning of its chain.
+    weights: Vec<u64>,
+    /// And its length, m.
+    lengths: Vec<f64>,
     /// The number of each waypoint among the keys.
     key_of: Vec<u32>,
     /// Where each waypoint between keys lies: on one chain, or on one each way.
     places: Vec<[Place; 2]>,
-    /// The quickest chain from one key to another, sorted by both.
-    links: Vec<(u32, u32, u32)>,
+    /// How many keys there are.
+    keys: usize,
+    /// The shortest chains from one key to another, sorted by both.
+    links: Vec<Link>,
 }
 
 impl Chains {
@@ -50,26 +87,33 @@ impl Chains {
             places: vec![[Place::NOWHERE; 2]; count],
             ..Self::default()
         };
-        let mut keys = Vec::new();
         let mut is_key = find_keys(graph);
         for waypoint in (0..count).filter(|waypoint| is_key[*waypoint]) {
-            chains.key_of[waypoint] = keys.len() as u32;
-            keys.push(waypoint);
+            chains.number(waypoint);
         }
-        for key in keys.clone() {
-            chains.lay_from(graph, &is_key, key);
+        for waypoint in (0..count).filter(|waypoint| is_key[*waypoint]) {
+            chains.lay_from(graph, &is_key, waypoint);
         }
         // What no key leads to are rings without any: one waypoint of each becomes a key.
         for waypoint in 0..count {
             if !is_key[waypoint] && chains.places[waypoint][0] == Place::NOWHERE {
                 is_key[waypoint] = true;
-                chains.key_of[waypoint] = keys.len() as u32;
-                keys.push(waypoint);
+                chains.number(waypoint);
                 chains.lay_from(graph, &is_key, waypoint);
             }
         }
-        chains.link_keys();
         chains
+    }
+
+    fn number(&mut self, waypoint: usize) {
+        self.key_of[waypoint] = self.keys as u32;
+        self.keys += 1;
+    }
+
+    fn stop(&mut self, waypoint: WaypointId, weight: u64, length: f64) {
+        self.stops.push(waypoint);
+        self.weights.push(weight);
+        self.lengths.push(length);
     }
 
     /// Lays every chain that leaves a key.
@@ -77,16 +121,13 @@ impl Chains {
         let first = WaypointId::from_index(key);
         for leaving in graph.edges(first) {
             let chain = (self.starts.len() - 1) as u32;
-            let mut stop = Stop { waypoint: first, weight: 0, length: 0.0 };
-            self.stops.push(stop);
+            let (mut weight, mut length) = (0, 0.0);
+            self.stop(first, weight, length);
             let (mut before, mut edge) = (first, leaving);
             loop {
-                stop = Stop {
-                    waypoint: edge.to,
-                    weight: stop.weight + ((edge.length * UNITS).round() as usize).max(1),
-                    length: stop.length + edge.length,
-                };
-                self.stops.push(stop);
+                weight += ((edge.length * UNITS).round() as u64).max(1);
+                length += edge.length;
+                self.stop(edge.to, weight, length);
                 let here = edge.to;
                 if is_key[here.index()] {
                     break;
@@ -103,39 +144,40 @@ impl Chains {
         }
     }
 
-    fn link_keys(&mut self) {
-        let mut found: Vec<(u32, u32, usize, u32)> = (0..self.starts.len() as u32 - 1)
+    /// Finds the shortest chain between every two keys that one joins, as edges between the numbers of the keys. The
+    /// chain of an edge is the link of its index.
+    pub(super) fn link_keys(&mut self) -> Vec<WeightedEdge> {
+        let mut found: Vec<(u32, u32, u64, u32)> = (0..self.starts.len() as u32 - 1)
             .map(|chain| {
-                let stops = self.chain(chain);
-                let (first, last) = (stops[0], stops[stops.len() - 1]);
-                let ends = [first.waypoint, last.waypoint].map(|end| self.key_of[end.index()]);
-                (ends[0], ends[1], last.weight, chain)
+                let (first, last) = self.span(chain);
+                let ends = [first, last].map(|end| self.key_of[self.stops[end].index()]);
+                (ends[0], ends[1], self.weights[last], chain)
             })
             .filter(|(from, to, ..)| from != to && *to != NONE)
             .collect();
         found.sort_unstable();
         found.dedup_by_key(|(from, to, ..)| (*from, *to));
-        self.links = found.into_iter().map(|(from, to, _, chain)| (from, to, chain)).collect();
+        let link = |(.., chain): &(u32, u32, u64, u32)| {
+            let (first, last) = self.span(*chain);
+            Link { first: first as u32, last: last as u32, length: self.lengths[last] }
+        };
+        self.links = found.iter().map(link).collect();
+        found.into_iter().map(|(from, to, weight, _)| WeightedEdge { from, to, weight }).collect()
     }
 
-    fn chain(&self, chain: u32) -> &[Stop] {
-        &self.stops[self.starts[chain as usize] as usize..self.starts[chain as usize + 1] as usize]
+    /// How many keys there are.
+    pub(super) fn keys(&self) -> usize {
+        self.keys
     }
 
-    /// Every link between two keys: from, to, weight.
-    pub(super) fn links(&self) -> impl Iterator<Item = (usize, usize, usize)> {
-        self.links.iter().map(|(from, to, chain)| {
-            let stops = self.chain(*chain);
-            (*from as usize, *to as usize, stops[stops.len() - 1].weight)
-        })
+    /// The indices of the first and last stop of a chain.
+    fn span(&self, chain: u32) -> (usize, usize) {
+        (self.starts[chain as usize] as usize, self.starts[chain as usize + 1] as usize - 1)
     }
 
-    /// The whole chain from one key to another.
-    pub(super) fn link(&self, from: usize, to: usize) -> Option<(Place, u32)> {
-        let wanted = (from as u32, to as u32);
-        let index = self.links.binary_search_by_key(&wanted, |(from, to, _)| (*from, *to)).ok()?;
-        let chain = self.links[index].2;
-        Some((Place { chain, index: 0 }, self.chain(chain).len() as u32 - 1))
+    /// The index of the stop at a place.
+    fn stop_at(&self, place: Place) -> usize {
+        (self.starts[place.chain as usize] + place.index) as usize
     }
 
     /// Where a waypoint between keys lies; nowhere if it is a key.
@@ -143,68 +185,76 @@ impl Chains {
         self.places[waypoint.index()].into_iter().filter(|place| *place != Place::NOWHERE)
     }
 
-    /// The keys to which one comes from a waypoint, with the weight of the way.
-    pub(super) fn exits(&self, from: WaypointId) -> Vec<(usize, usize)> {
-        let own = self.key_of[from.index()];
+    /// The ways from a waypoint on to keys.
+    pub(super) fn exits(&self, from: WaypointId) -> Ways {
+        self.ways(from, |place| {
+            let last = self.span(place.chain).1;
+            (last, self.weights[last] - self.weights[self.stop_at(place)])
+        })
+    }
+
+    /// The ways from keys to a waypoint.
+    pub(super) fn entries(&self, to: WaypointId) -> Ways {
+        self.ways(to, |place| (self.span(place.chain).0, self.weights[self.stop_at(place)]))
+    }
+
+    fn ways(&self, waypoint: WaypointId, end: impl Fn(Place) -> (usize, u64)) -> Ways {
+        let mut ways = Ways::NONE;
+        let own = self.key_of[waypoint.index()];
         if own != NONE {
-            return vec![(own as usize, 0)];
+            ways.push(own, 0, Place::NOWHERE);
         }
-        self.places(from).filter_map(|place| self.exit(place)).collect()
-    }
-
-    fn exit(&self, place: Place) -> Option<(usize, usize)> {
-        let stops = self.chain(place.chain);
-        let last = stops[stops.len() - 1];
-        let key = self.key_of[last.waypoint.index()];
-        (key != NONE).then(|| (key as usize, last.weight - stops[place.index as usize].weight))
-    }
-
-    /// The keys from which one comes to a waypoint, with the weight of the way.
-    pub(super) fn entries(&self, to: WaypointId) -> Vec<(usize, usize)> {
-        let own = self.key_of[to.index()];
-        if own != NONE {
-            return vec![(own as usize, 0)];
+        for place in self.places(waypoint) {
+            let (stop, weight) = end(place);
+            let key = self.key_of[self.stops[stop].index()];
+            if key != NONE {
+                ways.push(key, weight, place);
+            }
         }
-        self.places(to).map(|place| self.entry(place)).collect()
-    }
-
-    fn entry(&self, place: Place) -> (usize, usize) {
-        let stops = self.chain(place.chain);
-        (self.key_of[stops[0].waypoint.index()] as usize, stops[place.index as usize].weight)
-    }
-
-    /// The quickest way from a waypoint between keys to a key at the end of its chain.
-    pub(super) fn exit_to(&self, from: WaypointId, key: usize) -> Option<(Place, u32)> {
-        let ways = self.places(from).filter_map(|place| Some((self.exit(place)?, place)));
-        let best = ways.filter(|((end, _), _)| *end == key).min_by_key(|((_, weight), _)| *weight)?;
-        Some((best.1, self.chain(best.1.chain).len() as u32 - 1))
-    }
-
-    /// The quickest way to a waypoint between keys from a key at the beginning of its chain.
-    pub(super) fn entry_from(&self, to: WaypointId, key: usize) -> Option<(Place, u32)> {
-        let ways = self.places(to).map(|place| (self.entry(place), place));
-        let best = ways.filter(|((start, _), _)| *start == key).min_by_key(|((_, weight), _)| *weight)?;
-        Some((Place { index: 0, ..best.1 }, best.1.index))
+        ways
     }
 
     /// The way from one waypoint to another along one chain, with its weight.
-    pub(super) fn along_one(&self, from: WaypointId, to: WaypointId) -> Option<(usize, Place, u32)> {
+    pub(super) fn along_one(&self, from: WaypointId, to: WaypointId) -> Option<(u64, Place, u32)> {
         let pairs = self.places(from).flat_map(|start| self.places(to).map(move |end| (start, end)));
         let along = pairs.filter(|(start, end)| start.chain == end.chain && start.index <= end.index);
         let weighed = along.map(|(start, end)| {
-            let stops = self.chain(start.chain);
-            let weight = stops[end.index as usize].weight - stops[start.index as usize].weight;
-            (weight, start, end.index)
+            (self.weights[self.stop_at(end)] - self.weights[self.stop_at(start)], start, end.index)
         });
         weighed.min_by_key(|(weight, ..)| *weight)
     }
 
+    /// Follows a chain from a place to the key at its end; see [`follow`](Self::follow).
+    pub(super) fn follow_out(&self, from: Place, route: &mut Route) {
+        if from != Place::NOWHERE {
+            let (first, last) = self.span(from.chain);
+            self.follow(from, (last - first) as u32, route);
+        }
+    }
+
+    /// Follows a chain from the key at its beginning to a place.
+    pub(super) fn follow_in(&self, to: Place, route: &mut Route) {
+        if to != Place::NOWHERE {
+            self.follow(Place { index: 0, ..to }, to.index, route);
+        }
+    }
+
+    /// Follows a link from its beginning to its end.
+    pub(super) fn follow_link(&self, link: u32, route: &mut Route) {
+        let Link { first, last, length } = self.links[link as usize];
+        self.pass(first as usize, last as usize, length, route);
+    }
+
     /// Adds the stops of a chain from a place to an index to a route that ends at the place, or is empty.
     pub(super) fn follow(&self, from: Place, to: u32, route: &mut Route) {
-        let stops = &self.chain(from.chain)[from.index as usize..=to as usize];
+        let (first, last) = (self.stop_at(from), self.stop_at(Place { index: to, ..from }));
+        self.pass(first, last, self.lengths[last] - self.lengths[first], route);
+    }
+
+    fn pass(&self, first: usize, last: usize, length: f64, route: &mut Route) {
         let known = usize::from(!route.waypoints.is_empty());
-        route.waypoints.extend(stops[known..].iter().map(|stop| stop.waypoint));
-        route.length += stops[stops.len() - 1].length - stops[0].length;
+        route.waypoints.extend_from_slice(&self.stops[first + known..=last]);
+        route.length += length;
     }
 }
 
