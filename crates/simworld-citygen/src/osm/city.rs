@@ -8,13 +8,13 @@ use simworld_core::net::RoadNetwork;
 use simworld_core::scene::EntityKind;
 use simworld_core::seed::Seed;
 
-use super::building::{self, Outline, raise};
+use super::building::{self, Outline};
 use super::error::Warning;
+use super::ground::{self, Mask};
 use super::place::Place;
 use super::street::{Planned, StreetOptions};
 use super::{CREDIT, things};
 use crate::building::Building;
-use crate::doors::Doors;
 use crate::element::{self, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
@@ -44,16 +44,10 @@ pub struct PlaceOptions {
     pub elements: Fill,
 }
 
-/// A building farther than this from every sidewalk has no way in, m.
-const FARTHEST_DOOR: f64 = 150.0;
-/// Most are nearer than this to one, m.
-const USUAL_DOOR: f64 = 40.0;
 /// Lots nearer than one or two of these to a building of the map are not filled, m.
 const FILLED_CELL: f64 = 90.0;
 /// A kind of thing of which the map has less than one on so much sidewalk is generated, m.
 const FEW: f64 = 150.0;
-/// Half the width that a car needs on its lane, m. What stands beside that stands: maps are not that exact.
-const HALF_CAR: f64 = 0.8;
 
 impl City {
     /// Builds a city of a real place: its streets, its buildings, and what stands in its streets. The same place,
@@ -79,18 +73,21 @@ impl City {
             return Err(CityError::NoStreets);
         }
         let network = RoadNetwork::derive(&plan, &config.network)?;
-        let ground = Ground::of(&network, &off_ground);
         let mut taken = Occupancy::of_roads_where(&network, |road| !off_ground[road.index()]);
         let zoning = Zoning::new(&config.zoning, seed);
-        let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
-        let mut buildings = stand(place, outlines, &network, &ground, &mut warnings);
-        buildings.iter().flat_map(Building::ground).for_each(|piece| taken.add(&piece));
+        let land = if (options.buildings, options.elements) == (Fill::Never, Fill::Never) {
+            Land::default()
+        } else {
+            Land::of_network(&network, &zoning, &config.lots, seed, &taken)
+        };
+        let (mut buildings, carriageways) =
+            mapped(place, outlines, &network, &off_ground, &mut taken, &mut warnings);
         if options.buildings == Fill::WhereMissing {
             let open = without_lots_near(&land, &buildings);
             let built = crate::building::build(&network, &open, &config.buildings, seed, &mut taken);
             buildings.extend(built);
         }
-        let mut elements = things::set(place, &network, &ground.carriageways, &mut taken, &mut warnings);
+        let mut elements = things::set(place, &network, &carriageways, &mut taken, &mut warnings);
         if options.elements == Fill::WhereMissing {
             let mut wanted = config.elements.clone();
             leave_to_the_map(&mut wanted, &elements, &network);
@@ -122,71 +119,23 @@ impl City {
     }
 }
 
-/// What is driven on, at the level of the ground.
-struct Ground {
-    carriageways: Occupancy,
-}
-
-impl Ground {
-    fn of(network: &RoadNetwork, off_ground: &[bool]) -> Self {
-        let mut carriageways = Occupancy::with_capacity(network.lanes.len() * 4);
-        let on_ground = |lane: usize| !off_ground[network.lanes[lane].road.index()];
-        for lane in network.lanes.iter().filter(|lane| !off_ground[lane.road.index()]) {
-            add_strip(&mut carriageways, &lane.path, HALF_CAR);
-        }
-        for way in &network.connections {
-            if on_ground(way.from.index()) && on_ground(way.to.index()) {
-                add_strip(&mut carriageways, &way.path, HALF_CAR);
-            }
-        }
-        Self { carriageways }
-    }
-}
-
-fn add_strip(taken: &mut Occupancy, path: &[Point2], half: f64) {
-    for pair in path.windows(2).filter(|pair| (pair[1] - pair[0]).norm() > 0.01) {
-        taken.add_box(&crate::strips::strip(pair[0], pair[1], half, half, 0.0));
-    }
-}
-
-/// Raises the buildings of the map that have a way in and do not stand in the way of traffic or in each other.
-fn stand(
+/// The buildings of the map that stand, out of the way of traffic, and what is driven on near what the map has.
+fn mapped(
     place: &Place,
     mut outlines: Vec<Outline>,
     network: &RoadNetwork,
-    ground: &Ground,
+    off_ground: &[bool],
+    taken: &mut Occupancy,
     warnings: &mut Vec<Warning>,
-) -> Vec<Building> {
-    // Most doors are near: the wide search is for the others.
-    let doors = [Doors::of(network, USUAL_DOOR), Doors::of(network, FARTHEST_DOOR)];
-    let mut standing = Occupancy::with_capacity(outlines.len() * 4);
+) -> (Vec<Building>, Occupancy) {
     building::adopt(place, &mut outlines);
-    let mut buildings = Vec::with_capacity(outlines.len());
-    // The largest first: what overlaps it is a part of it.
-    outlines.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.element.cmp(&b.element)));
-    for outline in &outlines {
-        let mut leave_out = |what: &str| {
-            let at = outline.corners.first().map(|corner| place.geographic(*corner));
-            let what = format!("a building {what}; left out");
-            warnings.push(Warning { what, element: Some(outline.element), at });
-        };
-        let Some(building) = raise(outline, network, &doors) else {
-            leave_out("has no sidewalk within 150 m");
-            continue;
-        };
-        let pieces = building.ground();
-        if pieces.iter().any(|piece| !ground.carriageways.is_free(piece)) {
-            leave_out("stands on a carriageway");
-        } else if pieces.iter().any(|piece| !standing.is_free(piece)) {
-            leave_out("stands in another one");
-        } else {
-            for piece in &pieces {
-                standing.add(piece);
-            }
-            buildings.push(building);
-        }
-    }
-    buildings
+    let raised = building::raise_all(&mut outlines, network);
+    let mut mask = Mask::new();
+    raised.iter().flatten().flat_map(|raised| &raised.pieces).for_each(|piece| mask.mark(piece, 0.0));
+    things::mark(place, &mut mask);
+    let carriageways = ground::carriageways(network, off_ground, &mask);
+    let buildings = building::stand(place, &outlines, raised, &carriageways, taken, warnings);
+    (buildings, carriageways)
 }
 
 /// The land without the lots that lie near a building.

@@ -10,6 +10,7 @@
 mod building;
 mod city;
 mod error;
+mod ground;
 mod place;
 mod raw;
 mod read;

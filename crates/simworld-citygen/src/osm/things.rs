@@ -5,6 +5,7 @@ use simworld_core::net::RoadNetwork;
 use simworld_core::scene::{EntityKind, Shape};
 
 use super::error::{OsmId, Warning};
+use super::ground::Mask;
 use super::place::Place;
 use super::tags::{Key, Tags};
 use crate::doors::Doors;
@@ -15,6 +16,8 @@ use crate::occupancy::Occupancy;
 const FARTHEST_STREET: f64 = 60.0;
 /// Distance of the trees of a row, m.
 const TREE_ROW: f64 = 8.0;
+/// Nothing reaches farther from its point, m.
+const LARGEST: f64 = 3.0;
 /// Trees of one row at most.
 const MOST_TREES: f64 = 2000.0;
 
@@ -35,6 +38,24 @@ fn thing_of(tags: &Tags<'_>) -> Option<(EntityKind, Shape)> {
         _ => return None,
     };
     Some(kind)
+}
+
+/// Marks the places of all that the map has.
+pub(super) fn mark(place: &Place, mask: &mut Mask) {
+    for (node, tags) in place.raw.tagged_nodes() {
+        if let (Some(_), Some(position)) = (thing_of(&tags), place.point(node)) {
+            mask.mark(&[position], LARGEST);
+        }
+    }
+    for (_, row) in tree_rows(place) {
+        row.windows(2).for_each(|piece| mask.mark(piece, LARGEST));
+    }
+}
+
+/// The rows of trees: their ways and lines.
+fn tree_rows(place: &Place) -> impl Iterator<Item = (i64, Vec<Point2>)> {
+    let rows = place.raw.ways().iter().filter(|way| place.raw.way_tags(way).is(Key::Natural, "tree_row"));
+    rows.map(|way| (way.id, place.raw.nodes_of(way).iter().filter_map(|node| place.point(*node)).collect()))
 }
 
 /// Sets what the map has; what would stand on a carriageway, in a building or in something else is left out.
@@ -66,15 +87,13 @@ pub(super) fn set(
             try_to_set(kind, shape, position, OsmId::Node(place.raw.node_id(node)));
         }
     }
-    for way in place.raw.ways().iter().filter(|way| place.raw.way_tags(way).is(Key::Natural, "tree_row")) {
-        let line: Vec<Point2> =
-            place.raw.nodes_of(way).iter().filter_map(|node| place.point(*node)).collect();
+    for (way, line) in tree_rows(place) {
         let length = simworld_core::net::polyline::length(&line);
         let count = (length / TREE_ROW).floor().min(MOST_TREES);
         for index in 0..count as u32 {
             let at = simworld_core::net::polyline::at(&line, (f64::from(index) + 0.5) * TREE_ROW).0;
             let shape = Shape::Cylinder { radius: 0.18, height: 7.0 };
-            try_to_set(EntityKind::Tree, shape, at, OsmId::Way(way.id));
+            try_to_set(EntityKind::Tree, shape, at, OsmId::Way(way));
         }
     }
     elements

@@ -3,8 +3,10 @@
 mod adopt;
 mod outline;
 mod raise;
+mod stand;
 mod usage;
 
 pub(super) use adopt::adopt;
 pub(super) use outline::{Outline, outlines};
-pub(super) use raise::raise;
+use raise::raise;
+pub(super) use stand::{raise_all, stand};
