@@ -20,6 +20,7 @@ const PIECES: u32 = 12;
 ///
 /// A bow of height h on a chord c is longer than it by about (π h / 2 c)², a double bend by three times as much.
 pub(super) fn course(
+    curves: &Curves,
     from: Point2,
     to: Point2,
     bow: f64,
@@ -41,12 +42,30 @@ pub(super) fn course(
     }
     let normal = Vector2::new(-along.y, along.x) / length;
     let (from, along) = (from + along * (STRAIGHT / length), along * (1.0 - 2.0 * STRAIGHT / length));
+    let waves = if doubled { &curves.doubled } else { &curves.single };
     (0..=PIECES)
-        .map(|piece| {
-            let share = f64::from(piece) / f64::from(PIECES);
-            let window = ops::sin(PI * share);
-            let wave = if doubled { ops::sin(TAU * share) } else { 1.0 };
-            from + along * share + normal * (height * window * window * wave)
-        })
+        .zip(waves)
+        .map(|(piece, wave)| from + along * (f64::from(piece) / f64::from(PIECES)) + normal * (height * wave))
         .collect()
+}
+
+/// The heights of a bow and of a double bend at the ends of their pieces, over the greatest height of the bow.
+#[derive(Clone, Debug)]
+pub(super) struct Curves {
+    single: [f64; PIECES as usize + 1],
+    doubled: [f64; PIECES as usize + 1],
+}
+
+impl Curves {
+    pub(super) fn new() -> Self {
+        let share = |piece: usize| piece as f64 / f64::from(PIECES);
+        let bow = |piece: usize| {
+            let window = ops::sin(PI * share(piece));
+            window * window
+        };
+        Self {
+            single: std::array::from_fn(bow),
+            doubled: std::array::from_fn(|piece| bow(piece) * ops::sin(TAU * share(piece))),
+        }
+    }
 }

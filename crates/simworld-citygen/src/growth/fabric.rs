@@ -1,26 +1,48 @@
-//! The streets grown so far: flat arrays, and a uniform grid that knows what is near.
-//!
-//! The grid is dense over the land of the city. Its lists are chained through arenas, so that growth never moves or
-//! allocates one list for itself.
+//! The streets grown so far: junctions and segments in flat arrays, and squares that know what is near.
 
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::RoadClass;
 
+use super::cells::{Asked, Bounds, Cells};
 use super::fitted::{Arrival, Fitted, Start};
 
 /// More streets than this do not meet at one junction.
 pub(super) const MOST_STREETS: usize = 4;
-/// The end of a chain.
-const END: u32 = u32::MAX;
+/// No street.
+const NONE: u32 = u32::MAX;
 
-/// A straight piece between two junctions.
+/// A straight piece between two junctions: all that questions about what is near want to know, in one line of the cache.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
 pub(super) struct Segment {
+    /// Where it begins and ends.
+    pub(super) a: Point2,
+    pub(super) b: Point2,
+    /// Unit vector from its beginning to its end.
+    pub(super) along: Vector2,
+    /// The junctions where it begins and ends.
     pub(super) from: u32,
     pub(super) to: u32,
     pub(super) class: RoadClass,
-    /// Unit vector from its beginning to its end.
-    pub(super) along: Vector2,
+    /// Whether it is still a street.
+    stands: bool,
+}
+
+/// A segment that stands near a place that was asked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Near {
+    pub(super) a: Point2,
+    pub(super) b: Point2,
+    pub(super) index: u32,
+    pub(super) from: u32,
+    pub(super) to: u32,
+}
+
+/// What questions about what is near are answered in; kept from one to the next.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    asked: Asked,
+    near: Vec<Near>,
 }
 
 /// A junction: the streets that meet there and how many may.
@@ -41,43 +63,22 @@ pub(super) struct Fabric {
     walls: u32,
     /// The middle of the land.
     middle: Point2,
-    /// Half the width of the land, and the width of a cell, m.
+    /// Points farther from the middle are beyond the land, m.
     reach: f64,
-    cell: f64,
-    columns: usize,
-    /// First node and first entry of each cell; each points to the next.
-    node_heads: Vec<u32>,
-    node_next: Vec<u32>,
-    entry_heads: Vec<u32>,
-    entries: Vec<(u32, u32)>,
-    /// The last question that each segment was an answer to, so that none is told twice.
-    asked: Vec<u32>,
-    question: u32,
+    cells: Cells,
 }
 
 impl Fabric {
-    /// Empty land within `reach` m of the origin, in cells of `cell` m.
-    pub(super) fn new(reach: f64, cell: f64) -> Self {
-        Self::around(Point2::origin(), reach, cell)
-    }
-
-    /// Empty land within `reach` m of a point, in cells of `cell` m.
-    pub(super) fn around(middle: Point2, reach: f64, cell: f64) -> Self {
-        let columns = (2.0 * reach / cell).ceil() as usize + 1;
+    /// Empty land within `reach` m of a point, in cells of `cell` m, with room for so many segments.
+    pub(super) fn around(middle: Point2, reach: f64, cell: f64, room: usize) -> Self {
         Self {
-            nodes: Vec::new(),
-            segments: Vec::new(),
+            nodes: Vec::with_capacity(room),
+            segments: Vec::with_capacity(room),
             walls: 0,
             middle,
-            reach,
-            cell,
-            columns,
-            node_heads: vec![END; columns * columns],
-            node_next: Vec::new(),
-            entry_heads: vec![END; columns * columns],
-            entries: Vec::new(),
-            asked: Vec::new(),
-            question: 0,
+            // A little inside the edge of the cells.
+            reach: reach - cell,
+            cells: Cells::around(middle, reach, cell),
         }
     }
 
@@ -89,8 +90,8 @@ impl Fabric {
         &self.segments
     }
 
-    pub(super) fn segment(&self, segment: u32) -> Segment {
-        self.segments[segment as usize]
+    pub(super) fn segment(&self, segment: u32) -> &Segment {
+        &self.segments[segment as usize]
     }
 
     pub(super) fn at(&self, node: u32) -> Point2 {
@@ -107,9 +108,9 @@ impl Fabric {
         node.count < node.limit
     }
 
-    /// Whether a point lies within the land, a little inside its edge.
+    /// Whether a point lies within the land.
     pub(super) fn holds(&self, point: Point2) -> bool {
-        (point - self.middle).norm() < self.reach - self.cell
+        (point - self.middle).norm_squared() < self.reach * self.reach
     }
 
     /// Builds a wall round the land, counter-clockwise; each corner takes so many streets, the wall's two among them. The
@@ -121,8 +122,7 @@ impl Fabric {
         let count = self.nodes.len() as u32;
         for from in 0..count {
             let to = (from + 1) % count;
-            let along = (self.at(to) - self.at(from)).normalize();
-            self.add_segment(Segment { from, to, class, along });
+            self.join(from, to, class);
         }
         self.walls = count;
     }
@@ -171,7 +171,7 @@ impl Fabric {
             Start::Node(node) => self.at(node),
             Start::Middle(segment) => {
                 let segment = &self.segments[segment as usize];
-                nalgebra::center(&self.at(segment.from), &self.at(segment.to))
+                nalgebra::center(&segment.a, &segment.b)
             }
         }
     }
@@ -197,7 +197,7 @@ impl Fabric {
     /// Length of a segment, m.
     pub(super) fn length(&self, segment: u32) -> f64 {
         let segment = &self.segments[segment as usize];
-        (self.at(segment.to) - self.at(segment.from)).norm()
+        (segment.b - segment.a).norm()
     }
 
     /// Whether a segment begins or ends at a node.
@@ -216,60 +216,35 @@ impl Fabric {
         self.streets(a).iter().any(|segment| self.other_end(*segment, a) == b)
     }
 
-    fn column_of(&self, x: f64) -> usize {
-        self.cell_of(x - self.middle.x)
-    }
-
-    fn row_of(&self, y: f64) -> usize {
-        self.cell_of(y - self.middle.y)
-    }
-
-    fn cell_of(&self, x: f64) -> usize {
-        (((x + self.reach) / self.cell).floor().max(0.0) as usize).min(self.columns - 1)
-    }
-
-    /// Calls with every node of the cells within a distance; they may lie somewhat farther off.
-    pub(super) fn visit_nodes(&self, point: Point2, distance: f64, mut visit: impl FnMut(u32, Point2)) {
-        let rows = self.row_of(point.y - distance)..=self.row_of(point.y + distance);
-        for row in rows {
-            for column in self.column_of(point.x - distance)..=self.column_of(point.x + distance) {
-                let mut node = self.node_heads[row * self.columns + column];
-                while node != END {
-                    visit(node, self.nodes[node as usize].at);
-                    node = self.node_next[node as usize];
-                }
-            }
+    /// Every segment that stands and whose box touches another one; seldom one is told twice.
+    pub(super) fn gather<'a>(&self, bounds: &Bounds, scratch: &'a mut Scratch) -> &'a [Near] {
+        let Scratch { asked, near } = scratch;
+        let numbers = asked.ask(&self.cells, bounds);
+        if near.len() < numbers.len() {
+            near.resize(numbers.len(), Near::default());
         }
+        let mut count = 0;
+        // All are read, and those that are none are written over: no read waits for what was found in one before.
+        for index in numbers {
+            let Segment { a, b, from, to, stands, .. } = self.segments[*index as usize];
+            near[count] = Near { a, b, index: *index, from, to };
+            count += usize::from(stands & bounds.touches(a, b));
+        }
+        &near[..count]
     }
 
-    /// Collects every segment whose cells touch the box around two points grown by a margin, each once.
-    pub(super) fn segments_near(&mut self, a: Point2, b: Point2, margin: f64, found: &mut Vec<u32>) {
-        found.clear();
-        self.question = self.question.wrapping_add(1);
-        let rows = self.row_of(a.y.min(b.y) - margin)..=self.row_of(a.y.max(b.y) + margin);
-        let columns = self.column_of(a.x.min(b.x) - margin)..=self.column_of(a.x.max(b.x) + margin);
-        for row in rows {
-            for column in columns.clone() {
-                let mut entry = self.entry_heads[row * self.columns + column];
-                while entry != END {
-                    let (segment, next) = self.entries[entry as usize];
-                    if self.asked[segment as usize] != self.question {
-                        self.asked[segment as usize] = self.question;
-                        found.push(segment);
-                    }
-                    entry = next;
-                }
-            }
-        }
+    /// Whether a test holds of the ends of every segment that stands and that a line may meet.
+    pub(super) fn all_along(&self, a: Point2, b: Point2, test: impl Fn(Point2, Point2) -> bool) -> bool {
+        self.cells.all_along(a, b, |index| {
+            let segment = &self.segments[index as usize];
+            !segment.stands || test(segment.a, segment.b)
+        })
     }
 
     /// Adds a junction at which at most `limit` streets meet.
     pub(super) fn add_node(&mut self, at: Point2, limit: u8) -> u32 {
         let node = self.nodes.len() as u32;
-        self.nodes.push(Node { at, streets: [END; MOST_STREETS], count: 0, limit });
-        let cell = self.row_of(at.y) * self.columns + self.column_of(at.x);
-        self.node_next.push(self.node_heads[cell]);
-        self.node_heads[cell] = node;
+        self.nodes.push(Node { at, streets: [NONE; MOST_STREETS], count: 0, limit });
         node
     }
 
@@ -284,8 +259,7 @@ impl Fabric {
             Start::Node(node) => node,
             Start::Middle(segment) => self.split(segment, self.start(fitted.from), limit),
         };
-        let along = (self.at(node) - self.at(from)).normalize();
-        self.add_segment(Segment { from, to: node, class: fitted.class, along });
+        self.join(from, node, fitted.class);
         node
     }
 
@@ -295,37 +269,30 @@ impl Fabric {
         node.count += 1;
     }
 
+    /// Builds a segment between two junctions.
+    fn join(&mut self, from: u32, to: u32, class: RoadClass) {
+        let (a, b) = (self.at(from), self.at(to));
+        self.add_segment(Segment { a, b, along: (b - a).normalize(), from, to, class, stands: true });
+    }
+
     fn add_segment(&mut self, segment: Segment) {
         let index = self.segments.len() as u32;
         self.segments.push(segment);
-        self.asked.push(self.question);
         self.attach(segment.from, index);
         self.attach(segment.to, index);
-        self.file(index);
-    }
-
-    /// Enters a segment in the cells of its box.
-    fn file(&mut self, index: u32) {
-        let Segment { from, to, .. } = self.segments[index as usize];
-        let (a, b) = (self.at(from), self.at(to));
-        for row in self.row_of(a.y.min(b.y))..=self.row_of(a.y.max(b.y)) {
-            for column in self.column_of(a.x.min(b.x))..=self.column_of(a.x.max(b.x)) {
-                let cell = row * self.columns + column;
-                self.entries.push((index, self.entry_heads[cell]));
-                self.entry_heads[cell] = self.entries.len() as u32 - 1;
-            }
-        }
+        self.cells.file(index, segment.a, segment.b);
     }
 
     /// Puts a node on a segment: the first half keeps its index, the second is new.
     fn split(&mut self, index: u32, point: Point2, limit: u8) -> u32 {
         // Two halves and the street that arrives.
         let node = self.add_node(point, limit.max(3));
-        let segment = self.segments[index as usize];
-        self.segments[index as usize].to = node;
-        self.detach(segment.to, index);
+        let first = &mut self.segments[index as usize];
+        let second = Segment { from: node, a: point, ..*first };
+        (first.to, first.b) = (node, point);
+        self.detach(second.to, index);
         self.attach(node, index);
-        self.add_segment(Segment { from: node, ..segment });
+        self.add_segment(second);
         node
     }
 
@@ -345,10 +312,11 @@ impl Fabric {
         let other = self.other_end(segment, node);
         self.detach(node, segment);
         self.detach(other, segment);
+        self.segments[segment as usize].stands = false;
     }
 
     /// Whether a segment is still a street.
     pub(super) fn is_standing(&self, segment: u32) -> bool {
-        self.streets(self.segments[segment as usize].from).contains(&segment)
+        self.segments[segment as usize].stands
     }
 }

@@ -2,16 +2,16 @@
 
 use simworld_core::geometry::Point2;
 use simworld_core::ops::wrap_angle;
-use simworld_core::seed::Seed;
+use simworld_core::seed::{Seed, Stream};
 
 use crate::RoadConfig;
-use crate::zoning::ValueNoise;
+use crate::zoning::{RememberedNoise, ValueNoise};
 
 /// The layout of the land: two smooth fields.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
-    orientation: ValueNoise,
-    density: ValueNoise,
+    orientation: RememberedNoise,
+    density: RememberedNoise,
     base: f64,
     turning: f64,
     radius: f64,
@@ -21,8 +21,8 @@ impl Field {
     pub(super) fn new(config: &RoadConfig, radius: f64, seed: Seed) -> Self {
         let stream = seed.stream("citygen/field");
         Self {
-            orientation: ValueNoise::new(stream.named("orientation"), config.patch),
-            density: ValueNoise::new(stream.named("density"), radius.max(400.0) * 0.5),
+            orientation: remembered(stream.named("orientation"), config.patch, radius),
+            density: remembered(stream.named("density"), radius.max(400.0) * 0.5, radius),
             base: stream.rng().uniform(-std::f64::consts::PI, std::f64::consts::PI),
             turning: config.turning,
             radius,
@@ -32,10 +32,11 @@ impl Field {
     /// The layout of land without end: its grain turns about east, and nothing is remote.
     pub(super) fn endless(config: &RoadConfig, seed: Seed) -> Self {
         let radius = f64::INFINITY;
+        let near = 5.0 * config.length;
         let stream = seed.stream("citygen/field");
         Self {
-            orientation: ValueNoise::new(stream.named("orientation"), config.patch),
-            density: ValueNoise::new(stream.named("density"), QUARTER),
+            orientation: remembered(stream.named("orientation"), config.patch, near),
+            density: remembered(stream.named("density"), QUARTER, near),
             base: 0.0,
             turning: config.turning,
             radius,
@@ -48,7 +49,7 @@ impl Field {
     }
 
     /// What is to be known of a place; looked up once for all streets that begin there.
-    pub(super) fn site(&self, at: Point2) -> Site {
+    pub(super) fn site(&mut self, at: Point2) -> Site {
         let grain = self.orientation(at);
         if self.radius.is_infinite() {
             return Site { grain, density: -0.1 + 1.2 * self.density.uniform_at(at), remoteness: 0.0 };
@@ -57,17 +58,22 @@ impl Field {
     }
 
     /// The direction of the main streets at a place, radians.
-    fn orientation(&self, at: Point2) -> f64 {
+    fn orientation(&mut self, at: Point2) -> f64 {
         // Without turning there is one grid, and nothing to look up.
         let turned = if self.turning > 0.0 { self.orientation.uniform_at(at) - 0.5 } else { 0.0 };
         self.base + 2.0 * self.turning * turned
     }
 
     /// How densely people live, in [0, 1]: less towards the edge, and in patches.
-    fn density(&self, at: Point2) -> f64 {
+    fn density(&mut self, at: Point2) -> f64 {
         let centrality = (1.0 - at.coords.norm() / self.radius).clamp(0.0, 1.0);
         0.55 * centrality + 0.45 * self.density.at(at)
     }
+}
+
+/// A field that changes over `scale` m, and remembers about what lies along the edge of a town of that radius, m.
+fn remembered(stream: Stream, scale: f64, radius: f64) -> RememberedNoise {
+    RememberedNoise::new(ValueNoise::new(stream, scale), ((32.0 * radius / scale) as usize).clamp(16, 1024))
 }
 
 /// Distance over which the density of people changes on land without end, m.

@@ -33,7 +33,7 @@ impl Growth<'_> {
                     class: RoadClass::Local,
                     emptiness: 0.0,
                 };
-                let fitted = self.fitter.fit(&mut self.fabric, &proposal, &self.measures);
+                let fitted = self.fitter.fit(&self.fabric, &proposal, &self.measures);
                 if let Some(fitted) = fitted.filter(|fitted| !fitted.is_open()) {
                     let before = self.fabric.segments().len();
                     self.fabric.build(&fitted, 4);

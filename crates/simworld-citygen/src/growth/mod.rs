@@ -7,14 +7,16 @@
 //! look at, and of the others as many are taken away as the style has too many.
 
 mod bend;
+mod cells;
+mod course;
 mod fabric;
 mod field;
 mod finish;
 mod fitted;
 mod proposal;
+mod queue;
 mod within;
 
-use std::collections::BinaryHeap;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::geometry::{Point2, direction, heading};
@@ -23,10 +25,12 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::RoadConfig;
+use bend::Curves;
 use fabric::{Fabric, MOST_STREETS};
 use field::{Field, Site};
 use fitted::Start;
 use proposal::{Fitter, Measures, Proposal};
+use queue::{End, Queue};
 pub(crate) use within::{Gate, Within, grow_within};
 
 /// Attempts to revive growth for each segment asked for, when no end is left in the queue.
@@ -41,37 +45,6 @@ const TOWN: f64 = 0.5;
 const HIGHWAY_DELAY: f64 = 2.0;
 /// Streets that divide blocks wait as if they were so many segments farther, until it shows how large the blocks are.
 const DIVISION_DELAY: f64 = 3.0;
-
-/// An end that waits to grow; the one with the least cost goes first.
-#[derive(Clone, Copy, Debug)]
-struct End {
-    cost: f64,
-    /// The cost without what its place adds: what its children inherit.
-    steps: f64,
-    /// Order of insertion: settles equal costs.
-    serial: u64,
-    proposal: Proposal,
-}
-
-impl PartialEq for End {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for End {}
-
-impl PartialOrd for End {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for End {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        other.cost.total_cmp(&self.cost).then(other.serial.cmp(&self.serial))
-    }
-}
 
 /// Grows streets from the origin; the configuration is taken as valid.
 ///
@@ -105,8 +78,7 @@ struct Growth<'a> {
     field: Field,
     fabric: Fabric,
     fitter: Fitter,
-    queue: BinaryHeap<End>,
-    serial: u64,
+    queue: Queue,
     revivals: u32,
     /// Segments that are streets still, and how many there are to be.
     standing: usize,
@@ -123,10 +95,9 @@ impl<'a> Growth<'a> {
             config,
             measures: Measures::new(config),
             field: Field::new(config, radius, seed),
-            fabric: Fabric::new(radius, config.length),
+            fabric: Fabric::around(Point2::origin(), radius, config.length, config.count as usize),
             fitter: Fitter::default(),
-            queue: BinaryHeap::new(),
-            serial: 0,
+            queue: Queue::default(),
             revivals: attempts(config),
             standing: 0,
             wanted: config.count as usize,
@@ -163,7 +134,7 @@ impl<'a> Growth<'a> {
 
     /// Builds a proposal if it fits, and proposes the ways on from a new junction.
     fn try_to_build(&mut self, proposal: &Proposal, steps: f64) -> bool {
-        let Some(fitted) = self.fitter.fit(&mut self.fabric, proposal, &self.measures) else { return false };
+        let Some(fitted) = self.fitter.fit(&self.fabric, proposal, &self.measures) else { return false };
         let limit = if self.rng.chance(self.config.crossroads) { 4 } else { 3 };
         let before = self.fabric.segments().len();
         let node = self.fabric.build(&fitted, limit);
@@ -278,7 +249,6 @@ impl<'a> Growth<'a> {
         // Nothing longer would be allowed; nor anything shorter, and without main roads there would be no city.
         let least = if class == RoadClass::Local { 0.0 } else { 1.01 * self.measures.least_length };
         let length = wanted.clamp(least, 0.99 * self.measures.most_length);
-        self.serial += 1;
         let proposal = Proposal { from, along: direction(heading), length, class, emptiness };
         // What is far out, or where few live, waits, so that blocks close before the city spreads.
         let remoteness = site.remoteness / self.config.length * (1.25 - 0.5 * density);
@@ -286,13 +256,15 @@ impl<'a> Growth<'a> {
         let in_town = site.remoteness < TOWN * self.field.radius();
         let waits = if class == RoadClass::Highway && in_town { 0.3 } else { 1.0 };
         let cost = steps + self.config.compactness * remoteness * waits;
-        self.queue.push(End { cost, steps, serial: self.serial, proposal });
+        self.queue.push(cost, End { steps, proposal });
     }
 
     /// The grown streets as a plan, some of them bent between their ends.
     fn plan(&self, seed: Seed) -> StreetPlan {
-        let bends = seed.stream("citygen/bends");
+        let (bends, curves) = (seed.stream("citygen/bends"), Curves::new());
         let (mut plan, sections) = plan_of_sections(self.config);
+        plan.streets.reserve_exact(self.standing);
+        plan.nodes.reserve(self.standing / 2);
         let mut numbers = vec![u32::MAX; self.fabric.node_count()];
         let standing = |index: &usize| self.fabric.is_standing(*index as u32);
         for index in (0..self.fabric.segments().len()).filter(standing) {
@@ -310,7 +282,7 @@ impl<'a> Growth<'a> {
             let section = sections[segment.class as usize];
             let reach = plan.sections[section as usize].left_of_reference();
             plan.streets.push(Street {
-                via: if bent { self.course(index as u32, reach, &mut rng) } else { Vec::new() },
+                via: if bent { self.course(&curves, index as u32, reach, &mut rng) } else { Vec::new() },
                 class: segment.class,
                 section,
                 ..Street::simple(ends[0], ends[1])
@@ -320,11 +292,11 @@ impl<'a> Growth<'a> {
     }
 
     /// A bent course of a segment that reaches so far to its left.
-    fn course(&self, segment: u32, reach: f64, rng: &mut StreamRng) -> Vec<Point2> {
+    fn course(&self, curves: &Curves, segment: u32, reach: f64, rng: &mut StreamRng) -> Vec<Point2> {
         let segment = self.fabric.segment(segment);
-        let (from, to) = (self.fabric.at(segment.from), self.fabric.at(segment.to));
+        let (from, to) = (segment.a, segment.b);
         // So that its inner sidewalk is a bend still, not a knot.
-        bend::course(from, to, self.config.bow, BOW_LIMIT * self.config.length, 2.0 * reach, rng)
+        bend::course(curves, from, to, self.config.bow, BOW_LIMIT * self.config.length, 2.0 * reach, rng)
     }
 }
 

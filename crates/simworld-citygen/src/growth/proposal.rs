@@ -1,9 +1,11 @@
 //! A proposed segment, and the rules by which it is attached, cut or refused.
 
 use simworld_core::geometry::{Point2, Vector2};
-use simworld_core::net::{RoadClass, polyline};
+use simworld_core::net::RoadClass;
 
-use super::fabric::Fabric;
+use super::cells::Bounds;
+use super::course::{Course, nearest};
+use super::fabric::{Fabric, Near, Scratch};
 use super::fitted::{Arrival, Fitted, Start};
 use crate::RoadConfig;
 
@@ -49,14 +51,14 @@ impl Measures {
 /// Attaches proposals to what they meet, or refuses them. It keeps its buffer from one to the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fitter {
-    near: Vec<u32>,
+    scratch: Scratch,
 }
 
 impl Fitter {
     /// The first way to arrive decides: a proposal that nearly meets something joins it or is not built.
     pub(super) fn fit(
         &mut self,
-        fabric: &mut Fabric,
+        fabric: &Fabric,
         proposal: &Proposal,
         measures: &Measures,
     ) -> Option<Fitted> {
@@ -70,16 +72,23 @@ impl Fitter {
         if fabric.ways_from(proposal.from).any(|way| way.dot(&proposal.along) > limit) {
             return None;
         }
-        let margin = (measures.snap + measures.clearance).max(proposal.emptiness);
-        fabric.segments_near(start, wanted, margin, &mut self.near);
-        let rules = Rules { fabric, measures, near: &self.near, from: proposal.from, start };
-        let arrival = rules
-            .junction_near(wanted)
-            .or_else(|| rules.first_street_met(wanted))
-            .or_else(|| rules.street_near(wanted))
-            .unwrap_or(Arrival::New(wanted));
-        let fits = rules.allow(arrival) && rules.is_empty_beside(arrival, proposal.emptiness);
-        fits.then_some(Fitted { from: proposal.from, class: proposal.class, arrival })
+        let margin = measures.snap + measures.clearance;
+        let near = fabric.gather(&Bounds::around(start, wanted, margin), &mut self.scratch);
+        let rules = Rules { fabric, measures, near, from: proposal.from, start };
+        let arrival = rules.arrival(wanted);
+        let end = rules.end(arrival);
+        if !rules.turns_well(arrival, end) || !rules.is_empty_beside(end, proposal.emptiness) {
+            return None;
+        }
+        let is_clear = if Bounds::around(start, wanted, measures.snap).holds(end) {
+            rules.is_clear(arrival, end)
+        } else {
+            // The end of a street is farther off than what was looked at.
+            let bounds = Bounds::around(start, end, measures.clearance);
+            let near = fabric.gather(&bounds, &mut self.scratch);
+            Rules { fabric, measures, near, from: proposal.from, start }.is_clear(arrival, end)
+        };
+        is_clear.then_some(Fitted { from: proposal.from, class: proposal.class, arrival })
     }
 }
 
@@ -87,61 +96,75 @@ struct Rules<'a> {
     fabric: &'a Fabric,
     measures: &'a Measures,
     /// Segments that may matter.
-    near: &'a [u32],
+    near: &'a [Near],
     from: Start,
     start: Point2,
 }
 
 impl Rules<'_> {
+    /// Where a segment that wants to end there arrives.
+    fn arrival(&self, wanted: Point2) -> Arrival {
+        self.junction_near(wanted)
+            .or_else(|| self.first_street_met(wanted))
+            .or_else(|| self.street_near(wanted))
+            .unwrap_or(Arrival::New(wanted))
+    }
+
     /// The junction nearest to the wanted end within the snap distance.
     fn junction_near(&self, wanted: Point2) -> Option<Arrival> {
         let mut best = (self.measures.snap * self.measures.snap, u32::MAX);
-        self.fabric.visit_nodes(wanted, self.measures.snap, |node, at| {
-            let distance = (at - wanted).norm_squared();
-            if Start::Node(node) != self.from && (distance, node) < best && self.fabric.degree(node) > 0 {
-                best = (distance, node);
+        for near in self.near {
+            for (node, at) in [(near.from, near.a), (near.to, near.b)] {
+                let distance = (at - wanted).norm_squared();
+                if distance <= best.0 && (distance, node) < best && Start::Node(node) != self.from {
+                    best = (distance, node);
+                }
             }
-        });
+        }
         (best.1 != u32::MAX).then_some(Arrival::Node(best.1))
     }
 
-    /// The ends of those near segments that stand and do not touch the start.
-    fn others(&self) -> impl Iterator<Item = (u32, Point2, Point2)> {
-        self.near.iter().copied().filter_map(|index| {
-            let segment = self.fabric.segment(index);
-            let own = match self.from {
-                Start::Node(node) => segment.from == node || segment.to == node,
-                Start::Middle(street) => index == street,
-            };
-            (!own && self.fabric.is_standing(index))
-                .then(|| (index, self.fabric.at(segment.from), self.fabric.at(segment.to)))
-        })
+    /// The near segments that do not touch the start.
+    fn others(&self) -> impl Iterator<Item = &Near> {
+        let (node, street) = match self.from {
+            Start::Node(node) => (node, u32::MAX),
+            Start::Middle(street) => (u32::MAX, street),
+        };
+        self.near.iter().filter(move |near| (near.from != node) & (near.to != node) & (near.index != street))
     }
 
     /// The first street that the segment would cross.
     fn first_street_met(&self, wanted: Point2) -> Option<Arrival> {
-        let crossings = self.others().filter_map(|(index, a, b)| {
-            polyline::crossing(self.start, wanted, a, b).map(|(share, _)| (share, index))
-        });
-        let first = crossings.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-        Some(self.on_street(first.1, self.start + (wanted - self.start) * first.0))
+        let course = Course::new(self.start, wanted);
+        let mut first = (f64::INFINITY, u32::MAX);
+        for near in self.others() {
+            if let Some(share) = course.crossing(near.a, near.b)
+                && (share, near.index) < first
+            {
+                first = (share, near.index);
+            }
+        }
+        (first.1 != u32::MAX).then(|| self.on_street(first.1, self.start + (wanted - self.start) * first.0))
     }
 
     /// The street nearest to the wanted end within the snap distance.
     fn street_near(&self, wanted: Point2) -> Option<Arrival> {
-        let distances = self.others().map(|(index, a, b)| {
-            let on = nearest(a, b, wanted);
-            ((on - wanted).norm_squared(), index, on)
-        });
-        let best = distances.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
-        (best.0 <= self.measures.snap * self.measures.snap).then(|| self.on_street(best.1, best.2))
+        let bounds = Bounds::around(wanted, wanted, self.measures.snap);
+        let mut best = (self.measures.snap * self.measures.snap, u32::MAX, wanted);
+        for near in self.others().filter(|near| bounds.touches(near.a, near.b)) {
+            let on = nearest(near.a, near.b, wanted);
+            let distance = (on - wanted).norm_squared();
+            if (distance, near.index) < (best.0, best.1) {
+                best = (distance, near.index, on);
+            }
+        }
+        (best.1 != u32::MAX).then(|| self.on_street(best.1, best.2))
     }
 
     /// Arrives at a point of a street, or at the end of the street if that is too near for a junction of its own.
     fn on_street(&self, index: u32, point: Point2) -> Arrival {
         let segment = self.fabric.segment(index);
-        let distance = |node: u32| (self.fabric.at(node) - point).norm();
-        let (to_start, to_end) = (distance(segment.from), distance(segment.to));
+        let (to_start, to_end) = ((segment.a - point).norm(), (segment.b - point).norm());
         if to_start.min(to_end) >= self.measures.least_length && !self.fabric.is_wall(index) {
             Arrival::Interior(index, point)
         } else if to_start <= to_end {
@@ -151,9 +174,8 @@ impl Rules<'_> {
         }
     }
 
-    /// Intersection validation: length, angles at both ends, number of streets, distance from everything else.
-    fn allow(&self, arrival: Arrival) -> bool {
-        let end = self.end(arrival);
+    /// Intersection validation at both ends: length, angles, number of streets.
+    fn turns_well(&self, arrival: Arrival, end: Point2) -> bool {
         let length = (end - self.start).norm();
         if !(self.measures.least_length..=self.measures.most_length).contains(&length) {
             return false;
@@ -162,7 +184,6 @@ impl Rules<'_> {
         self.stays_inside(arrival, along)
             && self.angles_allow(self.fabric.ways_from(self.from), along)
             && self.arrival_allows(arrival, -along)
-            && self.is_clear(arrival, end)
     }
 
     /// Whether the segment lies within the walls; none crosses them on its way.
@@ -180,19 +201,18 @@ impl Rules<'_> {
     }
 
     /// Whether the land on both sides of the middle is empty.
-    fn is_empty_beside(&self, arrival: Arrival, emptiness: f64) -> bool {
+    fn is_empty_beside(&self, end: Point2, emptiness: f64) -> bool {
         if emptiness <= 0.0 {
             return true;
         }
-        let end = self.end(arrival);
         let middle = nalgebra::center(&self.start, &end);
         let along = (end - self.start).normalize();
         let across = Vector2::new(-along.y, along.x) * emptiness;
-        self.near.iter().copied().filter(|index| self.fabric.is_standing(*index)).all(|index| {
-            let segment = self.fabric.segment(index);
-            let (a, b) = (self.fabric.at(segment.from), self.fabric.at(segment.to));
-            polyline::crossing(middle - across, middle + across, a, b).is_none()
-        })
+        let (left, right) = (middle + across, middle - across);
+        let course = Course::new(right, left);
+        // What is at hand first: most that fail, fail by it.
+        self.near.iter().all(|near| !course.crosses(near.a, near.b))
+            && self.fabric.all_along(right, left, |a, b| !course.crosses(a, b))
     }
 
     fn arrival_allows(&self, arrival: Arrival, arriving: Vector2) -> bool {
@@ -220,40 +240,23 @@ impl Rules<'_> {
 
     /// Whether the segment keeps its distance from all streets that it does not join, and from all their ends.
     fn is_clear(&self, arrival: Arrival, end: Point2) -> bool {
+        let course = Course::new(self.start, end);
         let clearance = self.measures.clearance * self.measures.clearance;
-        let keeps_away =
-            |point: Point2| (nearest(self.start, end, point) - point).norm_squared() >= clearance;
-        self.near.iter().copied().filter(|index| self.fabric.is_standing(*index)).all(|index| {
-            let segment = self.fabric.segment(index);
+        let keeps_away = |point: Point2| course.distance_squared(point) >= clearance;
+        let bounds = Bounds::around(self.start, end, self.measures.clearance);
+        self.near.iter().filter(|near| bounds.touches(near.a, near.b)).all(|near| {
             let joined_at = |node: u32| Start::Node(node) == self.from || arrival == Arrival::Node(node);
-            let ends = [segment.from, segment.to].map(|node| self.fabric.at(node));
-            let is_split = matches!(arrival, Arrival::Interior(split, _) if split == index);
-            if is_split || self.from == Start::Middle(index) {
-                return ends.into_iter().all(keeps_away);
+            let is_split = matches!(arrival, Arrival::Interior(split, _) if split == near.index);
+            if is_split || self.from == Start::Middle(near.index) {
+                return keeps_away(near.a) && keeps_away(near.b);
             }
-            match (joined_at(segment.from), joined_at(segment.to)) {
+            match (joined_at(near.from), joined_at(near.to)) {
                 // Two streets of one junction part by the angle rule; the far end must still keep away.
                 (true, true) => true,
-                (true, false) => keeps_away(ends[1]),
-                (false, true) => keeps_away(ends[0]),
-                (false, false) => distance_squared([self.start, end], ends) >= clearance,
+                (true, false) => keeps_away(near.b),
+                (false, true) => keeps_away(near.a),
+                (false, false) => course.keeps_from(near.a, near.b, clearance),
             }
         })
     }
-}
-
-/// The point of a segment that is nearest to another point.
-fn nearest(a: Point2, b: Point2, point: Point2) -> Point2 {
-    let along = b - a;
-    let share = ((point - a).dot(&along) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
-    a + along * share
-}
-
-/// The square of the distance between two segments.
-fn distance_squared([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> f64 {
-    if polyline::crossing(a, b, c, d).is_some() {
-        return 0.0;
-    }
-    let to = |p: Point2, q: Point2, x: Point2| (nearest(p, q, x) - x).norm_squared();
-    to(a, b, c).min(to(a, b, d)).min(to(c, d, a)).min(to(c, d, b))
 }

@@ -9,10 +9,12 @@ use simworld_core::geometry::{Point2, heading};
 use simworld_core::net::{RoadClass, Street};
 use simworld_core::seed::Seed;
 
+use super::bend::Curves;
 use super::fabric::Fabric;
 use super::field::Field;
 use super::fitted::Start;
 use super::proposal::{Fitter, Measures};
+use super::queue::Queue;
 use super::{Growth, ROUNDS, plan_of_sections};
 use crate::RoadConfig;
 
@@ -65,7 +67,7 @@ impl<'a> Growth<'a> {
             .iter()
             .fold((wall[0].at, wall[0].at), |(low, high), gate| (low.inf(&gate.at), high.sup(&gate.at)));
         let reach = (high - low).norm() * 0.5 + 2.0 * config.length;
-        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length);
+        let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 2 * wall.len());
         // Two streets are the wall's own; the third leads in.
         let corners = wall.iter().map(|gate| (gate.at, if gate.is_open { 3 } else { 2 }));
         fabric.wall_in(corners, RoadClass::Arterial);
@@ -75,8 +77,7 @@ impl<'a> Growth<'a> {
             field: Field::endless(config, fields),
             fabric,
             fitter: Fitter::default(),
-            queue: std::collections::BinaryHeap::new(),
-            serial: 0,
+            queue: Queue::default(),
             revivals: 0,
             standing: 0,
             wanted: usize::MAX,
@@ -102,7 +103,7 @@ impl<'a> Growth<'a> {
 
     /// The streets that stand within the wall, some of them bent.
     fn inside(&self, own: Seed) -> Within {
-        let bends = own.stream("citygen/bends");
+        let (bends, curves) = (own.stream("citygen/bends"), Curves::new());
         let reach = plan_of_sections(self.config).0.sections[0].left_of_reference();
         let walls = self.fabric.walls();
         let mut within = Within::default();
@@ -125,7 +126,7 @@ impl<'a> Growth<'a> {
             });
             let mut rng = bends.indexed(index as u64).rng();
             let via = if rng.chance(self.config.bends) {
-                self.course(index as u32, reach, &mut rng)
+                self.course(&curves, index as u32, reach, &mut rng)
             } else {
                 Vec::new()
             };

@@ -42,40 +42,95 @@ impl ValueNoise {
 
     /// The value at a point, in [0, 1).
     pub(crate) fn at(&self, point: Point2) -> f64 {
-        let coarse = octave(self.streams[0], point.x * self.frequency, point.y * self.frequency);
-        let fine = octave(self.streams[1], point.x * self.frequency * 2.0, point.y * self.frequency * 2.0);
-        (coarse + FINE * fine) / (1.0 + FINE)
+        self.by(point, |octave, column, row| corners(self.streams[octave], column, row))
     }
 
     /// The share of the plane that has a lower value: spread evenly over [0, 1].
     pub(crate) fn uniform_at(&self, point: Point2) -> f64 {
-        let value = self.at(point);
-        let mut before = QUANTILES[0];
-        for after in &QUANTILES[1..] {
-            if value < after.0 {
-                return before.1 + (after.1 - before.1) * (value - before.0) / (after.0 - before.0);
-            }
-            before = *after;
-        }
-        1.0
+        share_below(self.at(point))
+    }
+
+    /// The value at a point from the random values at the corners of its squares.
+    fn by(&self, point: Point2, mut corners: impl FnMut(usize, i64, i64) -> Corners) -> f64 {
+        let (x, y) = (point.x * self.frequency, point.y * self.frequency);
+        let coarse = octave(x, y, |column, row| corners(0, column, row));
+        let fine = octave(x * 2.0, y * 2.0, |column, row| corners(1, column, row));
+        (coarse + FINE * fine) / (1.0 + FINE)
     }
 }
 
-fn octave(stream: Stream, x: f64, y: f64) -> f64 {
-    let (column, row) = (x.floor(), y.floor());
-    let (u, v) = (fade(x - column), fade(y - row));
-    let (column, row) = (column as i64, row as i64);
-    let lattice = |dx: i64, dy: i64| {
-        let path = stream.indexed((column + dx) as u64).indexed((row + dy) as u64);
-        (path.seed().0 >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+/// The share of the plane that has a lower value than this one.
+fn share_below(value: f64) -> f64 {
+    // Counted without a branch: values do not foretell each other.
+    let rank = QUANTILES[1..].iter().map(|(least, _)| usize::from(value >= *least)).sum::<usize>();
+    let (before, Some(after)) = (QUANTILES[rank], QUANTILES.get(rank + 1)) else { return 1.0 };
+    before.1 + (after.1 - before.1) * (value - before.0) / (after.0 - before.0)
+}
+
+/// Random values at the corners of a square of the lattice: south-west, south-east, north-west, north-east.
+type Corners = [f64; 4];
+
+fn corners(stream: Stream, column: i64, row: i64) -> Corners {
+    let value = |path: Stream, row: i64| {
+        (path.indexed(row as u64).seed().0 >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
     };
-    let south = lattice(0, 0) * (1.0 - u) + lattice(1, 0) * u;
-    let north = lattice(0, 1) * (1.0 - u) + lattice(1, 1) * u;
+    let (west, east) = (stream.indexed(column as u64), stream.indexed((column + 1) as u64));
+    [value(west, row), value(east, row), value(west, row + 1), value(east, row + 1)]
+}
+
+fn octave(x: f64, y: f64, corners: impl FnOnce(i64, i64) -> Corners) -> f64 {
+    let (column, row) = (floor(x), floor(y));
+    let (u, v) = (fade(x - column as f64), fade(y - row as f64));
+    let [southwest, southeast, northwest, northeast] = corners(column, row);
+    let south = southwest * (1.0 - u) + southeast * u;
+    let north = northwest * (1.0 - u) + northeast * u;
     south * (1.0 - v) + north * v
+}
+
+/// The greatest whole number that is not above a number: no call of a function, which `f64::floor` may be.
+fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    whole - i64::from(whole as f64 > x)
 }
 
 fn fade(t: f64) -> f64 {
     t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+}
+
+/// Value noise that remembers the corners of the squares that it was asked of last: the same values, for one who asks
+/// of many places beside each other.
+#[derive(Clone, Debug)]
+pub(crate) struct RememberedNoise {
+    noise: ValueNoise,
+    /// For squares of the same lowest bits of their key, the last one of each octave.
+    squares: [Vec<(i64, i64, Corners)>; 2],
+}
+
+impl RememberedNoise {
+    /// Remembers so many squares of each octave, about.
+    pub(crate) fn new(noise: ValueNoise, squares: usize) -> Self {
+        let nowhere = vec![(i64::MAX, i64::MAX, [0.0; 4]); squares.next_power_of_two()];
+        Self { noise, squares: [nowhere.clone(), nowhere] }
+    }
+
+    /// [`ValueNoise::at`].
+    pub(crate) fn at(&mut self, point: Point2) -> f64 {
+        let Self { noise, squares } = self;
+        noise.by(point, |octave, column, row| {
+            let known = &mut squares[octave];
+            // Squares that lie together have keys of their own: thirty-two to a row.
+            let key = (column + row * 32) as usize & (known.len() - 1);
+            if (known[key].0, known[key].1) != (column, row) {
+                known[key] = (column, row, corners(noise.streams[octave], column, row));
+            }
+            known[key].2
+        })
+    }
+
+    /// [`ValueNoise::uniform_at`].
+    pub(crate) fn uniform_at(&mut self, point: Point2) -> f64 {
+        share_below(self.at(point))
+    }
 }
 
 #[cfg(test)]
@@ -98,6 +153,16 @@ mod tests {
         }
         for tenth in tenths {
             assert!((tenth as f64 / count as f64 - 0.1).abs() < 0.015, "{tenths:?}");
+        }
+    }
+    #[test]
+    fn what_is_remembered_is_what_it_was() {
+        let noise = ValueNoise::new(Seed(1).stream("noise"), 100.0);
+        let mut remembered = RememberedNoise::new(noise.clone(), 50);
+        let mut rng = Seed(1).stream("places").rng();
+        for _ in 0..10_000 {
+            let at = Point2::new(rng.uniform(-3000.0, 3000.0), rng.uniform(-3000.0, 3000.0));
+            assert_eq!(noise.uniform_at(at), remembered.uniform_at(at));
         }
     }
 }

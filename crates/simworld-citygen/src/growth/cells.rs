@@ -1,0 +1,263 @@
+//! Which segments lie in which squares of the land.
+//!
+//! The squares lie in rows, each with room for seven numbers in place, so that a question reads memory in order; what a
+//! square has no room for goes on in blocks behind the last square. Nothing is ever taken out: a number may be told of a
+//! square that its segment has left, so whoever asks looks at the segment.
+
+use std::ops::RangeInclusive;
+
+use simworld_core::geometry::Point2;
+
+/// Numbers in one block; the last place of a block is the number of the block that goes on.
+const ROOM: usize = 7;
+
+/// A block: numbers from one on, zero where there is none.
+type Block = [u32; ROOM + 1];
+
+/// A box along the axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub(super) low: Point2,
+    pub(super) high: Point2,
+}
+
+impl Bounds {
+    /// The box round two points, grown by a margin, m.
+    pub(super) fn around(a: Point2, b: Point2, margin: f64) -> Self {
+        let low = Point2::new(least(a.x, b.x) - margin, least(a.y, b.y) - margin);
+        let high = Point2::new(most(a.x, b.x) + margin, most(a.y, b.y) + margin);
+        Self { low, high }
+    }
+
+    /// Whether the box round two points touches it.
+    pub(super) fn touches(&self, a: Point2, b: Point2) -> bool {
+        let x = (most(a.x, b.x) >= self.low.x) & (least(a.x, b.x) <= self.high.x);
+        let y = (most(a.y, b.y) >= self.low.y) & (least(a.y, b.y) <= self.high.y);
+        x & y
+    }
+
+    pub(super) fn holds(&self, point: Point2) -> bool {
+        self.touches(point, point)
+    }
+}
+
+/// The lesser of two numbers, neither of them NaN: one instruction, where `f64::min` has to look for NaN.
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater of two numbers, neither of them NaN.
+fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// Squares of the land and what lies in them.
+#[derive(Clone, Debug)]
+pub(super) struct Cells {
+    low: Point2,
+    cell: f64,
+    per_metre: f64,
+    columns: usize,
+    blocks: Vec<Block>,
+}
+
+impl Cells {
+    /// Empty squares of `cell` m that cover `reach` m to all sides of a point.
+    pub(super) fn around(middle: Point2, reach: f64, cell: f64) -> Self {
+        let columns = (2.0 * reach / cell).ceil() as usize + 1;
+        let low = Point2::new(middle.x - reach, middle.y - reach);
+        // Zeros: the system hands out the pages of land where streets come, no others.
+        let blocks = vec![[0; ROOM + 1]; columns * columns];
+        Self { low, cell, per_metre: 1.0 / cell, columns, blocks }
+    }
+
+    fn column(&self, x: f64) -> usize {
+        self.index(x - self.low.x)
+    }
+
+    fn row(&self, y: f64) -> usize {
+        self.index(y - self.low.y)
+    }
+
+    /// Beyond the land the outermost squares go on without end.
+    fn index(&self, metres: f64) -> usize {
+        // The cast cuts fractions off, and takes what is below zero as zero.
+        ((metres * self.per_metre) as u32 as usize).min(self.columns - 1)
+    }
+
+    /// The columns and rows that a box touches.
+    fn squares(&self, bounds: &Bounds) -> [RangeInclusive<usize>; 2] {
+        let columns = self.column(bounds.low.x)..=self.column(bounds.high.x);
+        [columns, self.row(bounds.low.y)..=self.row(bounds.high.y)]
+    }
+
+    fn visit_block<'a>(&'a self, mut block: &'a Block, visit: &mut impl FnMut(u32)) {
+        loop {
+            for number in &block[..ROOM] {
+                if *number == 0 {
+                    return;
+                }
+                visit(*number - 1);
+            }
+            if block[ROOM] == 0 {
+                return;
+            }
+            block = &self.blocks[block[ROOM] as usize];
+        }
+    }
+
+    /// The columns that a line touches, row by row from its lower end: calls with the row and the first and last column
+    /// until it is told to stop.
+    fn along(&self, a: Point2, b: Point2, mut visit: impl FnMut(usize, usize, usize) -> bool) {
+        let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let (first, last) = (self.row(a.y), self.row(b.y));
+        let slope = (b.x - a.x) / (b.y - a.y);
+        let mut x = a.x;
+        for row in first..=last {
+            let top = self.low.y + (row + 1) as f64 * self.cell;
+            // Beyond the outermost row there is no other.
+            let next = if row == last { b.x } else { a.x + (top - a.y) * slope };
+            // A hair to both sides, far above rounding.
+            let (west, east) = (least(x, next) - SLACK, most(x, next) + SLACK);
+            if !visit(row, self.column(west), self.column(east)) {
+                return;
+            }
+            x = next;
+        }
+    }
+
+    /// Whether a test holds of every number in the squares that a line touches; it may be asked of one more than once.
+    pub(super) fn all_along(&self, a: Point2, b: Point2, mut test: impl FnMut(u32) -> bool) -> bool {
+        let mut holds = true;
+        self.along(a, b, |row, first, last| {
+            let start = row * self.columns;
+            for block in &self.blocks[start + first..=start + last] {
+                self.visit_block(block, &mut |number| holds = holds && test(number));
+            }
+            holds
+        });
+        holds
+    }
+
+    /// Enters a number in the squares that a line touches.
+    pub(super) fn file(&mut self, number: u32, a: Point2, b: Point2) {
+        // The blocks are taken out, so that rows can be walked while they grow.
+        let mut blocks = std::mem::take(&mut self.blocks);
+        self.along(a, b, |row, first, last| {
+            let start = row * self.columns;
+            (start + first..=start + last).for_each(|cell| enter(&mut blocks, cell, number + 1));
+            true
+        });
+        self.blocks = blocks;
+    }
+}
+
+/// The numbers that were an answer to a question.
+#[derive(Clone, Debug)]
+pub(super) struct Asked {
+    /// For numbers of the same lowest bits, the last one that was told, and the question it was an answer to.
+    told: Vec<u64>,
+    question: u32,
+    numbers: Vec<u32>,
+}
+
+/// A power of two, several times the numbers in one answer.
+const TOLD: usize = 256;
+
+impl Default for Asked {
+    fn default() -> Self {
+        Self { told: vec![0; TOLD], question: 0, numbers: Vec::new() }
+    }
+}
+
+impl Asked {
+    /// The numbers in the squares that a box touches. One that shares its lowest bits with another may be told twice.
+    pub(super) fn ask(&mut self, cells: &Cells, bounds: &Bounds) -> &[u32] {
+        self.question = self.question.wrapping_add(1);
+        let question = u64::from(self.question) << 32;
+        let [columns, rows] = cells.squares(bounds);
+        let mut count = 0;
+        for row in rows {
+            let row = row * cells.columns;
+            for square in &cells.blocks[row + columns.start()..=row + columns.end()] {
+                let mut block = square;
+                loop {
+                    if self.numbers.len() < count + ROOM {
+                        self.numbers.resize(count + 8 * ROOM, 0);
+                    }
+                    for number in block[..ROOM].iter().take_while(|number| **number != 0) {
+                        // Whether it is new decides nothing but where the next one is written.
+                        self.numbers[count] = *number - 1;
+                        let told = &mut self.told[*number as usize % TOLD];
+                        let tells = question | u64::from(*number);
+                        count += usize::from(*told != tells);
+                        *told = tells;
+                    }
+                    if block[ROOM] == 0 {
+                        break;
+                    }
+                    block = &cells.blocks[block[ROOM] as usize];
+                }
+            }
+        }
+        &self.numbers[..count]
+    }
+}
+
+/// Lines are taken to be wider than they are by so much to both sides, m.
+const SLACK: f64 = 1e-3;
+
+/// Enters a number in a block, or in what goes on from it.
+fn enter(blocks: &mut Vec<Block>, mut block: usize, number: u32) {
+    loop {
+        if let Some(place) = blocks[block][..ROOM].iter_mut().find(|place| **place == 0) {
+            *place = number;
+            return;
+        }
+        if blocks[block][ROOM] == 0 {
+            blocks[block][ROOM] = blocks.len() as u32;
+            blocks.push([0; ROOM + 1]);
+        }
+        block = blocks[block][ROOM] as usize;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use simworld_core::seed::Seed;
+
+    use super::*;
+
+    #[test]
+    fn lines_are_found_wherever_they_go() {
+        let mut rng = Seed(1).stream("cells").rng();
+        let mut point = || Point2::new(rng.uniform(-130.0, 170.0), rng.uniform(-130.0, 150.0));
+        let mut cells = Cells::around(Point2::new(20.0, 10.0), 100.0, 9.0);
+        let lines: Vec<_> = (0..600).map(|_| (point(), point())).collect();
+        for (number, (a, b)) in (0..).zip(&lines) {
+            cells.file(number, *a, *b);
+        }
+        let mut asked = Asked::default();
+        for (number, (a, b)) in (0..).zip(&lines) {
+            for share in 0..=50 {
+                let on = a + (b - a) * (f64::from(share) / 50.0);
+                let found = asked.ask(&cells, &Bounds::around(on, on, 0.0));
+                assert!(found.contains(&number), "{number} at {on}");
+            }
+        }
+        // Lines that cross share a square.
+        for (a, b) in &lines {
+            let mut found = BTreeSet::new();
+            cells.all_along(*a, *b, |number| {
+                found.insert(number);
+                true
+            });
+            for (number, (c, d)) in (0..).zip(&lines) {
+                let crosses = simworld_core::net::polyline::crossing(*a, *b, *c, *d).is_some();
+                assert!(!crosses || found.contains(&number), "{number}");
+            }
+        }
+    }
+}
