@@ -25,7 +25,8 @@ impl Course {
         let (t, u) = (between.perp(&along), between.perp(&self.along));
         // The shares are t / det and u / det: divided only if both lie from 0 to 1.
         let (size, t, u) = if det < 0.0 { (-det, -t, -u) } else { (det, t, u) };
-        let meets = (size >= 1e-12) & (t >= 0.0) & (t <= size) & (u >= 0.0) & (u <= size);
+        let range = 0.0..=size;
+        let meets = size >= 1e-12 && range.contains(&t) && range.contains(&u);
         meets.then(|| t / size)
     }
 
@@ -44,8 +45,8 @@ impl Course {
     pub(super) fn keeps_from(&self, a: Point2, b: Point2, least: f64) -> bool {
         // Far enough to one side, as most are: both ends are, in the frame of the course.
         let (aside, bside) = ((a - self.start).perp(&self.along), (b - self.start).perp(&self.along));
-        let far = (aside * bside > 0.0) & (aside * aside * self.inverse > least);
-        if far & (bside * bside * self.inverse > least) {
+        let nearer = if aside.abs() < bside.abs() { aside } else { bside };
+        if aside * bside > 0.0 && nearer * nearer * self.inverse > least {
             return true;
         }
         self.distance_squared(a) >= least

@@ -1,11 +1,12 @@
 //! Which way streets run at a place, and how densely people live there.
 
+use std::f64::consts::FRAC_PI_2;
+
 use simworld_core::geometry::Point2;
-use simworld_core::ops::wrap_angle;
 use simworld_core::seed::{Seed, Stream};
 
 use crate::RoadConfig;
-use crate::zoning::{RememberedNoise, ValueNoise};
+use crate::zoning::{RememberedNoise, ValueNoise, floor};
 
 /// The layout of the land: two smooth fields.
 #[derive(Clone, Debug)]
@@ -91,10 +92,35 @@ pub(super) struct Site {
 }
 
 impl Site {
-    /// The heading nearest to a wish that runs along the grain, or across it.
-    pub(super) fn aligned(&self, wish: f64) -> f64 {
-        let quarter = std::f64::consts::FRAC_PI_2;
-        let turns = (wrap_angle(wish - self.grain) / quarter).round();
-        self.grain + turns * quarter
+    /// How far to turn from a heading to the nearest one that runs along the grain, or across it, radians.
+    pub(super) fn to_grain(&self, heading: f64) -> f64 {
+        let quarters = (heading - self.grain) / FRAC_PI_2;
+        (floor(quarters + 0.5) as f64 - quarters) * FRAC_PI_2
+    }
+
+    /// Whether a heading runs along the grain rather than across it.
+    pub(super) fn runs_along(&self, heading: f64) -> bool {
+        // Even quarters from an eighth of a turn before the grain on.
+        floor((heading - self.grain) / FRAC_PI_2 + 0.5) % 2 == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::ops::cos;
+
+    use super::*;
+
+    #[test]
+    fn the_grain_is_an_eighth_of_a_turn_away_at_most() {
+        let site = Site { grain: 0.7, density: 0.5, remoteness: 0.0 };
+        for step in -100..100 {
+            let heading = 0.1001 * f64::from(step);
+            let turn = site.to_grain(heading);
+            assert!(turn.abs() <= 0.5 * FRAC_PI_2 + 1e-12);
+            assert!((cos(4.0 * (heading + turn - site.grain)) - 1.0).abs() < 1e-9);
+            let along = cos(heading - site.grain).abs() > std::f64::consts::FRAC_1_SQRT_2;
+            assert_eq!(site.runs_along(heading), along, "{heading}");
+        }
     }
 }

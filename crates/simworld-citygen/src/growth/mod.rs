@@ -21,7 +21,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::geometry::{Point2, direction, heading};
 use simworld_core::net::{CrossSection, LaneDirection, LaneKind, LaneSpec, RoadClass, Street, StreetPlan};
-use simworld_core::ops::wrap_angle;
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::RoadConfig;
@@ -128,22 +127,21 @@ impl<'a> Growth<'a> {
                 self.revive();
                 continue;
             };
-            self.try_to_build(&end.proposal, end.steps);
+            self.try_to_build(&end);
         }
     }
 
     /// Builds a proposal if it fits, and proposes the ways on from a new junction.
-    fn try_to_build(&mut self, proposal: &Proposal, steps: f64) -> bool {
-        let Some(fitted) = self.fitter.fit(&self.fabric, proposal, &self.measures) else { return false };
+    fn try_to_build(&mut self, end: &End) {
+        let Some(fitted) = self.fitter.fit(&self.fabric, &end.proposal, &self.measures) else { return };
         let limit = if self.rng.chance(self.config.crossroads) { 4 } else { 3 };
         let before = self.fabric.segments().len();
         let node = self.fabric.build(&fitted, limit);
         self.standing += self.fabric.segments().len() - before;
-        self.divide_beside(steps, self.fabric.segments().len() as u32 - 1);
+        self.divide_beside(end.steps, self.fabric.segments().len() as u32 - 1);
         if fitted.is_open() {
-            self.branch(steps, node, proposal);
+            self.branch(end, node);
         }
-        true
     }
 
     /// Proposes to divide the blocks on both sides of a street from its middle, if it is long enough.
@@ -161,8 +159,8 @@ impl<'a> Growth<'a> {
     }
 
     /// Proposes the ways on from a new junction: straight, left and right.
-    fn branch(&mut self, steps: f64, node: u32, from: &Proposal) {
-        let came = heading(&from.along);
+    fn branch(&mut self, end: &End, node: u32) {
+        let End { steps, heading: came, proposal: from } = *end;
         let site = self.field.site(self.fabric.at(node));
         let start = Start::Node(node);
         let main = from.class != RoadClass::Local;
@@ -204,8 +202,8 @@ impl<'a> Growth<'a> {
 
     /// A heading near a wish, drawn towards the grain of the place.
     fn guided(&mut self, site: &Site, wish: f64) -> f64 {
-        let drawn = wish + wrap_angle(site.aligned(wish) - wish) * self.config.order;
-        drawn + self.rng.normal_clamped(0.0, self.config.heading_variation, -0.7, 0.7)
+        let varied = self.config.heading_variation * bell(&mut self.rng);
+        wish + site.to_grain(wish) * self.config.order + varied.clamp(-0.7, 0.7)
     }
 
     /// Proposes a segment from a random junction into one of its gaps.
@@ -239,12 +237,10 @@ impl<'a> Growth<'a> {
         let density = site.density;
         let stride = if class == RoadClass::Highway { HIGHWAY_STRIDE } else { 1.0 };
         // Logarithms spread evenly: few long streets beside many short ones, longer where fewer live.
-        let spread = self.rng.normal_clamped(0.0, self.config.length_variation, -0.75, 1.3);
+        let spread = (self.config.length_variation * bell(&mut self.rng)).clamp(-0.75, 1.3);
         // Blocks are longer along the grain than across it.
-        let along_grain =
-            simworld_core::ops::cos(heading - site.grain).abs() > std::f64::consts::FRAC_1_SQRT_2;
         let side = self.config.aspect.sqrt();
-        let side = if along_grain { side } else { 1.0 / side };
+        let side = if site.runs_along(heading) { side } else { 1.0 / side };
         let wanted = self.config.length * stride * side * simworld_core::ops::exp(spread) * breadth(density);
         // Nothing longer would be allowed; nor anything shorter, and without main roads there would be no city.
         let least = if class == RoadClass::Local { 0.0 } else { 1.01 * self.measures.least_length };
@@ -256,7 +252,7 @@ impl<'a> Growth<'a> {
         let in_town = site.remoteness < TOWN * self.field.radius();
         let waits = if class == RoadClass::Highway && in_town { 0.3 } else { 1.0 };
         let cost = steps + self.config.compactness * remoteness * waits;
-        self.queue.push(cost, End { steps, proposal });
+        self.queue.push(cost, End { steps, heading, proposal });
     }
 
     /// The grown streets as a plan, some of them bent between their ends.
@@ -321,6 +317,14 @@ fn highway(config: &RoadConfig) -> CrossSection {
     section.lanes.insert(middle, LaneSpec { kind: LaneKind::Median, direction: LaneDirection::Both, width });
     section.reference += width * 0.5;
     section
+}
+
+/// A draw with mean 0 and standard deviation 1, nearly normal: the sum of four even ones, from one number of the stream.
+fn bell(rng: &mut StreamRng) -> f64 {
+    let bits = rng.bits();
+    let parts = [bits, bits >> 16, bits >> 32, bits >> 48].map(|part| i32::from(part as u16 as i16));
+    // Each is even over [-2¹⁵, 2¹⁵), of variance 2³² / 12, and half a unit below the middle.
+    f64::from(parts.into_iter().sum::<i32>() + 2) * (3.0_f64.sqrt() / 65_536.0)
 }
 
 /// Streets are longer and blocks wider where fewer live; 1 in the middle of the range.

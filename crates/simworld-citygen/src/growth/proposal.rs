@@ -130,7 +130,7 @@ impl Rules<'_> {
             Start::Node(node) => (node, u32::MAX),
             Start::Middle(street) => (u32::MAX, street),
         };
-        self.near.iter().filter(move |near| (near.from != node) & (near.to != node) & (near.index != street))
+        self.near.iter().filter(move |near| near.from != node && near.to != node && near.index != street)
     }
 
     /// The first street that the segment would cross.

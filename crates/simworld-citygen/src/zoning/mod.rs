@@ -10,7 +10,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::seed::Seed;
 
 use crate::CityError;
-pub(crate) use noise::{RememberedNoise, ValueNoise};
+pub(crate) use noise::{RememberedNoise, ValueNoise, floor};
 
 /// What a piece of land is used for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]

@@ -88,7 +88,7 @@ fn octave(x: f64, y: f64, corners: impl FnOnce(i64, i64) -> Corners) -> f64 {
 }
 
 /// The greatest whole number that is not above a number: no call of a function, which `f64::floor` may be.
-fn floor(x: f64) -> i64 {
+pub(crate) fn floor(x: f64) -> i64 {
     let whole = x as i64;
     whole - i64::from(whole as f64 > x)
 }
