@@ -26,7 +26,7 @@ use crate::BuildingConfig;
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
 use crate::zoning::Zone;
-use place::{Plan, Planner};
+use place::{Planner, Plans};
 use rayon::prelude::*;
 use weights::Weights;
 
@@ -220,14 +220,16 @@ pub(crate) fn raise(
     taken.reserve(land.lots.len() * 5 / 4);
     for batch in land.lots.chunks(BATCH) {
         // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
-        let plans: Vec<Vec<Plan>> = batch
+        let plans: Vec<Plans> = batch
             .par_chunks(BATCH / 64)
             .map(|lots| Planner::new(network, land, config, &weights, streams).plan_all(lots))
             .collect();
-        for plan in plans.into_iter().flatten() {
-            // Lots do not overlap, so this refuses only what would stand on a road.
-            if taken.take(&plan.corners) {
-                buildings.push(plan.building);
+        for Plans { buildings: planned, grounds } in plans {
+            for (building, ground) in planned.into_iter().zip(grounds) {
+                // Lots do not overlap, so this refuses only what would stand on a road.
+                if taken.take(&ground) {
+                    buildings.push(building);
+                }
             }
         }
     }

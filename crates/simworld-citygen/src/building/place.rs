@@ -28,10 +28,11 @@ const LEAST: f64 = 5.0;
 /// A façade farther from a street than its setback and this does not count as standing at it, m.
 const AT_STREET: f64 = 4.0;
 
-/// A building that would like to stand.
-pub(super) struct Plan {
-    pub(super) building: Building,
-    pub(super) corners: [Point2; 4],
+/// Buildings that would like to stand, and the ground of each.
+#[derive(Default)]
+pub(super) struct Plans {
+    pub(super) buildings: Vec<Building>,
+    pub(super) grounds: Vec<[Point2; 4]>,
 }
 
 /// Plans buildings lot by lot.
@@ -43,7 +44,7 @@ pub(super) struct Planner<'a> {
     weights: &'a Weights,
     /// Room for the corners of a lot.
     corners: Vec<Point2>,
-    plans: Vec<Plan>,
+    plans: Plans,
     /// The first plan on the lot at hand.
     first: usize,
 }
@@ -56,14 +57,24 @@ impl<'a> Planner<'a> {
         weights: &'a Weights,
         streams: Stream,
     ) -> Self {
-        Self { network, land, config, streams, weights, corners: Vec::new(), plans: Vec::new(), first: 0 }
+        Self {
+            network,
+            land,
+            config,
+            streams,
+            weights,
+            corners: Vec::new(),
+            plans: Plans::default(),
+            first: 0,
+        }
     }
 
     /// Plans what stands on some lots.
-    pub(super) fn plan_all(mut self, lots: &[Lot]) -> Vec<Plan> {
-        self.plans.reserve(lots.len() * 5 / 4);
+    pub(super) fn plan_all(mut self, lots: &[Lot]) -> Plans {
+        self.plans.buildings.reserve(lots.len() * 4 / 3);
+        self.plans.grounds.reserve(lots.len() * 4 / 3);
         for lot in lots {
-            self.first = self.plans.len();
+            self.first = self.plans.grounds.len();
             self.plan(lot);
         }
         self.plans
@@ -89,7 +100,7 @@ impl<'a> Planner<'a> {
     /// Plans what stands along one street of a lot.
     fn line(&mut self, lot: &Lot, edge: usize, street: (RoadId, Side), rng: &mut StreamRng) {
         let corners = std::mem::take(&mut self.corners);
-        let Some(site) = Site::of(self.land, lot, edge, street, corners) else { return };
+        let Some(site) = Site::of(self.land, lot, edge, street, self.config.setback, corners) else { return };
         self.fill(&site, edge == 0, rng);
         self.corners = site.local;
     }
@@ -113,8 +124,8 @@ impl<'a> Planner<'a> {
     fn is_free(&self, site: &Site<'_>, spot: Spot) -> bool {
         let gap = self.config.gap;
         let wide = Spot { x: spot.x - gap, width: spot.width + 2.0 * gap, depth: spot.depth + gap };
-        let corners = site.corners(wide, self.config.setback);
-        self.plans[self.first..].iter().all(|plan| !overlap(&plan.corners, &corners))
+        let corners = site.corners(wide);
+        self.plans.grounds[self.first..].iter().all(|ground| !overlap(ground, &corners))
     }
 
     /// A kind that fits between two stations of the front, and where: of some drawn by their weights the one that
@@ -146,8 +157,11 @@ impl<'a> Planner<'a> {
         // Greedy filling: each kind gets its chance to be first, so that no filler dominates.
         let first = rng.below(ARCHETYPES.len());
         (0..ARCHETYPES.len()).find_map(|step| {
-            let kind = &ARCHETYPES[(first + step) % ARCHETYPES.len()];
-            let is_filler = is_filler(kind.place) && kind.weight(site.lot.zone, site.lot.density) > 0.0;
+            let at = first + step;
+            let kind = &ARCHETYPES[if at < ARCHETYPES.len() { at } else { at - ARCHETYPES.len() }];
+            let is_filler = kind.width.0 <= room.1 - room.0
+                && is_filler(kind.place)
+                && kind.weight(site.lot.zone, site.lot.density) > 0.0;
             is_filler.then(|| self.fit(site, kind, room, rng)).flatten().map(|spot| (kind, spot))
         })
     }
@@ -188,12 +202,12 @@ impl<'a> Planner<'a> {
 
     /// The room along a street for that depth, see [`Site::room`].
     fn room(&self, site: &Site<'_>, depth: f64) -> Option<(f64, f64)> {
-        site.room(self.config.setback, depth, self.config.gap * 0.5 + CLEARANCE)
+        site.room(depth, self.config.gap * 0.5 + CLEARANCE)
     }
 
     fn raise(&mut self, site: &Site<'_>, archetype: &'static Archetype, spot: Spot, rng: &mut StreamRng) {
         let near = self.config.setback;
-        let corners = site.corners(spot, near);
+        let corners = site.corners(spot);
         let span = (archetype.storeys.1 - archetype.storeys.0 + 1) as usize;
         let storeys = archetype.storeys.0 + rng.below(span) as u32;
         let plan = archetype.plans[rng.below(archetype.plans.len())];
@@ -202,7 +216,9 @@ impl<'a> Planner<'a> {
         let middle = spot.x + spot.width * 0.5;
         let door = site.at(middle, 0.0);
         let lot = site.lot;
-        let building = Building {
+        let frontage = site.frontage(self.land, &corners, near + AT_STREET);
+        self.plans.grounds.push(corners);
+        self.plans.buildings.push(Building {
             archetype,
             place: archetype.place,
             name: None,
@@ -217,10 +233,9 @@ impl<'a> Planner<'a> {
             access: site.access(self.network, door),
             road: site.road,
             side: site.side,
-            frontage: site.frontage(self.land, &corners, near + AT_STREET),
+            frontage,
             given: false,
-        };
-        self.plans.push(Plan { building, corners });
+        });
     }
 }
 

@@ -20,6 +20,9 @@ pub(super) struct Site<'a> {
     pub(super) deep: f64,
     /// The corners of the lot in its frame.
     pub(super) local: Vec<Point2>,
+    /// Distance from the street to the façades, m, and from where to where the lot reaches there.
+    setback: f64,
+    front: Option<(f64, f64)>,
     origin: Point2,
     along: Vector2,
     inwards: Vector2,
@@ -40,6 +43,7 @@ impl<'a> Site<'a> {
         lot: &'a Lot,
         edge: usize,
         (road, side): (RoadId, Side),
+        setback: f64,
         mut local: Vec<Point2>,
     ) -> Option<Self> {
         let outline = land.outline(lot);
@@ -52,7 +56,8 @@ impl<'a> Site<'a> {
             Point2::new(to.dot(&along), to.dot(&inwards))
         }));
         let deep = local.iter().map(|corner| corner.y).fold(0.0, f64::max);
-        Some(Self { lot, road, side, facing: heading(&-inwards), deep, local, origin, along, inwards })
+        let (facing, front) = (heading(&-inwards), span(&local, setback));
+        Some(Self { lot, road, side, facing, deep, local, setback, front, origin, along, inwards })
     }
 
     /// The point of the world at a point of the lot frame.
@@ -61,32 +66,18 @@ impl<'a> Site<'a> {
     }
 
     /// The corners of a spot in the world, counter-clockwise.
-    pub(super) fn corners(&self, spot: Spot, setback: f64) -> [Point2; 4] {
+    pub(super) fn corners(&self, spot: Spot) -> [Point2; 4] {
         let (left, right) = (spot.x, spot.x + spot.width);
-        let (near, far) = (setback, setback + spot.depth);
+        let (near, far) = (self.setback, self.setback + spot.depth);
         [self.at(left, near), self.at(right, near), self.at(right, far), self.at(left, far)]
     }
 
     /// The stations between which a rectangle from the setback to that depth beyond it lies within the lot, with a
     /// margin to either side.
-    pub(super) fn room(&self, setback: f64, depth: f64, margin: f64) -> Option<(f64, f64)> {
-        let (front, rear) = (self.span(setback)?, self.span(setback + depth)?);
+    pub(super) fn room(&self, depth: f64, margin: f64) -> Option<(f64, f64)> {
+        let (front, rear) = (self.front?, span(&self.local, self.setback + depth)?);
         let (low, high) = (front.0.max(rear.0) + margin, front.1.min(rear.1) - margin);
         (low < high).then_some((low, high))
-    }
-
-    /// From where to where the lot reaches at a distance from its street.
-    fn span(&self, y: f64) -> Option<(f64, f64)> {
-        let mut span: Option<(f64, f64)> = None;
-        let count = self.local.len();
-        for index in 0..count {
-            let (a, b) = (self.local[index], self.local[if index + 1 == count { 0 } else { index + 1 }]);
-            if (a.y > y) != (b.y > y) {
-                let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
-                span = Some(span.map_or((x, x), |(low, high)| (low.min(x), high.max(x))));
-            }
-        }
-        span
     }
 
     /// The place on the walkways before a door: the middle of the sidewalk or, where that ends before the corner, of
@@ -134,14 +125,33 @@ impl<'a> Site<'a> {
     }
 }
 
+/// From where to where an outline reaches at a height.
+fn span(outline: &[Point2], y: f64) -> Option<(f64, f64)> {
+    let mut span: Option<(f64, f64)> = None;
+    let mut a = *outline.last()?;
+    for b in outline {
+        if (a.y > y) != (b.y > y) {
+            let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+            span = Some(span.map_or((x, x), |(low, high)| (low.min(x), high.max(x))));
+        }
+        a = *b;
+    }
+    span
+}
+
 /// The point of a path nearest to another.
 fn nearest(path: &[Point2], point: Point2) -> Point2 {
     let mut best = (f64::INFINITY, point);
     for pair in path.windows(2) {
-        let step = pair[1] - pair[0];
-        let squared = step.norm_squared();
-        let share =
-            if squared > 0.0 { ((point - pair[0]).dot(&step) / squared).clamp(0.0, 1.0) } else { 0.0 };
+        let (step, to) = (pair[1] - pair[0], point - pair[0]);
+        let (squared, along) = (step.norm_squared(), to.dot(&step));
+        // Divided only where it is nearer; a hair of slack, so that rounding decides nothing.
+        let beside = along > 0.0 && along < squared;
+        let aside = to.perp(&step);
+        if beside && aside * aside > best.0 * squared * (1.0 + 1e-9) {
+            continue;
+        }
+        let share = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
         let at = pair[0] + step * share;
         let distance = (point - at).norm_squared();
         if distance < best.0 {

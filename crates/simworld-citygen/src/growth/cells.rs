@@ -30,7 +30,6 @@ impl Bounds {
     }
 
     /// Whether the box round two points touches it.
-    #[expect(clippy::needless_bitwise_bool, reason = "no branch: where things lie does not foretell itself")]
     pub(super) fn touches(&self, a: Point2, b: Point2) -> bool {
         let x = (most(a.x, b.x) >= self.low.x) & (least(a.x, b.x) <= self.high.x);
         let y = (most(a.y, b.y) >= self.low.y) & (least(a.y, b.y) <= self.high.y);

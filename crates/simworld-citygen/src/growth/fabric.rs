@@ -217,7 +217,6 @@ impl Fabric {
     }
 
     /// Every segment that stands and whose box touches another one; seldom one is told twice.
-    #[expect(clippy::needless_bitwise_bool, reason = "no branch: what is found does not foretell itself")]
     pub(super) fn gather<'a>(&self, bounds: &Bounds, scratch: &'a mut Scratch) -> &'a [Near] {
         let Scratch { asked, near } = scratch;
         let numbers = asked.ask(&self.cells, bounds);

@@ -93,7 +93,7 @@ pub(super) struct Site {
 
 impl Site {
     /// How far to turn from a heading to the nearest one that runs along the grain, or across it, radians.
-    pub(super) fn to_grain(&self, heading: f64) -> f64 {
+    pub(super) fn turn_to_grain(&self, heading: f64) -> f64 {
         let quarters = (heading - self.grain) / FRAC_PI_2;
         (floor(quarters + 0.5) as f64 - quarters) * FRAC_PI_2
     }
@@ -116,7 +116,7 @@ mod tests {
         let site = Site { grain: 0.7, density: 0.5, remoteness: 0.0 };
         for step in -100..100 {
             let heading = 0.1001 * f64::from(step);
-            let turn = site.to_grain(heading);
+            let turn = site.turn_to_grain(heading);
             assert!(turn.abs() <= 0.5 * FRAC_PI_2 + 1e-12);
             assert!((cos(4.0 * (heading + turn - site.grain)) - 1.0).abs() < 1e-9);
             let along = cos(heading - site.grain).abs() > std::f64::consts::FRAC_1_SQRT_2;

@@ -203,7 +203,7 @@ impl<'a> Growth<'a> {
     /// A heading near a wish, drawn towards the grain of the place.
     fn guided(&mut self, site: &Site, wish: f64) -> f64 {
         let varied = self.config.heading_variation * bell(&mut self.rng);
-        wish + site.to_grain(wish) * self.config.order + varied.clamp(-0.7, 0.7)
+        wish + site.turn_to_grain(wish) * self.config.order + varied.clamp(-0.7, 0.7)
     }
 
     /// Proposes a segment from a random junction into one of its gaps.

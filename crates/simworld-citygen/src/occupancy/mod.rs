@@ -1,24 +1,14 @@
 //! What is taken: convex outlines in the plane, and an exact answer to whether another one is free of them.
 //!
-//! The broad phase is a uniform grid wrapped round a torus: a cell's slot is its column and row modulo a power of two.
-//! So the grid needs no bounds, memory follows the number of outlines and not the area, and what lies near in the
-//! plane lies near in memory. Cells that share a slot are far apart; their outlines are sorted out by their bounds.
-//! The narrow phase is the separating-axis test on the outlines themselves.
+//! The broad phase is a uniform grid wrapped round a torus. So the grid needs no bounds, memory follows the number of
+//! outlines and not the area, and what lies near in the plane lies near in memory. Cells that share a slot are far apart;
+//! their outlines are sorted out by their bounds. The narrow phase is the separating-axis test on the outlines themselves.
 
 mod roads;
+mod slots;
 
 use simworld_core::geometry::{Obb, Point2, Vector2};
-
-/// Width of a grid cell, m: about two houses.
-const CELL: f64 = 32.0;
-/// The end of a chain.
-const NONE: u32 = u32::MAX;
-/// An outline as large as so many cells, or as long, is kept apart and tested every time.
-const MOST_CELLS: f64 = 4096.0;
-/// Slots along one side of an empty grid, as a power of two.
-const FIRST_BITS: u32 = 5;
-/// Slots along one side of the largest grid, as a power of two.
-const MOST_BITS: u32 = 14;
+use slots::{Bounds, Slots};
 
 /// Convex outlines that must not overlap, indexed for exact tests. Touching edges do not overlap.
 ///
@@ -34,28 +24,14 @@ const MOST_BITS: u32 = 14;
 pub struct Occupancy {
     items: Vec<Item>,
     corners: Vec<Point2>,
-    /// The newest entry of each slot.
-    heads: Vec<u32>,
-    entries: Vec<Entry>,
-    /// Outlines too large for the grid.
-    large: Vec<u32>,
-    bits: u32,
+    slots: Slots,
 }
 
-/// An outline: its bounds and where its corners are.
+/// Where the corners of an outline are.
 #[derive(Clone, Copy, Debug)]
 struct Item {
-    low: Point2,
-    high: Point2,
     start: u32,
     count: u32,
-}
-
-/// An outline in one cell, and the entry before it in the same slot.
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    item: u32,
-    next: u32,
 }
 
 impl Default for Occupancy {
@@ -67,14 +43,10 @@ impl Default for Occupancy {
 impl Occupancy {
     /// Empty, with room for so many outlines.
     pub fn with_capacity(outlines: usize) -> Self {
-        let bits = bits_for(outlines);
         Self {
             items: Vec::with_capacity(outlines),
             corners: Vec::with_capacity(4 * outlines),
-            heads: vec![NONE; 1 << (2 * bits)],
-            entries: Vec::with_capacity(2 * outlines),
-            large: Vec::new(),
-            bits,
+            slots: Slots::with_capacity(outlines),
         }
     }
 
@@ -82,10 +54,8 @@ impl Occupancy {
     pub fn reserve(&mut self, outlines: usize) {
         self.items.reserve(outlines);
         self.corners.reserve(4 * outlines);
-        self.entries.reserve(2 * outlines);
-        let wanted = bits_for(self.items.len() + outlines);
-        if wanted > self.bits {
-            self.resize(wanted);
+        if self.slots.is_small_for(self.items.len() + outlines) {
+            self.refile(self.items.len() + outlines);
         }
     }
 
@@ -101,14 +71,36 @@ impl Occupancy {
 
     /// Takes a convex outline, its corners in order, either way round.
     pub fn add(&mut self, outline: &[Point2]) {
-        let Some((low, high)) = bounds(outline) else { return };
-        let item = Item { low, high, start: self.corners.len() as u32, count: outline.len() as u32 };
+        if let Some(bounds) = bounds(outline) {
+            self.put(outline, bounds);
+        }
+    }
+
+    fn put(&mut self, outline: &[Point2], bounds: Bounds) {
+        let item = Item { start: self.corners.len() as u32, count: outline.len() as u32 };
         self.corners.extend_from_slice(outline);
         self.items.push(item);
-        self.file(self.items.len() as u32 - 1);
-        if self.entries.len() > 2 * self.heads.len() && self.bits < MOST_BITS {
-            self.resize(self.bits + 1);
+        self.slots.file(self.items.len() as u32 - 1, bounds);
+        if self.slots.is_full() {
+            // Four times the slots.
+            self.refile(4 * self.slots.len());
         }
+    }
+
+    /// Files every outline anew, in slots enough for so many, in order.
+    fn refile(&mut self, outlines: usize) {
+        self.slots = Slots::with_capacity(outlines);
+        for index in 0..self.items.len() as u32 {
+            if let Some(bounds) = bounds(self.outline(index)) {
+                self.slots.file(index, bounds);
+            }
+        }
+    }
+
+    #[inline]
+    fn outline(&self, item: u32) -> &[Point2] {
+        let Item { start, count } = self.items[item as usize];
+        &self.corners[start as usize..(start + count) as usize]
     }
 
     /// Takes the footprint of an upright box.
@@ -118,26 +110,11 @@ impl Occupancy {
 
     /// Whether a convex outline shares no interior point with what is taken.
     pub fn is_free(&self, outline: &[Point2]) -> bool {
-        let Some((low, high)) = bounds(outline) else { return true };
-        if self.large.iter().any(|item| self.collides(*item, low, high, outline)) {
-            return false;
-        }
-        let Some(cells) = Cells::of(low, high) else {
-            return (0..self.items.len() as u32).all(|item| !self.collides(item, low, high, outline));
-        };
-        for row in cells.rows.0..=cells.rows.1 {
-            for column in cells.columns.0..=cells.columns.1 {
-                let mut next = self.heads[self.slot(column, row)];
-                while next != NONE {
-                    let entry = self.entries[next as usize];
-                    if self.collides(entry.item, low, high, outline) {
-                        return false;
-                    }
-                    next = entry.next;
-                }
-            }
-        }
-        true
+        bounds(outline).is_none_or(|bounds| self.is_free_within(outline, bounds))
+    }
+
+    fn is_free_within(&self, outline: &[Point2], bounds: Bounds) -> bool {
+        !self.slots.any_near(bounds, self.items.len(), |item| collides(self.outline(item), outline, bounds))
     }
 
     /// Whether the footprint of an upright box shares no interior point with what is taken.
@@ -147,101 +124,35 @@ impl Occupancy {
 
     /// Takes an outline if it is free; says whether it was.
     pub fn take(&mut self, outline: &[Point2]) -> bool {
-        let free = self.is_free(outline);
+        let Some(bounds) = bounds(outline) else { return true };
+        let free = self.is_free_within(outline, bounds);
         if free {
-            self.add(outline);
+            self.put(outline, bounds);
         }
         free
     }
-
-    #[inline]
-    fn collides(&self, item: u32, low: Point2, high: Point2, outline: &[Point2]) -> bool {
-        let item = self.items[item as usize];
-        let apart =
-            item.low.x >= high.x || low.x >= item.high.x || item.low.y >= high.y || low.y >= item.high.y;
-        if apart {
-            return false;
-        }
-        let start = item.start as usize;
-        overlap(&self.corners[start..start + item.count as usize], outline)
-    }
-
-    #[inline]
-    fn slot(&self, column: i64, row: i64) -> usize {
-        let mask = (1_i64 << self.bits) - 1;
-        (((row & mask) << self.bits) | (column & mask)) as usize
-    }
-
-    fn file(&mut self, index: u32) {
-        let item = self.items[index as usize];
-        let Some(cells) = Cells::of(item.low, item.high) else {
-            self.large.push(index);
-            return;
-        };
-        for row in cells.rows.0..=cells.rows.1 {
-            for column in cells.columns.0..=cells.columns.1 {
-                let slot = self.slot(column, row);
-                self.entries.push(Entry { item: index, next: self.heads[slot] });
-                self.heads[slot] = self.entries.len() as u32 - 1;
-            }
-        }
-    }
-
-    /// Another number of slots; every outline is filed anew, in order.
-    fn resize(&mut self, bits: u32) {
-        self.bits = bits;
-        self.heads.clear();
-        self.heads.resize(1 << (2 * self.bits), NONE);
-        self.entries.clear();
-        self.large.clear();
-        for index in 0..self.items.len() as u32 {
-            self.file(index);
-        }
-    }
 }
 
-/// Slots along one side for so many outlines, as a power of two.
-fn bits_for(outlines: usize) -> u32 {
-    let mut bits = FIRST_BITS;
-    while bits < MOST_BITS && 1_usize << (2 * bits) < outlines {
-        bits += 1;
-    }
-    bits
-}
-
-/// The cells that a rectangle touches.
-struct Cells {
-    columns: (i64, i64),
-    rows: (i64, i64),
-}
-
-impl Cells {
-    /// `None` if they are too many, or nowhere.
-    #[inline]
-    fn of(low: Point2, high: Point2) -> Option<Self> {
-        let (width, height) = (high.x - low.x, high.y - low.y);
-        let is_small = width * height <= MOST_CELLS * CELL * CELL && width.max(height) <= MOST_CELLS * CELL;
-        if !is_small {
-            return None;
-        }
-        // The floor, without the call into libm that the oldest processors need.
-        let index = |x: f64| {
-            let cell = x * (1.0 / CELL);
-            let towards_zero = cell as i64;
-            towards_zero - i64::from(towards_zero as f64 > cell)
-        };
-        Some(Self { columns: (index(low.x), index(high.x)), rows: (index(low.y), index(high.y)) })
-    }
+/// Whether an outline that is taken shares interior points with another one of those bounds.
+#[inline]
+fn collides(taken: &[Point2], outline: &[Point2], (low, high): Bounds) -> bool {
+    let Some((taken_low, taken_high)) = bounds(taken) else { return false };
+    let apart =
+        taken_low.x >= high.x || low.x >= taken_high.x || taken_low.y >= high.y || low.y >= taken_high.y;
+    !apart && overlap(taken, outline)
 }
 
 /// The least and the greatest corner around some points.
 #[inline]
-fn bounds(points: &[Point2]) -> Option<(Point2, Point2)> {
+fn bounds(points: &[Point2]) -> Option<Bounds> {
     let (first, rest) = points.split_first()?;
+    // Without the look for NaN of `f64::min`.
+    let least = |a: f64, b: f64| if b < a { b } else { a };
+    let most = |a: f64, b: f64| if b > a { b } else { a };
     Some(rest.iter().fold((*first, *first), |(low, high), point| {
         (
-            Point2::new(low.x.min(point.x), low.y.min(point.y)),
-            Point2::new(high.x.max(point.x), high.y.max(point.y)),
+            Point2::new(least(low.x, point.x), least(low.y, point.y)),
+            Point2::new(most(high.x, point.x), most(high.y, point.y)),
         )
     }))
 }
@@ -318,7 +229,7 @@ mod tests {
     #[test]
     fn far_places_that_share_a_slot_do_not_meet() {
         let mut taken = Occupancy::default();
-        let period = CELL * f64::from(1 << FIRST_BITS);
+        let period = slots::least_period();
         taken.add_box(&rectangle(0.0, 0.0, 0.3, 10.0, 10.0));
         assert!(taken.is_free_box(&rectangle(period, -period, 0.3, 10.0, 10.0)));
         assert!(!taken.is_free_box(&rectangle(4.0, 4.0, 0.9, 10.0, 10.0)));
