@@ -118,6 +118,16 @@ pub struct Applied {
     pub undo: Option<Command>,
 }
 
+/// What several commands did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AppliedAll {
+    /// The entities they made, in order.
+    pub spawned: Vec<EntityId>,
+    /// The commands that take them back, in the order in which they are to be carried out; actions and intents cannot be
+    /// taken back.
+    pub undo: Vec<Command>,
+}
+
 impl World {
     /// Carries out a command.
     ///
@@ -188,18 +198,20 @@ impl World {
         Ok(Applied { spawned: None, undo })
     }
 
-    /// Carries out commands in their order: all of them, or none. Gives the commands that take them back, in the order in
-    /// which they are to be carried out; actions and intents among them cannot be taken back.
+    /// Carries out commands in their order: all of them, or none.
     ///
     /// # Errors
     /// The first command that is impossible; then nothing has changed but what actions and intents before it did.
-    pub fn apply_all(&mut self, commands: &[Command]) -> Result<Vec<Command>, CommandError> {
-        let mut undo = Vec::with_capacity(commands.len());
+    pub fn apply_all(&mut self, commands: &[Command]) -> Result<AppliedAll, CommandError> {
+        let mut all = AppliedAll::default();
         for command in commands {
             match self.apply(command) {
-                Ok(done) => undo.extend(done.undo),
+                Ok(done) => {
+                    all.spawned.extend(done.spawned);
+                    all.undo.extend(done.undo);
+                }
                 Err(error) => {
-                    for back in undo.iter().rev() {
+                    for back in all.undo.iter().rev() {
                         // What was just done can be taken back: nothing else changed since.
                         let _ = self.apply(back);
                     }
@@ -207,8 +219,8 @@ impl World {
                 }
             }
         }
-        undo.reverse();
-        Ok(undo)
+        all.undo.reverse();
+        Ok(all)
     }
 
     /// The command that brings an entity back to where it is now.

@@ -236,7 +236,7 @@ fn a_world_follows_by_commands() {
     let mut after = before.clone();
     let change = PlanChange { streets_removed: vec![7], ..PlanChange::default() };
     let patch = after.repair(&plan, &config, &change).unwrap().mirrored(&after);
-    let undo = world.apply_all(&[Command::PatchRoads(Box::new(patch.clone()))]).unwrap();
+    let undo = world.apply_all(&[Command::PatchRoads(Box::new(patch.clone()))]).unwrap().undo;
     assert_eq!(**world.roads().unwrap(), after);
     assert_eq!(world.signals().len(), after.signal_groups());
     // A second time it is for a network that is no more.
