@@ -105,7 +105,9 @@ impl Router {
             graph.add_node(());
         }
         let mut known = Vec::new();
-        for connection in &network.connections {
+        // Cycle lanes are no way for a vehicle.
+        let is_driven = |lane: LaneId| network.lanes[lane.index()].is_driven();
+        for connection in network.connections.iter().filter(|way| is_driven(way.from) && is_driven(way.to)) {
             let (from, to) = (Leg::of(network, connection.from), Leg::of(network, connection.to));
             let lane = &network.lanes[connection.to.index()];
             known.push((from, to, (connection.length + lane.length) / lane.speed_limit));

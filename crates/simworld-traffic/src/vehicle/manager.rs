@@ -149,7 +149,7 @@ impl VehicleManager {
         let mut rng = streams.named("places").rng();
         let longest = VehicleKind::Bus.length() + ROOM;
         let mut places: Vec<(Track, f64)> = Vec::new();
-        for lane in 0..tracks.lanes {
+        for lane in (0..tracks.lanes).filter(|lane| tracks.network.lanes[*lane].is_driven()) {
             let count = ((tracks.length[lane] - 1.0) / longest).floor().max(0.0) as usize;
             places.extend((1..=count).map(|slot| (lane as Track, slot as f64 * longest)));
         }

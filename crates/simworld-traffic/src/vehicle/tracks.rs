@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
-use simworld_core::net::{LaneKind, RoadNetwork, Turn, polyline};
-use simworld_core::ops::wrap_angle;
+use simworld_core::net::{Connection, LaneKind, RoadNetwork, Turn, polyline};
+use simworld_core::ops::{self, wrap_angle};
 
 use super::manager::NONE;
 use crate::{Leg, Router, TrafficConfig};
@@ -51,7 +51,7 @@ impl Tracks {
         let lane_speeds = network.lanes.iter().map(|lane| lane.speed_limit);
         let way_speeds = network.connections.iter().map(|connection| {
             let limit = network.lanes[connection.to.index()].speed_limit;
-            limit.min(curve_speed(&connection.path, connection.length, config.lateral_acceleration))
+            limit.min(curve_speed(connection, config.lateral_acceleration))
         });
         let speed = lane_speeds.chain(way_speeds).collect();
         let strips = (0..network.connections.len()).map(|index| strips(&network, index)).collect();
@@ -133,10 +133,20 @@ fn beside(network: &RoadNetwork) -> Vec<[Track; 2]> {
 }
 
 /// The speed at which the tightest part of a path is taken, m/s.
-fn curve_speed(path: &[Point2], length: f64, lateral: f64) -> f64 {
+fn curve_speed(way: &Connection, lateral: f64) -> f64 {
+    let Connection { path, length, turn, .. } = way;
     let (_, first) = polyline::at(path, 0.0);
-    let (_, last) = polyline::at(path, length);
-    let turned = wrap_angle(last - first).abs();
+    let (_, last) = polyline::at(path, *length);
+    let turned = if *turn == Turn::UTurn {
+        // Round a turning circle one turns by more than from the first heading to the last.
+        let turns = path.windows(3).map(|three| {
+            let (before, after) = (three[1] - three[0], three[2] - three[1]);
+            ops::atan2(before.perp(&after), before.dot(&after)).abs()
+        });
+        turns.sum::<f64>()
+    } else {
+        wrap_angle(last - first).abs()
+    };
     if turned < 0.15 {
         return f64::INFINITY;
     }
