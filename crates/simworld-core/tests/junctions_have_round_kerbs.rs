@@ -123,11 +123,11 @@ fn a_short_street_has_no_turning_circle() {
 #[test]
 fn circles_are_given_only_where_they_have_room() {
     // Two dead ends 22 m apart, and one far away from all.
-    let mut plan = StreetPlan::default();
-    plan.nodes = [(0.0, 0.0), (100.0, 0.0), (122.0, 0.0), (250.0, 0.0), (250.0, 90.0), (250.0, -90.0)]
+    let nodes = [(0.0, 0.0), (100.0, 0.0), (122.0, 0.0), (250.0, 0.0), (250.0, 90.0), (250.0, -90.0)]
         .map(|(x, y)| Point2::new(x, y))
         .to_vec();
-    plan.streets = [(0, 1), (2, 3), (3, 4), (3, 5)].map(|(a, b)| Street::simple(a, b)).to_vec();
+    let streets = [(0, 1), (2, 3), (3, 4), (3, 5)].map(|(a, b)| Street::simple(a, b)).to_vec();
+    let mut plan = StreetPlan { nodes, streets, ..StreetPlan::default() };
     plan.make_turning_room();
     let turning: Vec<[f64; 2]> = plan.streets.iter().map(|street| street.turning).collect();
     assert_eq!(turning[0], [LORRY_TURNING, 0.0]);

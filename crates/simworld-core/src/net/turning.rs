@@ -10,8 +10,8 @@ pub const LORRY_TURNING: f64 = 13.5;
 pub const CAR_TURNING: f64 = 9.1;
 
 /// Land that stays between a turning circle with its walkway and the next street, m: for a car none is asked; the
-/// wider circle must not cost the lots around.
-const LAND: [(f64, f64); 2] = [(LORRY_TURNING, 12.0), (CAR_TURNING, 0.0)];
+/// wider circle must leave the depth of a lot.
+const LAND: [(f64, f64); 2] = [(LORRY_TURNING, 24.0), (CAR_TURNING, 0.0)];
 /// A turning circle takes at most this share of its street's length, from the end to where the flare begins.
 const SHARE: f64 = 0.4;
 /// Cells in which streets are looked for, m.
