@@ -70,6 +70,12 @@ impl City {
             let land = Terrain::new(&config.terrain, seed);
             plan.elevations = terrain::elevations(&plan, &land, &config.terrain);
         }
+        if plan.streets.iter().any(|street| street.level > 0)
+            && plan.streets.iter().all(|it| it.profile.is_empty())
+        {
+            plan.validate()?;
+            terrain::raise_bridges(&mut plan, &config.terrain);
+        }
         let network = RoadNetwork::derive(&plan, &config.network)?;
         let mut taken = Occupancy::of_roads(&network);
         let zoning = Zoning::new(&config.zoning, seed);

@@ -64,6 +64,15 @@ pub struct RoadConfig {
     pub sidewalk_width: f64,
     /// Width of the parking lanes at both kerbs of local streets, m, in [0, 6]: 0 for none.
     pub parking_width: f64,
+    /// Width of the cycle lanes on both sides of arterials, m, in [0, 4]: 0 for none. 6 feet are wanted, 5 are the least
+    /// beside a kerb (NACTO Urban Bikeway Design Guide 2014, "Conventional bike lanes").
+    pub arterial_cycle_width: f64,
+    /// Width of the median of arterials, m, in [0, 20]: 0 for none. 6 feet are the least on which people wait (NACTO Urban
+    /// Street Design Guide 2013, "Pedestrian safety islands").
+    pub arterial_median_width: f64,
+    /// Width of the parking lanes at both kerbs of arterials, m, in [0, 6]: 0 for none; 7 to 9 feet are usual (the same,
+    /// "Lane width").
+    pub arterial_parking_width: f64,
 }
 
 impl Default for RoadConfig {
@@ -93,6 +102,9 @@ impl Default for RoadConfig {
             lane_width: LANE_WIDTH,
             sidewalk_width: SIDEWALK_WIDTH,
             parking_width: 2.2,
+            arterial_cycle_width: 0.0,
+            arterial_median_width: 0.0,
+            arterial_parking_width: 0.0,
         }
     }
 }
@@ -128,6 +140,9 @@ impl RoadConfig {
             ("roads.lane_width", self.lane_width, 2.0, 6.0, "2 to 6 m"),
             ("roads.sidewalk_width", self.sidewalk_width, 1.0, 20.0, "1 to 20 m"),
             ("roads.parking_width", self.parking_width, 0.0, 6.0, "0 to 6 m"),
+            ("roads.arterial_cycle_width", self.arterial_cycle_width, 0.0, 4.0, "0 to 4 m"),
+            ("roads.arterial_median_width", self.arterial_median_width, 0.0, 20.0, "0 to 20 m"),
+            ("roads.arterial_parking_width", self.arterial_parking_width, 0.0, 6.0, "0 to 6 m"),
         ])
     }
 }

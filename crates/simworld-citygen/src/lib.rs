@@ -5,6 +5,7 @@ pub mod block;
 pub mod building;
 mod city;
 mod config;
+mod decks;
 mod doors;
 pub mod edit;
 pub mod element;

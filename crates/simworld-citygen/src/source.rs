@@ -50,6 +50,7 @@ impl RoadSource for RoadConfig {
     fn streets(&self, seed: Seed) -> Result<StreetPlan, CityError> {
         self.validate()?;
         let mut plan = growth::grow(self, seed);
+        plan.make_turning_room();
         name::streets(&mut plan, seed);
         Ok(plan)
     }

@@ -165,6 +165,7 @@ fn mixed_roads(base: &RoadConfig) -> RoadConfig {
         bends: 0.45,
         bow: 0.065,
         widest_block: 270.0,
+        arterial_cycle_width: 1.8,
         ..base.clone()
     }
 }
@@ -185,6 +186,10 @@ fn grid_roads(base: &RoadConfig) -> RoadConfig {
         crossroads: 1.0,
         dead_ends: 0.1,
         widest_block: 200.0,
+        // Boulevards: trees in the middle, bicycles and parked cars at the sides.
+        arterial_cycle_width: 1.8,
+        arterial_median_width: 2.4,
+        arterial_parking_width: 2.2,
         ..base.clone()
     }
 }

@@ -77,7 +77,9 @@ impl Tracer<'_> {
         let id = RoadId::from_index(half / 2);
         let sidewalk = self.network.sidewalk(id, side);
         if let Some(sidewalk) = sidewalk {
-            let piece = Piece { border: Border::street(id, side), offset: sidewalk.width * 0.5 };
+            // Nothing is built along bridges and in tunnels.
+            let border = if road.level == 0 { Border::street(id, side) } else { Border::CORNER };
+            let piece = Piece { border, offset: sidewalk.width * 0.5 };
             boundary.extend(&sidewalk.path, side == Side::Right, piece);
         } else {
             let piece = Piece { border: Border::CORNER, offset: 0.0 };

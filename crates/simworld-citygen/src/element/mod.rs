@@ -20,6 +20,7 @@ use simworld_core::seed::Seed;
 
 use crate::ElementConfig;
 use crate::building::Building;
+use crate::decks;
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
 use crate::zoning::Zoning;
@@ -84,9 +85,10 @@ impl Extent {
 }
 
 impl Setting<'_> {
-    /// Whether elements are set on one side of a road.
+    /// Whether elements are set on one side of a road: nothing grows on bridges and in tunnels.
     fn has_side(&self, road: RoadId, side: Side) -> bool {
-        self.within.is_none_or(|extent| extent.has_side(road, side))
+        self.network.roads[road.index()].level == 0
+            && self.within.is_none_or(|extent| extent.has_side(road, side))
     }
 
     /// How many streets, the first ones, have parked cars.
@@ -108,5 +110,6 @@ pub fn furnish(
     sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements);
     parking::park(setting, config, streams.named("parking"), &mut elements);
     green::plant(setting, config, streams.named("greens"), taken, &mut elements);
+    decks::clear_below(setting.network, &mut elements);
     elements
 }

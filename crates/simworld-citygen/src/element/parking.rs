@@ -44,6 +44,9 @@ pub(super) fn park(
         let Some(strips) = strips.get(street.section as usize).filter(|strips| !strips.is_empty()) else {
             continue;
         };
+        if street.level != 0 {
+            continue;
+        }
         let Some((from, to)) = clear_span(setting, index) else { continue };
         let middle = polyline::slice(&setting.network.roads[index].centerline, from, to);
         let start = middle[0];

@@ -20,7 +20,7 @@ mod within;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::geometry::{Point2, direction, heading};
-use simworld_core::net::{CrossSection, LaneDirection, LaneKind, LaneSpec, RoadClass, Street, StreetPlan};
+use simworld_core::net::{CrossSection, RoadClass, Street, StreetPlan};
 use simworld_core::seed::{Seed, StreamRng};
 
 use crate::RoadConfig;
@@ -300,8 +300,12 @@ impl<'a> Growth<'a> {
 pub(crate) fn plan_of_sections(config: &RoadConfig) -> (StreetPlan, [u32; 3]) {
     let local = section(config, 1).with_parking(config.parking_width);
     let mut plan = StreetPlan { sections: vec![local], ..StreetPlan::default() };
-    let arterial = plan.add_section(section(config, config.arterial_lanes));
-    let highway = plan.add_section(highway(config));
+    let arterial = section(config, config.arterial_lanes)
+        .with_median(config.arterial_median_width)
+        .with_cycle_lanes(config.arterial_cycle_width)
+        .with_parking(config.arterial_parking_width);
+    let arterial = plan.add_section(arterial);
+    let highway = plan.add_section(section(config, 2).with_median(HIGHWAY_MEDIAN));
     (plan, [0, arterial, highway])
 }
 
@@ -309,15 +313,8 @@ fn section(config: &RoadConfig, lanes: u8) -> CrossSection {
     CrossSection::plain(lanes, lanes, config.lane_width, config.sidewalk_width)
 }
 
-/// Two lanes each way with a median between them.
-fn highway(config: &RoadConfig) -> CrossSection {
-    let mut section = section(config, 2);
-    let width = 1.5;
-    let middle = section.lanes.len() / 2;
-    section.lanes.insert(middle, LaneSpec { kind: LaneKind::Median, direction: LaneDirection::Both, width });
-    section.reference += width * 0.5;
-    section
-}
+/// Width of the median of a highway, m: a barrier with room beside it.
+const HIGHWAY_MEDIAN: f64 = 1.5;
 
 /// A draw with mean 0 and standard deviation 1, nearly normal: the sum of four even ones, from one number of the stream.
 fn bell(rng: &mut StreamRng) -> f64 {

@@ -4,6 +4,7 @@
 //! of twenty both read well; detail that would be finer than ink is left out. What belongs together is one group with
 //! an id (`water`, `streets`, `buildings`, `labels` ...), so that a drawing program can take the sheet apart.
 
+mod bridges;
 mod buildings;
 mod furniture;
 mod ground;
@@ -13,6 +14,7 @@ mod path;
 #[cfg(feature = "png")]
 mod png;
 mod streets;
+mod strips;
 mod style;
 
 use std::fmt;

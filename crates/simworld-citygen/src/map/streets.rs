@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use simworld_core::geometry::Point2;
-use simworld_core::net::{Road, polyline};
+use simworld_core::net::{Road, Sidewalk, polyline};
 
 use super::page::Page;
 use super::path::Pen;
 use super::style::{CASING, ROADS, RoadStyle, SIDEWALK};
+use super::{bridges, strips};
 use crate::City;
 
 /// Sidewalks narrower than this on paper are left out, mm.
@@ -27,7 +28,9 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt:
         layer.fill(f)?;
     }
     writeln!(f, "</g>")?;
-    crossings(f, page, city)
+    strips::draw(f, page, city, |road| road.level <= 0)?;
+    crossings(f, page, city)?;
+    bridges::draw(f, page, city)
 }
 
 /// The roads of one class, by their width on paper in tenths of a millimetre.
@@ -41,7 +44,7 @@ struct Layer {
 impl Layer {
     fn of(style: &'static RoadStyle, page: &Page, city: &City) -> Self {
         let mut pens: BTreeMap<u32, Pen> = BTreeMap::new();
-        for road in city.network.roads.iter().filter(|road| road.class == style.class) {
+        for road in city.network.roads.iter().filter(|road| road.class == style.class && road.level <= 0) {
             let width = ((road.width * page.scale).max(style.least) * 10.0).round() as u32;
             let pen = pens.entry(width).or_insert_with(|| Pen::at(page.middle));
             pen.line(&middle_of_carriageway(road, page));
@@ -85,7 +88,7 @@ impl Layer {
 }
 
 /// A road whose kerbs lie unevenly about its centreline is drawn between its kerbs.
-fn middle_of_carriageway(road: &Road, page: &Page) -> Vec<Point2> {
+pub(super) fn middle_of_carriageway(road: &Road, page: &Page) -> Vec<Point2> {
     let shift = (road.left_kerb - road.right_kerb) * 0.5;
     if shift.abs() * page.scale < 0.05 {
         road.centerline.clone()
@@ -114,7 +117,8 @@ fn sidewalks(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Resul
             pen.line(path);
         }
     };
-    for sidewalk in &city.network.sidewalks {
+    let is_on_ground = |walk: &&Sidewalk| city.network.roads[walk.road.index()].level <= 0;
+    for sidewalk in city.network.sidewalks.iter().filter(is_on_ground) {
         draw(&sidewalk.path, sidewalk.width);
     }
     let usual = city.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);

@@ -1,6 +1,6 @@
 //! Colours and widths of the map: muted inks on warm paper. Widths in millimetres on paper.
 
-use simworld_core::net::RoadClass;
+use simworld_core::net::{LaneKind, RoadClass};
 use simworld_core::scene::Place;
 
 use crate::lot::GreenKind;
@@ -14,6 +14,8 @@ pub(super) const LAND: &str = "#e7ead7";
 pub(super) const BLOCK: &str = "#f3efe4";
 /// Raised walkways.
 pub(super) const SIDEWALK: &str = "#e2ddd0";
+/// The edges of bridges.
+pub(super) const BRIDGE_EDGE: &str = "#6e675b";
 /// Crowns of trees.
 pub(super) const TREE: &str = "#8fb07a";
 /// Lettering and frames.
@@ -61,6 +63,20 @@ pub(super) const fn green_color(kind: GreenKind) -> (&'static str, &'static str)
         GreenKind::Park => ("parks", "#cbddae"),
         GreenKind::Courtyard => ("courtyards", "#e3e8cf"),
         GreenKind::Leftover => ("leftovers", BLOCK),
+    }
+}
+
+/// The id of the layer and the colour of what lies beside the lanes of a street; a median is planted where it is wide
+/// enough for it. None of what is drawn otherwise.
+pub(super) const fn strip_color(kind: LaneKind, planted: bool) -> Option<(&'static str, &'static str)> {
+    match (kind, planted) {
+        (LaneKind::Parking, _) => Some(("parking", "#e4e2dc")),
+        (LaneKind::Cycle, _) => Some(("cycle-lanes", "#d99f8c")),
+        (LaneKind::Shoulder, _) => Some(("shoulders", "#e9e5da")),
+        (LaneKind::Median, true) => Some(("planted-medians", "#b9d19a")),
+        (LaneKind::Median, false) => Some(("medians", "#cfc8b8")),
+        (LaneKind::Verge, _) => Some(("verges", "#c8dbab")),
+        (LaneKind::Driving | LaneKind::Bus | LaneKind::Sidewalk, _) => None,
     }
 }
 

@@ -1,6 +1,8 @@
 //! The land of the roads.
 
-use simworld_core::geometry::{Point2, Vector2};
+use std::f64::consts::FRAC_PI_4;
+
+use simworld_core::geometry::{Point2, Vector2, direction};
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
 
@@ -40,6 +42,11 @@ impl Occupancy {
         for intersection in &network.intersections {
             if !intersection.roads.iter().any(|road| counts(*road)) {
                 continue;
+            }
+            if let Some(circle) = intersection.turning {
+                let corner =
+                    |eighth: u32| circle.center + direction(f64::from(eighth) * FRAC_PI_4) * circle.radius;
+                taken.add(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner));
             }
             for corner in &intersection.corners {
                 let half = intersection_walk(network, &intersection.roads) * 0.5;

@@ -68,9 +68,13 @@ impl City {
         options.streets.validate()?;
         let mut warnings = place.warnings.clone();
         let outlines = building::outlines(place, &mut warnings);
-        let Planned { plan, off_ground } = place.plan_between(&options.streets, &outlines, &mut warnings);
+        let Planned { mut plan, off_ground } = place.plan_between(&options.streets, &outlines, &mut warnings);
         if plan.streets.is_empty() {
             return Err(CityError::NoStreets);
+        }
+        for low in crate::terrain::raise_bridges(&mut plan, &config.terrain) {
+            let at = Some(place.geographic(Point2::new(low.x, low.y)));
+            warnings.push(Warning { what: low.to_string(), element: None, at });
         }
         let network = RoadNetwork::derive(&plan, &config.network)?;
         let mut taken = Occupancy::of_roads_where(&network, |road| !off_ground[road.index()]);

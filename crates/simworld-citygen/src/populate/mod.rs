@@ -1,15 +1,18 @@
 //! The way of a city into a world: surfaces, buildings and street elements as entities, each made from an asset.
 
+mod assets;
+mod bridges;
+
 use std::sync::Arc;
 
-use simworld_core::asset::{Asset, Catalogue};
+use assets::Assets;
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
 use simworld_core::id::{AssetId, EntityId, RoadId};
 use simworld_core::net::{Crossing, DrivingSide, RoadNetwork, Side};
-use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World, WorldError};
+use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
 
 use crate::City;
-use crate::building::{Archetype, Building, STOREY};
+use crate::building::Building;
 use crate::element::{Element, Extent};
 use crate::strips::{lane_reach, strip};
 use crate::terrain::Ground;
@@ -143,7 +146,10 @@ impl Parts<'_> {
 
     /// The walkways along streets and round corners.
     fn walkways(&self) -> impl Iterator<Item = &Vec<Point2>> {
-        let along = self.network.sidewalks.iter().filter(|walk| self.has_side(walk.road, walk.side));
+        // Decks carry their own.
+        let on_ground = |road: RoadId| self.network.roads[road.index()].level <= 0;
+        let along = self.network.sidewalks.iter();
+        let along = along.filter(move |walk| self.has_side(walk.road, walk.side) && on_ground(walk.road));
         let corners = self.network.intersections.iter().enumerate().flat_map(move |(index, place)| {
             let meant = move |rank: usize| {
                 place.roads.get(rank).is_none_or(|road| {
@@ -211,7 +217,7 @@ impl Parts<'_> {
     fn spawn_surfaces(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
         self.spawn_ground(world, spawned)?;
         for (index, road) in self.network.roads.iter().enumerate() {
-            if !self.has_road(RoadId::from_index(index)) {
+            if !self.has_road(RoadId::from_index(index)) || road.level > 0 {
                 continue;
             }
             let half = lane_reach(road);
@@ -220,6 +226,17 @@ impl Parts<'_> {
                 let stripe = Stripe { a: piece[0], b: piece[1], half, extend: half };
                 spawned.push(world.spawn(self.layer(EntityKind::Road, &stripe, ROAD_TOP))?);
             }
+        }
+        self.spawn_bridges(world, spawned)?;
+        for place in &self.network.intersections {
+            let Some(circle) = place.turning.filter(|_| place.roads.iter().all(|road| self.has_road(*road)))
+            else {
+                continue;
+            };
+            let pose = pose_facing(Point3::new(circle.center.x, circle.center.y, ROAD_TOP - LAYER), 0.0);
+            let disc = Shape::Cylinder { radius: circle.radius, height: LAYER };
+            let desc = EntityDesc::new(EntityKind::Road, pose, disc);
+            spawned.push(world.spawn(lifted(desc, self.heights.height(place.center)))?);
         }
         for crossing in self.crossings() {
             let stripe =
@@ -234,60 +251,6 @@ impl Parts<'_> {
             }
         }
         Ok(())
-    }
-}
-
-/// The assets of a city, as its entities ask for them.
-struct Assets {
-    standard: Catalogue,
-    /// By the kind of building, in the order in which they were asked for.
-    buildings: Vec<(&'static str, AssetId)>,
-    /// By the kind of element; none of a kind that has no ordinary asset.
-    kinds: Vec<(EntityKind, Option<AssetId>)>,
-}
-
-impl Assets {
-    fn new() -> Self {
-        Self { standard: Catalogue::standard(), buildings: Vec::new(), kinds: Vec::new() }
-    }
-
-    fn of_building(&mut self, kind: &'static Archetype, world: &mut World) -> Result<AssetId, WorldError> {
-        if let Some((_, id)) = self.buildings.iter().find(|(name, _)| *name == kind.name) {
-            return Ok(*id);
-        }
-        let id = present_or_new(asset_of(kind), world)?;
-        self.buildings.push((kind.name, id));
-        Ok(id)
-    }
-
-    fn of_kind(&mut self, kind: EntityKind, world: &mut World) -> Result<Option<AssetId>, WorldError> {
-        if let Some((_, id)) = self.kinds.iter().find(|(known, _)| *known == kind) {
-            return Ok(*id);
-        }
-        let asset = self.standard.find(kind.as_str()).and_then(|id| self.standard.get(id)).cloned();
-        let id = asset.map(|asset| present_or_new(asset, world)).transpose()?;
-        self.kinds.push((kind, id));
-        Ok(id)
-    }
-}
-
-fn present_or_new(asset: Asset, world: &mut World) -> Result<AssetId, WorldError> {
-    match world.assets().and_then(|assets| assets.find(&asset.name)) {
-        Some(id) => Ok(id),
-        None => Ok(world.add_asset(asset)?),
-    }
-}
-
-/// A kind of building as an asset of its middle size.
-fn asset_of(kind: &Archetype) -> Asset {
-    let middle = |(low, high): (f64, f64)| 0.5 * (low + high);
-    let storeys = 0.5 * f64::from(kind.storeys.0 + kind.storeys.1);
-    let collider = Shape::cuboid(middle(kind.depth), middle(kind.width), storeys * STOREY);
-    Asset {
-        place: Some(kind.place),
-        color: Some(kind.color),
-        source: "simworld, procedural".to_owned(),
-        ..Asset::new(kind.name, EntityKind::Building, collider)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::{Road, RoadNetwork};
 
 use super::HeightField;
 
@@ -47,10 +47,13 @@ impl<'a> Ground<'a> {
     /// The ground of a network on some land.
     pub fn new(network: &RoadNetwork, land: &'a dyn HeightField) -> Self {
         let mut ground = Self { land, pieces: Vec::new(), cells: Vec::new() };
-        if network.intersections.iter().all(|place| place.height == 0.0) {
+        let is_level = |road: &Road| road.level != 0 || road.profile.iter().all(|(_, height)| *height == 0.0);
+        if network.intersections.iter().all(|place| place.height == 0.0) && network.roads.iter().all(is_level)
+        {
             return ground;
         }
-        for (index, road) in network.roads.iter().enumerate() {
+        // Bridges and tunnels leave the ground as it is.
+        for (index, road) in network.roads.iter().enumerate().filter(|(_, road)| road.level == 0) {
             let id = RoadId::from_index(index);
             let mut station = 0.0;
             for pair in road.centerline.windows(2) {

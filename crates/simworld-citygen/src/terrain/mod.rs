@@ -2,12 +2,15 @@
 //!
 //! The height of the land is a [`HeightField`]: [`Terrain`] of seeded noise, or a [`Raster`] of measured heights. Streets
 //! cut and fill it until none is steeper than its class allows ([`elevations`]); the [`Ground`] meets the streets where
-//! they are and the land elsewhere. A city is flat unless its configuration says otherwise.
+//! they are and the land elsewhere. Where streets pass over one another they are raised until there is room below
+//! ([`raise_bridges`]). A city is flat unless its configuration says otherwise.
 
+mod bridges;
 mod grade;
 mod ground;
 mod raster;
 
+pub use bridges::{BridgeWarning, DECK, HEADROOM, raise_bridges};
 pub use grade::elevations;
 pub use ground::Ground;
 pub use raster::{Raster, RasterError};

@@ -16,7 +16,7 @@ mod window;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
-use simworld_core::net::StreetPlan;
+use simworld_core::net::{Street, StreetPlan};
 use simworld_core::seed::{Seed, Stream};
 
 pub use complete::Tile;
@@ -24,8 +24,8 @@ pub use config::{LatticeConfig, TileConfig};
 pub use stream::{CityStream, StreamConfig, TileChanges, WorldStream};
 pub use window::Window;
 
-use crate::CityError;
 use crate::growth::{self, Within};
+use crate::{CityError, RoadConfig};
 use draft::{Beyond, Drawer};
 use lattice::Lattice;
 
@@ -158,6 +158,23 @@ impl TileSource {
     fn superblock(&self, column: i64, row: i64) -> (Within, usize) {
         let wall = self.lattice.wall(column, row);
         let own = self.superblocks.indexed(column as u64).indexed(row as u64).seed();
-        (growth::grow_within(&wall, &self.config.city.roads, self.seed, own), wall.len())
+        let roads = &self.config.city.roads;
+        let mut within = growth::grow_within(&wall, roads, self.seed, own);
+        make_turning_room(&mut within, wall.len(), roads);
+        (within, wall.len())
     }
+}
+
+/// Gives the dead ends within a superblock room to turn. Nothing beyond its wall is near, so that neighbours who look at it
+/// see the same.
+fn make_turning_room(within: &mut Within, wall: usize, roads: &RoadConfig) {
+    let (mut plan, sections) = growth::plan_of_sections(roads);
+    plan.nodes = std::mem::take(&mut within.nodes);
+    plan.streets = std::mem::take(&mut within.streets);
+    let count = plan.streets.len();
+    let main = |node: usize| Street { section: sections[1], ..Street::simple(node, (node + 1) % wall) };
+    plan.streets.extend((0..wall).map(main));
+    plan.make_turning_room();
+    plan.streets.truncate(count);
+    (within.nodes, within.streets) = (plan.nodes, plan.streets);
 }

@@ -6,7 +6,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::scene::Place;
 
 use super::city::{GROUND, Material, Node, material};
-use super::mesh::{Builder, Mesh};
+use super::mesh::{Base, Builder, Mesh};
 use crate::City;
 use crate::building::{Building, Footprint, RoofKind};
 
@@ -15,11 +15,13 @@ const TILES: Material = material("pitched roof", [0.36, 0.15, 0.09], 0.9);
 /// How far a flat roof lies below the top of its walls, m.
 const PARAPET: f64 = 0.5;
 
-pub(super) fn node(builder: &mut Builder, city: &City) -> Node {
+pub(super) fn node(builder: &mut Builder<'_>, city: &City) -> Node {
     let mut walls: BTreeMap<Place, Mesh> = BTreeMap::new();
     let (mut flat, mut tiles) = (Mesh::default(), Mesh::default());
     for building in &city.buildings {
         let walls = walls.entry(building.place).or_default();
+        // Its threshold is level with the sidewalk.
+        builder.stand_on(Base::Level(builder.ground().height(building.access)));
         match (building.roof, &building.footprint) {
             (RoofKind::Flat, Footprint::Stepped { .. }) => stepped(builder, walls, &mut flat, building),
             // A pitched roof over an outline of any form is a subject of its own.
@@ -27,13 +29,14 @@ pub(super) fn node(builder: &mut Builder, city: &City) -> Node {
             _ => pitched(builder, walls, &mut tiles, building),
         }
     }
+    builder.stand_on(Base::Ground);
     let mut parts: Vec<(Material, Mesh)> =
         walls.into_iter().map(|(place, mesh)| (facade(place), mesh)).collect();
     parts.extend([(FLAT, flat), (TILES, tiles)]);
     Node { name: "buildings", parts }
 }
 
-fn level(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
+fn level(builder: &mut Builder<'_>, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
     let (outline, height) = (building.outline(), building.height());
     builder.walls(walls, &outline, GROUND, height);
     let mut courts = building.courtyards();
@@ -46,7 +49,7 @@ fn level(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: &B
 }
 
 /// Boxes that stand in one another.
-fn stepped(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
+fn stepped(builder: &mut Builder<'_>, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
     for solid in building.solids() {
         let (outline, height) = (solid.footprint(), solid.half_extents.z * 2.0);
         builder.walls(walls, &outline, GROUND, height);
@@ -55,7 +58,7 @@ fn stepped(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: 
 }
 
 /// A roof on each wing.
-fn pitched(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
+fn pitched(builder: &mut Builder<'_>, walls: &mut Mesh, roofs: &mut Mesh, building: &Building) {
     for solid in building.solids() {
         let size = solid.half_extents * 2.0;
         let (outline, eaves) = (solid.footprint(), size.z - PARAPET);
@@ -72,7 +75,7 @@ struct Plan {
     ridge: f64,
 }
 
-fn roof(builder: &mut Builder, walls: &mut Mesh, roofs: &mut Mesh, on: &Plan, kind: RoofKind) {
+fn roof(builder: &mut Builder<'_>, walls: &mut Mesh, roofs: &mut Mesh, on: &Plan, kind: RoofKind) {
     let mut corners = on.outline;
     if (corners[1] - corners[0]).norm() < (corners[2] - corners[1]).norm() {
         corners.rotate_left(1);

@@ -3,27 +3,32 @@
 use std::collections::BTreeMap;
 
 use simworld_core::geometry::Point2;
-use simworld_core::net::{Lane, Road, polyline};
+use simworld_core::id::RoadId;
+use simworld_core::net::{Intersection, Lane, Road, polyline};
 use simworld_core::scene::{EntityKind, Shape};
 
-use super::buildings;
-use super::mesh::{Builder, Mesh};
+use super::mesh::{Base, Builder, Mesh};
+use super::{bridges, buildings, strips};
 use crate::City;
 use crate::element::Element;
 use crate::lot::GreenKind;
+use crate::terrain::Ground;
 
 /// Heights of the surfaces, m: people stand at zero, on the sidewalk. Farther apart than in a world, because viewers
 /// see cities from afar and must not mix the layers up.
 pub(super) const GROUND: f64 = -0.25;
-const ROAD: f64 = -0.15;
-const PAINT: f64 = -0.13;
+pub(super) const ROAD: f64 = -0.15;
+pub(super) const PAINT: f64 = -0.13;
 const BLOCK: f64 = -0.04;
 const GREEN: f64 = -0.02;
-const SIDEWALK: f64 = 0.0;
+pub(super) const SIDEWALK: f64 = 0.0;
 /// Ground beyond the outermost street, m.
 const SURROUND: f64 = 120.0;
+/// Width of a plate of hilly ground, m, and how much lower it lies, for it is straight between its corners.
+const PLATE: f64 = 30.0;
+const PLATE_TOP: f64 = -0.35;
 /// Width of a line of paint and of a stop line, m.
-const LINE: f64 = 0.12;
+pub(super) const LINE: f64 = 0.12;
 const STOP_LINE: f64 = 0.4;
 /// A dash and the gap behind it, m.
 const DASH: (f64, f64) = (3.0, 6.0);
@@ -56,20 +61,24 @@ pub(super) const fn material(name: &'static str, color: [f32; 3], roughness: f32
 }
 
 const EARTH: Material = material("ground", [0.34, 0.38, 0.24], 1.0);
-const ASPHALT: Material = material("asphalt", [0.075, 0.077, 0.082], 0.95);
-const PAVING: Material = material("paving", [0.42, 0.41, 0.39], 0.9);
-const WHITE: Material = material("paint", [0.82, 0.82, 0.8], 0.7);
+pub(super) const ASPHALT: Material = material("asphalt", [0.075, 0.077, 0.082], 0.95);
+pub(super) const PAVING: Material = material("paving", [0.42, 0.41, 0.39], 0.9);
+pub(super) const WHITE: Material = material("paint", [0.82, 0.82, 0.8], 0.7);
 const SOIL: Material = material("block", [0.4, 0.37, 0.29], 1.0);
-const GRASS: Material = material("grass", [0.22, 0.33, 0.13], 1.0);
+pub(super) const GRASS: Material = material("grass", [0.22, 0.33, 0.13], 1.0);
 
 pub(super) fn model(city: &City) -> Model {
     let (low, high) = city.network.bounds().unwrap_or((Point2::origin(), Point2::origin()));
     let middle = nalgebra::center(&low, &high);
-    let mut builder = Builder::at(middle);
+    let land = city.terrain();
+    let heights = Ground::new(&city.network, &land);
+    let mut builder = Builder::at(middle, &city.network, &heights);
     let nodes = vec![
         ground(&mut builder, city, low, high),
         roads(&mut builder, city),
+        bridges::node(&mut builder, city),
         sidewalks(&mut builder, city),
+        strips::node(&mut builder, city),
         markings(&mut builder, city),
         buildings::node(&mut builder, city),
         elements(&mut builder, city),
@@ -78,11 +87,15 @@ pub(super) fn model(city: &City) -> Model {
     Model { name, middle, nodes }
 }
 
-fn ground(builder: &mut Builder, city: &City, low: Point2, high: Point2) -> Node {
+fn ground(builder: &mut Builder<'_>, city: &City, low: Point2, high: Point2) -> Node {
     let (low, high) = (low.map(|x| x - SURROUND), high.map(|x| x + SURROUND));
     let mut mesh = Mesh::default();
-    let corners = [low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)];
-    builder.plate(&mut mesh, &corners, &[], GROUND);
+    let is_level = builder.ground().is_level();
+    for (low, high) in plates(low, high, is_level) {
+        let z = if is_level { GROUND } else { GROUND + PLATE_TOP };
+        let corners = [low, Point2::new(high.x, low.y), high, Point2::new(low.x, high.y)];
+        builder.plate(&mut mesh, &corners, &[], z);
+    }
     let (mut blocks, mut greens) = (Mesh::default(), Mesh::default());
     let land = city.land();
     for block in land.blocks.iter().filter(|block| block.area.is_some()) {
@@ -94,36 +107,81 @@ fn ground(builder: &mut Builder, city: &City, low: Point2, high: Point2) -> Node
     Node { name: "ground", parts: vec![(EARTH, mesh), (SOIL, blocks), (GRASS, greens)] }
 }
 
-fn roads(builder: &mut Builder, city: &City) -> Node {
+/// The rectangles of the ground, least and greatest corners: one on level ground.
+fn plates(low: Point2, high: Point2, is_level: bool) -> Vec<(Point2, Point2)> {
+    if is_level {
+        return vec![(low, high)];
+    }
+    let counts = ((high - low) / PLATE).map(|count| count.ceil().max(1.0));
+    let step = (high - low).component_div(&counts);
+    let corner = |column: u32, row: u32| {
+        low + step.component_mul(&simworld_core::geometry::Vector2::new(f64::from(column), f64::from(row)))
+    };
+    let rows = 0..counts.y as u32;
+    rows.flat_map(|row| {
+        (0..counts.x as u32).map(move |column| (corner(column, row), corner(column + 1, row + 1)))
+    })
+    .collect()
+}
+
+fn roads(builder: &mut Builder<'_>, city: &City) -> Node {
     let mut mesh = Mesh::default();
-    for road in &city.network.roads {
+    for road in city.network.roads.iter().filter(|road| road.level <= 0) {
         builder.ribbon(&mut mesh, &road.centerline, (road.left_kerb, road.right_kerb), ROAD);
     }
     for intersection in &city.network.intersections {
+        stand_at(builder, city, intersection);
         builder.plate(&mut mesh, &intersection.outline, &[], ROAD);
     }
+    builder.stand_on(Base::Ground);
     Node { name: "roads", parts: vec![(ASPHALT, mesh)] }
 }
 
-fn sidewalks(builder: &mut Builder, city: &City) -> Node {
+/// A junction at the end of a bridge lies at its own height, whatever the ground does.
+fn stand_at(builder: &mut Builder<'_>, city: &City, place: &Intersection) {
+    let is_bridge = place.roads.iter().any(|road| city.network.roads[road.index()].level > 0);
+    builder.stand_on(if is_bridge { Base::Level(place.height) } else { Base::Ground });
+}
+
+fn sidewalks(builder: &mut Builder<'_>, city: &City) -> Node {
     let mut mesh = Mesh::default();
     for sidewalk in &city.network.sidewalks {
+        builder.stand_on_road(sidewalk.road);
         builder.kerb(&mut mesh, &sidewalk.path, sidewalk.width, (GROUND, SIDEWALK));
     }
     let usual = city.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
-    for corner in city.network.intersections.iter().flat_map(|intersection| &intersection.corners) {
-        builder.kerb(&mut mesh, corner, usual, (GROUND, SIDEWALK));
+    for place in &city.network.intersections {
+        stand_at(builder, city, place);
+        for (rank, corner) in place.corners.iter().enumerate().filter(|(_, corner)| corner.len() > 1) {
+            corner_of(builder, &mut mesh, (place.kerb(rank), corner), usual);
+        }
     }
+    builder.stand_on(Base::Ground);
     Node { name: "sidewalks", parts: vec![(PAVING, mesh)] }
 }
 
-fn markings(builder: &mut Builder, city: &City) -> Node {
+/// The pavement of a corner: from the kerb to the outer edge of the walkway round it.
+fn corner_of(builder: &mut Builder<'_>, mesh: &mut Mesh, (kerb, walk): (&[Point2], &[Point2]), width: f64) {
+    // Seen along the walkway the junction lies on the left, the land on the right. It ends at a crossing, beyond the
+    // rounded part of the kerb.
+    let (outer, inner) = (polyline::offset(walk, -width * 0.5), polyline::offset(walk, width * 0.5));
+    let mut outline = outer;
+    outline.extend(inner.last());
+    outline.extend(kerb.iter().rev());
+    outline.extend(inner.first());
+    outline.dedup_by(|a, b| (*a - *b).norm() < 1e-3);
+    builder.prism(mesh, &outline, GROUND, SIDEWALK);
+}
+
+fn markings(builder: &mut Builder<'_>, city: &City) -> Node {
     let network = &city.network;
     let mut mesh = Mesh::default();
     for crossing in &network.crossings {
+        builder.stand_on_road(crossing.road);
         dashes(builder, &mut mesh, &[crossing.start, crossing.end], STRIPE, crossing.width);
     }
-    for road in &network.roads {
+    for (index, road) in network.roads.iter().enumerate() {
+        builder.stand_on_road(RoadId::from_index(index));
         let lanes = |ids: &[simworld_core::id::LaneId]| -> Vec<&Lane> {
             ids.iter().map(|id| &network.lanes[id.index()]).collect()
         };
@@ -143,6 +201,7 @@ fn markings(builder: &mut Builder, city: &City) -> Node {
             }
         }
     }
+    builder.stand_on(Base::Ground);
     Node { name: "markings", parts: vec![(WHITE, mesh)] }
 }
 
@@ -154,14 +213,14 @@ fn between_stops(road: &Road, lane: &Lane) -> Vec<Point2> {
     polyline::slice(&road.centerline, station(lane.path.first()), station(lane.path.last()))
 }
 
-fn stop_line(builder: &mut Builder, mesh: &mut Mesh, lane: &Lane) {
+fn stop_line(builder: &mut Builder<'_>, mesh: &mut Mesh, lane: &Lane) {
     let length = polyline::length(&lane.path);
     let last = polyline::slice(&lane.path, length - STOP_LINE, length);
     builder.ribbon(mesh, &last, (lane.width * 0.46, lane.width * 0.46), PAINT);
 }
 
 /// Pieces of a line with gaps between.
-fn dashes(builder: &mut Builder, mesh: &mut Mesh, line: &[Point2], (dash, gap): (f64, f64), width: f64) {
+fn dashes(builder: &mut Builder<'_>, mesh: &mut Mesh, line: &[Point2], (dash, gap): (f64, f64), width: f64) {
     let length = polyline::length(line);
     let count = ((length + gap) / (dash + gap)).floor();
     let start = (length - count * (dash + gap) + gap) * 0.5;
@@ -174,11 +233,12 @@ fn dashes(builder: &mut Builder, mesh: &mut Mesh, line: &[Point2], (dash, gap): 
     }
 }
 
-fn elements(builder: &mut Builder, city: &City) -> Node {
+fn elements(builder: &mut Builder<'_>, city: &City) -> Node {
     let mut crowns = Mesh::default();
     let mut solids: BTreeMap<EntityKind, Mesh> = BTreeMap::new();
     for element in &city.elements {
         let mesh = solids.entry(element.kind).or_default();
+        builder.stand_on(Base::Level(builder.ground().height(element.position)));
         match element.kind {
             EntityKind::Tree => tree(builder, mesh, &mut crowns, element),
             _ => solid(builder, mesh, element),
@@ -190,7 +250,7 @@ fn elements(builder: &mut Builder, city: &City) -> Node {
     Node { name: "elements", parts }
 }
 
-fn tree(builder: &mut Builder, trunk: &mut Mesh, crowns: &mut Mesh, element: &Element) {
+fn tree(builder: &mut Builder<'_>, trunk: &mut Mesh, crowns: &mut Mesh, element: &Element) {
     let Shape::Cylinder { radius, height } = element.shape else {
         return solid(builder, trunk, element);
     };
@@ -198,7 +258,7 @@ fn tree(builder: &mut Builder, trunk: &mut Mesh, crowns: &mut Mesh, element: &El
     builder.crown(crowns, element.position, height * 0.3, (height * 0.35, height));
 }
 
-fn solid(builder: &mut Builder, mesh: &mut Mesh, element: &Element) {
+fn solid(builder: &mut Builder<'_>, mesh: &mut Mesh, element: &Element) {
     let height = element.shape.size().z;
     match element.shape {
         Shape::Cylinder { radius, .. } => builder.column(mesh, element.position, radius, (GROUND, height)),

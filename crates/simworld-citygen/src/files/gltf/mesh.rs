@@ -1,8 +1,13 @@
 //! Triangles: prisms, plates and ribbons, in metres, z up, about the middle of the city.
 
+use std::borrow::Cow;
+
 use earcut::Earcut;
 use simworld_core::geometry::{Point2, Vector2};
-use simworld_core::net::polyline;
+use simworld_core::id::RoadId;
+use simworld_core::net::{RoadNetwork, polyline};
+
+use crate::terrain::Ground;
 
 /// Triangles of one material, counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default)]
@@ -11,29 +16,86 @@ pub(super) struct Mesh {
     pub(super) indices: Vec<u32>,
 }
 
+/// What heights are measured from.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Base {
+    /// The ground below each point.
+    Ground,
+    /// A height above the ground level of the world, m: that of a floor, or of a junction.
+    Level(f64),
+    /// The carriageway of a bridge beside each point.
+    Deck(RoadId),
+}
+
 /// Adds shapes to meshes; keeps what the triangulation needs between shapes.
-pub(super) struct Builder {
+pub(super) struct Builder<'a> {
     origin: Point2,
+    network: &'a RoadNetwork,
+    ground: &'a Ground<'a>,
+    base: Base,
     earcut: Earcut<f64>,
     corners: Vec<[f64; 2]>,
     triangles: Vec<u32>,
 }
 
 impl Mesh {
-    fn vertex(&mut self, origin: Point2, point: Point2, z: f64) -> u32 {
-        let local = point - origin;
-        self.positions.push([local.x as f32, local.y as f32, z as f32]);
-        (self.positions.len() - 1) as u32
-    }
-
     fn quad(&mut self, a: u32, b: u32, c: u32, d: u32) {
         self.indices.extend([a, b, c, a, c, d]);
     }
 }
 
-impl Builder {
-    pub(super) fn at(origin: Point2) -> Self {
-        Self { origin, earcut: Earcut::new(), corners: Vec::new(), triangles: Vec::new() }
+impl<'a> Builder<'a> {
+    pub(super) fn at(origin: Point2, network: &'a RoadNetwork, ground: &'a Ground<'a>) -> Self {
+        let (corners, triangles) = (Vec::new(), Vec::new());
+        Self { origin, network, ground, base: Base::Ground, earcut: Earcut::new(), corners, triangles }
+    }
+
+    /// Measures the heights of what comes from there.
+    pub(super) fn stand_on(&mut self, base: Base) {
+        self.base = base;
+    }
+
+    /// What lies beside the lanes of a road, or on them, stands on this.
+    pub(super) fn stand_on_road(&mut self, road: RoadId) {
+        let is_deck = self.network.roads[road.index()].level > 0;
+        self.base = if is_deck { Base::Deck(road) } else { Base::Ground };
+    }
+
+    /// The ground of the city.
+    pub(super) const fn ground(&self) -> &'a Ground<'a> {
+        self.ground
+    }
+
+    fn vertex(&self, mesh: &mut Mesh, point: Point2, z: f64) -> u32 {
+        let base = match self.base {
+            Base::Ground => self.ground.height(point),
+            Base::Level(height) => height,
+            Base::Deck(road) => {
+                let line = &self.network.roads[road.index()].centerline;
+                let station = polyline::closest(line, &point).map_or(0.0, |near| near.station);
+                self.network.height(road, station)
+            }
+        };
+        let local = point - self.origin;
+        mesh.positions.push([local.x as f32, local.y as f32, (z + base) as f32]);
+        (mesh.positions.len() - 1) as u32
+    }
+
+    /// The line with points so near that it bends with a deck.
+    fn bent<'l>(&self, line: &'l [Point2]) -> Cow<'l, [Point2]> {
+        /// Greatest distance of two points on a deck, m.
+        const NEAR: f64 = 2.0;
+        if !matches!(self.base, Base::Deck(_)) || line.is_empty() {
+            return Cow::Borrowed(line);
+        }
+        let mut bent = vec![line[0]];
+        for pair in line.windows(2) {
+            let count = ((pair[1] - pair[0]).norm() / NEAR).ceil().max(1.0);
+            bent.extend(
+                (1..=count as u32).map(|part| pair[0] + (pair[1] - pair[0]) * (f64::from(part) / count)),
+            );
+        }
+        Cow::Owned(bent)
     }
 
     /// A level polygon that looks up, counter-clockwise or not, perhaps with a hole.
@@ -51,7 +113,7 @@ impl Builder {
         self.earcut.earcut_slice(&self.corners, &starts, &mut self.triangles);
         let first = mesh.positions.len() as u32;
         for point in outline.iter().chain(holes.iter().flatten()) {
-            mesh.vertex(self.origin, *point, z);
+            self.vertex(mesh, *point, z);
         }
         for triangle in self.triangles.chunks_exact(3) {
             let [a, b, c] = [triangle[0], triangle[1], triangle[2]];
@@ -67,8 +129,8 @@ impl Builder {
     pub(super) fn walls(&mut self, mesh: &mut Mesh, outline: &[Point2], low: f64, high: f64) {
         let first = mesh.positions.len() as u32;
         for point in outline {
-            mesh.vertex(self.origin, *point, low);
-            mesh.vertex(self.origin, *point, high);
+            self.vertex(mesh, *point, low);
+            self.vertex(mesh, *point, high);
         }
         let count = outline.len() as u32;
         for index in 0..count {
@@ -87,7 +149,7 @@ impl Builder {
     pub(super) fn face(&mut self, mesh: &mut Mesh, corners: &[(Point2, f64)]) {
         let first = mesh.positions.len() as u32;
         for (point, z) in corners {
-            mesh.vertex(self.origin, *point, *z);
+            self.vertex(mesh, *point, *z);
         }
         for index in 2..corners.len() as u32 {
             mesh.indices.extend([first, first + index - 1, first + index]);
@@ -104,9 +166,9 @@ impl Builder {
         let waist = low + (high - low) * 0.4;
         let first = mesh.positions.len() as u32;
         for corner in hexagon(at, radius) {
-            mesh.vertex(self.origin, corner, waist);
+            self.vertex(mesh, corner, waist);
         }
-        let (top, bottom) = (mesh.vertex(self.origin, at, high), mesh.vertex(self.origin, at, low));
+        let (top, bottom) = (self.vertex(mesh, at, high), self.vertex(mesh, at, low));
         for index in 0..6 {
             let (a, b) = (first + index, first + (index + 1) % 6);
             mesh.indices.extend([a, b, top, b, a, bottom]);
@@ -118,13 +180,19 @@ impl Builder {
         if line.len() < 2 {
             return;
         }
-        let first = mesh.positions.len() as u32;
-        let (left, right) = (polyline::offset(line, left), polyline::offset(line, -right));
-        for (left, right) in left.iter().zip(&right) {
-            mesh.vertex(self.origin, *right, z);
-            mesh.vertex(self.origin, *left, z);
+        let line = &*self.bent(line);
+        let (left, mut right) = (polyline::offset(line, left), polyline::offset(line, -right));
+        if left.len() != right.len() {
+            // In a bend too tight for it an edge has fewer points than the line.
+            right.extend(left.into_iter().rev());
+            return self.plate(mesh, &right, &[], z);
         }
-        for index in 0..line.len() as u32 - 1 {
+        let first = mesh.positions.len() as u32;
+        for (left, right) in left.iter().zip(&right) {
+            self.vertex(mesh, *right, z);
+            self.vertex(mesh, *left, z);
+        }
+        for index in 0..left.len() as u32 - 1 {
             let at = first + 2 * index;
             mesh.quad(at, at + 2, at + 3, at + 1);
         }
@@ -135,15 +203,17 @@ impl Builder {
         if line.len() < 2 {
             return;
         }
+        let line = &*self.bent(line);
         let half = width * 0.5;
         self.ribbon(mesh, line, (half, half), high);
         for (side, looks_left) in [(half, true), (-half, false)] {
             let first = mesh.positions.len() as u32;
-            for point in polyline::offset(line, side) {
-                mesh.vertex(self.origin, point, low);
-                mesh.vertex(self.origin, point, high);
+            let edge = polyline::offset(line, side);
+            for point in &edge {
+                self.vertex(mesh, *point, low);
+                self.vertex(mesh, *point, high);
             }
-            for index in 0..line.len() as u32 - 1 {
+            for index in 0..edge.len() as u32 - 1 {
                 let (a, b) = (first + 2 * index, first + 2 * index + 2);
                 if looks_left { mesh.quad(b, a, a + 1, b + 1) } else { mesh.quad(a, b, b + 1, a + 1) }
             }
@@ -165,7 +235,19 @@ fn hexagon(at: Point2, radius: f64) -> [Point2; 6] {
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::seed::Seed;
+
     use super::*;
+    use crate::terrain::{Terrain, TerrainConfig};
+
+    /// What a builder on level ground makes.
+    fn built(build: impl FnOnce(&mut Builder<'_>, &mut Mesh)) -> Mesh {
+        let (network, land) = (RoadNetwork::default(), Terrain::new(&TerrainConfig::default(), Seed(0)));
+        let ground = Ground::new(&network, &land);
+        let mut mesh = Mesh::default();
+        build(&mut Builder::at(Point2::origin(), &network, &ground), &mut mesh);
+        mesh
+    }
 
     fn volume(mesh: &Mesh) -> f64 {
         mesh.indices
@@ -182,11 +264,9 @@ mod tests {
     fn faces_look_outwards() {
         let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 3.0), (0.0, 3.0)].map(|(x, y)| Point2::new(x, y));
         // From the ground plane up, the open bottom adds nothing to the volume.
-        let mut mesh = Mesh::default();
-        Builder::at(Point2::origin()).prism(&mut mesh, &square, 0.0, 4.0);
+        let mesh = built(|builder, mesh| builder.prism(mesh, &square, 0.0, 4.0));
         assert!((volume(&mesh) - 24.0).abs() < 1e-4);
-        let mut mesh = Mesh::default();
-        Builder::at(Point2::origin()).crown(&mut mesh, Point2::new(5.0, 5.0), 1.0, (2.0, 5.0));
+        let mesh = built(|builder, mesh| builder.crown(mesh, Point2::new(5.0, 5.0), 1.0, (2.0, 5.0)));
         let hexagon = 1.5 * 3f64.sqrt();
         assert!((volume(&mesh) - hexagon * 3.0 / 3.0).abs() < 1e-4);
     }
@@ -194,8 +274,7 @@ mod tests {
     #[test]
     fn a_kerb_closes_on_both_sides() {
         let line = [Point2::new(0.0, 0.0), Point2::new(10.0, 0.0)];
-        let mut mesh = Mesh::default();
-        Builder::at(Point2::origin()).kerb(&mut mesh, &line, 2.0, (0.0, 0.5));
+        let mesh = built(|builder, mesh| builder.kerb(mesh, &line, 2.0, (0.0, 0.5)));
         // All but the two ends, which are 1 m² each and reach 10 m from the origin at the far one.
         assert!((volume(&mesh) - (10.0 - 10.0 / 3.0)).abs() < 1e-4, "{}", volume(&mesh));
     }

@@ -1,15 +1,17 @@
 //! The city as binary glTF 2.0 (GLB), for anything that shows 3D.
 //!
-//! One node a kind of thing, one mesh part a material: roads, junctions, sidewalks, crossings, markings, buildings by
+//! One node a kind of thing, one mesh part a material: roads, junctions, sidewalks, cycle lanes and medians, crossings, markings, buildings by
 //! use, roofs, street elements. Meshes have no normals, and so readers shade them flat, as the format says.
 //!
 //! glTF is y up: its x is our x (east), its y our z (up), its z our -y (south). the module `document` turns every vertex, and
 //! nothing else does. Vertices are `f32` about the middle of the city, which the root node puts back in its place.
 
+mod bridges;
 mod buildings;
 mod city;
 mod document;
 mod mesh;
+mod strips;
 
 use std::io::{self, Write};
 

@@ -67,9 +67,32 @@ fn straight(pieces: &mut Vec<Piece>, from: Point2, to: Point2) {
     }
 }
 
+/// The most that one cubic turns, radians.
+const MOST_TURN: f64 = 2.0;
+
+/// Cubics along a path that leaves and arrives in given directions, radians: one, unless the path winds as that round a
+/// turning circle does.
+pub(super) fn cubics(path: &[Point2], (leaves, arrives): (f64, f64)) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let (mut first, mut heading_before, mut turned) = (0, leaves, 0.0);
+    for index in 1..path.len().saturating_sub(1) {
+        let (before, after) = (path[index] - path[index - 1], path[index + 1] - path[index]);
+        turned += ops::atan2(before.perp(&after), before.dot(&after)).abs();
+        if turned > MOST_TURN {
+            let along = heading(&(before.normalize() + after.normalize()));
+            let part = &path[first..=index];
+            pieces.push(cubic(part, polyline::length(part), (heading_before, along)));
+            (first, heading_before, turned) = (index, along, 0.0);
+        }
+    }
+    let rest = &path[first..];
+    pieces.push(cubic(rest, polyline::length(rest), (heading_before, arrives)));
+    pieces
+}
+
 /// One cubic along a path that leaves and arrives in given directions, radians: of Hermite's cubics the one that passes
 /// nearest to the points of the path, by least squares over the lengths of its two tangents.
-pub(super) fn cubic(path: &[Point2], length: f64, (leaves, arrives): (f64, f64)) -> Piece {
+fn cubic(path: &[Point2], length: f64, (leaves, arrives): (f64, f64)) -> Piece {
     let (start, end) = (polyline::at(path, 0.0).0, polyline::at(path, length).0);
     let ahead = direction(leaves);
     let local = |v: Vector2| Vector2::new(v.dot(&ahead), ahead.perp(&v));

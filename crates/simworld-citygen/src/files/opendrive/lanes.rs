@@ -3,7 +3,9 @@
 use std::io::{self, Write};
 
 use simworld_core::id::LaneId;
-use simworld_core::net::{CrossSection, LaneDirection, LaneKind, LaneSpec, Road, RoadNetwork, polyline};
+use simworld_core::net::{
+    CrossSection, Lane, LaneDirection, LaneKind, LaneSpec, Road, RoadNetwork, polyline,
+};
 
 /// Which side traffic keeps to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +39,8 @@ pub(super) struct Layout {
     /// The numbers of the network's lanes, forward and backward, as the road lists them.
     forward: Vec<i32>,
     backward: Vec<i32>,
+    /// Those of the lanes for bicycles.
+    cycle: Vec<i32>,
 }
 
 impl Layout {
@@ -44,9 +48,17 @@ impl Layout {
         let strips = section.lanes.clone();
         let (rule, left) = divide(&strips);
         let offset = section.reference - strips[..left].iter().map(|strip| strip.width).sum::<f64>();
-        let mut layout = Self { strips, left, offset, rule, forward: Vec::new(), backward: Vec::new() };
-        layout.forward = layout.numbers(section, network, road, LaneDirection::Forward);
-        layout.backward = layout.numbers(section, network, road, LaneDirection::Backward);
+        let mut layout =
+            Self { strips, left, offset, rule, forward: Vec::new(), backward: Vec::new(), cycle: Vec::new() };
+        let numbers = |lanes: &[LaneId]| -> Vec<i32> {
+            let number_of = |lane: &LaneId| {
+                strip_of(section, network, road, *lane).map(|(index, _)| layout.number(index))
+            };
+            lanes.iter().map(|lane| number_of(lane).unwrap_or(-1)).collect()
+        };
+        let (forward, backward, cycle) =
+            (numbers(&road.forward), numbers(&road.backward), numbers(&road.cycle));
+        (layout.forward, layout.backward, layout.cycle) = (forward, backward, cycle);
         layout
     }
 
@@ -55,29 +67,12 @@ impl Layout {
         if index < self.left { (self.left - index) as i32 } else { -((index - self.left + 1) as i32) }
     }
 
-    /// The numbers of the network's lanes in a direction: each is the driven strip in whose middle it runs.
-    fn numbers(
-        &self,
-        section: &CrossSection,
-        network: &RoadNetwork,
-        road: &Road,
-        direction: LaneDirection,
-    ) -> Vec<i32> {
-        let lanes = if direction == LaneDirection::Forward { &road.forward } else { &road.backward };
-        let number_of = |lane: &LaneId| {
-            strip_of(section, network, road, *lane, direction).map_or(-1, |(index, _)| self.number(index))
-        };
-        lanes.iter().map(number_of).collect()
-    }
-
     /// The number of a lane of the road.
     pub(super) fn of_lane(&self, road: &Road, lane: LaneId) -> i32 {
         let rank = |lanes: &[LaneId]| lanes.iter().position(|other| *other == lane);
-        match (rank(&road.forward), rank(&road.backward)) {
-            (Some(rank), _) => self.forward[rank],
-            (None, Some(rank)) => self.backward[rank],
-            (None, None) => -1,
-        }
+        let numbers =
+            [(&road.forward, &self.forward), (&road.backward, &self.backward), (&road.cycle, &self.cycle)];
+        numbers.into_iter().find_map(|(lanes, numbers)| Some(numbers[rank(lanes)?])).unwrap_or(-1)
     }
 
     /// How far the lanes reach to the right of the reference line, m.
@@ -143,22 +138,22 @@ impl Layout {
     }
 }
 
-/// The strip of a lane and the offset of its middle from the centreline, positive to the left, m: the driven strip of its
-/// direction nearest to the middle of its path.
+/// The strip of a lane and the offset of its middle from the centreline, positive to the left, m: the strip of its kind
+/// and direction nearest to the middle of its path.
 pub(super) fn strip_of(
     section: &CrossSection,
     network: &RoadNetwork,
     road: &Road,
     lane: LaneId,
-    direction: LaneDirection,
 ) -> Option<(usize, f64)> {
-    let path = &network.lanes[lane.index()].path;
+    let Lane { path, kind, from, .. } = &network.lanes[lane.index()];
+    let against = if *from == road.from { LaneDirection::Backward } else { LaneDirection::Forward };
     let (middle, _) = polyline::at(path, polyline::length(path) * 0.5);
     let lateral = polyline::closest(&road.centerline, &middle).map_or(0.0, |near| near.lateral);
     let strips = section.strips().enumerate();
-    let driven = strips.filter(|(_, (_, strip))| strip.kind.is_driven() && strip.direction == direction);
+    let own = strips.filter(|(_, (_, strip))| strip.kind == *kind && strip.direction != against);
     let away = |middle: f64| (middle - lateral).abs();
-    let nearest = driven.min_by(|a, b| away(a.1.0).total_cmp(&away(b.1.0)));
+    let nearest = own.min_by(|a, b| away(a.1.0).total_cmp(&away(b.1.0)));
     nearest.map(|(index, (offset, _))| (index, offset))
 }
 

@@ -9,6 +9,7 @@
 //! Source: ASAM OpenDRIVE 1.7.0, chapters 7 to 14. A city that lies somewhere on Earth has a `geoReference`, a
 //! transverse Mercator projection about its origin, which departs from the city's own plane by less than its own error.
 
+mod elevation;
 mod geometry;
 mod junctions;
 mod lanes;

@@ -3,10 +3,10 @@
 use std::io::{self, Write};
 
 use simworld_core::geometry::direction as direction_of;
-use simworld_core::net::{CrossSection, LaneDirection, Road, RoadClass, RoadNetwork, polyline};
+use simworld_core::net::{CrossSection, Lane, LaneDirection, Road, RoadClass, RoadNetwork, polyline};
 
 use super::lanes::strip_of;
-use super::{Roads, geometry};
+use super::{Roads, elevation, geometry};
 use crate::files::xml::escaped;
 
 /// Where lanes begin and end along the centreline, m.
@@ -18,7 +18,7 @@ pub(super) fn stops(section: &CrossSection, network: &RoadNetwork, road: &Road) 
     let path = &network.lanes[lane.index()].path;
     let path = if direction == LaneDirection::Forward { path.clone() } else { polyline::reversed(path) };
     // A lane ends square to the centreline: its end moved back by its offset lies on the line, even beside a bend.
-    let offset = strip_of(section, network, road, lane, direction).map_or(0.0, |(_, offset)| offset);
+    let offset = strip_of(section, network, road, lane).map_or(0.0, |(_, offset)| offset);
     let station = |station: f64, otherwise: f64| {
         let (point, along) = polyline::at(&path, station);
         let left = direction_of(along + std::f64::consts::FRAC_PI_2) * offset;
@@ -57,7 +57,7 @@ impl Roads<'_> {
         let limit = lanes.map(|lane| self.network.lanes[lane.index()].speed_limit).fold(0.0, f64::max);
         writeln!(out, r#"<type s="0" type="{kind}"><speed max="{limit:.3}" unit="m/s"/></type>"#)?;
         geometry::write(&line, out)?;
-        writeln!(out, r#"<elevationProfile><elevation s="0" a="0" b="0" c="0" d="0"/></elevationProfile>"#)?;
+        elevation::write(&elevation::along(self.network, index, (begin, end)), geometry::length(&line), out)?;
         layout.write(out)?;
         self.signals_of(index, geometry::length(&line), out)?;
         writeln!(out, "</road>")
@@ -71,7 +71,7 @@ impl Roads<'_> {
         // It leaves as the one lane ends and arrives as the other begins.
         let headings =
             (polyline::at(&from.path, polyline::length(&from.path)).1, polyline::at(&to.path, 0.0).1);
-        let line = [geometry::cubic(&connection.path, connection.length, headings)];
+        let line = geometry::cubics(&connection.path, headings);
         let length = geometry::length(&line);
         let rule = self.layouts[from.road.index()].rule.as_str();
         writeln!(
@@ -82,7 +82,8 @@ impl Roads<'_> {
         )?;
         let contact = |along: bool| if along { ("end", "start") } else { ("start", "end") };
         let goes_along = |lane: simworld_core::id::LaneId| {
-            network.roads[network.lanes[lane.index()].road.index()].forward.contains(&lane)
+            let Lane { road, from, .. } = network.lanes[lane.index()];
+            network.roads[road.index()].from == from
         };
         let (leaves, enters) = (contact(goes_along(connection.from)).0, contact(goes_along(connection.to)).1);
         writeln!(
@@ -91,7 +92,9 @@ impl Roads<'_> {
             from.road.0, to.road.0
         )?;
         geometry::write(&line, out)?;
-        writeln!(out, r#"<elevationProfile><elevation s="0" a="0" b="0" c="0" d="0"/></elevationProfile>"#)?;
+        let heights = elevation::between(network, connection);
+        elevation::write(&[(0.0, heights[0]), (1.0, heights[1])], length, out)?;
+        let kind = if from.is_driven() { "driving" } else { "biking" };
         // One lane on the right of its left edge, about the path; its width goes from one lane's to the other's.
         let slope = (to.width - from.width) / length.max(1e-6);
         let number = |lane, road: simworld_core::id::RoadId| {
@@ -99,7 +102,7 @@ impl Roads<'_> {
         };
         writeln!(
             out,
-            r#"<lanes><laneOffset s="0" a="{:.6}" b="{:.9}" c="0" d="0"/><laneSection s="0"><center><lane id="0" type="none" level="false"/></center><right><lane id="-1" type="driving" level="false"><link><predecessor id="{}"/><successor id="{}"/></link><width sOffset="0" a="{:.6}" b="{slope:.9}" c="0" d="0"/></lane></right></laneSection></lanes>"#,
+            r#"<lanes><laneOffset s="0" a="{:.6}" b="{:.9}" c="0" d="0"/><laneSection s="0"><center><lane id="0" type="none" level="false"/></center><right><lane id="-1" type="{kind}" level="false"><link><predecessor id="{}"/><successor id="{}"/></link><width sOffset="0" a="{:.6}" b="{slope:.9}" c="0" d="0"/></lane></right></laneSection></lanes>"#,
             from.width * 0.5,
             slope * 0.5,
             number(connection.from, from.road),

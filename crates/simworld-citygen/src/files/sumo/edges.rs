@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{IntersectionId, LaneId, RoadId};
-use simworld_core::net::{LaneKind, Road, RoadClass, RoadNetwork, Side, Sidewalk, polyline};
+use simworld_core::net::{Lane, LaneKind, Road, RoadClass, RoadNetwork, Side, Sidewalk, polyline};
 
 use crate::files::xml::{Shape, Two, escaped};
 
@@ -32,7 +32,7 @@ impl Edges {
         for (index, road) in network.roads.iter().enumerate() {
             for direction in [Direction::Along, Direction::Against] {
                 let first = usize::from(sidewalk(network, RoadId::from_index(index), direction).is_some());
-                for (rank, lane) in lanes(road, direction).iter().rev().enumerate() {
+                for (rank, lane) in lanes(network, road, direction).iter().rev().enumerate() {
                     ranks[lane.index()] = first + rank;
                 }
             }
@@ -84,7 +84,8 @@ impl Edges {
             Direction::Against => polyline::reversed(&walk.path),
         });
         // All lanes of an edge have the length of its lanes for vehicles, as SUMO wants it.
-        let length = lanes(road, direction)
+        let own = lanes(network, road, direction);
+        let length = own
             .last()
             .map(|lane| network.lanes[lane.index()].length)
             .or(walk_path.as_deref().map(polyline::length))
@@ -100,7 +101,7 @@ impl Edges {
                 Shape(&path)
             )?;
         }
-        self.write_lanes(network, lanes(road, direction), (&edge, length), out)?;
+        self.write_lanes(network, &own, (&edge, length), out)?;
         writeln!(out, "</edge>")
     }
 
@@ -134,8 +135,8 @@ impl Edges {
 
 /// The edge of a lane.
 pub(super) fn edge_of(network: &RoadNetwork, lane: LaneId) -> String {
-    let road = network.lanes[lane.index()].road;
-    let along = network.roads[road.index()].forward.contains(&lane);
+    let Lane { road, from, .. } = network.lanes[lane.index()];
+    let along = network.roads[road.index()].from == from;
     edge_name(road, if along { Direction::Along } else { Direction::Against })
 }
 
@@ -147,12 +148,14 @@ pub(super) fn edge_name(road: RoadId, direction: Direction) -> String {
     }
 }
 
-/// Lanes in a direction, from the middle outwards: from left to right.
-pub(super) fn lanes(road: &Road, direction: Direction) -> &[LaneId] {
-    match direction {
-        Direction::Along => &road.forward,
-        Direction::Against => &road.backward,
-    }
+/// Lanes in a direction, from the middle outwards: from left to right, those for bicycles last.
+pub(super) fn lanes(network: &RoadNetwork, road: &Road, direction: Direction) -> Vec<LaneId> {
+    let (driven, leaves) = match direction {
+        Direction::Along => (&road.forward, road.from),
+        Direction::Against => (&road.backward, road.to),
+    };
+    let cycle = road.cycle.iter().filter(|lane| network.lanes[lane.index()].from == leaves);
+    driven.iter().chain(cycle).copied().collect()
 }
 
 /// The sidewalk on the right of a direction.
@@ -166,7 +169,8 @@ pub(super) fn sidewalk(network: &RoadNetwork, road: RoadId, direction: Direction
 
 /// Whether a road is an edge in a direction: somebody drives or walks there.
 pub(super) fn exists(network: &RoadNetwork, road: RoadId, direction: Direction) -> bool {
-    !lanes(&network.roads[road.index()], direction).is_empty() || sidewalk(network, road, direction).is_some()
+    !lanes(network, &network.roads[road.index()], direction).is_empty()
+        || sidewalk(network, road, direction).is_some()
 }
 
 /// The direction in which a road leaves an intersection; the other one arrives.

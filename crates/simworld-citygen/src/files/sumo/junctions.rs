@@ -178,7 +178,7 @@ impl Junction {
             if sidewalk(network, *road, direction).is_some() {
                 lanes.push(format!("{edge}_0"));
             }
-            for lane in super::edges::lanes(&network.roads[road.index()], direction).iter().rev() {
+            for lane in super::edges::lanes(network, &network.roads[road.index()], direction).iter().rev() {
                 lanes.push(format!("{edge}_{}", edges.rank(*lane)));
             }
         }
