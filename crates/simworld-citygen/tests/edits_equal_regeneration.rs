@@ -132,7 +132,7 @@ fn what_an_edit_does_not_touch_stays() {
     let touched = undo.buildings.set.len();
     assert!(touched > 0 && touched * 5 < before.buildings.len(), "{touched} of {}", before.buildings.len());
     let at = before.network.intersections[before.network.roads[road].from.index()].center;
-    let far = |building: &&Building| (building.center - at).norm() > 1500.0;
+    let far = |building: &&Building| (building.center - at).norm() > 800.0;
     let after = editor.city();
     let mut kept = 0;
     for building in before.buildings.iter().filter(far) {

@@ -12,6 +12,7 @@
 mod cells;
 mod error;
 mod faces;
+mod in_world;
 mod index;
 mod patch;
 mod streets;
@@ -26,6 +27,7 @@ use simworld_core::id::{IntersectionId, RoadId};
 use simworld_core::net::{CrossSection, RoadClass, Street, TurnLanes};
 
 pub use error::EditError;
+pub use in_world::{CityInWorld, FollowError, Followed};
 pub use patch::{CityPatch, PlanPatch};
 
 use crate::City;

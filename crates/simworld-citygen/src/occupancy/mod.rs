@@ -5,6 +5,7 @@
 //! their outlines are sorted out by their bounds. The narrow phase is the separating-axis test on the outlines themselves.
 
 mod roads;
+pub(crate) use roads::intersection_walk;
 mod slots;
 
 use simworld_core::geometry::{Obb, Point2, Vector2};

@@ -58,7 +58,7 @@ impl Occupancy {
 }
 
 /// Width of the walkways round the corners of an intersection, m: that of the narrowest sidewalk that meets there.
-fn intersection_walk(network: &RoadNetwork, roads: &[RoadId]) -> f64 {
+pub(crate) fn intersection_walk(network: &RoadNetwork, roads: &[RoadId]) -> f64 {
     let sides =
         roads.iter().flat_map(|road| [Side::Left, Side::Right].map(|side| network.sidewalk(*road, side)));
     let least = sides.flatten().map(|sidewalk| sidewalk.width).fold(f64::INFINITY, f64::min);

@@ -1,9 +1,8 @@
 //! Bridges as entities: decks that one drives and walks over, parapets, abutments and piers. One passes below between them.
 
 use simworld_core::geometry::{Point2, Vector2};
-use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
-use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
+use simworld_core::scene::{EntityDesc, EntityKind, Shape};
 
 use super::{GROUND_TOP, LAYER, Parts, ROAD_TOP, SIDEWALK_TOP};
 use crate::decks::{Bridge, Span, bridges};
@@ -20,43 +19,33 @@ const PIER: (f64, f64) = (1.2, 0.6);
 const JOINT: f64 = 0.05;
 
 impl Parts<'_> {
-    pub(super) fn spawn_bridges(
-        &self,
-        world: &mut World,
-        spawned: &mut Vec<EntityId>,
-    ) -> Result<(), WorldError> {
+    pub(super) fn bridges(&self, descs: &mut Vec<EntityDesc>) {
         for bridge in bridges(self.network, self.heights).iter().filter(|bridge| self.has_road(bridge.road)) {
-            self.spawn_bridge(bridge, world, spawned)?;
+            self.bridge(bridge, descs);
         }
-        Ok(())
     }
 
-    fn spawn_bridge(
-        &self,
-        bridge: &Bridge,
-        world: &mut World,
-        spawned: &mut Vec<EntityId>,
-    ) -> Result<(), WorldError> {
+    fn bridge(&self, bridge: &Bridge, descs: &mut Vec<EntityDesc>) {
         let road = &self.network.roads[bridge.road.index()];
         let (left, right) = bridge.sides;
         for span in &bridge.spans {
             let mut add = |kind, sides, top, thickness| {
-                world.spawn(beam(kind, span, sides, (top, thickness))).map(|id| spawned.push(id))
+                descs.push(beam(kind, span, sides, (top, thickness)));
             };
-            add(EntityKind::Road, (left, -right), ROAD_TOP, LAYER)?;
+            add(EntityKind::Road, (left, -right), ROAD_TOP, LAYER);
             // Surfaces are flat: it is the deck below that bears.
             if span.is_raised() {
-                add(EntityKind::Prop, (left, -right), GROUND_TOP, DECK)?;
+                add(EntityKind::Prop, (left, -right), GROUND_TOP, DECK);
             }
             for walk in bridge.walks(road) {
-                add(EntityKind::Sidewalk, walk, SIDEWALK_TOP, LAYER)?;
+                add(EntityKind::Sidewalk, walk, SIDEWALK_TOP, LAYER);
             }
             if span.is_carried() && span.is_on_ground() {
                 // Down to the lower end of the ground, as thick as it is high.
                 let high = (0..2).map(|end| span.heights[end] - span.ground[end]).fold(0.0, f64::max);
                 if high > DECK + 0.05 {
                     let (inner, depth) = (0.1, high - DECK + 0.2);
-                    add(EntityKind::Prop, (left - inner, inner - right), ROAD_TOP - DECK, depth)?;
+                    add(EntityKind::Prop, (left - inner, inner - right), ROAD_TOP - DECK, depth);
                 }
             }
             let station =
@@ -67,8 +56,8 @@ impl Parts<'_> {
                 .all(|end| (bridge.between.0 - 1e-6..=bridge.between.1 + 1e-6).contains(&station(*end)));
             if span.is_carried() && is_between {
                 let (height, width) = PARAPET;
-                add(EntityKind::Prop, (left, left - width), SIDEWALK_TOP + height, height)?;
-                add(EntityKind::Prop, (width - right, -right), SIDEWALK_TOP + height, height)?;
+                add(EntityKind::Prop, (left, left - width), SIDEWALK_TOP + height, height);
+                add(EntityKind::Prop, (width - right, -right), SIDEWALK_TOP + height, height);
             }
         }
         for pier in &bridge.piers {
@@ -81,9 +70,8 @@ impl Parts<'_> {
             pose.translation.z = foot;
             let size = box_.half_extents * 2.0;
             let shape = Shape::cuboid(size.x, size.y, (top - foot).max(0.1));
-            spawned.push(world.spawn(EntityDesc::new(EntityKind::Prop, pose, shape))?);
+            descs.push(EntityDesc::new(EntityKind::Prop, pose, shape));
         }
-        Ok(())
     }
 }
 

@@ -2,18 +2,20 @@
 
 mod assets;
 mod bridges;
+mod scope;
 
 use std::sync::Arc;
 
 use assets::Assets;
+pub(crate) use scope::{Scope, Touched};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
-use simworld_core::id::{AssetId, EntityId, RoadId};
-use simworld_core::net::{Crossing, DrivingSide, RoadNetwork, Side};
+use simworld_core::id::{AssetId, EntityId};
+use simworld_core::net::{Crossing, DrivingSide, RoadNetwork};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
 
 use crate::City;
 use crate::building::Building;
-use crate::element::{Element, Extent};
+use crate::element::Element;
 use crate::strips::{lane_reach, strip};
 use crate::terrain::Ground;
 
@@ -30,7 +32,7 @@ const POST_SETBACK: f64 = 0.35;
 const PLATE: f64 = 30.0;
 const PLATE_TOP: f64 = -0.35;
 /// Ground beyond the outermost street, m.
-const MARGIN: f64 = 120.0;
+pub(crate) const MARGIN: f64 = 120.0;
 
 /// The entities that a city became.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -62,7 +64,7 @@ impl City {
             network: &self.network,
             buildings: &self.buildings,
             elements: &self.elements,
-            within: None,
+            scope: Scope::All,
             ground: self.network.bounds(),
             margin: MARGIN,
         };
@@ -92,8 +94,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) network: &'a RoadNetwork,
     pub(crate) buildings: &'a [Building],
     pub(crate) elements: &'a [Element],
-    /// The part of the network that is meant; all of it if nothing is said.
-    pub(crate) within: Option<&'a Extent>,
+    /// The part of the network that is meant.
+    pub(crate) scope: Scope<'a>,
     /// The rectangle of the ground, least and greatest corner, and how far the ground goes on beyond it, m.
     pub(crate) ground: Option<(Point2, Point2)>,
     pub(crate) margin: f64,
@@ -104,75 +106,84 @@ impl Parts<'_> {
     pub(crate) fn spawn(&self, world: &mut World) -> Result<CityEntities, WorldError> {
         let mut assets = Assets::new();
         let mut entities = CityEntities::default();
-        self.spawn_surfaces(world, &mut entities.surfaces)?;
+        for desc in self.surfaces() {
+            entities.surfaces.push(world.spawn(desc)?);
+        }
         for building in self.buildings {
-            let mut solids = building.solids();
-            let Some(front) = solids.next() else { continue };
             let asset = assets.of_building(building.archetype, world)?;
-            // Its threshold is level with the sidewalk.
-            let base = self.heights.height(building.access);
-            entities.buildings.push(world.spawn(lifted(describe_building(building, &front, asset), base))?);
+            let mut solids = self.building(building, asset).into_iter();
+            let Some(front) = solids.next() else { continue };
+            entities.buildings.push(world.spawn(front)?);
             for wing in solids {
-                entities.wings.push(world.spawn(lifted(describe_solid(building, &wing, asset), base))?);
+                entities.wings.push(world.spawn(wing)?);
             }
         }
         for element in self.elements {
-            let mut desc = describe_element(element);
-            desc.info.asset = assets.of_kind(element.kind, world)?;
-            let desc = lifted(desc, self.heights.height(element.position));
-            entities.elements.push(world.spawn(desc)?);
+            let asset = assets.of_kind(element.kind, world)?;
+            entities.elements.push(world.spawn(self.element(element, asset))?);
         }
-        for crossing in self.crossings().filter(|crossing| crossing.signal.is_some()) {
-            let mut desc = describe_signal(crossing, self.network.driving_side);
-            desc.info.asset = assets.of_kind(EntityKind::TrafficSignal, world)?;
-            let at = desc.pose.translation.vector.xy();
-            let desc = lifted(desc, self.heights.height(at.into()));
+        let asset = assets.of_kind(EntityKind::TrafficSignal, world)?;
+        for desc in self.signals(asset) {
             entities.signals.push(world.spawn(desc)?);
         }
         Ok(entities)
     }
 
-    fn has_road(&self, road: RoadId) -> bool {
-        self.within.is_none_or(|extent| road.index() < extent.streets)
+    /// All of it as recipes of entities, but for the ground.
+    pub(crate) fn describe(&self, world: &mut World) -> Result<Vec<EntityDesc>, WorldError> {
+        let mut assets = Assets::new();
+        let mut descs = self.surfaces();
+        for building in self.buildings {
+            let asset = assets.of_building(building.archetype, world)?;
+            descs.extend(self.building(building, asset));
+        }
+        for element in self.elements {
+            let asset = assets.of_kind(element.kind, world)?;
+            descs.push(self.element(element, asset));
+        }
+        let asset = assets.of_kind(EntityKind::TrafficSignal, world)?;
+        descs.extend(self.signals(asset));
+        Ok(descs)
     }
 
-    fn has_side(&self, road: RoadId, side: Side) -> bool {
-        self.within.is_none_or(|extent| extent.has_side(road, side))
-    }
-
-    fn crossings(&self) -> impl Iterator<Item = &Crossing> {
-        self.network.crossings.iter().filter(|crossing| self.has_road(crossing.road))
-    }
-
-    /// The walkways along streets and round corners.
-    fn walkways(&self) -> impl Iterator<Item = &Vec<Point2>> {
-        // Decks carry their own.
-        let on_ground = |road: RoadId| self.network.roads[road.index()].level <= 0;
-        let along = self.network.sidewalks.iter();
-        let along = along.filter(move |walk| self.has_side(walk.road, walk.side) && on_ground(walk.road));
-        let corners = self.network.intersections.iter().enumerate().flat_map(move |(index, place)| {
-            let meant = move |rank: usize| {
-                place.roads.get(rank).is_none_or(|road| {
-                    // A corner begins on the left of its road, seen from the intersection.
-                    let leaves = self.network.roads[road.index()].from.index() == index;
-                    self.has_side(*road, if leaves { Side::Left } else { Side::Right })
-                })
-            };
-            place.corners.iter().enumerate().filter(move |(rank, _)| meant(*rank)).map(|(_, corner)| corner)
+    /// The solids of a building, the one with the entrance first.
+    fn building(&self, building: &Building, asset: AssetId) -> Vec<EntityDesc> {
+        // Its threshold is level with the sidewalk.
+        let base = self.heights.height(building.access);
+        let solids = building.solids().enumerate().map(|(rank, solid)| match rank {
+            0 => describe_building(building, &solid, asset),
+            _ => describe_solid(building, &solid, asset),
         });
-        along.map(|walk| &walk.path).chain(corners)
+        solids.map(|desc| lifted(desc, base)).collect()
+    }
+
+    fn element(&self, element: &Element, asset: Option<AssetId>) -> EntityDesc {
+        let mut desc = describe_element(element);
+        desc.info.asset = asset;
+        lifted(desc, self.heights.height(element.position))
+    }
+
+    fn signals(&self, asset: Option<AssetId>) -> Vec<EntityDesc> {
+        let signalled = self.crossings().filter(|crossing| crossing.signal.is_some());
+        let described = signalled.map(|crossing| {
+            let mut desc = describe_signal(crossing, self.network.driving_side);
+            desc.info.asset = asset;
+            let at = desc.pose.translation.vector.xy();
+            lifted(desc, self.heights.height(at.into()))
+        });
+        described.collect()
     }
 
     /// One level plate, or many that follow the hills.
-    fn spawn_ground(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
-        let Some((low, high)) = self.ground else { return Ok(()) };
+    fn ground(&self, descs: &mut Vec<EntityDesc>) {
+        let Some((low, high)) = self.ground else { return };
         if self.heights.is_level() {
             let middle = (low.y + high.y) * 0.5;
             let (a, b) = (Point2::new(low.x, middle), Point2::new(high.x, middle));
             let half = (high.y - low.y) * 0.5 + self.margin;
             let stripe = Stripe { a, b, half, extend: self.margin };
-            spawned.push(world.spawn(layer(EntityKind::Ground, &stripe, GROUND_TOP))?);
-            return Ok(());
+            descs.push(layer(EntityKind::Ground, &stripe, GROUND_TOP));
+            return;
         }
         let margin = Vector2::repeat(self.margin);
         let (low, high) = (low - margin, high + margin);
@@ -181,16 +192,11 @@ impl Parts<'_> {
             let y = low.y + (f64::from(row) + 0.5) * PLATE;
             for column in 0..count.x as u32 {
                 let x = low.x + f64::from(column) * PLATE;
-                let stripe = Stripe {
-                    a: Point2::new(x, y),
-                    b: Point2::new(x + PLATE, y),
-                    half: PLATE * 0.5,
-                    extend: 0.0,
-                };
-                spawned.push(world.spawn(self.layer(EntityKind::Ground, &stripe, PLATE_TOP))?);
+                let (a, b) = (Point2::new(x, y), Point2::new(x + PLATE, y));
+                let stripe = Stripe { a, b, half: PLATE * 0.5, extend: 0.0 };
+                descs.push(self.layer(EntityKind::Ground, &stripe, PLATE_TOP));
             }
         }
-        Ok(())
     }
 
     /// A flat layer along a line, which rises as the ground does from one end to the other.
@@ -214,43 +220,38 @@ impl Parts<'_> {
         desc
     }
 
-    fn spawn_surfaces(&self, world: &mut World, spawned: &mut Vec<EntityId>) -> Result<(), WorldError> {
-        self.spawn_ground(world, spawned)?;
-        for (index, road) in self.network.roads.iter().enumerate() {
-            if !self.has_road(RoadId::from_index(index)) || road.level > 0 {
-                continue;
-            }
+    /// Ground, roads, bridges, crosswalks and sidewalks.
+    fn surfaces(&self) -> Vec<EntityDesc> {
+        let mut descs = Vec::new();
+        self.ground(&mut descs);
+        for (_, road) in self.roads().filter(|(_, road)| road.level <= 0) {
             let half = lane_reach(road);
             // Beyond its ends a road reaches as far as it is wide, and so covers its junctions.
             for piece in road.centerline.windows(2) {
                 let stripe = Stripe { a: piece[0], b: piece[1], half, extend: half };
-                spawned.push(world.spawn(self.layer(EntityKind::Road, &stripe, ROAD_TOP))?);
+                descs.push(self.layer(EntityKind::Road, &stripe, ROAD_TOP));
             }
         }
-        self.spawn_bridges(world, spawned)?;
-        for place in &self.network.intersections {
-            let Some(circle) = place.turning.filter(|_| place.roads.iter().all(|road| self.has_road(*road)))
-            else {
-                continue;
-            };
+        self.bridges(&mut descs);
+        for place in self.intersections() {
+            let Some(circle) = place.turning else { continue };
             let pose = pose_facing(Point3::new(circle.center.x, circle.center.y, ROAD_TOP - LAYER), 0.0);
             let disc = Shape::Cylinder { radius: circle.radius, height: LAYER };
             let desc = EntityDesc::new(EntityKind::Road, pose, disc);
-            spawned.push(world.spawn(lifted(desc, self.heights.height(place.center)))?);
+            descs.push(lifted(desc, self.heights.height(place.center)));
         }
         for crossing in self.crossings() {
             let stripe =
                 Stripe { a: crossing.start, b: crossing.end, half: crossing.width * 0.5, extend: 0.0 };
-            spawned.push(world.spawn(self.layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP))?);
+            descs.push(self.layer(EntityKind::Crosswalk, &stripe, CROSSWALK_TOP));
         }
-        let width = self.network.sidewalks.first().map_or(0.0, |sidewalk| sidewalk.width);
-        for path in self.walkways() {
+        for (path, width) in self.walkways() {
             for piece in path.windows(2).filter(|piece| (piece[1] - piece[0]).norm() > 0.01) {
                 let stripe = Stripe { a: piece[0], b: piece[1], half: width * 0.5, extend: 0.0 };
-                spawned.push(world.spawn(self.layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP))?);
+                descs.push(self.layer(EntityKind::Sidewalk, &stripe, SIDEWALK_TOP));
             }
         }
-        Ok(())
+        descs
     }
 }
 

@@ -14,7 +14,7 @@ use crate::building::{self, Building};
 use crate::element::{self, Element, Extent, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
-use crate::populate::Parts;
+use crate::populate::{Parts, Scope};
 use crate::terrain::{Ground, Terrain, TerrainConfig};
 use crate::zoning::Zoning;
 use crate::{CityEntities, CityError};
@@ -87,7 +87,7 @@ impl Tile {
             network: &self.network,
             buildings: &self.buildings,
             elements: &self.elements,
-            within: Some(&self.extent),
+            scope: Scope::Tile(&self.extent),
             ground: Some(self.square),
             margin: 0.0,
         };
