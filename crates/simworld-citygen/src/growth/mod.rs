@@ -96,7 +96,7 @@ impl<'a> Growth<'a> {
             field: Field::new(config, radius, seed),
             fabric: Fabric::around(Point2::origin(), radius, config.length, config.count as usize),
             fitter: Fitter::default(),
-            queue: Queue::default(),
+            queue: Queue::new(1.0),
             revivals: attempts(config),
             standing: 0,
             wanted: config.count as usize,

@@ -2,7 +2,7 @@
 
 use super::proposal::Proposal;
 
-/// Costs beyond this count the same.
+/// More buckets than this are not made: what costs more counts the same.
 const MOST: f64 = 1e6;
 
 /// An end that waits to grow.
@@ -15,21 +15,27 @@ pub(super) struct End {
     pub(super) proposal: Proposal,
 }
 
-/// A priority queue of buckets: an end of the least cost, in whole steps, leaves first; of those, the youngest.
+/// A priority queue of buckets: an end of the least cost, in steps of some size, leaves first; of those, the youngest.
 ///
 /// Ends that are proposed one after the other lie near each other, and so they leave one after the other: what growth
 /// looks at is in the caches still. By exact cost it would go to and fro across the whole edge of the town.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Queue {
+    steps_per_cost: f64,
     buckets: Vec<Vec<End>>,
     /// No bucket before this one holds any.
     first: usize,
 }
 
 impl Queue {
+    /// An empty queue that tells so many steps of cost from one unit of it to the next.
+    pub(super) fn new(steps_per_cost: f64) -> Self {
+        Self { steps_per_cost, buckets: Vec::new(), first: 0 }
+    }
+
     /// Puts in an end with a cost; what is below zero counts as zero.
     pub(super) fn push(&mut self, cost: f64, end: End) {
-        let bucket = cost.min(MOST) as usize;
+        let bucket = (cost * self.steps_per_cost).min(MOST) as usize;
         if bucket >= self.buckets.len() {
             self.buckets.resize_with(bucket + 1, Vec::new);
         }
@@ -59,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ends_leave_by_whole_cost() {
+    fn ends_leave_by_steps_of_cost() {
         let end = |steps: f64| {
             let proposal = Proposal {
                 from: Start::Node(0),
@@ -70,13 +76,13 @@ mod tests {
             };
             End { steps, heading: 0.0, proposal }
         };
-        let mut queue = Queue::default();
-        for (number, cost) in [3.0, 1.5, 0.5, 1e9, 1.2].into_iter().enumerate() {
+        let mut queue = Queue::new(2.0);
+        for (number, cost) in [1.5, 0.75, 0.25, 1e9, 0.6].into_iter().enumerate() {
             queue.push(cost, end(number as f64));
         }
         let mut left: Vec<f64> = (0..2).filter_map(|_| queue.pop()).map(|end| end.steps).collect();
         // One that costs less than those that left already.
-        queue.push(0.1, end(5.0));
+        queue.push(0.05, end(5.0));
         left.extend(std::iter::from_fn(|| queue.pop()).map(|end| end.steps));
         assert_eq!(left, [2.0, 4.0, 5.0, 1.0, 0.0, 3.0]);
         assert!(queue.pop().is_none());

@@ -77,7 +77,8 @@ impl<'a> Growth<'a> {
             field: Field::endless(config, fields),
             fabric,
             fitter: Fitter::default(),
-            queue: Queue::default(),
+            // What is near is all there is: costs are told apart finely.
+            queue: Queue::new(32.0),
             revivals: 0,
             standing: 0,
             wanted: usize::MAX,

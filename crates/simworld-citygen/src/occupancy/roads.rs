@@ -19,7 +19,8 @@ impl Occupancy {
 
     /// The land that some of the roads take: those on the ground.
     pub(crate) fn of_roads_where(network: &RoadNetwork, counts: impl Fn(RoadId) -> bool) -> Self {
-        let mut taken = Self::with_capacity(network.roads.len() * 6);
+        // A bent street is some twenty strips; houses will come.
+        let mut taken = Self::with_capacity(network.roads.len() * 16);
         for (index, road) in network.roads.iter().enumerate() {
             let id = RoadId::from_index(index);
             if !counts(id) {
@@ -78,11 +79,12 @@ fn add_path(taken: &mut Occupancy, path: &[Point2], left: f64, right: f64) {
         for step in 0..count as u32 {
             let at = |share: f64| pair[0] + along * (share / count);
             let (start, end) = (at(f64::from(step)), at(f64::from(step) + 1.0));
+            // Across the street first: by that side most of what is near turns out to be beside it.
             taken.add(&[
-                start - across * right,
                 end - across * right,
                 end + across * left,
                 start + across * left,
+                start - across * right,
             ]);
         }
     }
