@@ -100,7 +100,8 @@ impl TileConfig {
                     length_variation: 0.6,
                     bow: 0.2,
                     bends: 1.0,
-                    branching: 0.24,
+                    branching: 0.2,
+                    continuation: 0.6,
                     ..roads
                 },
             ),
