@@ -32,7 +32,8 @@ fn any_edit(city: &City, rng: &mut StreamRng) -> CityEdit {
         2 => {
             // Out into the open, from anywhere.
             let from = middle(rng.below(roads.len()));
-            let away = simworld_core::geometry::direction(rng.uniform(0.0, 6.28)) * rng.uniform(40.0, 160.0);
+            let away = simworld_core::geometry::direction(rng.uniform(0.0, std::f64::consts::TAU))
+                * rng.uniform(40.0, 160.0);
             CityEdit::AddStreet(NewStreet::local([from, from + away]))
         }
         _ => {

@@ -50,7 +50,7 @@ impl CityEditor {
             let names = &self.index.names;
             building.name = crate::building::name_for(&building, seed, |name| names.contains(name));
         }
-        self.exchange(&[], vec![building], &gone, Vec::new())
+        Ok(self.exchange(&[], vec![building], &gone, Vec::new()))
     }
 
     pub(super) fn move_building(
@@ -64,17 +64,17 @@ impl CityEditor {
             Building { center: to, facing: wrap_angle(facing), ..self.city.buildings[number].clone() };
         let building = self.fitted(moved)?;
         let gone = self.room_for(&building, Some(number))?;
-        self.exchange(&[number], vec![building], &gone, Vec::new())
+        Ok(self.exchange(&[number], vec![building], &gone, Vec::new()))
     }
 
     pub(super) fn remove_building(&mut self, number: usize) -> Result<CityPatch, EditError> {
         missing("building", number, self.city.buildings.len())?;
-        self.exchange(&[number], Vec::new(), &[], Vec::new())
+        Ok(self.exchange(&[number], Vec::new(), &[], Vec::new()))
     }
 
     pub(super) fn add_element(&mut self, element: Element) -> Result<CityPatch, EditError> {
         let element = self.room_for_element(element, None)?;
-        self.exchange(&[], Vec::new(), &[], vec![element])
+        Ok(self.exchange(&[], Vec::new(), &[], vec![element]))
     }
 
     pub(super) fn move_element(
@@ -86,12 +86,12 @@ impl CityEditor {
         missing("element", number, self.city.elements.len())?;
         let moved = Element { position: to, facing: wrap_angle(facing), ..self.city.elements[number] };
         let element = self.room_for_element(moved, Some(number))?;
-        self.exchange(&[], Vec::new(), &[number], vec![element])
+        Ok(self.exchange(&[], Vec::new(), &[number], vec![element]))
     }
 
     pub(super) fn remove_element(&mut self, number: usize) -> Result<CityPatch, EditError> {
         missing("element", number, self.city.elements.len())?;
-        self.exchange(&[], Vec::new(), &[number], Vec::new())
+        Ok(self.exchange(&[], Vec::new(), &[number], Vec::new()))
     }
 
     /// A building of possible size, with what follows from where it stands.
@@ -214,7 +214,7 @@ impl CityEditor {
         buildings_in: Vec<Building>,
         elements_out: &[usize],
         elements_in: Vec<Element>,
-    ) -> Result<CityPatch, EditError> {
+    ) -> CityPatch {
         let patch = CityPatch {
             plan: PlanPatch::unchanged(&self.city.plan),
             network: simworld_core::net::NetworkPatch::unchanged(&self.city.network),
@@ -223,13 +223,15 @@ impl CityEditor {
             frontage: self.city.frontage,
         };
         self.index.follow(&self.city, &patch);
-        Ok(patch)
+        patch
     }
 }
 
 fn exchanged<T: Clone>(array: &mut Vec<T>, out: &[usize], new: Vec<T>) -> ArrayPatch<T> {
     let mut book = Book::open(array);
-    out.iter().for_each(|number| book.vacate(*number));
+    for number in out {
+        book.vacate(*number);
+    }
     for thing in new {
         book.fill(thing);
     }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side, polyline};
 use simworld_core::patch::{ArrayPatch, Book};
@@ -17,6 +18,8 @@ use crate::building::{self, Building};
 use crate::element::Element;
 use crate::occupancy::Occupancy;
 
+/// Given elements as near as this to a road that changed may stand on it, m.
+const GIVEN_NEAR: f64 = 100.0;
 /// A building farther than this from every sidewalk has no way in, m.
 pub(super) const FARTHEST_DOOR: f64 = 150.0;
 
@@ -36,6 +39,7 @@ struct Before {
 }
 
 /// What stands now where something was.
+#[derive(Default)]
 struct After {
     buildings: Vec<Building>,
     elements: Vec<Element>,
@@ -103,35 +107,54 @@ impl CityEditor {
         let sides = sides_round(&city.network, both_sides(roads));
         let mut faces = Faces::of(city, &self.index.roads, &sides)?;
         let land = faces.land_of_roads(roads);
-        let mut after = After {
-            buildings: Vec::new(),
-            elements: Vec::new(),
-            doors: Vec::new(),
-            buildings_gone: BTreeSet::new(),
-            elements_gone: BTreeSet::new(),
-            frontage: faces.land.frontage,
+        // What overlapped a road before may do so again.
+        let has_room = |ground: &[Vec<Point2>]| {
+            ground.iter().all(|piece| land.is_free(piece) || !before.land.is_free(piece))
+        };
+        let mut after = After { frontage: faces.land.frontage, ..After::default() };
+        self.set_doors(before, roads, has_room, &mut after);
+        let courses = roads.iter().filter_map(|road| bounds(&city.network.roads[*road].centerline));
+        let given: BTreeSet<usize> =
+            courses.flat_map(|around| self.index.given_near(inflated(around, GIVEN_NEAR))).collect();
+        let (stay, gone): (Vec<usize>, Vec<usize>) = given
+            .into_iter()
+            .partition(|number| has_room(&[city.elements[*number].obb().footprint().to_vec()]));
+        after.elements_gone.extend(gone);
+        let moved: BTreeMap<usize, &Building> =
+            after.doors.iter().map(|(number, there)| (*number, there)).collect();
+        let round = self.given_round(&sides, &before.roads);
+        let round = round.iter().filter(|number| !after.buildings_gone.contains(number));
+        let given = Given {
+            buildings: round
+                .map(|number| moved.get(number).copied().unwrap_or(&city.buildings[*number]))
+                .collect(),
+            elements: stay.into_iter().map(|number| &city.elements[number]).collect(),
         };
         let uses: BTreeMap<[u64; 2], &Building> = self
             .generated_buildings(&before.sides)
             .map(|number| &city.buildings[number])
             .map(|building| (place_key(building.center), building))
             .collect();
-        let stays = |ground: &[Vec<simworld_core::geometry::Point2>]| {
-            ground.iter().all(|piece| land.is_free(piece) || !before.land.is_free(piece))
-        };
-        let courses = || roads.iter().filter_map(|road| bounds(&city.network.roads[*road].centerline));
+        (after.buildings, after.elements) = faces.build(&given, &uses);
+        Ok(after)
+    }
+
+    /// Finds the given buildings that have no room any more, and the doors of those whose roads changed.
+    fn set_doors(
+        &self,
+        before: &Before,
+        roads: &BTreeSet<usize>,
+        has_room: impl Fn(&[Vec<Point2>]) -> bool,
+        after: &mut After,
+    ) {
+        let courses = roads.iter().filter_map(|road| bounds(&self.city.network.roads[*road].centerline));
         let mut near = self.given_at(&before.roads);
-        near.extend(courses().flat_map(|around| self.index.buildings_near(around)));
-        let given: BTreeSet<usize> =
-            courses().flat_map(|around| self.index.given_near(inflated(around, 100.0))).collect();
-        for number in near {
-            let building = &city.buildings[number];
-            if !building.given {
-                continue;
-            }
+        near.extend(courses.flat_map(|around| self.index.buildings_near(around)));
+        for number in near.into_iter().filter(|number| self.city.buildings[*number].given) {
+            let building = &self.city.buildings[number];
             let is_lost = before.roads.contains(&building.road.index());
             let door = if is_lost { self.with_door(building.clone()) } else { Some(building.clone()) };
-            match door.filter(|building| stays(&building.ground())) {
+            match door.filter(|building| has_room(&building.ground())) {
                 Some(there) if is_lost => after.doors.push((number, there)),
                 Some(_) => {}
                 None => {
@@ -139,25 +162,6 @@ impl CityEditor {
                 }
             }
         }
-        let lost = |number: &usize| !stays(&[city.elements[*number].obb().footprint().to_vec()]);
-        after.elements_gone = given.iter().copied().filter(lost).collect();
-        let moved: BTreeMap<usize, &Building> =
-            after.doors.iter().map(|(number, there)| (*number, there)).collect();
-        let stand = Given {
-            buildings: self
-                .given_round(&sides, &before.roads)
-                .into_iter()
-                .filter(|number| !after.buildings_gone.contains(number))
-                .map(|number| moved.get(&number).copied().unwrap_or(&city.buildings[number]))
-                .collect(),
-            elements: given
-                .iter()
-                .filter(|number| !after.elements_gone.contains(number))
-                .map(|number| &city.elements[*number])
-                .collect(),
-        };
-        (after.buildings, after.elements) = faces.build(&stand, &uses);
-        Ok(after)
     }
 
     /// The generated buildings on some sides of streets.
@@ -202,87 +206,103 @@ impl CityEditor {
 
     /// Puts what stands now into the place of what stood there.
     fn replace(&mut self, before: &Before, after: After) -> (ArrayPatch<Building>, ArrayPatch<Element>) {
-        let mut there: BTreeMap<[u64; 2], usize> = self
-            .generated_buildings(&before.sides)
-            .map(|number| (place_key(self.city.buildings[number].center), number))
-            .collect();
-        let mut set: BTreeMap<([u64; 2], u8), usize> = self
-            .generated_elements(&before.sides)
-            .map(|number| (element_key(&self.city.elements[number]), number))
-            .collect();
-        let doubles: Vec<usize> = {
-            let kept: BTreeSet<usize> = there.values().copied().collect();
-            self.generated_buildings(&before.sides).filter(|number| !kept.contains(number)).collect()
-        };
-        let element_doubles: Vec<usize> = {
-            let kept: BTreeSet<usize> = set.values().copied().collect();
-            self.generated_elements(&before.sides).filter(|number| !kept.contains(number)).collect()
-        };
+        let (old_buildings, old_elements): (Vec<usize>, Vec<usize>) = (
+            self.generated_buildings(&before.sides).collect(),
+            self.generated_elements(&before.sides).collect(),
+        );
         let seed = self.city.provenance.seed;
-        let mut names = std::mem::take(&mut self.index.names);
+        let names = &mut self.index.names;
         let mut buildings = Book::open(&mut self.city.buildings);
         for (number, building) in after.doors {
             *buildings.edit(number) = building;
         }
-        let mut new = Vec::new();
-        for mut building in after.buildings {
-            let present = there.get(&place_key(building.center)).copied();
-            match present.filter(|number| is_same(buildings.get(*number), &building)) {
-                Some(number) => {
-                    there.remove(&place_key(building.center));
-                    let old = buildings.get(number);
-                    (building.place, building.name) = (old.place, old.name.clone());
-                    if *old != building {
-                        *buildings.edit(number) = building;
-                    }
-                }
-                None => new.push(building),
-            }
-        }
-        let gone = there.into_values().chain(doubles).chain(after.buildings_gone);
-        gone.for_each(|number| buildings.vacate(number));
-        for mut building in new {
-            building.name = building::name_for(&building, seed, |name| names.contains(name));
-            names.extend(building.name.clone());
-            buildings.fill(building);
-        }
-        while buildings.close_gap().is_some() {}
-        let mut elements = Book::open(&mut self.city.elements);
-        let mut new = Vec::new();
-        for element in after.elements {
-            let key = element_key(&element);
-            let present = set.get(&key).copied();
-            let same = |number: &usize| Element { along: element.along, ..*elements.get(*number) } == element;
-            match present.filter(same) {
-                Some(number) => {
-                    set.remove(&key);
-                    if *elements.get(number) != element {
-                        *elements.edit(number) = element;
-                    }
-                }
-                None => new.push(element),
-            }
-        }
-        let gone = set.into_values().chain(element_doubles).chain(after.elements_gone);
-        gone.for_each(|number| elements.vacate(number));
-        for element in new {
-            elements.fill(element);
-        }
-        while elements.close_gap().is_some() {}
-        let patches = (buildings.close(), elements.close());
-        self.index.names = names;
-        patches
+        let buildings = replaced(
+            buildings,
+            &Replacement { old: &old_buildings, gone: &after.buildings_gone },
+            after.buildings,
+            Rules {
+                key: |building: &Building| place_key(building.center),
+                keep: |old: &Building, new: &mut Building| {
+                    (new.place, new.name) = (old.place, old.name.clone());
+                    is_same(old, new)
+                },
+                begin: |building: &mut Building| {
+                    building.place = building.archetype.place;
+                    building.name = building::name_for(building, seed, |name| names.contains(name));
+                    names.extend(building.name.clone());
+                },
+            },
+        );
+        let elements = Book::open(&mut self.city.elements);
+        let elements = replaced(
+            elements,
+            &Replacement { old: &old_elements, gone: &after.elements_gone },
+            after.elements,
+            Rules {
+                key: |element: &Element| (place_key(element.position), element.kind),
+                keep: |old: &Element, new: &mut Element| Element { along: new.along, ..*old } == *new,
+                begin: |_: &mut Element| {},
+            },
+        );
+        (buildings, elements)
     }
+}
+
+/// What is replaced in an array, by number.
+struct Replacement<'a> {
+    old: &'a [usize],
+    /// What has no room any more besides.
+    gone: &'a BTreeSet<usize>,
+}
+
+/// How the new finds its place among the old.
+struct Rules<Key, Keep, Begin> {
+    /// Where to look for a thing.
+    key: Key,
+    /// Whether an old thing stays as the new one, which takes over what it has to.
+    keep: Keep,
+    /// What a thing gets that was not there.
+    begin: Begin,
+}
+
+/// Replaces things of an array; what comes out as it was keeps its number.
+fn replaced<T: Clone + PartialEq, K: Ord>(
+    mut book: Book<'_, T>,
+    replacement: &Replacement<'_>,
+    new: Vec<T>,
+    mut rules: Rules<impl Fn(&T) -> K, impl Fn(&T, &mut T) -> bool, impl FnMut(&mut T)>,
+) -> ArrayPatch<T> {
+    let mut there: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+    for number in replacement.old {
+        there.entry((rules.key)(book.get(*number))).or_default().push(*number);
+    }
+    let mut come = Vec::new();
+    for mut thing in new {
+        let found = there.get_mut(&(rules.key)(&thing)).and_then(|list| {
+            let rank = list.iter().position(|number| (rules.keep)(book.get(*number), &mut thing))?;
+            Some(list.swap_remove(rank))
+        });
+        match found {
+            Some(number) if *book.get(number) == thing => {}
+            Some(number) => *book.edit(number) = thing,
+            None => come.push(thing),
+        }
+    }
+    for number in there.into_values().flatten().chain(replacement.gone.iter().copied()) {
+        book.vacate(number);
+    }
+    for mut thing in come {
+        (rules.begin)(&mut thing);
+        book.fill(thing);
+    }
+    while book.close_gap().is_some() {}
+    book.close()
 }
 
 /// The roads of some sides, each once.
 fn at_roads(sides: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
     let mut last = None;
     sides.iter().map(|side| side / 2).filter(move |road| last.replace(*road) != Some(*road))
-}
-
-fn element_key(element: &Element) -> ([u64; 2], u8) {
-    (place_key(element.position), element.kind as u8)
 }
 
 /// Whether two buildings at the same place differ in nothing but their use, their name and the numbers of their road.
@@ -292,11 +312,7 @@ fn is_same(old: &Building, new: &Building) -> bool {
 }
 
 /// The nearest place on a sidewalk, if one is within reach.
-fn nearest_walk(
-    network: &RoadNetwork,
-    index: &Index,
-    from: simworld_core::geometry::Point2,
-) -> Option<(simworld_core::geometry::Point2, RoadId, Side)> {
+fn nearest_walk(network: &RoadNetwork, index: &Index, from: Point2) -> Option<(Point2, RoadId, Side)> {
     let near = index.roads.near(inflated((from, from), FARTHEST_DOOR));
     let walks = near
         .into_iter()
