@@ -63,11 +63,19 @@ fn is_inside(outline: &[Point2], point: Point2) -> bool {
     for index in 0..outline.len() {
         let (a, b) = (outline[index], outline[(index + 1) % outline.len()]);
         let (edge, to) = (b - a, point - a);
-        let share = (to.dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0);
-        if (to - edge * share).norm_squared() < EDGE * EDGE {
+        let (along, squared, aside) = (to.dot(&edge), edge.norm_squared(), edge.perp(&to));
+        let is_near = if along <= 0.0 {
+            to.norm_squared() < EDGE * EDGE
+        } else if along >= squared {
+            (to - edge).norm_squared() < EDGE * EDGE
+        } else {
+            aside * aside < EDGE * EDGE * squared
+        };
+        if is_near {
             return false;
         }
-        if (a.y > point.y) != (b.y > point.y) && to.x < edge.x * to.y / edge.y {
+        // On the left of an edge that rises past the height of the point, or on the right of one that falls.
+        if (a.y > point.y) != (b.y > point.y) && (aside > 0.0) == (edge.y > 0.0) {
             inside = !inside;
         }
     }

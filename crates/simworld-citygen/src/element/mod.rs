@@ -106,7 +106,7 @@ pub fn furnish(
     taken: &mut Occupancy,
 ) -> Vec<Element> {
     let streams = seed.stream("citygen/elements");
-    let mut elements = Vec::with_capacity(setting.network.sidewalks.len() * 12);
+    let mut elements = Vec::with_capacity(setting.network.sidewalks.len() * 14);
     sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements);
     parking::park(setting, config, streams.named("parking"), &mut elements);
     green::plant(setting, config, streams.named("greens"), taken, &mut elements);

@@ -30,8 +30,8 @@ const NEIGHBOUR_GAP: f64 = 0.3;
 const BUS_STOPS: f64 = 350.0;
 
 /// Sidewalks that one thread furnishes at once.
-const CHUNK: usize = 256;
-/// Sidewalks that are furnished at once.
+const CHUNK: usize = 64;
+/// Sidewalks that are furnished at once: what they wish for stays in the caches until it is decided on.
 const BATCH: usize = 64 * CHUNK;
 
 /// An element that would like to stand.
@@ -69,6 +69,7 @@ pub(super) fn line(
             .par_chunks(CHUNK)
             .map(|sidewalks| {
                 let mut setter = Setter::default();
+                setter.wishes.reserve(14 * sidewalks.len());
                 for (index, sidewalk) in sidewalks {
                     setter.begin(sidewalk, doors.at(*index), setting);
                     setter.furnish(sidewalk, setting, config, stream_of(sidewalk, streams));
