@@ -136,3 +136,44 @@ fn one_drives_over_and_under() {
         last = top;
     }
 }
+
+#[test]
+fn level_land_beside_a_bridge_is_one_plate_a_row() {
+    let mut plan = overpass(25.0);
+    plan.nodes.extend([Point2::new(-225.0, 0.0), Point2::new(225.0, 0.0), Point2::new(225.0, 2000.0)]);
+    let approach = |from, to| Street { class: RoadClass::Arterial, ..Street::simple(from, to) };
+    plan.streets.extend([approach(6, 0), approach(1, 7), approach(7, 8)]);
+    let city = City::from_plan(plan, &CityConfig::default(), Seed(1)).unwrap();
+    let mut world = World::new();
+    let parts = city.populate(&mut world).unwrap().surfaces;
+    let ground: Vec<_> = parts
+        .iter()
+        .map(|id| world.entity(*id).unwrap())
+        .filter(|it| it.kind == EntityKind::Ground)
+        .collect();
+    let raised = ground.iter().filter(|it| it.position().z > 0.5).count();
+    assert!(raised > 3, "the approach is no embankment");
+    assert!(ground.len() < 400, "{} plates", ground.len());
+    let area: f64 = ground.iter().map(|it| it.info.shape.size()).map(|size| size.x * size.y).sum();
+    let (low, high) = city.network.bounds().unwrap();
+    assert!(area >= (high.x - low.x + 240.0) * (high.y - low.y + 240.0));
+}
+
+#[cfg(feature = "osm")]
+mod osm_common;
+
+#[cfg(feature = "osm")]
+#[test]
+fn real_bridges_clear_what_they_cross() {
+    use simworld_citygen::osm::StreetOptions;
+    for (file, place) in osm_common::all_real() {
+        let (mut plan, _) = place.plan(&StreetOptions::default());
+        assert_eq!(raise_bridges(&mut plan, &TerrainConfig::default()), [], "{file}");
+        plan.validate().unwrap();
+        // One street over another, on level land: nothing is higher than that asks for.
+        let nodes = plan.elevations.iter().copied();
+        let ways = plan.streets.iter().flat_map(|street| &street.profile).map(|(_, height)| *height);
+        let highest = nodes.chain(ways).fold(0.0, f64::max);
+        assert!(highest < 2.0 * (HEADROOM + DECK), "{file}: {highest} m");
+    }
+}

@@ -2,6 +2,7 @@
 
 mod assets;
 mod bridges;
+mod ground;
 mod scope;
 
 use std::sync::Arc;
@@ -28,9 +29,6 @@ const SIDEWALK_TOP: f64 = 0.0;
 const LAYER: f64 = 0.05;
 /// Distance of a signal post from the kerb and from its crossing, m.
 const POST_SETBACK: f64 = 0.35;
-/// Width of a plate of hilly ground, and its top: a little lower, for between its ends it is straight, m.
-const PLATE: f64 = 30.0;
-const PLATE_TOP: f64 = -0.35;
 /// Ground beyond the outermost street, m.
 pub(crate) const MARGIN: f64 = 120.0;
 
@@ -174,31 +172,6 @@ impl Parts<'_> {
         described.collect()
     }
 
-    /// One level plate, or many that follow the hills.
-    fn ground(&self, descs: &mut Vec<EntityDesc>) {
-        let Some((low, high)) = self.ground else { return };
-        if self.heights.is_level() {
-            let middle = (low.y + high.y) * 0.5;
-            let (a, b) = (Point2::new(low.x, middle), Point2::new(high.x, middle));
-            let half = (high.y - low.y) * 0.5 + self.margin;
-            let stripe = Stripe { a, b, half, extend: self.margin };
-            descs.push(layer(EntityKind::Ground, &stripe, GROUND_TOP));
-            return;
-        }
-        let margin = Vector2::repeat(self.margin);
-        let (low, high) = (low - margin, high + margin);
-        let count = ((high - low) / PLATE).map(f64::ceil);
-        for row in 0..count.y as u32 {
-            let y = low.y + (f64::from(row) + 0.5) * PLATE;
-            for column in 0..count.x as u32 {
-                let x = low.x + f64::from(column) * PLATE;
-                let (a, b) = (Point2::new(x, y), Point2::new(x + PLATE, y));
-                let stripe = Stripe { a, b, half: PLATE * 0.5, extend: 0.0 };
-                descs.push(self.layer(EntityKind::Ground, &stripe, PLATE_TOP));
-            }
-        }
-    }
-
     /// A flat layer along a line, which rises as the ground does from one end to the other.
     fn layer(&self, kind: EntityKind, stripe: &Stripe, top: f64) -> EntityDesc {
         let mut desc = layer(kind, stripe, top);
@@ -223,7 +196,7 @@ impl Parts<'_> {
     /// Ground, roads, bridges, crosswalks and sidewalks.
     fn surfaces(&self) -> Vec<EntityDesc> {
         let mut descs = Vec::new();
-        self.ground(&mut descs);
+        self.plates(&mut descs);
         for (_, road) in self.roads().filter(|(_, road)| road.level <= 0) {
             let half = lane_reach(road);
             // Beyond its ends a road reaches as far as it is wide, and so covers its junctions.

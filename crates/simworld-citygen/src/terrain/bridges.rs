@@ -22,7 +22,9 @@ pub const HEADROOM: f64 = 5.0;
 pub const DECK: f64 = 0.8;
 
 /// Rounds of raising: a bridge over a ramp of another rises with it.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 16;
+/// What may be missing, m: less than the road wears off.
+const TOLERATED: f64 = 0.01;
 /// Bridges rise by no more than this in all, m.
 const HIGHEST: f64 = 40.0;
 /// Crossings this near to a node that both streets have are the node's, m.
@@ -33,7 +35,7 @@ const CELL: f64 = 100.0;
 /// A bridge that is lower than it should be.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
-    "street {upper} passes {headroom:.1} m above street {lower} at ({x:.0}, {y:.0}), which is less than {HEADROOM} m: give \
+    "street {upper} passes {headroom:.2} m above street {lower} at ({x:.0}, {y:.0}), which is less than {HEADROOM} m: give \
      it longer ramps, or steeper ones in `terrain`"
 )]
 pub struct BridgeWarning {
@@ -108,7 +110,7 @@ pub fn raise_bridges(plan: &mut StreetPlan, config: &TerrainConfig) -> Vec<Bridg
             - height(plan, &lengths, it.lower, it.stations.1)
     };
     let low =
-        passages.iter().map(|it| (it, headroom(it))).filter(|(_, headroom)| *headroom < HEADROOM - 1e-6);
+        passages.iter().map(|it| (it, headroom(it))).filter(|(_, headroom)| *headroom < HEADROOM - TOLERATED);
     low.map(|(it, headroom)| BridgeWarning {
         upper: it.upper,
         lower: it.lower,
