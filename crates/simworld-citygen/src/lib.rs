@@ -25,6 +25,8 @@ mod provenance;
 pub mod python;
 mod range;
 mod report;
+#[cfg(feature = "osm")]
+mod simplify;
 mod source;
 mod strips;
 mod style;

@@ -206,3 +206,26 @@ fn roads_rise_from_node_to_node() {
     let error = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap_err().to_string();
     assert!(error.contains("node 4"), "{error}");
 }
+
+#[test]
+fn arrows_that_no_street_answers_are_left_out() {
+    // A T: from the west one may turn, but its arrow points straight on.
+    let nodes = [(0.0, 0.0), (-120.0, 0.0), (0.0, 120.0), (0.0, -120.0)];
+    let mut plan = StreetPlan {
+        nodes: nodes.into_iter().map(|(x, y)| Point2::new(x, y)).collect(),
+        streets: vec![Street::simple(1, 0), Street::simple(0, 2), Street::simple(0, 3)],
+        ..StreetPlan::default()
+    };
+    let ways = |plan: &StreetPlan| {
+        let network = RoadNetwork::derive(plan, &NetworkConfig::default()).expect("a T is built");
+        let lane = network.roads[0].forward[0];
+        let turns =
+            network.lanes[lane.index()].outgoing.iter().map(|way| network.connections[way.index()].turn);
+        turns.collect::<Vec<Turn>>()
+    };
+    let plain = ways(&plan);
+    plan.streets[0].turns.forward = vec![TurnSet::of(&[Turn::Straight])];
+    assert_eq!(ways(&plan), plain, "better without the arrow than back the way one came");
+    plan.streets[0].turns.forward = vec![TurnSet::of(&[Turn::Left])];
+    assert_eq!(ways(&plan), [Turn::Left]);
+}

@@ -24,7 +24,7 @@ pub(super) struct Way {
     tags: TagRange,
 }
 
-/// A group of ways; other members are not kept.
+/// A group of ways; of other members only the node over which a turn goes is kept.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relation {
     pub(super) id: i64,
@@ -33,12 +33,44 @@ pub(super) struct Relation {
     tags: TagRange,
 }
 
-/// A way in a relation.
+/// An element in a relation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Member {
-    pub(super) way: i64,
-    /// Whether it bounds a hole.
-    pub(super) is_inner: bool,
+    /// The number of the way, or of the node if the role says so.
+    pub(super) number: i64,
+    pub(super) role: Role,
+}
+
+/// What an element is in a relation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// A way that bounds an area, or is there for any other reason.
+    Outer,
+    /// A way that bounds a hole.
+    Inner,
+    /// The way from which a turn is governed.
+    From,
+    /// The way into which it is governed.
+    To,
+    /// A way over which it goes.
+    Over,
+    /// The node at which it is governed.
+    At,
+}
+
+impl Role {
+    /// That of a way or node by its word; `None` for members that mean nothing here.
+    pub(super) fn of(word: &[u8], is_way: bool) -> Option<Self> {
+        match (word, is_way) {
+            (b"inner", true) => Some(Self::Inner),
+            (b"from", true) => Some(Self::From),
+            (b"to", true) => Some(Self::To),
+            (b"via", true) => Some(Self::Over),
+            (_, true) => Some(Self::Outer),
+            (b"via", false) => Some(Self::At),
+            (_, false) => None,
+        }
+    }
 }
 
 /// All that an extract holds.
@@ -152,6 +184,11 @@ impl Raw {
     /// The number of nodes.
     pub(super) fn node_count(&self) -> usize {
         self.ids.len()
+    }
+
+    /// The node of that number.
+    pub(super) fn node(&self, id: i64) -> Option<u32> {
+        self.ids.binary_search(&id).ok().map(|index| index as u32)
     }
 
     /// The number of a node in OpenStreetMap.

@@ -71,11 +71,13 @@ impl Sketch {
         self
     }
 
-    /// A relation of ways with their roles.
+    /// A relation of ways, and of nodes up to 1000, with their roles.
     pub(crate) fn relation(mut self, id: i64, members: &[(i64, &str)], tags: &[(&str, &str)]) -> Self {
         self.push(format_args!("<relation id=\"{id}\">"));
         for (way, role) in members {
-            self.push(format_args!("<member type=\"way\" ref=\"{way}\" role=\"{role}\"/>"));
+            // Node numbers are below those of ways.
+            let kind = if *way <= 1000 { "node" } else { "way" };
+            self.push(format_args!("<member type=\"{kind}\" ref=\"{way}\" role=\"{role}\"/>"));
         }
         self.tags(tags);
         self.body += "</relation>\n";

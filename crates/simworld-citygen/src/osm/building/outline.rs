@@ -6,7 +6,7 @@ use super::usage::{Usage, is_building};
 use crate::block::Ring;
 use crate::osm::error::{OsmId, Warning};
 use crate::osm::place::Place;
-use crate::osm::raw::{MISSING, Relation};
+use crate::osm::raw::{MISSING, Relation, Role};
 use crate::osm::tags::Key;
 
 /// Corners of one outline at most; the work to look for crossings grows with the square of it.
@@ -41,7 +41,7 @@ pub(in crate::osm) fn outlines(place: &Place, warnings: &mut Vec<Warning>) -> Ve
     };
     // Ways that bound a multipolygon are not buildings once more.
     let mut bounding: Vec<i64> =
-        buildings().flat_map(|relation| raw.members_of(relation)).map(|member| member.way).collect();
+        buildings().flat_map(|relation| raw.members_of(relation)).map(|member| member.number).collect();
     bounding.sort_unstable();
     let mut found = Vec::new();
     for way in raw.ways() {
@@ -181,10 +181,11 @@ fn rings(place: &Place, relation: &Relation, wants_inner: bool, is_whole: &mut b
     /// Ways in one role that are joined at most; each is looked for among the rest.
     const MOST_WAYS: usize = 500;
     let raw = &place.raw;
-    let members = raw.members_of(relation).iter().filter(|member| member.is_inner == wants_inner);
+    let members =
+        raw.members_of(relation).iter().filter(|member| (member.role == Role::Inner) == wants_inner);
     let mut pieces: Vec<Vec<u32>> = Vec::new();
     for member in members.take(MOST_WAYS) {
-        match raw.way(member.way).map(|way| raw.nodes_of(way)) {
+        match raw.way(member.number).map(|way| raw.nodes_of(way)) {
             Some(nodes) if nodes.len() >= 2 && !nodes.contains(&MISSING) => pieces.push(nodes.to_vec()),
             _ => *is_whole = false,
         }

@@ -6,7 +6,7 @@ use flate2::read::ZlibDecoder;
 
 use super::wire::{Fault, Field, Message, Packed, zigzag};
 use crate::osm::error::OsmError;
-use crate::osm::raw::{Member, Raw};
+use crate::osm::raw::{Member, Raw, Role};
 use crate::osm::tags::Key;
 
 /// Sizes that the format allows, bytes.
@@ -286,9 +286,10 @@ impl<'a> Block<'a> {
         while let (Some(role), Some(step), Some(kind)) = (roles.next(), steps.next(), kinds.next()) {
             member = member.wrapping_add(zigzag(step?));
             let role = usize::try_from(role?).ok().and_then(|role| self.strings.get(role));
-            // Kind 1 is a way.
-            if kind? == 1 {
-                members.push(Member { way: member, is_inner: role.is_some_and(|role| *role == b"inner") });
+            // Kind 0 is a node, 1 a way.
+            let kind = kind?;
+            if let Some(role) = Role::of(role.copied().unwrap_or_default(), kind == 1).filter(|_| kind < 2) {
+                members.push(Member { number: member, role });
             }
         }
         Ok(raw.add_relation(id, &members, mark)?)

@@ -10,7 +10,7 @@ use quick_xml::events::{BytesStart, Event};
 use super::guard::Guard;
 use super::number::{angle, integer};
 use crate::osm::error::OsmError;
-use crate::osm::raw::{Member, Raw};
+use crate::osm::raw::{Member, Raw, Role};
 use crate::osm::tags::Key;
 
 /// Elements are nested two deep; a change file, four.
@@ -155,13 +155,16 @@ impl State {
     }
 
     fn keep_member(&mut self, tag: &BytesStart<'_>) {
-        if attribute(tag, "type") != Some("way") {
-            return;
-        }
-        let way = attribute(tag, "ref").and_then(integer);
-        self.raw.unreadable += u64::from(way.is_none());
-        let is_inner = attribute(tag, "role") == Some("inner");
-        self.members.extend(way.map(|way| Member { way, is_inner }));
+        let is_way = match attribute(tag, "type") {
+            Some("way") => true,
+            Some("node") => false,
+            _ => return,
+        };
+        let word = attribute(tag, "role").unwrap_or_default();
+        let Some(role) = Role::of(word.as_bytes(), is_way) else { return };
+        let number = attribute(tag, "ref").and_then(integer);
+        self.raw.unreadable += u64::from(number.is_none());
+        self.members.extend(number.map(|number| Member { number, role }));
     }
 
     fn end(&mut self, name: &str) -> Result<(), OsmError> {

@@ -7,7 +7,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::{SHORTEST_STREET, polyline};
 
 use super::ends::reaches;
-use super::web::Web;
+use super::web::{Edge, Web};
 use crate::osm::error::{OsmId, Warning};
 use crate::osm::place::Place;
 
@@ -123,11 +123,30 @@ fn dissolved(web: &mut Web, node: u32) -> Vec<u32> {
 pub(super) fn draw_together(web: &mut Web, edge: u32) {
     let [a, b] = web.edge(edge).ends;
     let at = meeting_point(web, edge);
+    hand_signs_on(web, edge);
     web.remove(edge);
     web.merge(b, a, at);
     let near = web.node(a).spread + 2.0;
     for edge in web.node(a).edges.clone() {
         clear_of(web, edge, a, near);
+    }
+}
+
+/// What is forbidden at one end of an edge is forbidden to those of its way who come over its other end.
+fn hand_signs_on(web: &mut Web, edge: u32) {
+    let Edge { ends, turns, character, .. } = *web.edge(edge);
+    for end in 0..2 {
+        let before = ends[1 - end];
+        for other in web.node(before).edges.clone() {
+            let found = &mut web.edges[other as usize];
+            if other != edge && found.character.way == character.way {
+                for (at, own) in found.ends.into_iter().zip(&mut found.turns) {
+                    if at == before {
+                        own.forbid_as(&turns[end]);
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::net::{DrivingSide, SHORTEST_STREET, Street, StreetPlan, polyline};
+use simworld_core::net::{DrivingSide, SHORTEST_STREET, Street, StreetPlan, TurnLanes, polyline};
 
 use super::Planned;
 use super::collapse::warn;
 use super::control;
 use super::profile::Profile;
-use super::web::{UNNAMED, Web};
+use super::web::{Edge, UNNAMED, Web};
 use crate::osm::error::Warning;
 use crate::osm::place::Place;
 
@@ -55,7 +55,7 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
             speed_limit,
             level: character.level,
             roundabout: character.is_roundabout,
-            ..Street::simple(from, to)
+            turns: turns(web, edge),
         });
     }
     if plan.sections.is_empty() {
@@ -65,6 +65,15 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
     plan.driving_side = if is_left_hand { DrivingSide::Left } else { DrivingSide::Right };
     plan.controls = control::controls(&plan, place);
     Planned { plan, off_ground }
+}
+
+/// The arrows on its lanes, where it ends at a junction.
+fn turns(web: &Web, edge: &Edge) -> TurnLanes {
+    let Profile { forward, backward, .. } = edge.character.profile;
+    let at = |end: usize, lanes: u8| {
+        if web.degree(edge.ends[end]) > 2 { edge.turns[end].on_lanes(usize::from(lanes)) } else { Vec::new() }
+    };
+    TurnLanes { forward: at(1, forward), backward: at(0, backward) }
 }
 
 fn pair(ends: [u32; 2]) -> (usize, usize) {

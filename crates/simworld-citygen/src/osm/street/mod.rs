@@ -15,6 +15,7 @@ mod profile;
 mod room;
 mod split;
 mod tidy;
+mod turns;
 mod web;
 
 use serde::{Deserialize, Serialize};

@@ -7,7 +7,8 @@ use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::polyline;
 
 use super::profile::Profile;
-use super::web::{Character, Web, simplified};
+use super::web::{Character, Web};
+use crate::simplify::simplified;
 
 /// Places where two carriageways are compared, between their ends.
 const PLACES: u32 = 8;
@@ -50,6 +51,8 @@ fn join(web: &mut Web, first: u32, second: u32, reach: f64) {
         return;
     }
     let ends = web.edge(first).ends;
+    // Each is driven to its own end.
+    let turns = [web.edge(second).turns[1], web.edge(first).turns[1]];
     let character = Character {
         class: a.class.max(b.class),
         profile: joined(&a.profile, &b.profile, apart),
@@ -60,7 +63,8 @@ fn join(web: &mut Web, first: u32, second: u32, reach: f64) {
     web.remove(first);
     web.remove(second);
     let line = simplified(&middle, TOLERANCE);
-    web.add_edge(ends, line[1..line.len() - 1].to_vec(), character);
+    let edge = web.add_edge(ends, line[1..line.len() - 1].to_vec(), character);
+    web.edges[edge as usize].turns = turns;
 }
 
 /// The line midway between two that run beside each other, and how far they are apart, negative if they lie the wrong

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::kind::{is_wanted, kind_of};
 use super::profile::{OneWay, Profile, one_way};
+use super::turns::{self, Turns};
 use super::web::{Character, UNNAMED, Web};
 use super::{Kind, StreetOptions};
 use crate::osm::error::{OsmId, Warning};
@@ -40,6 +41,7 @@ pub(super) fn web_of(
     for (way, tags, kind) in wanted() {
         splitter.add(way, &tags, kind, warnings);
     }
+    turns::put_signs(&mut splitter.web, place, &splitter.vertices, warnings);
     splitter.web
 }
 
@@ -85,6 +87,9 @@ impl<'a> Splitter<'a> {
         if direction == OneWay::Against {
             nodes.reverse();
         }
+        let Profile { forward, backward, .. } = character.profile;
+        let [ahead, back] = turns::arrows(tags, way.id, (forward, backward), warnings);
+        let first = self.web.edges.len();
         let mut lost = 0;
         let mut run: Vec<u32> = Vec::new();
         for node in nodes {
@@ -97,6 +102,13 @@ impl<'a> Splitter<'a> {
             }
         }
         self.add_run(&run, character);
+        // Arrows stand before the junctions at the ends of a way.
+        if let Some(edge) = self.web.edges[first..].last_mut() {
+            edge.turns[1] = Turns::of(ahead);
+        }
+        if let Some(edge) = self.web.edges[first..].first_mut() {
+            edge.turns[0] = Turns::of(back);
+        }
         if lost > 0 {
             let what = format!("{lost} of its nodes are not in the extract; the street ends there");
             warnings.push(Warning { what, element: Some(OsmId::Way(way.id)), at: None });

@@ -4,6 +4,8 @@ use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadClass, polyline};
 
 use super::profile::Profile;
+use super::turns::Turns;
+use crate::simplify::simplified;
 
 /// No name.
 pub(super) const UNNAMED: u32 = u32::MAX;
@@ -58,6 +60,8 @@ pub(super) struct Edge {
     pub(super) character: Character,
     /// How far to the right of each end, seen along the course, the street was drawn before that end was moved, m.
     pub(super) aside: [f64; 2],
+    /// What is said about the turns from it at each end.
+    pub(super) turns: [Turns; 2],
     pub(super) lives: bool,
 }
 
@@ -87,7 +91,14 @@ impl Web {
         for end in ends {
             self.nodes[end as usize].edges.push(number);
         }
-        self.edges.push(Edge { ends, via, character, aside: [0.0; 2], lives: true });
+        self.edges.push(Edge {
+            ends,
+            via,
+            character,
+            aside: [0.0; 2],
+            turns: <[Turns; 2]>::default(),
+            lives: true,
+        });
         number
     }
 
@@ -167,6 +178,8 @@ impl Web {
             if is_turned { [-end, -start] } else { [start, end] }
         };
         let aside = [aside(first, turned[0])[0], aside(second, turned[1])[1]];
+        let far = |edge: u32, end: usize| self.edge(edge).turns[end];
+        let mut turns = [far(first, usize::from(turned[0])), far(second, usize::from(!turned[1]))];
         let mut via = std::mem::take(&mut self.edges[first as usize].via);
         if turned[0] {
             via.reverse();
@@ -183,12 +196,14 @@ impl Web {
         let is_against = character.profile.forward == 0;
         let (ends, aside, character) = if is_against {
             via.reverse();
+            turns.swap(0, 1);
             ([after, before], [-aside[1], -aside[0]], character.mirrored())
         } else {
             ([before, after], aside, character)
         };
         let joined = self.add_edge(ends, via, character);
         self.edges[joined as usize].aside = aside;
+        self.edges[joined as usize].turns = turns;
         Some(joined)
     }
 
@@ -220,9 +235,10 @@ impl Web {
                 if walked < station { before.push(pair[1]) } else { after.push(pair[1]) }
             }
         }
-        let Edge { ends, character, aside, .. } = *self.edge(edge);
+        let Edge { ends, character, aside, turns, .. } = *self.edge(edge);
         self.edges[edge as usize].via = before;
         self.edges[edge as usize].aside[1] = 0.0;
+        self.edges[edge as usize].turns[1] = Turns::default();
         self.edges[edge as usize].ends[1] = node;
         let there = &mut self.nodes[ends[1] as usize].edges;
         // A loop stands there twice; its end is the later.
@@ -232,6 +248,7 @@ impl Web {
         self.nodes[node as usize].edges.push(edge);
         let second = self.add_edge([node, ends[1]], after, character);
         self.edges[second as usize].aside[1] = aside[1];
+        self.edges[second as usize].turns[1] = turns[1];
         (node, second)
     }
 
@@ -281,25 +298,4 @@ impl Web {
             }
         }
     }
-}
-
-/// A line without the points that lie within a tolerance of what remains (Douglas and Peucker 1973); its ends stay.
-pub(super) fn simplified(line: &[Point2], tolerance: f64) -> Vec<Point2> {
-    /// Points that are looked at together: the work on hostile lines grows with the square of it.
-    const CHUNK: usize = 1000;
-    let mut keeps = vec![false; line.len()];
-    let last = line.len() - 1;
-    let mut pending: Vec<(usize, usize)> =
-        (0..last).step_by(CHUNK).map(|first| (first, (first + CHUNK).min(last))).collect();
-    while let Some((first, last)) = pending.pop() {
-        keeps[first] = true;
-        keeps[last] = true;
-        let chord = [line[first], line[last]];
-        let away = |index: usize| polyline::closest(&chord, &line[index]).map_or(0.0, |near| near.distance);
-        let farthest = (first + 1..last).map(|index| (away(index), index)).max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, index)) = farthest.filter(|(distance, _)| *distance > tolerance) {
-            pending.extend([(first, index), (index, last)]);
-        }
-    }
-    line.iter().zip(keeps).filter(|(_, keeps)| *keeps).map(|(point, _)| *point).collect()
 }

@@ -57,7 +57,33 @@ fn movements(
     leg: &Leg,
 ) -> Vec<(LaneId, LaneId, Turn)> {
     let from = arriving(network, leg);
-    let arrows = arrows(plan, leg);
+    let mut found = ways_on(network, plan, legs, leg, arrows(plan, leg));
+    // Arrows that no street answers are a mistake: better without them than back.
+    if found.is_empty() {
+        found = ways_on(network, plan, legs, leg, &[]);
+    }
+    if found.is_empty() {
+        lane_to_lane(from, leaving(network, leg), Turn::UTurn, &mut found);
+    }
+    let stranded: Vec<LaneId> =
+        from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
+    if let Some((_, to, turn)) = found.first().copied() {
+        found.extend(stranded.into_iter().map(|lane| (lane, to, turn)));
+    }
+    // Of one lane in the order of the legs to which its ways lead, whatever the numbers of those.
+    found.sort_by_key(|(from, ..)| *from);
+    found
+}
+
+/// The ways from the lanes of a leg over a junction that arrows allow.
+fn ways_on(
+    network: &RoadNetwork,
+    plan: &StreetPlan,
+    legs: &[Leg],
+    leg: &Leg,
+    arrows: &[TurnSet],
+) -> Vec<(LaneId, LaneId, Turn)> {
+    let from = arriving(network, leg);
     let mut found = Vec::new();
     for other in legs.iter().filter(|other| other.street != leg.street) {
         let turn = turn_between(plan, leg, other);
@@ -87,16 +113,6 @@ fn movements(
             Turn::Left | Turn::UTurn => found.extend(usable.iter().zip(to).map(|(a, b)| (*a, *b, turn))),
         }
     }
-    if found.is_empty() {
-        lane_to_lane(from, leaving(network, leg), Turn::UTurn, &mut found);
-    }
-    let stranded: Vec<LaneId> =
-        from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
-    if let Some((_, to, turn)) = found.first().copied() {
-        found.extend(stranded.into_iter().map(|lane| (lane, to, turn)));
-    }
-    // Of one lane in the order of the legs to which its ways lead, whatever the numbers of those.
-    found.sort_by_key(|(from, ..)| *from);
     found
 }
 
