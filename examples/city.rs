@@ -4,6 +4,7 @@
 //! cargo run --release --example city
 //! cargo run --release --example city -- --style organic --size 3km --seed 7 --out city/
 //! cargo run --release --example city -- --osm monaco.osm.gz --out monaco/
+//! cargo run --release --example city -- --opendrive town.xodr --out town/
 //! ```
 
 use std::path::PathBuf;
@@ -37,6 +38,9 @@ struct Arguments {
     /// A real place: an extract of OpenStreetMap, `.osm`, `.osm.gz` or `.osm.pbf`.
     #[arg(long, value_name = "FILE", group = "source")]
     osm: Option<PathBuf>,
+    /// The roads of an OpenDRIVE file, `.xodr`.
+    #[arg(long, value_name = "FILE", group = "source")]
+    opendrive: Option<PathBuf>,
     /// Roads from a `roads.json` of the Python release instead of grown ones.
     #[arg(long, value_name = "ROADS.json", group = "source")]
     roads: Option<PathBuf>,
@@ -160,13 +164,12 @@ fn stop_on_interrupt() -> Result<(Interrupt, Arc<AtomicBool>), ctrlc::Error> {
 }
 
 fn source(arguments: &Arguments) -> Source {
-    let Arguments { city, osm, roads, .. } = arguments;
-    match (city, osm, roads) {
-        (Some(path), _, _) => Source::Saved(path.clone()),
-        (None, Some(path), _) => Source::Osm(path.clone()),
-        (None, None, Some(path)) => Source::Roads(path.clone()),
-        (None, None, None) => Source::Grown(arguments.style, arguments.size),
-    }
+    // One of them at most: they are a group.
+    let saved = arguments.city.clone().map(Source::Saved);
+    let place = arguments.osm.clone().map(Source::Osm);
+    let driven = arguments.opendrive.clone().map(Source::OpenDrive);
+    let roads = arguments.roads.clone().map(Source::Roads);
+    saved.or(place).or(driven).or(roads).unwrap_or(Source::Grown(arguments.style, arguments.size))
 }
 
 fn tell(city: &City, warnings: &[String]) {

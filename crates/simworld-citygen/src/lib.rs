@@ -25,7 +25,7 @@ mod provenance;
 pub mod python;
 mod range;
 mod report;
-#[cfg(feature = "osm")]
+#[cfg(any(feature = "opendrive", feature = "osm"))]
 mod simplify;
 mod source;
 mod strips;

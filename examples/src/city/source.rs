@@ -1,8 +1,9 @@
-//! Where a city comes from: grown, read from a file of roads, or loaded as it was saved.
+//! Where a city comes from: grown, read from a map or a file of roads, or loaded as it was saved.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use simworld_citygen::files::opendrive::{OpenDrive, OpenDriveError};
 use simworld_citygen::files::save::SaveError;
 use simworld_citygen::osm::{OsmError, Place, PlaceOptions};
 use simworld_citygen::python::{FormatError, read_roads};
@@ -19,6 +20,8 @@ pub enum Source {
     Grown(Style, Size),
     /// A real place, from an extract of OpenStreetMap.
     Osm(PathBuf),
+    /// Built along the roads of an OpenDRIVE file.
+    OpenDrive(PathBuf),
     /// Built on the roads of a `roads.json` of the Python release.
     Roads(PathBuf),
     /// Loaded as it was saved.
@@ -52,6 +55,14 @@ pub enum SourceError {
         path: PathBuf,
         /// Why.
         source: OsmError,
+    },
+    /// An OpenDRIVE file that cannot be used.
+    #[error("{path}: {source}")]
+    OpenDrive {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        source: OpenDriveError,
     },
     /// A file of roads that cannot be used.
     #[error("{path}: {source}")]
@@ -93,6 +104,13 @@ pub fn make(source: &Source, seed: Seed) -> Result<Made, SourceError> {
             let (mut city, warnings) = made?;
             city.provenance.title = title_of(path);
             Ok(Made { city, warnings: warnings.iter().map(ToString::to_string).collect() })
+        }
+        Source::OpenDrive(path) => {
+            let roads = OpenDrive::read(path)
+                .map_err(|source| SourceError::OpenDrive { path: path.clone(), source })?;
+            let mut city = City::from_opendrive(&roads, &CityConfig::default(), seed)?;
+            city.provenance.title = title_of(path);
+            Ok(Made { city, warnings: roads.warnings.iter().map(ToString::to_string).collect() })
         }
         Source::Roads(path) => {
             let (plan, warnings) = read_roads(&read(path)?)

@@ -1,4 +1,4 @@
-//! The roads as ASAM OpenDRIVE 1.7 (`xodr`), for driving simulators.
+//! The roads as ASAM OpenDRIVE 1.7 (`xodr`), for driving simulators; and, with feature `opendrive`, streets from such files.
 //!
 //! A road between two intersections is a road whose reference line is its centreline from stop line to stop line,
 //! straight pieces joined by arcs; its lanes are the strips of its cross-section, parking, verges and sidewalks
@@ -13,6 +13,8 @@ mod elevation;
 mod geometry;
 mod junctions;
 mod lanes;
+#[cfg(feature = "opendrive")]
+mod read;
 mod roads;
 mod signals;
 
@@ -23,6 +25,8 @@ use simworld_core::net::RoadNetwork;
 
 use super::xml::escaped;
 use crate::City;
+#[cfg(feature = "opendrive")]
+pub use read::{OpenDrive, OpenDriveError, OpenDriveWarning};
 
 /// A city with what its roads need.
 struct Roads<'a> {

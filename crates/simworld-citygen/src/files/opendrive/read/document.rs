@@ -1,0 +1,189 @@
+//! From XML to roads: what is kept of each `road` and `junction`.
+
+use std::collections::BTreeSet;
+
+use roxmltree::{Document, Node};
+use simworld_core::geometry::Point2;
+use simworld_core::net::{CrossSection, RoadClass};
+
+use super::error::{OpenDriveError, OpenDriveWarning};
+use super::{curve, section};
+use crate::GeoOrigin;
+
+/// Speeds that mean something, m/s.
+const SPEEDS: (f64, f64) = (1.0, 70.0);
+/// Greatest height, m.
+const HIGHEST: f64 = 9000.0;
+
+/// What an end of a road is linked to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Link {
+    Junction(String),
+    /// A road, and whether its end (or else its beginning).
+    Road(String, bool),
+}
+
+/// A road as it was read.
+#[derive(Clone, Debug)]
+pub(super) struct Road {
+    pub(super) id: String,
+    pub(super) name: String,
+    /// The junction that it is a part of.
+    pub(super) junction: Option<String>,
+    /// At its beginning and end.
+    pub(super) links: [Option<Link>; 2],
+    pub(super) line: Vec<Point2>,
+    /// Height of its beginning and end, m.
+    pub(super) heights: [f64; 2],
+    pub(super) section: CrossSection,
+    pub(super) class: RoadClass,
+    pub(super) speed: Option<f64>,
+}
+
+/// All that is kept of a file.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Roads {
+    /// Those that are driven on, in the order of the file.
+    pub(super) all: Vec<Road>,
+    /// The junctions with signals.
+    pub(super) signalised: BTreeSet<String>,
+    /// Whether traffic keeps left.
+    pub(super) keeps_left: bool,
+    pub(super) origin: Option<GeoOrigin>,
+}
+
+/// An attribute that is a finite number.
+pub(super) fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
+    node.attribute(name)?.trim().parse::<f64>().ok().filter(|number| number.is_finite())
+}
+
+/// The value at a place of the last cubic that begins before it, each in `a` to `d` from its own beginning.
+pub(super) fn polynomial<'a>(
+    records: impl Iterator<Item = Node<'a, 'a>>,
+    start: &str,
+    at: f64,
+) -> Option<f64> {
+    let mut value = None;
+    for record in records {
+        let from = number(record, start).unwrap_or(0.0);
+        if value.is_some() && from > at {
+            break;
+        }
+        let [a, b, c, d] = ["a", "b", "c", "d"].map(|name| number(record, name).unwrap_or(0.0));
+        let x = (at - from).max(0.0);
+        value = Some(a + x * (b + x * (c + x * d)));
+    }
+    value.filter(|value: &f64| value.is_finite())
+}
+
+fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+    node.children().find(|child| child.has_tag_name(name))
+}
+
+/// Reads a document.
+pub(super) fn read(text: &str, warnings: &mut Vec<OpenDriveWarning>) -> Result<Roads, OpenDriveError> {
+    let document = Document::parse(text)?;
+    let root = document.root_element();
+    if !root.has_tag_name("OpenDRIVE") {
+        return Err(OpenDriveError::Foreign { found: root.tag_name().name().to_owned() });
+    }
+    let of = |name: &'static str| root.children().filter(move |child| child.has_tag_name(name));
+    let keeps_left = |road: &Node<'_, '_>| road.attribute("rule") == Some("LHT");
+    let left = of("road").filter(keeps_left).count();
+    let mut roads = Roads { keeps_left: 2 * left > of("road").count(), ..Roads::default() };
+    roads.origin = child(root, "header").and_then(|header| child(header, "geoReference")).and_then(origin);
+    let mut known = BTreeSet::new();
+    for node in of("road") {
+        let Some(id) = node.attribute("id") else {
+            warnings.push(OpenDriveWarning { road: None, what: "a road has no number; left out".to_owned() });
+            continue;
+        };
+        if !known.insert(id) {
+            warnings.push(OpenDriveWarning::of(id, "the number is used twice; the second was left out"));
+            continue;
+        }
+        match road(node, id, keeps_left(&node)) {
+            Ok(road) => roads.all.push(road),
+            // What is not driven on in a junction or beside it is no loss.
+            Err("") => {}
+            Err(what) => warnings.push(OpenDriveWarning::of(id, what)),
+        }
+    }
+    for junction in of("junction") {
+        if let Some(id) = junction.attribute("id").filter(|_| child(junction, "controller").is_some()) {
+            roads.signalised.insert(id.to_owned());
+        }
+    }
+    Ok(roads)
+}
+
+fn road(node: Node<'_, '_>, id: &str, keeps_left: bool) -> Result<Road, &'static str> {
+    let plan_view = child(node, "planView").ok_or("has no course; left out")?;
+    let line = curve::points(plan_view).ok_or("has no possible course; left out")?;
+    let length = number(node, "length").unwrap_or(0.0).clamp(0.0, 1e6);
+    let junction = node.attribute("junction").filter(|junction| *junction != "-1").map(str::to_owned);
+    let lanes = child(node, "lanes").ok_or("has no lanes; left out")?;
+    let nothing = if junction.is_some() { "" } else { "is nowhere driven on; left out" };
+    let section = section::at(lanes, length * 0.5, keeps_left).ok_or(nothing)?;
+    let links = child(node, "link");
+    let link = |name| links.and_then(|links| child(links, name)).and_then(link);
+    let profile = child(node, "elevationProfile");
+    let height = |s: f64| {
+        let records = profile.into_iter().flat_map(|profile| profile.children());
+        let records = records.filter(|record| record.has_tag_name("elevation"));
+        polynomial(records, "s", s).unwrap_or(0.0).clamp(-HIGHEST, HIGHEST)
+    };
+    let kind = child(node, "type");
+    let (forward, backward) = section.driven();
+    let class = match kind.and_then(|kind| kind.attribute("type")) {
+        Some("motorway") => RoadClass::Highway,
+        _ if forward.max(backward) > 1 => RoadClass::Arterial,
+        _ => RoadClass::Local,
+    };
+    Ok(Road {
+        id: id.to_owned(),
+        name: node.attribute("name").unwrap_or_default().to_owned(),
+        junction,
+        links: [link("predecessor"), link("successor")],
+        line,
+        heights: [height(0.0), height(length)],
+        section,
+        class,
+        speed: kind.and_then(|kind| child(kind, "speed")).and_then(speed),
+    })
+}
+
+fn link(node: Node<'_, '_>) -> Option<Link> {
+    let id = node.attribute("elementId")?.to_owned();
+    match node.attribute("elementType")? {
+        "junction" => Some(Link::Junction(id)),
+        "road" => Some(Link::Road(id, node.attribute("contactPoint") == Some("end"))),
+        _ => None,
+    }
+}
+
+/// A speed limit, m/s.
+fn speed(node: Node<'_, '_>) -> Option<f64> {
+    let unit = match node.attribute("unit") {
+        Some("km/h") => 1.0 / 3.6,
+        Some("mph") => 0.44704,
+        _ => 1.0,
+    };
+    let speed = number(node, "max")? * unit;
+    (speed > 0.0).then(|| speed.clamp(SPEEDS.0, SPEEDS.1))
+}
+
+/// The origin of a transverse Mercator projection about the middle of the map.
+fn origin(node: Node<'_, '_>) -> Option<GeoOrigin> {
+    let text: String = node.children().filter_map(|child| child.text()).collect();
+    let of = |name: &str| {
+        let value = text.split_whitespace().find_map(|word| word.strip_prefix(name))?;
+        value.parse::<f64>().ok().filter(|value| value.is_finite())
+    };
+    let is_about = text.contains("+proj=tmerc")
+        && of("+x_0=").unwrap_or(0.0) == 0.0
+        && of("+y_0=").unwrap_or(0.0) == 0.0;
+    let (latitude, longitude) = (of("+lat_0=")?, of("+lon_0=")?);
+    let is_somewhere = latitude.abs() <= 85.0 && longitude.abs() <= 180.0;
+    (is_about && is_somewhere).then_some(GeoOrigin { latitude, longitude })
+}
