@@ -1,9 +1,11 @@
-//! How fast cities are made: every stage beside its bar, linear growth, two threads against one.
+//! How fast cities are made and how much memory they take: every stage beside its bar, linear growth, two threads
+//! against one.
 //!
 //! ```sh
 //! cargo run --release --example city_figures
 //! ```
 
+use std::io::{self, Write};
 use std::time::Instant;
 
 use clap::Parser;
@@ -16,7 +18,8 @@ use simworld_citygen::lot::Land;
 use simworld_citygen::occupancy::Occupancy;
 use simworld_citygen::tile::{TileConfig, TileId, TileSource};
 use simworld_citygen::zoning::Zoning;
-use simworld_citygen::{City, CityConfig, Style};
+use simworld_citygen::{AllThreads, City, CityConfig, Style};
+use simworld_core::hash::{StateDigest, StateHasher};
 use simworld_core::id::WaypointId;
 use simworld_core::net::{
     HierarchyScratch, NetworkConfig, RoadNetwork, Route, RouteHierarchy, StreetPlan, WaypointConfig,
@@ -43,12 +46,13 @@ fn main() -> Outcome<()> {
     let mut table = Table::new();
     table.load_style(UTF8_FULL_CONDENSED);
     table.set_header(["what", "measured", "bar"]);
+    // First, while nothing else has taken memory.
+    whole(&arguments, &mut table)?;
     one.install(|| -> Outcome<()> {
         growths(&arguments, &mut table)?;
         stages(&arguments, &mut table)
     })?;
     threads(&arguments, &mut table)?;
-    whole(&arguments, &mut table)?;
     if let Some(column) = table.column_mut(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
@@ -68,6 +72,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
 fn best<T>(runs: u32, mut work: impl FnMut() -> T) -> (T, f64) {
     let (mut result, mut least) = timed(&mut work);
     for _ in 1..runs {
+        drop(result);
         let (again, time) = timed(&mut work);
         (result, least) = (again, least.min(time));
     }
@@ -169,43 +174,113 @@ fn tiles(table: &mut Table) -> Outcome<()> {
     Ok(())
 }
 
-/// A whole city on two threads against one.
+/// What takes bytes and keeps a hash of them.
+struct Fingerprint(StateHasher);
+
+impl Write for Fingerprint {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.bytes(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The hash of all that would be saved of a city: two cities are compared, and only one is held.
+fn fingerprint(city: &City) -> Outcome<StateDigest> {
+    let mut print = Fingerprint(StateHasher::new());
+    city.write_to(&mut print)?;
+    Ok(print.0.finish())
+}
+
+/// Times of the stages of a city, s.
+fn staged(config: &CityConfig, seed: Seed) -> Outcome<[(&'static str, f64); 5]> {
+    let (plan, growing) = timed(|| growth::grow(&config.roads, seed));
+    let (network, deriving) = timed(|| RoadNetwork::derive_with(&plan, &config.network, &AllThreads));
+    let network = network?;
+    let zoning = Zoning::new(&config.zoning, seed);
+    let ((land, mut taken), dividing) = timed(|| Land::beside_roads(&network, &zoning, &config.lots, seed));
+    let (built, building) = timed(|| building::build(&network, &land, &config.buildings, seed, &mut taken));
+    let setting = Setting {
+        plan: &plan,
+        network: &network,
+        zoning: &zoning,
+        land: &land,
+        buildings: &built,
+        within: None,
+    };
+    let (_, furnishing) = timed(|| element::furnish(&setting, &config.elements, seed, &mut taken));
+    Ok([
+        ("streets grown", growing),
+        ("roads derived", deriving),
+        ("land of roads, and lots", dividing),
+        ("buildings", building),
+        ("elements", furnishing),
+    ])
+}
+
+/// A whole city on two threads against one, and each of its stages. Its streets are grown, which is serial by nature.
 fn threads(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
     let config = config(arguments, arguments.streets / 20);
-    let mut cities = Vec::new();
-    let mut times = Vec::new();
+    let (mut prints, mut times, mut stages, mut buildings) = (Vec::new(), Vec::new(), Vec::new(), 0);
     for count in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build()?;
         let (city, time) = best(2, || pool.install(|| City::generate(&config, Seed(2))));
-        cities.push(city?);
+        let city = city?;
+        buildings = city.buildings.len();
+        prints.push(fingerprint(&city)?);
+        drop(city);
         times.push(time);
+        stages.push(pool.install(|| staged(&config, Seed(2)))?);
     }
-    let same = if cities[0] == cities[1] { "the same bits" } else { "OTHER BITS" };
+    let same = if prints[0] == prints[1] { "the same bits" } else { "OTHER BITS" };
     table.add_row([
-        format!("city of {} buildings on two threads, {same}", cities[0].buildings.len()),
+        format!("grown city of {buildings} buildings on two threads, {same}"),
         format!("{:.2} times as fast", times[0] / times[1]),
         "1.7".to_owned(),
     ]);
+    for ((stage, one), (_, two)) in stages[0].iter().zip(&stages[1]) {
+        let measured = format!("{:.0} ms, {:.2} times as fast", one * 1e3, one / two);
+        table.add_row([format!("  of it {stage}"), measured, "-".to_owned()]);
+    }
     Ok(())
 }
 
-/// A city of about a million buildings: made, saved, loaded.
+/// The most memory that this process has had, where the system tells.
+fn peak_memory() -> Option<String> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: f64 = kilobytes.trim().trim_end_matches(" kB").parse().ok()?;
+    Some(format!("{:.2} GB", kilobytes * 1024.0 / 1e9))
+}
+
+fn add_peak(table: &mut Table) {
+    let measured = peak_memory().unwrap_or_else(|| "unknown".to_owned());
+    table.add_row(["  most memory so far".to_owned(), measured, "2 GB".to_owned()]);
+}
+
+/// A city of about a million buildings: made, saved, loaded; one at a time.
 fn whole(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
     let config = config(arguments, arguments.streets / 7);
     let (city, time) = timed(|| City::generate(&config, Seed(3)));
     let city = city?;
     let buildings = city.buildings.len();
     table.add_row([format!("city of {buildings} buildings"), format!("{time:.1} s"), "10 s".to_owned()]);
-    let mut bytes = Vec::new();
-    let (saved, time) = timed(|| city.write_to(&mut bytes));
+    add_peak(table);
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("whole.simcity");
+    let (saved, time) = timed(|| city.save(&path));
     saved?;
-    table.add_row([
-        format!("saved, {} MB", bytes.len() / 1_000_000),
-        format!("{time:.1} s"),
-        "4 s".to_owned(),
-    ]);
-    let (loaded, time) = timed(|| City::from_bytes(&bytes));
-    let same = if loaded? == city { "the same city" } else { "ANOTHER CITY" };
+    let megabytes = std::fs::metadata(&path)?.len() / 1_000_000;
+    table.add_row([format!("saved, {megabytes} MB"), format!("{time:.1} s"), "4 s".to_owned()]);
+    add_peak(table);
+    let expected = fingerprint(&city)?;
+    drop(city);
+    let (loaded, time) = timed(|| City::load(&path));
+    let same = if fingerprint(&loaded?)? == expected { "the same city" } else { "ANOTHER CITY" };
     table.add_row([format!("loaded, {same}"), format!("{time:.1} s"), "2 s".to_owned()]);
+    add_peak(table);
     Ok(())
 }

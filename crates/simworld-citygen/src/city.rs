@@ -10,6 +10,7 @@ use crate::element::{self, Element, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
 use crate::terrain::{self, Terrain};
+use crate::threads::AllThreads;
 use crate::zoning::Zoning;
 use crate::{CityConfig, CityError, CityReport, Provenance, RoadSource};
 
@@ -76,10 +77,9 @@ impl City {
             plan.validate()?;
             terrain::raise_bridges(&mut plan, &config.terrain);
         }
-        let network = RoadNetwork::derive(&plan, &config.network)?;
-        let mut taken = Occupancy::of_roads(&network);
+        let network = RoadNetwork::derive_with(&plan, &config.network, &AllThreads)?;
         let zoning = Zoning::new(&config.zoning, seed);
-        let land = Land::of_network(&network, &zoning, &config.lots, seed, &taken);
+        let (land, mut taken) = Land::beside_roads(&network, &zoning, &config.lots, seed);
         let buildings = building::build(&network, &land, &config.buildings, seed, &mut taken);
         let setting = Setting {
             plan: &plan,

@@ -31,6 +31,7 @@ mod source;
 mod strips;
 mod style;
 pub mod terrain;
+mod threads;
 pub mod tile;
 pub mod zoning;
 
@@ -43,3 +44,4 @@ pub use provenance::Provenance;
 pub use report::{CityReport, Judged, StreetStatistics};
 pub use source::RoadSource;
 pub use style::{Band, Style, StyleError};
+pub use threads::AllThreads;

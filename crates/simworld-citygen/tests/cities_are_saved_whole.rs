@@ -55,6 +55,28 @@ fn every_truncation_is_named() {
 }
 
 #[test]
+fn a_file_is_judged_like_its_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.simcity");
+    let saved = bytes(&city(6, 2));
+    let judge = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        let error = |result: Result<City, SaveError>| result.err().map(|error| error.to_string());
+        assert_eq!(error(City::load(&path)), error(City::from_bytes(bytes)), "{} bytes", bytes.len());
+    };
+    judge(&saved);
+    for length in [0, 5, 9, 15, saved.len() / 2, saved.len() - 1] {
+        judge(&saved[..length]);
+    }
+    for place in [0, 10, 20, 40, saved.len() / 2, saved.len() - 3] {
+        let mut damaged = saved.clone();
+        damaged[place] ^= 4;
+        judge(&damaged);
+    }
+    judge(&[saved, vec![7]].concat());
+}
+
+#[test]
 fn foreign_and_newer_files_are_told_apart() {
     assert!(matches!(City::from_bytes(b"{\"roads\": []}"), Err(SaveError::Foreign)));
     let mut saved = bytes(&city(6, 2));

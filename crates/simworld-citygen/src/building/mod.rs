@@ -23,8 +23,9 @@ use simworld_core::seed::Seed;
 pub use surveyed::Surveyed;
 
 use crate::BuildingConfig;
-use crate::lot::Land;
+use crate::lot::{Land, Lot};
 use crate::occupancy::Occupancy;
+use crate::threads;
 use crate::zoning::Zone;
 use place::{Planner, Plans};
 use rayon::prelude::*;
@@ -218,12 +219,14 @@ pub(crate) fn raise(
     let weights = Weights::new();
     let mut buildings = Vec::with_capacity(land.lots.len() * 5 / 4);
     taken.reserve(land.lots.len() * 5 / 4);
-    for batch in land.lots.chunks(BATCH) {
-        // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
-        let plans: Vec<Plans> = batch
+    // Plans are functions of their lots, so they are made on all threads; what stands is decided in order.
+    let plan = |batch: &[Lot]| -> Vec<Plans> {
+        let planned = batch
             .par_chunks(BATCH / 64)
-            .map(|lots| Planner::new(network, land, config, &weights, streams).plan_all(lots))
-            .collect();
+            .map(|lots| Planner::new(network, land, config, &weights, streams).plan_all(lots));
+        planned.collect()
+    };
+    threads::in_order(land.lots.chunks(BATCH), plan, |plans| {
         for Plans { buildings: planned, grounds } in plans {
             for (building, ground) in planned.into_iter().zip(grounds) {
                 // Lots do not overlap, so this refuses only what would stand on a road.
@@ -232,6 +235,6 @@ pub(crate) fn raise(
                 }
             }
         }
-    }
+    });
     buildings
 }

@@ -1,19 +1,25 @@
 //! Trees in parks and courtyards: on a jittered lattice, clear of the edges.
 
+use rayon::prelude::*;
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::RoadId;
+use simworld_core::net::Side;
 use simworld_core::scene::EntityKind;
 use simworld_core::seed::Stream;
 
 use super::kinds::shape_of;
 use super::{Element, Setting};
 use crate::ElementConfig;
-use crate::lot::GreenKind;
+use crate::lot::{Green, GreenKind};
 use crate::occupancy::Occupancy;
+use crate::threads;
 
 /// Distance of a tree from the edge of its green, m.
 const EDGE: f64 = 2.0;
 /// Lattice points of one green.
 const MOST_POINTS: f64 = 20_000.0;
+/// Greens that one thread thinks of at once.
+const CHUNK: usize = 16;
 
 /// Plants trees on every park and courtyard.
 pub(super) fn plant(
@@ -27,34 +33,59 @@ pub(super) fn plant(
         return;
     }
     let spacing = 1.0 / config.green_trees.sqrt();
-    for green in setting.land.greens.iter().filter(|green| green.kind != GreenKind::Leftover) {
-        let outline = setting.land.green_outline(green);
-        let (low, high) = outline
-            .iter()
-            .fold((outline[0], outline[0]), |(low, high), corner| (low.inf(corner), high.sup(corner)));
-        let size: Vector2 = high - low;
-        let (columns, rows) = ((size.x / spacing).ceil(), (size.y / spacing).ceil());
-        if columns * rows > MOST_POINTS {
+    let greens: Vec<&Green> =
+        setting.land.greens.iter().filter(|green| green.kind != GreenKind::Leftover).collect();
+    // Trees are functions of their greens, so they are thought of on all threads; who gets room is decided in order.
+    let think = |batch: &[&Green]| -> Vec<Vec<(Element, [Point2; 4])>> {
+        let trees = batch.par_chunks(CHUNK).map(|greens| {
+            let outlines = greens.iter().map(|green| {
+                let borders = &setting.land.blocks[green.block as usize].borders;
+                (setting.land.green_outline(green), borders.iter().find_map(|border| border.as_street()))
+            });
+            outlines.flat_map(|(outline, along)| trees_on(outline, along, spacing, streams)).collect()
+        });
+        trees.collect()
+    };
+    threads::in_order(greens.chunks(64 * CHUNK), think, |trees| {
+        for (tree, ground) in trees.into_iter().flatten() {
+            if taken.take(&ground) {
+                elements.push(tree);
+            }
+        }
+    });
+}
+
+/// The trees that would stand on a green, with the ground that each takes.
+fn trees_on(
+    outline: &[Point2],
+    along: Option<(RoadId, Side)>,
+    spacing: f64,
+    streams: Stream,
+) -> Vec<(Element, [Point2; 4])> {
+    let (low, high) = outline
+        .iter()
+        .fold((outline[0], outline[0]), |(low, high), corner| (low.inf(corner), high.sup(corner)));
+    let size: Vector2 = high - low;
+    let (columns, rows) = ((size.x / spacing).ceil(), (size.y / spacing).ceil());
+    let mut trees = Vec::new();
+    if columns * rows > MOST_POINTS {
+        return trees;
+    }
+    let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    let mut rng = streams.indexed(key(low.x)).indexed(key(low.y)).rng();
+    for index in 0..(columns * rows) as u64 {
+        let (column, row) = (index % columns as u64, index / columns as u64);
+        let jitter = Vector2::new(rng.unit(), rng.unit());
+        let position = low + (Vector2::new(column as f64, row as f64) + jitter) * spacing;
+        if !is_inside(outline, position) {
             continue;
         }
-        let borders = &setting.land.blocks[green.block as usize].borders;
-        let along = borders.iter().find_map(|border| border.as_street());
-        let key = |x: f64| (x * 100.0).round() as i64 as u64;
-        let mut rng = streams.indexed(key(low.x)).indexed(key(low.y)).rng();
-        for index in 0..(columns * rows) as u64 {
-            let (column, row) = (index % columns as u64, index / columns as u64);
-            let jitter = Vector2::new(rng.unit(), rng.unit());
-            let position = low + (Vector2::new(column as f64, row as f64) + jitter) * spacing;
-            if !is_inside(outline, position) {
-                continue;
-            }
-            let shape = shape_of(EntityKind::Tree, &mut rng);
-            let element = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
-            if taken.take(&element.obb().footprint()) {
-                elements.push(element);
-            }
-        }
+        let shape = shape_of(EntityKind::Tree, &mut rng);
+        let tree = Element { kind: EntityKind::Tree, position, facing: 0.0, shape, along };
+        let ground = tree.obb().footprint();
+        trees.push((tree, ground));
     }
+    trees
 }
 
 /// Whether a point lies within an outline, clear of its edges.

@@ -107,8 +107,13 @@ pub fn furnish(
 ) -> Vec<Element> {
     let streams = seed.stream("citygen/elements");
     let mut elements = Vec::with_capacity(setting.network.sidewalks.len() * 14);
-    sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements);
-    parking::park(setting, config, streams.named("parking"), &mut elements);
+    // Cars park where nothing else may stand, so nobody has to wait for them.
+    let mut parked = Vec::new();
+    rayon::join(
+        || sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements),
+        || parking::park(setting, config, streams.named("parking"), &mut parked),
+    );
+    elements.append(&mut parked);
     green::plant(setting, config, streams.named("greens"), taken, &mut elements);
     decks::clear_below(setting.network, &mut elements);
     elements

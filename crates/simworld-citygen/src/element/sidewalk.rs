@@ -14,6 +14,7 @@ use super::walk::{Walk, turned};
 use super::{Element, FREE_WIDTH, Setting};
 use crate::ElementConfig;
 use crate::occupancy::Occupancy;
+use crate::threads;
 use crate::zoning::Zone;
 
 /// Distance kept from the ends of a sidewalk, where people turn and cross, m.
@@ -63,26 +64,30 @@ pub(super) fn line(
     let all = setting.network.sidewalks.iter().enumerate();
     let sidewalks: Vec<(usize, &Sidewalk)> =
         all.filter(|(_, sidewalk)| setting.has_side(sidewalk.road, sidewalk.side)).collect();
-    for batch in sidewalks.chunks(BATCH) {
-        // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
-        let wishes: Vec<Vec<Wish>> = batch
-            .par_chunks(CHUNK)
-            .map(|sidewalks| {
-                let mut setter = Setter::default();
-                setter.wishes.reserve(14 * sidewalks.len());
-                for (index, sidewalk) in sidewalks {
-                    setter.begin(sidewalk, doors.at(*index), setting);
-                    setter.furnish(sidewalk, setting, config, stream_of(sidewalk, streams));
-                }
-                setter.wishes
-            })
-            .collect();
+    // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
+    let wish = |batch: &[(usize, &Sidewalk)]| -> Vec<Vec<(Wish, [Point2; 4])>> {
+        let made = batch.par_chunks(CHUNK).map(|sidewalks| {
+            let mut setter = Setter::default();
+            setter.wishes.reserve(14 * sidewalks.len());
+            for (index, sidewalk) in sidewalks {
+                setter.begin(sidewalk, doors.at(*index), setting);
+                setter.furnish(sidewalk, setting, config, stream_of(sidewalk, streams));
+            }
+            let with_ground = |wish: Wish| {
+                let ground = wish.element.obb().footprint();
+                (wish, ground)
+            };
+            setter.wishes.into_iter().map(with_ground).collect()
+        });
+        made.collect()
+    };
+    threads::in_order(sidewalks.chunks(BATCH), wish, |wishes| {
         let mut has_table = false;
-        for Wish { element, needs } in wishes.into_iter().flatten() {
+        for (Wish { element, needs }, ground) in wishes.into_iter().flatten() {
             let comes_true = match needs {
                 Need::Nothing => true,
                 Need::Table if !has_table => false,
-                Need::Room | Need::Table => taken.take(&element.obb().footprint()),
+                Need::Room | Need::Table => taken.take(&ground),
             };
             if comes_true {
                 elements.push(element);
@@ -91,7 +96,7 @@ pub(super) fn line(
                 has_table = comes_true && element.kind == EntityKind::Table;
             }
         }
-    }
+    });
 }
 
 /// The stream of a sidewalk is a function of where it begins, so that a change elsewhere moves nothing here.

@@ -92,6 +92,25 @@ impl Land {
         Self::of_blocks(Block::of_network(network), zoning, config, seed, taken)
     }
 
+    /// Divides the land between the streets of a network; and the land of the roads, which is found meanwhile.
+    pub fn beside_roads(
+        network: &RoadNetwork,
+        zoning: &Zoning,
+        config: &LotConfig,
+        seed: Seed,
+    ) -> (Self, Occupancy) {
+        let streams = seed.stream("citygen/lots");
+        let (taken, (blocks, closed)) = rayon::join(
+            || Occupancy::of_roads(network),
+            || {
+                let blocks = Block::of_network(network);
+                let closed = Self::of_closed(&blocks, zoning, config, streams);
+                (blocks, closed)
+            },
+        );
+        (closed.with_open(blocks, zoning, config, streams, &taken), taken)
+    }
+
     /// Divides some blocks of a network. `taken` is what no lot of an open block may touch: the land of the roads.
     pub(crate) fn of_blocks(
         blocks: Vec<Block>,
@@ -101,7 +120,13 @@ impl Land {
         taken: &Occupancy,
     ) -> Self {
         let streams = seed.stream("citygen/lots");
-        let numbered: Vec<(u32, &Block)> = (0..).zip(&blocks).collect();
+        let closed = Self::of_closed(&blocks, zoning, config, streams);
+        closed.with_open(blocks, zoning, config, streams, taken)
+    }
+
+    /// Divides the closed ones of some blocks.
+    fn of_closed(blocks: &[Block], zoning: &Zoning, config: &LotConfig, streams: Stream) -> Self {
+        let numbered: Vec<(u32, &Block)> = (0..).zip(blocks).collect();
         // Closed blocks are functions of themselves, so they are divided on all threads.
         let parts: Vec<Self> = numbered
             .par_chunks(CHUNK)
@@ -118,13 +143,25 @@ impl Land {
         for part in parts {
             land.append(part);
         }
+        land
+    }
+
+    /// Lines the open ones of the blocks with lots, and keeps all blocks.
+    fn with_open(
+        mut self,
+        blocks: Vec<Block>,
+        zoning: &Zoning,
+        config: &LotConfig,
+        streams: Stream,
+        taken: &Occupancy,
+    ) -> Self {
         let mut ribbons = Occupancy::default();
-        for (index, block) in numbered.into_iter().filter(|(_, block)| block.area.is_none()) {
-            let mut divider = Divider::new(&mut land, index, zoning, config, stream_of(block, streams));
+        for (index, block) in (0..).zip(&blocks).filter(|(_, block)| block.area.is_none()) {
+            let mut divider = Divider::new(&mut self, index, zoning, config, stream_of(block, streams));
             ribbon::line(&mut divider, block, streams, taken, &mut ribbons);
         }
-        land.blocks = blocks;
-        land
+        self.blocks = blocks;
+        self
     }
 
     /// Adds what another part of the land holds.

@@ -16,7 +16,7 @@ mod turning;
 mod waypoint;
 
 pub use check::NetworkFault;
-pub use derive::{NetworkConfig, NetworkError};
+pub use derive::{Alone, NetworkConfig, NetworkError, Workers};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
 pub use network::{

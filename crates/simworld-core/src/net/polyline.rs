@@ -12,20 +12,25 @@ pub fn length(path: &[Point2]) -> f64 {
 ///
 /// A path of one point has heading zero; an empty one gives the origin.
 pub fn at(path: &[Point2], station: f64) -> (Point2, f64) {
+    let (point, along) = at_piece(path, station);
+    (point, along.map_or(0.0, |step| ops::atan2(step.y, step.x)))
+}
+
+/// The point at a station, and the piece on which it lies; its heading costs more than all else, and few ask for it.
+fn at_piece(path: &[Point2], station: f64) -> (Point2, Option<Vector2>) {
     let mut left = station.max(0.0);
-    let mut last = (path.first().copied().unwrap_or_else(Point2::origin), 0.0);
+    let mut last = (path.first().copied().unwrap_or_else(Point2::origin), None);
     for pair in path.windows(2) {
         let step = pair[1] - pair[0];
         let span = step.norm();
         if span == 0.0 {
             continue;
         }
-        let heading = ops::atan2(step.y, step.x);
         if left <= span {
-            return (pair[0] + step * (left / span), heading);
+            return (pair[0] + step * (left / span), Some(step));
         }
         left -= span;
-        last = (pair[1], heading);
+        last = (pair[1], Some(step));
     }
     last
 }
@@ -33,7 +38,7 @@ pub fn at(path: &[Point2], station: f64) -> (Point2, f64) {
 /// The part between two stations, both clamped to the path; two equal points if nothing is left.
 pub fn slice(path: &[Point2], from: f64, to: f64) -> Vec<Point2> {
     let (from, to) = (from.max(0.0), to.min(length(path)));
-    let mut out = vec![at(path, from).0];
+    let mut out = vec![at_piece(path, from).0];
     let mut station = 0.0;
     for pair in path.windows(2) {
         station += (pair[1] - pair[0]).norm();
@@ -41,7 +46,7 @@ pub fn slice(path: &[Point2], from: f64, to: f64) -> Vec<Point2> {
             out.push(pair[1]);
         }
     }
-    out.push(at(path, to.max(from)).0);
+    out.push(at_piece(path, to.max(from)).0);
     out
 }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use simworld_core::hash::StateHasher;
 
+use super::source::Source;
 use super::{MAGIC, SaveError, VERSION};
 
 /// Items a section of a list.
@@ -60,32 +61,57 @@ impl Tag {
 pub(super) struct Writer<'a, W> {
     out: &'a mut W,
     /// Kept between sections, so that a section allocates nothing.
-    buffer: Vec<u8>,
+    buffers: [Vec<u8>; 2],
+}
+
+/// The content of a section, and its checksum.
+type Encoded = Result<(Vec<u8>, u64), SaveError>;
+
+fn encode<T: Serialize + ?Sized>(tag: Tag, content: &T, mut buffer: Vec<u8>) -> Encoded {
+    buffer.clear();
+    let bytes = postcard::to_extend(content, buffer)
+        .map_err(|error| SaveError::Content { section: tag.name(), reason: error.to_string() })?;
+    let checksum = checksum(&bytes);
+    Ok((bytes, checksum))
 }
 
 impl<'a, W: Write> Writer<'a, W> {
     pub(super) fn begin(out: &'a mut W) -> Result<Self, SaveError> {
         out.write_all(&MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
-        Ok(Self { out, buffer: Vec::new() })
+        Ok(Self { out, buffers: Default::default() })
     }
 
     pub(super) fn section<T: Serialize + ?Sized>(&mut self, tag: Tag, content: &T) -> Result<(), SaveError> {
-        let mut buffer = std::mem::take(&mut self.buffer);
-        buffer.clear();
-        let buffer = postcard::to_extend(content, buffer)
-            .map_err(|error| SaveError::Content { section: tag.name(), reason: error.to_string() })?;
-        self.out.write_all(&(tag as u32).to_le_bytes())?;
-        self.out.write_all(&(buffer.len() as u64).to_le_bytes())?;
-        self.out.write_all(&checksum(&buffer).to_le_bytes())?;
-        self.out.write_all(&buffer)?;
-        self.buffer = buffer;
+        let buffer = std::mem::take(&mut self.buffers[0]);
+        self.buffers[0] = self.write(tag, encode(tag, content, buffer))?;
         Ok(())
     }
 
-    /// A long list, in sections of so many items that framing costs nothing and buffers stay small.
-    pub(super) fn list<T: Serialize>(&mut self, tag: Tag, items: &[T]) -> Result<(), SaveError> {
-        items.chunks(CHUNK).try_for_each(|some| self.section(tag, some))
+    /// Writes what was encoded, and gives its memory back.
+    fn write(&mut self, tag: Tag, encoded: Encoded) -> Result<Vec<u8>, SaveError> {
+        let (bytes, checksum) = encoded?;
+        self.out.write_all(&(tag as u32).to_le_bytes())?;
+        self.out.write_all(&(bytes.len() as u64).to_le_bytes())?;
+        self.out.write_all(&checksum.to_le_bytes())?;
+        self.out.write_all(&bytes)?;
+        Ok(bytes)
+    }
+
+    /// A long list, in sections of so many items that framing costs nothing and buffers stay small; two are encoded at
+    /// once.
+    pub(super) fn list<T: Serialize + Sync>(&mut self, tag: Tag, items: &[T]) -> Result<(), SaveError> {
+        for some in items.chunks(2 * CHUNK) {
+            let (first, second) = some.split_at(CHUNK.min(some.len()));
+            if second.is_empty() {
+                self.section(tag, first)?;
+                continue;
+            }
+            let [one, two] = std::mem::take(&mut self.buffers);
+            let (one, two) = rayon::join(|| encode(tag, first, one), || encode(tag, second, two));
+            self.buffers = [self.write(tag, one)?, self.write(tag, two)?];
+        }
+        Ok(())
     }
 
     pub(super) fn end(mut self) -> Result<(), SaveError> {
@@ -95,27 +121,31 @@ impl<'a, W: Write> Writer<'a, W> {
 
 /// The sections of a file, in order, not yet looked into.
 pub(super) struct Sections<'a> {
-    found: Vec<Section<'a>>,
+    source: Source<'a>,
+    found: Vec<Section>,
 }
 
-struct Section<'a> {
+struct Section {
     tag: Tag,
     checksum: u64,
-    content: &'a [u8],
+    /// Where its content begins, and how many bytes it has; they lie within the source.
+    start: u64,
+    length: u64,
 }
 
 impl<'a> Sections<'a> {
-    pub(super) fn of(bytes: &'a [u8]) -> Result<Self, SaveError> {
-        if !bytes.starts_with(&MAGIC[..bytes.len().min(MAGIC.len())]) || bytes.is_empty() {
+    pub(super) fn of(source: Source<'a>) -> Result<Self, SaveError> {
+        let magic = source.read(0, source.len().min(MAGIC.len() as u64))?;
+        if !magic.starts_with(&MAGIC[..magic.len()]) || magic.is_empty() {
             return Err(SaveError::Foreign);
         }
-        let mut rest = Rest(bytes);
+        let mut rest = Rest { source: &source, at: 0 };
         rest.take::<8>("the magic")?;
         let version = u32::from_le_bytes(rest.take("the version")?);
         if version != VERSION {
             return Err(SaveError::Version { found: version });
         }
-        let mut found: Vec<Section<'a>> = Vec::new();
+        let mut found: Vec<Section> = Vec::new();
         while found.last().is_none_or(|section| section.tag != Tag::End) {
             let within = found.last().map_or("the head", |section| section.tag.name());
             let tag = Tag::from_number(u32::from_le_bytes(rest.take(within)?));
@@ -126,12 +156,12 @@ impl<'a> Sections<'a> {
             }
             let length = u64::from_le_bytes(rest.take(tag.name())?);
             let checksum = u64::from_le_bytes(rest.take(tag.name())?);
-            found.push(Section { tag, checksum, content: rest.bytes(length, tag.name())? });
+            found.push(Section { tag, checksum, start: rest.pass(length, tag.name())?, length });
         }
-        if !rest.0.is_empty() {
+        if rest.at < source.len() {
             return Err(SaveError::Section { found: "more", expected: "nothing after the end" });
         }
-        let sections = Self { found };
+        let sections = Self { source, found };
         // Nobody asks for the end, which has a checksum all the same.
         sections.one::<()>(Tag::End)?;
         Ok(sections)
@@ -141,7 +171,7 @@ impl<'a> Sections<'a> {
     pub(super) fn one<T: DeserializeOwned>(&self, tag: Tag) -> Result<T, SaveError> {
         let mut all = self.found.iter().filter(|section| section.tag == tag);
         match (all.next(), all.next()) {
-            (Some(section), None) => section.decode(),
+            (Some(section), None) => section.decode(&self.source),
             (None, _) => Err(SaveError::Section { found: "nothing", expected: tag.name() }),
             (Some(_), Some(_)) => Err(SaveError::Section { found: "two of", expected: tag.name() }),
         }
@@ -151,10 +181,10 @@ impl<'a> Sections<'a> {
     pub(super) fn list<T: DeserializeOwned>(&self, tag: Tag, count: u64) -> Result<Vec<T>, SaveError> {
         let sections = self.found.iter().filter(|section| section.tag == tag);
         // An item takes a byte at least, so that memory follows the file and not what it announces.
-        let bytes: usize = sections.clone().map(|section| section.content.len()).sum();
-        let mut items: Vec<T> = Vec::with_capacity(count.min(bytes as u64) as usize);
+        let bytes: u64 = sections.clone().map(|section| section.length).sum();
+        let mut items: Vec<T> = Vec::with_capacity(count.min(bytes) as usize);
         for section in sections {
-            items.append(&mut section.decode()?);
+            items.append(&mut section.decode(&self.source)?);
         }
         if items.len() as u64 == count {
             Ok(items)
@@ -165,37 +195,42 @@ impl<'a> Sections<'a> {
     }
 }
 
-impl Section<'_> {
-    fn decode<T: DeserializeOwned>(&self) -> Result<T, SaveError> {
+impl Section {
+    fn decode<T: DeserializeOwned>(&self, source: &Source<'_>) -> Result<T, SaveError> {
         let section = self.tag.name();
-        if checksum(self.content) != self.checksum {
+        let content = source.read(self.start, self.length)?;
+        if checksum(&content) != self.checksum {
             return Err(SaveError::Checksum { section });
         }
         let broken = |reason: String| SaveError::Content { section, reason };
-        let (value, left) =
-            postcard::take_from_bytes(self.content).map_err(|error| broken(error.to_string()))?;
+        let (value, left) = postcard::take_from_bytes(&content).map_err(|error| broken(error.to_string()))?;
         if left.is_empty() { Ok(value) } else { Err(broken(format!("{} bytes too many", left.len()))) }
     }
 }
 
 /// What is left of the bytes of a file.
-struct Rest<'a>(&'a [u8]);
+struct Rest<'s, 'a> {
+    source: &'s Source<'a>,
+    at: u64,
+}
 
-impl<'a> Rest<'a> {
+impl Rest<'_, '_> {
     fn take<const N: usize>(&mut self, section: &'static str) -> Result<[u8; N], SaveError> {
+        let start = self.pass(N as u64, section)?;
         let mut taken = [0; N];
-        taken.copy_from_slice(self.bytes(N as u64, section)?);
+        taken.copy_from_slice(&self.source.read(start, N as u64)?);
         Ok(taken)
     }
 
-    fn bytes(&mut self, length: u64, section: &'static str) -> Result<&'a [u8], SaveError> {
-        let left = self.0.len() as u64;
+    /// Passes over so many bytes; where they begin.
+    fn pass(&mut self, length: u64, section: &'static str) -> Result<u64, SaveError> {
+        let left = self.source.len() - self.at;
         if length > left {
             return Err(SaveError::Truncated { section, missing: length - left });
         }
-        let (bytes, rest) = self.0.split_at(length as usize);
-        self.0 = rest;
-        Ok(bytes)
+        let start = self.at;
+        self.at += length;
+        Ok(start)
     }
 }
 

@@ -16,15 +16,17 @@
 
 mod check;
 mod frame;
+mod source;
 
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
-use std::{fs, io, thread};
+use std::{io, thread};
 
 use frame::{Sections, Tag};
 use serde::{Deserialize, Serialize};
 use simworld_core::net::{DrivingSide, NetworkError, NetworkFault, RoadNetwork, StreetPlan};
+use source::Source;
 use thiserror::Error;
 
 use super::atomic;
@@ -210,7 +212,11 @@ impl City {
     /// # Errors
     /// Bytes that are no saved city of this version, or a city that cannot be.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SaveError> {
-        let sections = Sections::of(bytes)?;
+        Self::read(Source::Bytes(bytes))
+    }
+
+    fn read(source: Source<'_>) -> Result<Self, SaveError> {
+        let sections = Sections::of(source)?;
         let head: Head = sections.one(Tag::Head)?;
         let config = config_from_json(&head.config)?;
         let counts = &head.counts;
@@ -243,16 +249,12 @@ impl City {
         atomic::write(path, |file| self.write_to(file))
     }
 
-    /// Loads a city from a file.
+    /// Loads a city from a file, a section at a time: beside the city, some megabytes are enough.
     ///
     /// # Errors
     /// A file that cannot be read, that is no saved city of this version, or a city that cannot be.
     pub fn load(path: &Path) -> Result<Self, SaveError> {
-        let bytes = fs::metadata(path)?.len();
-        if bytes > MOST_BYTES {
-            return Err(SaveError::TooLarge { bytes });
-        }
-        Self::from_bytes(&fs::read(path)?)
+        Self::read(Source::file(path)?)
     }
 }
 

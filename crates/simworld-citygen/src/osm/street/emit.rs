@@ -46,8 +46,6 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
         let speed_limit = (character.speed > 0.0).then_some(character.speed);
         off_ground.push(character.is_covered || character.level != 0);
         plan.streets.push(Street {
-            from,
-            to,
             via: edge.via.clone(),
             class: character.class,
             section,
@@ -56,6 +54,7 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
             level: character.level,
             roundabout: character.is_roundabout,
             turns: turns(web, edge),
+            ..Street::simple(from, to)
         });
     }
     if plan.sections.is_empty() {

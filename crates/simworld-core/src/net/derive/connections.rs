@@ -1,10 +1,12 @@
 //! Connections: the ways across an intersection, which of them touch, and who gives way.
 
+use std::ops::Range;
+
 use super::legs::Leg;
-use super::trace::Trace;
+use super::trace::{Trace, Traces};
 use super::{cycles, kerbs};
 use crate::geometry::{Point2, Vector2, direction};
-use crate::id::{ConnectionId, IntersectionId, LaneId};
+use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
     Connection, Control, Phase, RoadClass, RoadNetwork, SignalGroup, SignalPlan, StreetPlan, Turn, TurnSet,
     polyline,
@@ -15,27 +17,78 @@ use crate::ops::wrap_angle;
 const TOUCHING: f64 = 2.4;
 /// A change of heading below this counts as straight on, radians.
 const STRAIGHT: f64 = 0.7;
-
 /// Distance between the kerb of a turning circle and a lane's width about the way round it, m.
 const KERB_CLEARANCE: f64 = 0.5;
 
-/// Adds the connections of one intersection.
-pub(super) fn add(network: &mut RoadNetwork, plan: &StreetPlan, id: IntersectionId, legs: &[Leg]) {
-    let first = network.connections.len();
-    let vehicle_groups =
-        network.signals.last().filter(|plan| plan.intersection == id).map(|plan| plan.groups.clone());
-    for (index, leg) in legs.iter().enumerate() {
-        let signal = vehicle_groups.as_ref().map(|groups| groups[index]);
-        let cycled = cycles::movements(network, plan, legs, leg);
-        for (from, to, turn) in movements(network, plan, legs, leg).into_iter().chain(cycled) {
-            let path = path(network, leg, (from, to), turn);
-            add_connection(network, id, (from, to), turn, signal, path);
-        }
+/// The connections of some intersections, under construction; their numbers begin at zero.
+#[derive(Default)]
+struct Builder {
+    made: Vec<Connection>,
+    // The memory of the work at one intersection, kept for the next.
+    movements: Vec<(LaneId, LaneId, Turn)>,
+    traces: Traces,
+    claims: Vec<Claim>,
+    met: Vec<Meeting>,
+    crossings: Vec<CrossingId>,
+}
+
+/// The connections of some intersections that follow one another, with numbers from zero on. Lanes, crossings and signals
+/// must be there.
+pub(super) fn of_nodes(
+    network: &RoadNetwork,
+    plan: &StreetPlan,
+    legs: &[Vec<Leg>],
+    nodes: Range<usize>,
+) -> Vec<Connection> {
+    let mut builder = Builder::default();
+    for node in nodes {
+        builder.add(network, plan, IntersectionId::from_index(node), &legs[node]);
     }
-    let own: Vec<ConnectionId> = (first..network.connections.len()).map(ConnectionId::from_index).collect();
-    set_conflicts(network, id, &own);
-    set_crossings(network, id, &own);
-    network.intersections[id.index()].connections = own;
+    builder.made
+}
+
+/// Adds connections that were made with numbers from zero on.
+pub(super) fn append(network: &mut RoadNetwork, made: Vec<Connection>) {
+    let shift = network.connections.len() as u32;
+    let mut next = shift;
+    for own in made.chunk_by(|a, b| a.intersection == b.intersection) {
+        let end = next + own.len() as u32;
+        network.intersections[own[0].intersection.index()].connections =
+            (next..end).map(ConnectionId).collect();
+        next = end;
+    }
+    for mut connection in made {
+        for other in connection.conflicts.iter_mut().chain(&mut connection.yields_to) {
+            other.0 += shift;
+        }
+        let id = ConnectionId::from_index(network.connections.len());
+        network.lanes[connection.from.index()].outgoing.push(id);
+        network.connections.push(connection);
+    }
+}
+
+impl Builder {
+    /// Adds the connections of one intersection.
+    fn add(&mut self, network: &RoadNetwork, plan: &StreetPlan, id: IntersectionId, legs: &[Leg]) {
+        let first = self.made.len();
+        let signals = network.intersections[id.index()].signals;
+        let signals = signals.map(|index| &network.signals[index as usize]);
+        for (index, leg) in legs.iter().enumerate() {
+            let signal = signals.map(|signals| signals.groups[index]);
+            set_movements(network, plan, legs, leg, &mut self.movements);
+            self.movements.extend(cycles::movements(network, plan, legs, leg));
+            let made = self.movements.iter().map(|movement| connection(network, id, leg, *movement, signal));
+            self.made.extend(made);
+        }
+        self.traces.clear();
+        self.claims.clear();
+        for (index, connection) in self.made.iter().enumerate().skip(first) {
+            let id = ConnectionId::from_index(index);
+            self.claims.push(claim(network, connection, id, &mut self.traces));
+        }
+        self.set_conflicts(signals, first);
+        self.set_crossings(&network.intersections[id.index()].crossings, network);
+    }
 }
 
 /// Lanes that arrive over a leg, and lanes that leave over it, from the middle outwards.
@@ -49,21 +102,23 @@ pub(super) fn leaving<'a>(network: &'a RoadNetwork, leg: &Leg) -> &'a [LaneId] {
     if leg.at_start { &road.forward } else { &road.backward }
 }
 
-/// Which lanes of a leg lead to which lanes of the others.
-fn movements(
+/// Finds which lanes of a leg lead to which lanes of the others, written over `found`.
+fn set_movements(
     network: &RoadNetwork,
     plan: &StreetPlan,
     legs: &[Leg],
     leg: &Leg,
-) -> Vec<(LaneId, LaneId, Turn)> {
+    found: &mut Vec<(LaneId, LaneId, Turn)>,
+) {
     let from = arriving(network, leg);
-    let mut found = ways_on(network, plan, legs, leg, arrows(plan, leg));
+    found.clear();
+    add_ways_on(network, plan, legs, leg, arrows(plan, leg), found);
     // Arrows that no street answers are a mistake: better without them than back.
     if found.is_empty() {
-        found = ways_on(network, plan, legs, leg, &[]);
+        add_ways_on(network, plan, legs, leg, &[], found);
     }
     if found.is_empty() {
-        lane_to_lane(from, leaving(network, leg), Turn::UTurn, &mut found);
+        lane_to_lane(from, leaving(network, leg), Turn::UTurn, found);
     }
     let stranded: Vec<LaneId> =
         from.iter().copied().filter(|lane| found.iter().all(|f| f.0 != *lane)).collect();
@@ -72,25 +127,24 @@ fn movements(
     }
     // Of one lane in the order of the legs to which its ways lead, whatever the numbers of those.
     found.sort_by_key(|(from, ..)| *from);
-    found
 }
 
-/// The ways from the lanes of a leg over a junction that arrows allow.
-fn ways_on(
+/// Adds the ways from the lanes of a leg over a junction that arrows allow.
+fn add_ways_on(
     network: &RoadNetwork,
     plan: &StreetPlan,
     legs: &[Leg],
     leg: &Leg,
     arrows: &[TurnSet],
-) -> Vec<(LaneId, LaneId, Turn)> {
+    found: &mut Vec<(LaneId, LaneId, Turn)>,
+) {
     let from = arriving(network, leg);
-    let mut found = Vec::new();
     for other in legs.iter().filter(|other| other.street != leg.street) {
         let turn = turn_between(plan, leg, other);
         let to = leaving(network, other);
         // Where only two roads meet, all lanes follow the bend.
         if legs.len() == 2 {
-            lane_to_lane(from, to, turn, &mut found);
+            lane_to_lane(from, to, turn, found);
             continue;
         }
         let usable: Vec<LaneId> = match turn {
@@ -105,7 +159,7 @@ fn ways_on(
             Turn::Left | Turn::UTurn => from.first().copied().into_iter().collect(),
         };
         match turn {
-            Turn::Straight => lane_to_lane(&usable, to, turn, &mut found),
+            Turn::Straight => lane_to_lane(&usable, to, turn, found),
             // Side by side, along the outer kerb or along the middle.
             Turn::Right => {
                 found.extend(usable.iter().rev().zip(to.iter().rev()).map(|(a, b)| (*a, *b, turn)));
@@ -113,7 +167,6 @@ fn ways_on(
             Turn::Left | Turn::UTurn => found.extend(usable.iter().zip(to).map(|(a, b)| (*a, *b, turn))),
         }
     }
-    found
 }
 
 /// The arrows on the lanes that arrive over a leg, from the middle outwards; none if there are none.
@@ -166,16 +219,15 @@ fn path(network: &RoadNetwork, leg: &Leg, (from, to): (LaneId, LaneId), turn: Tu
     curve(start, direction(start_heading), end, direction(end_heading))
 }
 
-fn add_connection(
-    network: &mut RoadNetwork,
+fn connection(
+    network: &RoadNetwork,
     intersection: IntersectionId,
-    (from, to): (LaneId, LaneId),
-    turn: Turn,
+    leg: &Leg,
+    (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
-    path: Vec<Point2>,
-) {
-    let id = ConnectionId::from_index(network.connections.len());
-    network.connections.push(Connection {
+) -> Connection {
+    let path = path(network, leg, (from, to), turn);
+    Connection {
         from,
         to,
         intersection,
@@ -186,8 +238,7 @@ fn add_connection(
         conflicts: Vec::new(),
         yields_to: Vec::new(),
         crossings: Vec::new(),
-    });
-    network.lanes[from.index()].outgoing.push(id);
+    }
 }
 
 /// A cubic Bézier curve that leaves and arrives along the given directions, a point about every metre.
@@ -212,60 +263,94 @@ fn curve(start: Point2, leaving: Vector2, end: Point2, arriving: Vector2) -> Vec
 }
 
 /// What decides between two connections that touch.
-struct Claim<'a> {
+struct Claim {
     id: ConnectionId,
     from: LaneId,
     to: LaneId,
-    trace: Trace<'a>,
+    trace: Trace,
     /// Paths nearer than this touch; narrow lanes side by side do not, or nobody could use them.
     near: f64,
     rank: (u8, u8, ConnectionId),
     signal: Option<SignalGroup>,
+    /// How many others it touches, and to how many it gives way.
+    counts: (usize, usize),
 }
 
-fn set_conflicts(network: &mut RoadNetwork, id: IntersectionId, own: &[ConnectionId]) {
-    let plan = network.signals.last().filter(|plan| plan.intersection == id);
-    let claims: Vec<Claim<'_>> = own.iter().map(|id| claim(network, *id)).collect();
-    let mut met: Vec<(ConnectionId, ConnectionId, Option<bool>)> = Vec::with_capacity(claims.len() * 4);
-    for (index, a) in claims.iter().enumerate() {
-        for b in &claims[index + 1..] {
-            // From one lane it is one file of vehicles: the follower sees its leader.
-            if a.from != b.from && (a.to == b.to || a.trace.touches(&b.trace, a.near)) {
-                met.push((a.id, b.id, go_together(plan, a, b).then(|| a.rank > b.rank)));
+/// Two connections that touch, by their ranks among those of the intersection.
+struct Meeting {
+    a: usize,
+    b: usize,
+    /// Whether the first gives way, if they ever go together.
+    yields: Option<bool>,
+}
+
+impl Builder {
+    /// Sets which of the connections from `first` on touch each other, and which give way.
+    fn set_conflicts(&mut self, signals: Option<&SignalPlan>, first: usize) {
+        let Self { made, claims, traces, met, .. } = self;
+        met.clear();
+        for rank in 0..claims.len() {
+            let (before, after) = claims.split_at_mut(rank + 1);
+            let a = &mut before[rank];
+            for (further, b) in after.iter_mut().enumerate() {
+                // From one lane it is one file of vehicles: the follower sees its leader.
+                if a.from == b.from || (a.to != b.to && !traces.touch(&a.trace, &b.trace, a.near)) {
+                    continue;
+                }
+                let yields = go_together(signals, a, b).then(|| a.rank > b.rank);
+                for (claim, gives_way) in [(&mut *a, true), (b, false)] {
+                    claim.counts.0 += 1;
+                    claim.counts.1 += usize::from(yields == Some(gives_way));
+                }
+                met.push(Meeting { a: rank, b: rank + 1 + further, yields });
+            }
+        }
+        let own = &mut made[first..];
+        for (connection, claim) in own.iter_mut().zip(claims.iter()) {
+            connection.conflicts.reserve_exact(claim.counts.0);
+            connection.yields_to.reserve_exact(claim.counts.1);
+        }
+        // Ascending, as the pairs are: of each connection first those with lower ones, then those with higher ones.
+        for Meeting { a, b, yields } in met.iter() {
+            own[*a].conflicts.push(claims[*b].id);
+            own[*b].conflicts.push(claims[*a].id);
+            match yields {
+                Some(true) => own[*a].yields_to.push(claims[*b].id),
+                Some(false) => own[*b].yields_to.push(claims[*a].id),
+                None => {}
             }
         }
     }
-    for (a, b, yields) in met {
-        network.connections[a.index()].conflicts.push(b);
-        network.connections[b.index()].conflicts.push(a);
-        match yields {
-            Some(true) => network.connections[a.index()].yields_to.push(b),
-            Some(false) => network.connections[b.index()].yields_to.push(a),
-            None => {}
+
+    /// Sets over which crossings of the intersection each connection leads.
+    fn set_crossings(&mut self, all: &[CrossingId], network: &RoadNetwork) {
+        for claim in &self.claims {
+            let is_over = |crossing: &CrossingId| {
+                let strip = &network.crossings[crossing.index()];
+                self.traces.crosses(&claim.trace, strip.start, strip.end)
+            };
+            self.crossings.clear();
+            self.crossings.extend(all.iter().copied().filter(is_over));
+            self.made[claim.id.index()].crossings = self.crossings.as_slice().into();
         }
-    }
-    for connection in own {
-        let connection = &mut network.connections[connection.index()];
-        connection.conflicts.sort_unstable();
-        connection.yields_to.sort_unstable();
     }
 }
 
-fn claim(network: &RoadNetwork, id: ConnectionId) -> Claim<'_> {
-    let connection = &network.connections[id.index()];
+fn claim(network: &RoadNetwork, connection: &Connection, id: ConnectionId, traces: &mut Traces) -> Claim {
     Claim {
         id,
         from: connection.from,
         to: connection.to,
-        trace: Trace::of(&connection.path),
+        trace: traces.add(&connection.path),
         near: TOUCHING.min(0.9 * network.lanes[connection.from.index()].width),
-        rank: right_of_way(network, id),
+        rank: right_of_way(network, connection, id),
         signal: connection.signal,
+        counts: (0, 0),
     }
 }
 
 /// Whether signals ever let both go at once; always without signals.
-fn go_together(plan: Option<&SignalPlan>, a: &Claim<'_>, b: &Claim<'_>) -> bool {
+fn go_together(plan: Option<&SignalPlan>, a: &Claim, b: &Claim) -> bool {
     let (Some(first), Some(second)) = (a.signal, b.signal) else { return true };
     let both = |phase: &Phase| phase.green.contains(&first) && phase.green.contains(&second);
     plan.is_some_and(|plan| first == second || plan.phases.iter().any(both))
@@ -273,8 +358,7 @@ fn go_together(plan: Option<&SignalPlan>, a: &Claim<'_>, b: &Claim<'_>) -> bool 
 
 /// The place in the order of right of way, lowest first: the ring of a roundabout, the higher road class, then straight before right before
 /// left; the index settles the rest, so that two never give way to each other.
-fn right_of_way(network: &RoadNetwork, id: ConnectionId) -> (u8, u8, ConnectionId) {
-    let connection = &network.connections[id.index()];
+fn right_of_way(network: &RoadNetwork, connection: &Connection, id: ConnectionId) -> (u8, u8, ConnectionId) {
     let road = network.lanes[connection.from.index()].road;
     let controlled = network.intersections[connection.intersection.index()].control == Control::Signals;
     let road = &network.roads[road.index()];
@@ -293,21 +377,4 @@ fn right_of_way(network: &RoadNetwork, id: ConnectionId) -> (u8, u8, ConnectionI
         Turn::UTurn => 3,
     };
     (class, turn, id)
-}
-
-fn set_crossings(network: &mut RoadNetwork, id: IntersectionId, own: &[ConnectionId]) {
-    let crossings = network.intersections[id.index()].crossings.clone();
-    for connection in own {
-        let path = &network.connections[connection.index()].path;
-        let over: Vec<_> = crossings
-            .iter()
-            .copied()
-            .filter(|crossing| {
-                let strip = &network.crossings[crossing.index()];
-                path.windows(2)
-                    .any(|piece| polyline::crossing(piece[0], piece[1], strip.start, strip.end).is_some())
-            })
-            .collect();
-        network.connections[connection.index()].crossings = over;
-    }
 }

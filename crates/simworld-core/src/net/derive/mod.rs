@@ -9,6 +9,7 @@ mod mirror;
 mod signals;
 mod trace;
 mod walkways;
+mod workers;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -17,6 +18,10 @@ use super::{Control, DrivingSide, Intersection, Road, RoadClass, RoadNetwork, St
 use crate::geometry::Point2;
 use crate::id::{IntersectionId, RoadId};
 use legs::Leg;
+pub use workers::{Alone, Workers};
+
+/// So many intersections are a part of the work.
+const PART: usize = 256;
 
 /// Limits and timings by which a network is derived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -159,15 +164,28 @@ impl RoadNetwork {
     /// # Errors
     /// A setting out of range, or a street or node that cannot be built.
     pub fn derive(plan: &StreetPlan, config: &NetworkConfig) -> Result<Self, NetworkError> {
+        Self::derive_with(plan, config, &Alone)
+    }
+
+    /// The same, with the help of others: they work on what happens at junctions, which is the larger part. The network
+    /// does not depend on them.
+    ///
+    /// # Errors
+    /// Those of [`derive`](Self::derive).
+    pub fn derive_with(
+        plan: &StreetPlan,
+        config: &NetworkConfig,
+        workers: &dyn Workers,
+    ) -> Result<Self, NetworkError> {
         config.validate()?;
         plan.validate()?;
         Ok(match plan.driving_side {
-            DrivingSide::Right => Self::keeping_right(plan, config),
-            DrivingSide::Left => mirror::network(Self::keeping_right(&mirror::plan(plan), config)),
+            DrivingSide::Right => Self::keeping_right(plan, config, workers),
+            DrivingSide::Left => mirror::network(Self::keeping_right(&mirror::plan(plan), config, workers)),
         })
     }
 
-    fn keeping_right(plan: &StreetPlan, config: &NetworkConfig) -> Self {
+    fn keeping_right(plan: &StreetPlan, config: &NetworkConfig, workers: &dyn Workers) -> Self {
         let legs = legs::of_plan(plan, config);
         let mut network = Self::default();
         for street in &plan.streets {
@@ -184,9 +202,15 @@ impl RoadNetwork {
         lanes::add(&mut network, plan, &legs, config);
         walkways::add(&mut network, plan, &legs, config);
         for (node, legs) in legs.iter().enumerate() {
-            let id = IntersectionId::from_index(node);
-            signals::add(&mut network, id, legs, config);
-            connections::add(&mut network, plan, id, legs);
+            signals::add(&mut network, IntersectionId::from_index(node), legs, config);
+        }
+        let made = workers::collect(workers, legs.len().div_ceil(PART), |part| {
+            let nodes = part * PART..legs.len().min((part + 1) * PART);
+            connections::of_nodes(&network, plan, &legs, nodes)
+        });
+        network.connections.reserve_exact(made.iter().map(Vec::len).sum());
+        for part in made {
+            connections::append(&mut network, part);
         }
         network
     }

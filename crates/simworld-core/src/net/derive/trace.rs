@@ -1,97 +1,185 @@
 //! Paths across a junction, made ready to be asked which of them touch.
 
+use std::ops::Range;
+
 use crate::geometry::{Point2, Vector2};
 use crate::net::polyline;
 
 /// Of every so many points of a path one is looked at first.
 const STRIDE: usize = 3;
 
-/// One piece of a path.
-struct Piece {
-    start: Point2,
-    step: Vector2,
+/// Boxes farther apart than this have no point in common, m.
+const SLACK: f64 = 1e-6;
+/// A little more than the square root of two.
+const DIAGONAL: f64 = std::f64::consts::SQRT_2 + 1e-6;
+
+/// So many pieces are measured at once: each instruction works on several.
+const LANES: usize = 4;
+
+/// Some pieces of a path. What is left of the last block of a path repeats its last piece.
+#[derive(Clone, Copy, Default)]
+struct Block {
+    /// Where each begins.
+    x: [f64; LANES],
+    y: [f64; LANES],
+    /// The way to its end.
+    step_x: [f64; LANES],
+    step_y: [f64; LANES],
     /// One over the square of its length, 1/m²; nothing if it has none.
-    inverse: f64,
+    inverse: [f64; LANES],
 }
 
-/// A path with the box around it and its pieces.
-pub(super) struct Trace<'a> {
-    path: &'a [Point2],
-    pieces: Vec<Piece>,
+impl Block {
+    fn of(path: &[Point2], first: usize) -> Self {
+        let mut block = Self::default();
+        for lane in 0..LANES {
+            let index = (first + lane).min(path.len() - 2);
+            let (start, step) = (path[index], path[index + 1] - path[index]);
+            let squared = step.norm_squared();
+            (block.x[lane], block.y[lane]) = (start.x, start.y);
+            (block.step_x[lane], block.step_y[lane]) = (step.x, step.y);
+            block.inverse[lane] = if squared > 0.0 { 1.0 / squared } else { 0.0 };
+        }
+        block
+    }
+
+    /// Lowers squared distances to those of a point from each piece.
+    fn lower(&self, point: &Point2, least: &mut [f64; LANES]) {
+        for (lane, least) in least.iter_mut().enumerate() {
+            let (x, y) = (point.x - self.x[lane], point.y - self.y[lane]);
+            let (step_x, step_y) = (self.step_x[lane], self.step_y[lane]);
+            let share = ((x * step_x + y * step_y) * self.inverse[lane]).clamp(0.0, 1.0);
+            let (x, y) = (x - step_x * share, y - step_y * share);
+            let squared = x * x + y * y;
+            *least = if squared < *least { squared } else { *least };
+        }
+    }
+}
+
+/// A path with the octagon around it.
+#[derive(Clone)]
+pub(super) struct Trace {
+    points: Range<usize>,
+    blocks: Range<usize>,
+    /// Some of its points.
+    samples: Range<usize>,
     low: Point2,
     high: Point2,
+    /// The same along the two diagonals, x + y and x - y.
+    diagonal_low: Vector2,
+    diagonal_high: Vector2,
     /// Length of its longest piece, m.
     longest: f64,
 }
 
-impl<'a> Trace<'a> {
-    pub(super) fn of(path: &'a [Point2]) -> Self {
-        let around = |(low, high): (Point2, Point2), point: &Point2| (low.inf(point), high.sup(point));
+/// The paths across one junction, one after another, and what is made of them.
+#[derive(Default)]
+pub(super) struct Traces {
+    points: Vec<Point2>,
+    blocks: Vec<Block>,
+    samples: Vec<Point2>,
+}
+
+impl Traces {
+    /// Forgets all paths and keeps their memory.
+    pub(super) fn clear(&mut self) {
+        self.points.clear();
+        self.blocks.clear();
+        self.samples.clear();
+    }
+
+    pub(super) fn add(&mut self, path: &[Point2]) -> Trace {
         let first = path.first().copied().unwrap_or_else(Point2::origin);
-        let (low, high) = path.iter().fold((first, first), around);
+        let diagonals = |point: &Point2| Vector2::new(point.x + point.y, point.x - point.y);
+        let (points, blocks, samples) = (self.points.len(), self.blocks.len(), self.samples.len());
+        let (mut low, mut high) = (first, first);
+        let (mut diagonal_low, mut diagonal_high) = (diagonals(&first), diagonals(&first));
         let mut longest: f64 = 0.0;
-        let pieces = path.windows(2).map(|pair| {
-            let step = pair[1] - pair[0];
-            let squared = step.norm_squared();
-            longest = longest.max(squared);
-            Piece { start: pair[0], step, inverse: if squared > 0.0 { 1.0 / squared } else { 0.0 } }
-        });
-        let pieces = pieces.collect();
-        Self { path, pieces, low, high, longest: longest.sqrt() }
+        for (index, point) in path.iter().enumerate() {
+            (low, high) = (low.inf(point), high.sup(point));
+            let diagonal = diagonals(point);
+            (diagonal_low, diagonal_high) = (diagonal_low.inf(&diagonal), diagonal_high.sup(&diagonal));
+            let step = path.get(index + 1).unwrap_or(point) - point;
+            longest = longest.max(step.norm_squared());
+        }
+        self.points.extend_from_slice(path);
+        self.blocks.extend((1..path.len()).step_by(LANES).map(|first| Block::of(path, first - 1)));
+        self.samples.extend(path.iter().skip(STRIDE / 2).step_by(STRIDE));
+        Trace {
+            points: points..self.points.len(),
+            blocks: blocks..self.blocks.len(),
+            samples: samples..self.samples.len(),
+            low,
+            high,
+            diagonal_low,
+            diagonal_high,
+            longest: longest.sqrt(),
+        }
     }
 
     /// Whether the two come nearer to each other than `limit` m: the same as to compare
     /// [`polyline::distance_between`], and much faster.
-    pub(super) fn touches(&self, other: &Self, limit: f64) -> bool {
-        let gap = (other.low - self.high).sup(&(self.low - other.high));
-        if gap.max() >= limit {
+    pub(super) fn touch(&self, a: &Trace, b: &Trace, limit: f64) -> bool {
+        let gap = (b.low - a.high).sup(&(a.low - b.high));
+        let diagonal = (b.diagonal_low - a.diagonal_high).sup(&(a.diagonal_low - b.diagonal_high));
+        if gap.max() >= limit || diagonal.max() >= limit * DIAGONAL {
             return false;
         }
-        if self.has_points_near(other, limit) {
+        if self.have_points_near(a, b, limit) {
             return true;
         }
-        if self.longest.max(other.longest) >= 2.0 * limit {
-            return polyline::distance_between(self.path, other.path) < limit;
+        if a.longest.max(b.longest) >= 2.0 * limit {
+            return polyline::distance_between(self.path(a), self.path(b)) < limit;
         }
         // Paths that do not cross are nearest at a point of one of them. If it is one of the other's, then one of ours
         // is farther from it by half a piece at most.
-        let least = self.least_distance(other, limit, 0.5 * self.longest);
-        least < limit || least < limit + 0.5 * self.longest && other.least_distance(self, limit, 0.0) < limit
+        let least = self.least_distance(a, b, limit, 0.5 * a.longest);
+        least < limit || least < limit + 0.5 * a.longest && self.least_distance(b, a, limit, 0.0) < limit
+    }
+
+    /// Whether a path crosses a segment.
+    pub(super) fn crosses(&self, trace: &Trace, start: Point2, end: Point2) -> bool {
+        let (low, high) = (start.inf(&end), start.sup(&end));
+        let gap = (low - trace.high).sup(&(trace.low - high));
+        let crosses = |piece: &[Point2]| polyline::crossing(piece[0], piece[1], start, end).is_some();
+        gap.max() <= SLACK && self.path(trace).windows(2).any(crosses)
+    }
+
+    fn path(&self, trace: &Trace) -> &[Point2] {
+        &self.points[trace.points.clone()]
     }
 
     /// Whether one of some points of the one is that near to one of some points of the other.
-    fn has_points_near(&self, other: &Self, limit: f64) -> bool {
+    fn have_points_near(&self, a: &Trace, b: &Trace, limit: f64) -> bool {
         let near = limit * limit;
-        let some = |path: &'a [Point2]| path.iter().skip(STRIDE / 2).step_by(STRIDE);
-        some(self.path).any(|a| some(other.path).any(|b| (a - b).norm_squared() < near))
+        let others = &self.samples[b.samples.clone()];
+        // All of the others at once: several fit into one instruction.
+        let is_near = |a: &Point2| others.iter().fold(false, |any, b| any | ((a - b).norm_squared() < near));
+        self.samples[a.samples.clone()].iter().any(is_near)
     }
 
-    /// The least distance of a point of this path from the other, m, as far as it is less than `limit + margin`. Points
+    /// The least distance of a point of one path from the other, m, as far as it is less than `limit + margin`. Points
     /// that cannot be that near, because the one before was too far away, are passed over; and it ends below `limit`.
-    fn least_distance(&self, other: &Self, limit: f64, margin: f64) -> f64 {
+    fn least_distance(&self, trace: &Trace, other: &Trace, limit: f64, margin: f64) -> f64 {
         let (mut least, mut slack) = (f64::INFINITY, 0.0);
-        for point in self.path {
+        for point in self.path(trace) {
             if slack <= 1e-6 {
-                let distance = other.distance(point);
+                let distance = self.distance(other, point);
                 least = least.min(distance);
                 if least < limit {
                     return least;
                 }
                 slack = distance - limit - margin;
             }
-            slack -= self.longest;
+            slack -= trace.longest;
         }
         least
     }
 
-    fn distance(&self, point: &Point2) -> f64 {
-        let mut least = f64::INFINITY;
-        for piece in &self.pieces {
-            let to = point - piece.start;
-            let share = (to.dot(&piece.step) * piece.inverse).clamp(0.0, 1.0);
-            least = least.min((to - piece.step * share).norm_squared());
-        }
-        least.sqrt()
+    fn distance(&self, trace: &Trace, point: &Point2) -> f64 {
+        let mut least = [f64::INFINITY; LANES];
+        self.blocks[trace.blocks.clone()].iter().for_each(|block| block.lower(point, &mut least));
+        least.into_iter().fold(f64::INFINITY, f64::min).sqrt()
     }
 }
 
@@ -99,6 +187,15 @@ impl<'a> Trace<'a> {
 mod tests {
     use super::*;
     use crate::seed::Seed;
+
+    fn touch(a: &[Point2], b: &[Point2], limit: f64) -> bool {
+        let mut traces = Traces::default();
+        // What was added before, and forgotten, must not matter.
+        traces.add(b);
+        traces.clear();
+        let (a, b) = (traces.add(a), traces.add(b));
+        traces.touch(&a, &b, limit)
+    }
 
     #[test]
     fn samples_say_what_the_whole_paths_say() {
@@ -120,9 +217,26 @@ mod tests {
             let (a, b) = (path(), path());
             let expected = polyline::distance_between(&a, &b) < 2.4;
             near += usize::from(expected);
-            assert_eq!(Trace::of(&a).touches(&Trace::of(&b), 2.4), expected, "{a:?} {b:?}");
+            assert_eq!(touch(&a, &b, 2.4), expected, "{a:?} {b:?}");
         }
         assert!((800..3200).contains(&near), "{near} of 4000 say nothing");
+    }
+
+    #[test]
+    fn a_path_crosses_what_one_of_its_pieces_crosses() {
+        let mut rng = Seed(6).stream("crosses").rng();
+        let mut point = || Point2::new(rng.uniform(0.0, 20.0), rng.uniform(0.0, 20.0));
+        let mut crossed = 0;
+        for _ in 0..2000 {
+            let (path, start, end) = ([point(), point(), point()], point(), point());
+            let mut traces = Traces::default();
+            let trace = traces.add(&path);
+            let expected =
+                path.windows(2).any(|piece| polyline::crossing(piece[0], piece[1], start, end).is_some());
+            crossed += usize::from(expected);
+            assert_eq!(traces.crosses(&trace, start, end), expected, "{path:?} {start} {end}");
+        }
+        assert!((400..1600).contains(&crossed), "{crossed} of 2000 say nothing");
     }
 
     #[test]
@@ -143,8 +257,8 @@ mod tests {
             let (a, b) = (path(2.0), path(9.0));
             let expected = polyline::distance_between(&a, &b) < 1.5;
             near += usize::from(expected);
-            assert_eq!(Trace::of(&a).touches(&Trace::of(&b), 1.5), expected, "{a:?} {b:?}");
-            assert_eq!(Trace::of(&b).touches(&Trace::of(&a), 1.5), expected, "{a:?} {b:?}");
+            assert_eq!(touch(&a, &b, 1.5), expected, "{a:?} {b:?}");
+            assert_eq!(touch(&b, &a, 1.5), expected, "{a:?} {b:?}");
         }
         assert!((400..1600).contains(&near), "{near} of 2000 say nothing");
     }

@@ -1,0 +1,53 @@
+//! Work on all threads whose results come in order.
+
+use rayon::prelude::*;
+use simworld_core::net::Workers;
+
+/// The threads of rayon's pool, for [`RoadNetwork::derive_with`](simworld_core::net::RoadNetwork::derive_with).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AllThreads;
+
+impl Workers for AllThreads {
+    fn run(&self, parts: usize, work: &(dyn Fn(usize) + Sync)) {
+        (0..parts).into_par_iter().for_each(work);
+    }
+}
+
+/// Makes something of each batch on all threads, and takes what was made in the order of the batches, while the next is
+/// being made: `take` is called as if there were one thread.
+pub(crate) fn in_order<T: Sync, M: Send>(
+    batches: std::slice::Chunks<'_, T>,
+    make: impl Fn(&[T]) -> M + Sync,
+    mut take: impl FnMut(M) + Send,
+) {
+    let mut made = None;
+    for batch in batches {
+        let before = made.take();
+        let take = &mut take;
+        made = Some(rayon::join(|| before.map(take), || make(batch)).1);
+    }
+    made.map(take);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn batches_are_taken_in_order() {
+        let items: Vec<u32> = (0..1000).collect();
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+            let mut taken = Vec::new();
+            pool.install(|| {
+                in_order(
+                    items.chunks(17),
+                    |batch| batch.par_iter().map(|item| item * 2).collect::<Vec<_>>(),
+                    |made| taken.extend(made),
+                );
+            });
+            assert!(taken.iter().zip(&items).all(|(taken, item)| *taken == item * 2), "{threads}");
+            assert_eq!(taken.len(), items.len());
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Work that falls into parts, and who does it: core starts no threads, but takes those that are lent.
+
+use std::sync::OnceLock;
+
+/// Who works on the parts of something.
+///
+/// ```
+/// use simworld_core::net::{Alone, NetworkConfig, RoadNetwork, StreetPlan, Workers};
+/// /// Two threads that take every other part.
+/// struct Two;
+/// impl Workers for Two {
+///     fn run(&self, parts: usize, work: &(dyn Fn(usize) + Sync)) {
+///         std::thread::scope(|scope| {
+///             for first in 0..2 {
+///                 scope.spawn(move || (first..parts).step_by(2).for_each(work));
+///             }
+///         });
+///     }
+/// }
+/// let (plan, config) = (StreetPlan::grid(5, 4, 100.0), NetworkConfig::default());
+/// assert_eq!(RoadNetwork::derive_with(&plan, &config, &Two)?, RoadNetwork::derive_with(&plan, &config, &Alone)?);
+/// # Ok::<(), simworld_core::net::NetworkError>(())
+/// ```
+pub trait Workers {
+    /// Calls `work` with each number below `parts`, in any order and on any threads, and returns when all are done.
+    fn run(&self, parts: usize, work: &(dyn Fn(usize) + Sync));
+}
+
+/// The thread that asks: one part after another.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Alone;
+
+impl Workers for Alone {
+    fn run(&self, parts: usize, work: &(dyn Fn(usize) + Sync)) {
+        (0..parts).for_each(work);
+    }
+}
+
+/// What is made of each part, in their order, whoever works in whatever order.
+pub(super) fn collect<T: Send + Sync>(
+    workers: &dyn Workers,
+    parts: usize,
+    make: impl Fn(usize) -> T + Sync,
+) -> Vec<T> {
+    let slots: Vec<OnceLock<T>> = (0..parts).map(|_| OnceLock::new()).collect();
+    workers.run(parts, &|part| {
+        if let Some(slot) = slots.get(part) {
+            slot.get_or_init(|| make(part));
+        }
+    });
+    // A part that was left out is made here: the result does not depend on the workers.
+    slots
+        .into_iter()
+        .enumerate()
+        .map(|(part, slot)| slot.into_inner().unwrap_or_else(|| make(part)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Works backwards, on some parts twice, on others not at all, and on one too many.
+    struct Careless;
+
+    impl Workers for Careless {
+        fn run(&self, parts: usize, work: &(dyn Fn(usize) + Sync)) {
+            (0..=parts).rev().filter(|part| part % 3 != 1).for_each(work);
+            (0..parts).step_by(4).for_each(work);
+        }
+    }
+
+    #[test]
+    fn parts_come_in_their_order_from_any_workers() {
+        let made = |workers: &dyn Workers| collect(workers, 20, |part| part * part);
+        let expected: Vec<usize> = (0..20).map(|part| part * part).collect();
+        assert_eq!(made(&Alone), expected);
+        assert_eq!(made(&Careless), expected);
+    }
+}
