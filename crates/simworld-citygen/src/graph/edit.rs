@@ -208,15 +208,18 @@ impl Edit<'_> {
         // Arrows are before the ends that were.
         first.turns.forward.clear();
         second.turns.backward.clear();
-        // Nobody turns round where the street goes on.
+        // A turning circle is at a dead end, and heights on the way stay where they are.
         (first.turning[1], second.turning[0]) = (0.0, 0.0);
-        first.profile.retain(|(at, _)| *at < station);
-        second.profile.retain(|(at, _)| *at > station);
-        second.profile.iter_mut().for_each(|(at, _)| *at -= station);
+        let kept = first.profile.partition_point(|(at, _)| *at < station);
+        let beyond = first.profile.split_off(kept);
+        let before = first.profile.last().copied().unwrap_or((0.0, from));
+        second.profile = beyond.iter().map(|(at, height)| (at - station, *height)).collect();
         let rest: f64 = course.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum::<f64>()
             + (self.graph.nodes[second.to].at - course[course.len() - 1]).norm();
-        let share = if rest > 0.0 { (station / rest).clamp(0.0, 1.0) } else { 0.0 };
-        self.graph.nodes[node as usize].elevation = from + (to - from) * share;
+        let after = beyond.first().copied().unwrap_or((rest, to));
+        let span = after.0 - before.0;
+        let share = if span > 0.0 { ((station - before.0) / span).clamp(0.0, 1.0) } else { 0.0 };
+        self.graph.nodes[node as usize].elevation = before.1 + (after.1 - before.1) * share;
         self.put_in(first, Some(number))?;
         self.put_in(second, None)?;
         Ok(node)
