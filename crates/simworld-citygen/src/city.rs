@@ -81,6 +81,7 @@ impl City {
         let zoning = Zoning::new(&config.zoning, seed);
         let (land, mut taken) = Land::beside_roads(&network, &zoning, &config.lots, seed);
         let buildings = building::build(&network, &land, &config.buildings, seed, &mut taken);
+        let land = land.greens_alone();
         let setting = Setting {
             plan: &plan,
             network: &network,

@@ -164,6 +164,18 @@ impl Land {
         self
     }
 
+    /// The greens and their blocks alone: all that is asked for once buildings stand, and a fraction of the memory.
+    pub(crate) fn greens_alone(self) -> Self {
+        let mut land = Self { frontage: self.frontage, ..Self::default() };
+        for green in &self.greens {
+            let outline = self.green_outline(green);
+            land.greens.push(Green { start: land.corners.len() as u32, ..*green });
+            land.corners.extend_from_slice(outline);
+        }
+        land.blocks = self.blocks;
+        land
+    }
+
     /// Adds what another part of the land holds.
     fn append(&mut self, mut part: Self) {
         let shift = self.corners.len() as u32;
