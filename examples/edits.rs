@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use comfy_table::{Table, presets::UTF8_FULL_CONDENSED};
+use simworld_citygen::block::Border;
 use simworld_citygen::building::Building;
 use simworld_citygen::edit::{CityEdit, CityEditor, CityPatch, NewStreet};
 use simworld_citygen::element::Element;
@@ -196,7 +197,8 @@ fn bench(city: &City, middle: Point2) -> Vec<(Point2, CityEdit)> {
     near.into_iter()
         .map(|(_, position)| {
             let shape = Shape::cuboid(0.6, 1.8, 0.85);
-            let bench = Element { kind: EntityKind::Bench, position, facing: 0.0, shape, along: None };
+            let bench =
+                Element { kind: EntityKind::Bench, position, facing: 0.0, shape, along: Border::LAND };
             (position, CityEdit::AddElement(bench))
         })
         .collect()

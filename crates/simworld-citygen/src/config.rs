@@ -161,7 +161,7 @@ pub struct BuildingConfig {
 
 impl Default for BuildingConfig {
     fn default() -> Self {
-        Self { setback: 2.0, gap: 1.0, density: 1.0 }
+        Self { setback: 2.0, gap: 0.8, density: 1.0 }
     }
 }
 

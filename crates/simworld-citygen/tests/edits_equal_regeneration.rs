@@ -1,6 +1,7 @@
 //! An edited city is what the whole city would be on its new streets, edits reach no farther than the blocks that they
 //! touch, and each is taken back to the bit.
 
+use simworld_citygen::block::Border;
 use simworld_citygen::building::Building;
 use simworld_citygen::edit::{CityEdit, CityEditor, EditError, NewStreet};
 use simworld_citygen::element::Element;
@@ -172,7 +173,7 @@ fn buildings_and_elements_come_move_and_go() {
         position,
         facing: 0.0,
         shape: Shape::cuboid(0.6, 1.8, 0.8),
-        along: None,
+        along: Border::LAND,
     };
     assert!(matches!(editor.apply(&CityEdit::AddElement(bench(lane))), Err(EditError::Taken { .. })));
     let walk = &editor.city().network.sidewalks[5];

@@ -122,7 +122,7 @@ mod tests {
                 };
                 let (most, half) = (within(metres * 0.55), within(metres * 0.3));
                 assert!(
-                    most > 0.85 && half < 0.6,
+                    most > 0.85 && half < 0.65,
                     "{style}, {metres} m: {most:.2} and {half:.2} of the nodes"
                 );
             }

@@ -12,6 +12,7 @@ mod trace;
 pub(crate) use convex::decompose;
 use rayon::prelude::*;
 pub(crate) use ring::{Ring, Split};
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side};
@@ -19,8 +20,15 @@ use trace::Boundary;
 pub(crate) use trace::sides_round;
 
 /// What lies beyond one edge of a block or a lot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct Border(u32);
+
+impl Default for Border {
+    fn default() -> Self {
+        Self::LAND
+    }
+}
 
 impl Border {
     /// More land.

@@ -125,11 +125,16 @@ impl<'a> Faces<'a> {
             building.road = self.whole(building.road);
         }
         for element in &mut elements {
-            element.along = element.along.map(|(road, side)| (self.whole(road), side));
+            if let Some((road, side)) = element.along.as_street() {
+                element.along = Border::street(self.whole(road), side);
+            }
         }
         // Cars are parked street by street, on both sides.
         elements.retain(|element| {
-            element.along.is_some_and(|(road, side)| self.sides.contains(&side_number(road, side)))
+            element
+                .along
+                .as_street()
+                .is_some_and(|(road, side)| self.sides.contains(&side_number(road, side)))
         });
         (buildings, elements)
     }

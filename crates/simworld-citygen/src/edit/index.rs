@@ -61,7 +61,7 @@ impl Index {
     }
 
     fn file_element(&mut self, number: u32, element: &Element) {
-        match element.along {
+        match element.along.as_street() {
             Some((road, _)) => list_of(&mut self.elements, road.index()).push(number),
             None => self.given.insert(number as usize, around(element.position)),
         }
@@ -81,7 +81,7 @@ impl Index {
             list_of(&mut self.buildings, old.road.index()).retain(|other| other != number);
         }
         for (number, old) in &back.elements.set {
-            match old.along {
+            match old.along.as_street() {
                 Some((road, _)) => list_of(&mut self.elements, road.index()).retain(|other| other != number),
                 None => self.given.remove(*number as usize, around(old.position)),
             }

@@ -9,6 +9,7 @@ use simworld_core::patch::{ArrayPatch, Book};
 use super::cells::{Bounds, bounds, inflated};
 use super::touched::FARTHEST_DOOR;
 use super::{CityEditor, CityPatch, EditError, PlanPatch, is_place, missing};
+use crate::block::Border;
 use crate::building::Building;
 use crate::element::Element;
 use crate::occupancy::{Occupancy, overlap};
@@ -133,7 +134,7 @@ impl CityEditor {
         for number in self.index.elements_near(near) {
             let element = &self.city.elements[number];
             if meet(&ground_of(element), &ground) {
-                if element.along.is_none() {
+                if !element.along.is_street() {
                     return Err(taken(element.position, format!("element {number}, a {}", element.kind)));
                 }
                 gone.push(number);
@@ -151,7 +152,7 @@ impl CityEditor {
         if !is_sound {
             return Err(EditError::Size { what: "element" });
         }
-        let element = Element { along: None, ..element };
+        let element = Element { along: Border::LAND, ..element };
         let ground = ground_of(&element);
         let Some(near) = around(&ground) else { return Err(EditError::Size { what: "element" }) };
         if !self.lanes_free(near, &ground) {

@@ -178,7 +178,7 @@ impl CityEditor {
     fn generated_elements<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
         at_roads(sides).flat_map(|road| self.index.elements_at(road)).map(|number| *number as usize).filter(
             |number| {
-                let along = self.city.elements[*number].along;
+                let along = self.city.elements[*number].along.as_street();
                 along.is_some_and(|(road, side)| sides.contains(&side_number(road, side)))
             },
         )

@@ -2,14 +2,13 @@
 
 use rayon::prelude::*;
 use simworld_core::geometry::{Point2, Vector2};
-use simworld_core::id::RoadId;
-use simworld_core::net::Side;
 use simworld_core::scene::EntityKind;
 use simworld_core::seed::Stream;
 
 use super::kinds::shape_of;
 use super::{Element, Setting};
 use crate::ElementConfig;
+use crate::block::Border;
 use crate::lot::{Green, GreenKind};
 use crate::occupancy::Occupancy;
 use crate::threads;
@@ -40,7 +39,8 @@ pub(super) fn plant(
         let trees = batch.par_chunks(CHUNK).map(|greens| {
             let outlines = greens.iter().map(|green| {
                 let borders = &setting.land.blocks[green.block as usize].borders;
-                (setting.land.green_outline(green), borders.iter().find_map(|border| border.as_street()))
+                let along = borders.iter().copied().find(|border| border.is_street());
+                (setting.land.green_outline(green), along.unwrap_or(Border::LAND))
             });
             outlines.flat_map(|(outline, along)| trees_on(outline, along, spacing, streams)).collect()
         });
@@ -56,12 +56,7 @@ pub(super) fn plant(
 }
 
 /// The trees that would stand on a green, with the ground that each takes.
-fn trees_on(
-    outline: &[Point2],
-    along: Option<(RoadId, Side)>,
-    spacing: f64,
-    streams: Stream,
-) -> Vec<(Element, [Point2; 4])> {
+fn trees_on(outline: &[Point2], along: Border, spacing: f64, streams: Stream) -> Vec<(Element, [Point2; 4])> {
     let (low, high) = outline
         .iter()
         .fold((outline[0], outline[0]), |(low, high), corner| (low.inf(corner), high.sup(corner)));

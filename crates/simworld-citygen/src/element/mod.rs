@@ -19,6 +19,7 @@ use simworld_core::scene::{EntityKind, Shape};
 use simworld_core::seed::Seed;
 
 use crate::ElementConfig;
+use crate::block::Border;
 use crate::building::Building;
 use crate::decks;
 use crate::lot::Land;
@@ -39,9 +40,9 @@ pub struct Element {
     pub facing: f64,
     /// Its solid; a tree's is its trunk.
     pub shape: Shape,
-    /// The side of the street along which it was set, or of the block that it stands in; none of what a map or a hand put
-    /// here.
-    pub along: Option<(RoadId, Side)>,
+    /// The side of the street along which it was set, or of the block that it stands in; [`Border::LAND`] of what a map or a
+    /// hand put here.
+    pub along: Border,
 }
 
 impl Element {

@@ -11,6 +11,7 @@ use simworld_core::seed::Stream;
 
 use super::{Element, Setting};
 use crate::ElementConfig;
+use crate::block::Border;
 
 /// Length of a parking space along the kerb, m.
 const SPACE: f64 = 6.0;
@@ -64,8 +65,9 @@ pub(super) fn park(
                 let station = (f64::from(space) + 0.5) * SPACE;
                 let car = car(&path, station, length, width, is_reversed(*offset, lane), lane.width);
                 let side = if *offset > 0.0 { Side::Left } else { Side::Right };
-                elements
-                    .extend(car.map(|car| Element { along: Some((RoadId::from_index(index), side)), ..car }));
+                elements.extend(
+                    car.map(|car| Element { along: Border::street(RoadId::from_index(index), side), ..car }),
+                );
             }
         }
     }
@@ -100,7 +102,7 @@ fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, l
         position: nalgebra::center(&front, &back),
         facing,
         shape,
-        along: None,
+        along: Border::LAND,
     })
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use rayon::prelude::*;
 use simworld_core::geometry::Point2;
-use simworld_core::id::{RoadId, SidewalkId};
+use simworld_core::id::SidewalkId;
 use simworld_core::net::{RoadClass, Side, Sidewalk};
 use simworld_core::scene::{EntityKind, Place, Shape};
 use simworld_core::seed::{Stream, StreamRng};
@@ -13,6 +13,7 @@ use super::kinds::{FURNITURE, Row, abundance, shape_of};
 use super::walk::{Walk, turned};
 use super::{Element, FREE_WIDTH, Setting};
 use crate::ElementConfig;
+use crate::block::Border;
 use crate::occupancy::Occupancy;
 use crate::threads;
 use crate::zoning::Zone;
@@ -158,7 +159,7 @@ struct Setter {
     /// Stations of doors, and what is behind them.
     doors: Vec<(f64, Place)>,
     wishes: Vec<Wish>,
-    along: Option<(RoadId, Side)>,
+    along: Border,
 }
 
 impl Setter {
@@ -191,7 +192,7 @@ impl Setter {
 
     fn begin(&mut self, sidewalk: &Sidewalk, buildings: &[u32], setting: &Setting<'_>) {
         self.walk.set(sidewalk);
-        self.along = Some((sidewalk.road, sidewalk.side));
+        self.along = Border::street(sidewalk.road, sidewalk.side);
         self.busy.clear();
         self.doors.clear();
         for index in buildings {

@@ -72,7 +72,7 @@ pub(super) fn set(
     let mut try_to_set = |kind: EntityKind, shape: Shape, position: Point2, element: OsmId| {
         let street = doors.nearest(network, position);
         let facing = street.map_or(0.0, |door| heading(&(door.at - position)));
-        let thing = Element { kind, position, facing, shape, along: None };
+        let thing = Element { kind, position, facing, shape, along: crate::block::Border::LAND };
         let footprint = thing.obb().footprint();
         if carriageways.is_free(&footprint) && taken.take(&footprint) {
             elements.push(thing);

@@ -172,7 +172,13 @@ fn element(record: &ElementRecord) -> Option<Element> {
         EntityKind::Tree => TREE,
         _ => Shape::cuboid(record.bounds.width, record.bounds.height, ELEMENT_HEIGHT),
     };
-    Some(Element { kind, position, facing: wrap_angle(record.rotation.to_radians()), shape, along: None })
+    Some(Element {
+        kind,
+        position,
+        facing: wrap_angle(record.rotation.to_radians()),
+        shape,
+        along: crate::block::Border::LAND,
+    })
 }
 
 /// Words in the names of the release's assets, and what they are here.

@@ -422,5 +422,6 @@ pub(crate) fn position_on_way(tracks: &Tracks, track: Track, vehicle: &Vehicle, 
 
 /// Room on a lane that a vehicle takes when it stands, m.
 pub(crate) fn room_for(kind: VehicleKind, config: &TrafficConfig) -> f64 {
-    kind.length() + config.idm.gap
+    // In parts of a power of two: what comes and goes adds up to nothing again, to the bit.
+    ((kind.length() + config.idm.gap) * 1024.0).ceil() / 1024.0
 }

@@ -59,8 +59,9 @@ pub(super) fn elements(elements: &[Element]) -> Result<(), SaveError> {
 
 /// What stands along a road stands along one that is there.
 pub(super) fn anchors(elements: &[Element], network: &RoadNetwork) -> Result<(), SaveError> {
-    let is_lost =
-        |element: &Element| element.along.is_some_and(|(road, _)| road.index() >= network.roads.len());
+    let is_lost = |element: &Element| {
+        element.along.as_street().is_some_and(|(road, _)| road.index() >= network.roads.len())
+    };
     fail("element", elements.iter().position(is_lost), "stands along a road that is not there")
 }
 
