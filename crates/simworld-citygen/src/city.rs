@@ -65,18 +65,8 @@ impl City {
     /// A setting out of range, or streets that cannot be built.
     pub fn from_plan(mut plan: StreetPlan, config: &CityConfig, seed: Seed) -> Result<Self, CityError> {
         config.validate()?;
-        // Streets that know their heights keep them.
-        if config.terrain.relief > 0.0 && plan.elevations.is_empty() {
-            plan.validate()?;
-            let land = Terrain::new(&config.terrain, seed);
-            plan.elevations = terrain::elevations(&plan, &land, &config.terrain);
-        }
-        if plan.streets.iter().any(|street| street.level > 0)
-            && plan.streets.iter().all(|it| it.profile.is_empty())
-        {
-            plan.validate()?;
-            terrain::raise_bridges(&mut plan, &config.terrain);
-        }
+        // What a bridge lacks stands in the map of the place, or is told by `terrain::raise_bridges`.
+        terrain::raise(&mut plan, &config.terrain, seed)?;
         let network = RoadNetwork::derive_with(&plan, &config.network, &AllThreads)?;
         let zoning = Zoning::new(&config.zoning, seed);
         let (land, mut taken) = Land::beside_roads(&network, &zoning, &config.lots, seed);

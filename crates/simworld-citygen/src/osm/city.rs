@@ -18,6 +18,7 @@ use crate::building::Building;
 use crate::element::{self, Setting};
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
+use crate::threads::AllThreads;
 use crate::zoning::Zoning;
 use crate::{City, CityConfig, CityError, Provenance};
 
@@ -72,11 +73,11 @@ impl City {
         if plan.streets.is_empty() {
             return Err(CityError::NoStreets);
         }
-        for low in crate::terrain::raise_bridges(&mut plan, &config.terrain) {
+        for low in crate::terrain::raise(&mut plan, &config.terrain, seed)? {
             let at = Some(place.geographic(Point2::new(low.x, low.y)));
             warnings.push(Warning { what: low.to_string(), element: None, at });
         }
-        let network = RoadNetwork::derive(&plan, &config.network)?;
+        let network = RoadNetwork::derive_with(&plan, &config.network, &AllThreads)?;
         let mut taken = Occupancy::of_roads_where(&network, |road| !off_ground[road.index()]);
         let zoning = Zoning::new(&config.zoning, seed);
         let land = if (options.buildings, options.elements) == (Fill::Never, Fill::Never) {
@@ -91,18 +92,17 @@ impl City {
             let built = crate::building::build(&network, &open, &config.buildings, seed, &mut taken);
             buildings.extend(built);
         }
+        let setting = Setting {
+            plan: &plan,
+            network: &network,
+            zoning: &zoning,
+            land: &land,
+            buildings: &buildings,
+            within: None,
+        };
         let mut elements = things::set(place, &network, &carriageways, &mut taken, &mut warnings);
         if options.elements == Fill::WhereMissing {
-            let mut wanted = config.elements.clone();
-            leave_to_the_map(&mut wanted, &elements, &network);
-            let setting = Setting {
-                plan: &plan,
-                network: &network,
-                zoning: &zoning,
-                land: &land,
-                buildings: &buildings,
-                within: None,
-            };
+            let wanted = left_by_the_map(&config.elements, &elements, &network);
             elements.extend(element::furnish(&setting, &wanted, seed, &mut taken));
         }
         let provenance = Provenance {
@@ -160,12 +160,13 @@ fn without_lots_near(land: &Land, buildings: &[Building]) -> Land {
     open
 }
 
-/// Nothing is generated of what the map has already.
-fn leave_to_the_map(
-    config: &mut crate::ElementConfig,
+/// What is left to be generated: nothing of what the map has already.
+fn left_by_the_map(
+    config: &crate::ElementConfig,
     elements: &[crate::element::Element],
     network: &RoadNetwork,
-) {
+) -> crate::ElementConfig {
+    let mut wanted = config.clone();
     let sidewalks: f64 =
         network.sidewalks.iter().map(|sidewalk| simworld_core::net::polyline::length(&sidewalk.path)).sum();
     let are_many = |kind: EntityKind| {
@@ -173,9 +174,10 @@ fn leave_to_the_map(
         count as f64 * FEW > sidewalks
     };
     if are_many(EntityKind::Tree) {
-        (config.trees, config.green_trees) = (0.0, 0.0);
+        (wanted.trees, wanted.green_trees) = (0.0, 0.0);
     }
     if are_many(EntityKind::StreetLamp) {
-        config.lamps = 0.0;
+        wanted.lamps = 0.0;
     }
+    wanted
 }

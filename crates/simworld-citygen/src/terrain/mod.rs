@@ -16,7 +16,7 @@ pub use ground::Ground;
 pub use raster::{Raster, RasterError};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
-use simworld_core::net::RoadClass;
+use simworld_core::net::{NetworkError, RoadClass, StreetPlan};
 use simworld_core::seed::Seed;
 
 use crate::CityError;
@@ -117,4 +117,25 @@ impl HeightField for Terrain {
         }
         self.relief * ((1.0 - KNOLLS) * self.hills.at(point) + KNOLLS * self.knolls.at(point))
     }
+}
+
+/// Gives a plan its heights, where it has none: those of the land, and of bridges what they need to pass over.
+///
+/// # Errors
+/// A plan that cannot be built.
+pub(crate) fn raise(
+    plan: &mut StreetPlan,
+    config: &TerrainConfig,
+    seed: Seed,
+) -> Result<Vec<BridgeWarning>, NetworkError> {
+    if config.relief > 0.0 && plan.elevations.is_empty() {
+        plan.validate()?;
+        plan.elevations = elevations(plan, &Terrain::new(config, seed), config);
+    }
+    let passes_over = plan.streets.iter().any(|street| street.level > 0);
+    if !passes_over || plan.streets.iter().any(|street| !street.profile.is_empty()) {
+        return Ok(Vec::new());
+    }
+    plan.validate()?;
+    Ok(raise_bridges(plan, config))
 }

@@ -4,7 +4,9 @@
 use super::StreetPlan;
 use crate::geometry::{Point2, heading};
 use crate::id::RoadId;
-use crate::net::{DrivingSide, RoadNetwork, Side, Street, Turn, TurnLanes, TurnSet, polyline};
+use crate::net::{
+    DrivingSide, Intersection, Road, RoadNetwork, Side, Street, Turn, TurnLanes, TurnSet, polyline,
+};
 
 fn flip(point: &mut Point2) {
     point.y = -point.y;
@@ -64,46 +66,51 @@ pub(super) fn network(mut network: RoadNetwork) -> RoadNetwork {
         flip(&mut crossing.end);
         std::mem::swap(&mut crossing.start, &mut crossing.end);
     }
-    let roads = &network.roads;
-    for (index, intersection) in network.intersections.iter_mut().enumerate() {
-        flip(&mut intersection.center);
-        intersection.turning.iter_mut().for_each(|circle| flip(&mut circle.center));
-        intersection.outline.iter_mut().for_each(flip);
-        let mut kerbs: Vec<Vec<Point2>> =
-            (0..intersection.kerbs.len()).map(|rank| polyline::reversed(intersection.kerb(rank))).collect();
-        kerbs.reverse();
-        // Counter-clockwise again; what was the corner after a road is the one before it.
-        intersection.roads.reverse();
-        intersection.corners.iter_mut().flatten().for_each(flip);
-        intersection.corners.iter_mut().for_each(|corner| corner.reverse());
-        intersection.corners.reverse();
-        if !intersection.corners.is_empty() {
-            intersection.corners.rotate_left(1);
-        }
-        if !kerbs.is_empty() {
-            kerbs.rotate_left(1);
-        }
-        // Straight to the west is the last direction on either side of the mirror.
-        let center = intersection.center;
-        let leaving = |road: &RoadId| {
-            let road = &roads[road.index()];
-            let line = &road.centerline;
-            let next = if road.from.index() == index { line[1] } else { line[line.len() - 2] };
-            heading(&(next - center))
-        };
-        if !intersection.roads.is_sorted_by(|a, b| leaving(a) <= leaving(b)) {
-            intersection.roads.rotate_left(1);
-            intersection.corners.rotate_left(1);
-            kerbs.rotate_left(1);
-        }
-        if !kerbs.is_empty() {
-            let mut start = 0;
-            for (place, kerb) in intersection.kerbs.iter_mut().zip(&kerbs) {
-                *place = start;
-                start += kerb.len() as u32;
-            }
-            intersection.outline = kerbs.concat();
-        }
+    let RoadNetwork { roads, intersections, .. } = &mut network;
+    for (index, place) in intersections.iter_mut().enumerate() {
+        turn_over(index, place, roads);
     }
     network
+}
+
+/// An intersection of a mirrored network, as it is; its roads are so already.
+fn turn_over(index: usize, intersection: &mut Intersection, roads: &[Road]) {
+    flip(&mut intersection.center);
+    intersection.turning.iter_mut().for_each(|circle| flip(&mut circle.center));
+    intersection.outline.iter_mut().for_each(flip);
+    let mut kerbs: Vec<Vec<Point2>> =
+        (0..intersection.kerbs.len()).map(|rank| polyline::reversed(intersection.kerb(rank))).collect();
+    kerbs.reverse();
+    // Counter-clockwise again; what was the corner after a road is the one before it.
+    intersection.roads.reverse();
+    intersection.corners.iter_mut().flatten().for_each(flip);
+    intersection.corners.iter_mut().for_each(|corner| corner.reverse());
+    intersection.corners.reverse();
+    if !intersection.corners.is_empty() {
+        intersection.corners.rotate_left(1);
+    }
+    if !kerbs.is_empty() {
+        kerbs.rotate_left(1);
+    }
+    // Straight to the west is the last direction on either side of the mirror.
+    let center = intersection.center;
+    let leaving = |road: &RoadId| {
+        let road = &roads[road.index()];
+        let line = &road.centerline;
+        let next = if road.from.index() == index { line[1] } else { line[line.len() - 2] };
+        heading(&(next - center))
+    };
+    if !intersection.roads.is_sorted_by(|a, b| leaving(a) <= leaving(b)) {
+        intersection.roads.rotate_left(1);
+        intersection.corners.rotate_left(1);
+        kerbs.rotate_left(1);
+    }
+    if !kerbs.is_empty() {
+        let mut start = 0;
+        for (place, kerb) in intersection.kerbs.iter_mut().zip(&kerbs) {
+            *place = start;
+            start += kerb.len() as u32;
+        }
+        intersection.outline = kerbs.concat();
+    }
 }
