@@ -169,3 +169,27 @@ fn a_city_of_surveyed_buildings_is_saved_and_written() {
     gltf::Glb::from_slice(&glb).unwrap();
     assert!(city.svg().contains("OpenStreetMap contributors"));
 }
+
+#[test]
+fn a_real_place_stands_on_the_hills_that_it_is_given() {
+    let sketch = Sketch::default()
+        .node(1, (-400.0, 0.0), &[])
+        .node(2, (0.0, 0.0), &[])
+        .node(3, (400.0, 0.0), &[])
+        .node(4, (0.0, 300.0), &[])
+        .way(&[1, 2, 3], &SIDE)
+        .way(&[2, 4], &SIDE);
+    let mut config = CityConfig::default();
+    config.terrain.relief = 30.0;
+    let (city, _) = City::from_place(&sketch.place(), &PlaceOptions::default(), &config, Seed(3))
+        .expect("it has streets");
+    let heights: Vec<f64> = city.network.intersections.iter().map(|place| place.height).collect();
+    let (low, high) = heights.iter().fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(*h), high.max(*h)));
+    assert!(low >= 0.0 && high <= 30.0 && high - low > 1.0, "{heights:?}");
+    for road in &city.network.roads {
+        let rise = city.network.intersections[road.to.index()].height
+            - city.network.intersections[road.from.index()].height;
+        let length = simworld_core::net::polyline::length(&road.centerline);
+        assert!(rise.abs() <= config.terrain.local_grade * length + 1e-9, "{rise} m in {length} m");
+    }
+}

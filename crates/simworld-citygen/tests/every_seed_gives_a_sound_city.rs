@@ -1,41 +1,44 @@
 //! Whatever the seed: growth ends, the streets are one connected part that crosses itself nowhere, no building overlaps
 //! another or stands on a road, and every door is at a sidewalk.
 
+use rayon::prelude::*;
 use simworld_citygen::{City, CityConfig, Style};
 use simworld_core::geometry::{Obb, Point2, Point3, Vector3, heading, pose_facing};
 use simworld_core::net::{RoadNetwork, polyline};
 use simworld_core::scene::Place;
 use simworld_core::seed::Seed;
 
-/// 10,000 seeds under `SIMWORLD_SOAK=1`, a sample of them otherwise.
+/// 100,000 seeds under `SIMWORLD_SOAK=1`, a sample of them otherwise.
 fn seeds() -> u64 {
-    if std::env::var_os("SIMWORLD_SOAK").is_some() { 10_000 } else { 100 }
+    if std::env::var_os("SIMWORLD_SOAK").is_some() { 100_000 } else { 100 }
 }
 
 #[test]
 fn every_seed_gives_a_sound_city() {
-    for seed in 0..seeds() {
-        // Sizes from a hamlet to a small town, so that growth also runs dry early.
-        let count = 10 + (seed % 16) as u32;
-        // Every style in turn, and the settings that nobody touched.
-        let config = match Style::ALL.get((seed / 16 % 5) as usize) {
-            Some(style) => CityConfig { roads: style.roads(count), ..CityConfig::default() },
-            None => CityConfig::with_roads(count),
-        };
-        let city = City::generate(&config, Seed(seed)).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
-        let report = city.report();
-        assert_eq!(report.streets.components, 1, "seed {seed} is not connected");
-        assert!(
-            report.streets.streets >= config.roads.count as usize,
-            "seed {seed} stopped at {} streets",
-            report.streets.streets
-        );
-        assert_eq!(crossings(&city), 0, "seed {seed}: streets cross without a junction");
-        assert_eq!(overlapping_pairs(&city), 0, "seed {seed}: buildings overlap");
-        assert_eq!(buildings_on_roads(&city), 0, "seed {seed}: a building stands on a road");
-        check_doors(&city, seed);
-        check_elements(&city, seed);
-    }
+    (0..seeds()).into_par_iter().for_each(check);
+}
+
+fn check(seed: u64) {
+    // Sizes from a hamlet to a small town, so that growth also runs dry early.
+    let count = 10 + (seed % 16) as u32;
+    // Every style in turn, and the settings that nobody touched.
+    let config = match Style::ALL.get((seed / 16 % 5) as usize) {
+        Some(style) => CityConfig { roads: style.roads(count), ..CityConfig::default() },
+        None => CityConfig::with_roads(count),
+    };
+    let city = City::generate(&config, Seed(seed)).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+    let report = city.report();
+    assert_eq!(report.streets.components, 1, "seed {seed} is not connected");
+    assert!(
+        report.streets.streets >= config.roads.count as usize,
+        "seed {seed} stopped at {} streets",
+        report.streets.streets
+    );
+    assert_eq!(crossings(&city), 0, "seed {seed}: streets cross without a junction");
+    assert_eq!(overlapping_pairs(&city), 0, "seed {seed}: buildings overlap");
+    assert_eq!(buildings_on_roads(&city), 0, "seed {seed}: a building stands on a road");
+    check_doors(&city, seed);
+    check_elements(&city, seed);
 }
 
 #[test]
