@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::geometry::Point2;
-use simworld_core::id::RoadId;
-use simworld_core::net::{RoadNetwork, Side, polyline};
+use simworld_core::id::{LaneId, RoadId, SidewalkId};
+use simworld_core::net::{NetworkPatch, Road, RoadNetwork, Side, polyline};
 use simworld_core::patch::{ArrayPatch, Book};
 
 use super::cells::{bounds, inflated};
@@ -54,9 +54,12 @@ impl CityEditor {
     /// Repairs what stands at streets that changed; gives the patch that takes all of it back.
     pub(super) fn follow_streets(&mut self, changed: StreetsChanged) -> Result<CityPatch, EditError> {
         let forth = changed.network.mirrored(&self.city.network);
-        let roads_now: BTreeSet<usize> = forth.roads.set.iter().map(|(road, _)| *road as usize).collect();
+        let is_other = |road: usize| !keeps_its_course(&changed.network, &self.city.network, road);
+        let roads_now = forth.roads.set.iter().map(|(road, _)| *road as usize);
+        let roads_now: BTreeSet<usize> = roads_now.filter(|road| is_other(*road)).collect();
+        let roads = changed.network.roads.set.iter().map(|(road, _)| *road as usize);
+        let roads: BTreeSet<usize> = roads.filter(|road| is_other(*road)).collect();
         let StreetsChanged { plan, network } = changed;
-        let roads: BTreeSet<usize> = network.roads.set.iter().map(|(road, _)| *road as usize).collect();
         // Back to the streets as they were, for a look at their faces.
         let plan = plan.put_on(&mut self.city.plan)?;
         let network = self.network_mut().put(network)?;
@@ -297,6 +300,28 @@ fn replaced<T: Clone + PartialEq, K: Ord>(
     }
     while book.close_gap().is_some() {}
     book.close()
+}
+
+/// Whether nothing of a road changed but the numbers of its lanes and sidewalks; `back` takes the change back.
+fn keeps_its_course(back: &NetworkPatch, network: &RoadNetwork, road: usize) -> bool {
+    fn old<T>(patch: &ArrayPatch<T>, index: usize) -> Option<&T> {
+        let rank = patch.set.binary_search_by_key(&(index as u32), |(number, _)| *number).ok()?;
+        Some(&patch.set[rank].1)
+    }
+    let (Some(before), Some(now)) = (old(&back.roads, road), network.roads.get(road)) else { return false };
+    let path = |walk: Option<SidewalkId>| walk.map(|walk| &network.sidewalks[walk.index()].path);
+    let old_path = |walk: Option<SidewalkId>| {
+        let walk = walk?.index();
+        old(&back.sidewalks, walk).or_else(|| network.sidewalks.get(walk)).map(|walk| &walk.path)
+    };
+    let same_walks = (0..2).all(|side| old_path(before.sidewalks[side]) == path(now.sidewalks[side]));
+    let lane = |lane: LaneId| network.lanes.get(lane.index()).map(|lane| &lane.path);
+    let old_lane = |id: LaneId| old(&back.lanes, id.index()).map(|lane| &lane.path).or_else(|| lane(id));
+    let same_lanes = before.lanes().count() == now.lanes().count()
+        && before.lanes().zip(now.lanes()).all(|(before, now)| old_lane(before) == lane(now));
+    // All else of the road, but for the numbers.
+    let Road { forward, backward, cycle, sidewalks, .. } = now.clone();
+    same_walks && same_lanes && Road { forward, backward, cycle, sidewalks, ..before.clone() } == *now
 }
 
 /// The roads of some sides, each once.
