@@ -137,7 +137,9 @@ pub struct CityEditor {
 
 impl CityEditor {
     /// Takes a city to be edited. The time grows with the city, that of an edit with what it touches.
-    pub fn new(city: City) -> Self {
+    pub fn new(mut city: City) -> Self {
+        // Whoever else holds the network keeps theirs, now and not at the first edit.
+        Arc::make_mut(&mut city.network);
         let index = Index::of(&city);
         Self { city, index }
     }
