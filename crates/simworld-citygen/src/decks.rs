@@ -1,6 +1,6 @@
 //! The bodies of bridges: decks along their streets, parapets, abutments where a deck is near the ground, piers elsewhere.
 
-use simworld_core::geometry::{Point2, Vector2, direction};
+use simworld_core::geometry::{Point2, Vector2, bounds, direction};
 use simworld_core::id::RoadId;
 use simworld_core::net::{LaneKind, Road, RoadNetwork, Side, polyline};
 
@@ -102,7 +102,7 @@ pub(crate) fn clear_below(network: &RoadNetwork, elements: &mut Vec<Element>) {
     }
     elements.retain(|element| {
         decks.iter().all(|(road, reach)| {
-            let (low, high) = bounds(road);
+            let (low, high) = extent(road);
             let gap = (low - element.position).sup(&(element.position - high)).max();
             gap > *reach
                 || polyline::closest(&road.centerline, &element.position)
@@ -195,12 +195,11 @@ const WALK: f64 = 3.0;
 
 /// Whether the rectangles around two streets come near each other.
 fn is_near(a: &Road, b: &Road) -> bool {
-    let (a, b) = (bounds(a), bounds(b));
+    let (a, b) = (extent(a), extent(b));
     (b.0 - a.1).sup(&(a.0 - b.1)).max() < 30.0
 }
 
 /// The rectangle around a centreline, least and greatest corner.
-fn bounds(road: &Road) -> (Point2, Point2) {
-    let first = road.centerline[0];
-    road.centerline.iter().fold((first, first), |(low, high), point| (low.inf(point), high.sup(point)))
+fn extent(road: &Road) -> (Point2, Point2) {
+    bounds(&road.centerline).unwrap_or_default()
 }

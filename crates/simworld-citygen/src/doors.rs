@@ -4,6 +4,9 @@ use simworld_core::geometry::Point2;
 use simworld_core::id::RoadId;
 use simworld_core::net::{RoadNetwork, Side, polyline};
 
+/// A building farther than this from every sidewalk has no way in, m.
+pub(crate) const FARTHEST_DOOR: f64 = 150.0;
+
 /// A place before a building.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Door {
@@ -50,13 +53,23 @@ impl Doors {
             let to = self.cells.partition_point(|entry| entry.0 <= (column, row.saturating_add(1)));
             &self.cells[from..to]
         });
-        let candidates = around.filter_map(|(_, index)| {
-            let near = polyline::closest(&network.sidewalks[*index as usize].path, &point)?;
-            Some((near.distance, near.station, *index))
-        });
-        let (distance, station, index) = candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))?;
-        let sidewalk = &network.sidewalks[index as usize];
-        let at = polyline::at(&sidewalk.path, station).0;
-        (distance <= self.reach).then_some(Door { at, road: sidewalk.road, side: sidewalk.side })
+        nearest_of(network, around.map(|(_, index)| *index), point, self.reach)
     }
+}
+
+/// The nearest place on some sidewalks, if one is within reach, m.
+pub(crate) fn nearest_of(
+    network: &RoadNetwork,
+    sidewalks: impl Iterator<Item = u32>,
+    point: Point2,
+    reach: f64,
+) -> Option<Door> {
+    let candidates = sidewalks.filter_map(|index| {
+        let near = polyline::closest(&network.sidewalks[index as usize].path, &point)?;
+        Some((near.distance, near.station, index))
+    });
+    let (distance, station, index) = candidates.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))?;
+    let sidewalk = &network.sidewalks[index as usize];
+    let at = polyline::at(&sidewalk.path, station).0;
+    (distance <= reach).then_some(Door { at, road: sidewalk.road, side: sidewalk.side })
 }

@@ -47,6 +47,13 @@ pub fn heading(displacement: &Vector2) -> f64 {
     ops::atan2(displacement.y, displacement.x)
 }
 
+/// The least and the greatest corner of the rectangle around some points; `None` without any.
+pub fn bounds<'a>(points: impl IntoIterator<Item = &'a Point2>) -> Option<(Point2, Point2)> {
+    let mut points = points.into_iter();
+    let first = *points.next()?;
+    Some(points.fold((first, first), |(low, high), point| (low.inf(point), high.sup(point))))
+}
+
 /// Linear and angular velocity of a body, in the world frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Twist {

@@ -25,6 +25,7 @@ pub use surveyed::Surveyed;
 use crate::BuildingConfig;
 use crate::lot::{Land, Lot};
 use crate::occupancy::Occupancy;
+use crate::range::{is_place, is_size};
 use crate::threads;
 use crate::zoning::Zone;
 use place::{Planner, Plans};
@@ -35,6 +36,8 @@ use weights::Weights;
 const BATCH: usize = 1 << 13;
 /// Buildings on a map share walls; what overlaps by less than twice this does not overlap, m.
 pub const SHARED_WALL: f64 = 0.1;
+/// Most storeys.
+const MOST_STOREYS: u32 = 500;
 /// Height of a wall above the highest ceiling, m.
 const PARAPET: f64 = 0.6;
 
@@ -77,6 +80,18 @@ pub struct Building {
 }
 
 impl Building {
+    /// Whether its place and size are possible.
+    pub(crate) fn is_sound(&self) -> bool {
+        is_place(&self.center)
+            && is_place(&self.access)
+            && self.facing.is_finite()
+            && is_size(self.width)
+            && is_size(self.depth)
+            && self.storeys <= MOST_STOREYS
+            && (self.frontage == 0.0 || is_size(self.frontage))
+            && self.footprint.fits(self.width, self.depth)
+    }
+
     /// Height of its walls, m.
     pub fn height(&self) -> f64 {
         f64::from(self.storeys) * STOREY + PARAPET

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
 
 /// Width of a cell, m: a few blocks.
 const CELL: f64 = 250.0;
@@ -16,17 +16,9 @@ pub(super) struct Cells {
 /// A rectangle, least and greatest corner.
 pub(super) type Bounds = (Point2, Point2);
 
-/// The rectangle round some points; `None` without any.
-pub(super) fn bounds<'a>(points: impl IntoIterator<Item = &'a Point2>) -> Option<Bounds> {
-    points.into_iter().fold(None, |bounds: Option<Bounds>, point| {
-        let (low, high) = bounds.unwrap_or((*point, *point));
-        Some((low.inf(point), high.sup(point)))
-    })
-}
-
 /// A rectangle with so much more on every side.
 pub(super) fn inflated((low, high): Bounds, by: f64) -> Bounds {
-    let by = simworld_core::geometry::Vector2::repeat(by);
+    let by = Vector2::repeat(by);
     (low - by, high + by)
 }
 

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 use simworld_core::id::RoadId;
 use simworld_core::net::{PlanPart, RoadNetwork, Side};
 
 use super::EditError;
-use super::cells::{Cells, bounds, inflated};
+use super::cells::{Cells, inflated};
 use super::streets::with_neighbours;
 use crate::City;
 use crate::block::{Block, Border};

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 
-use super::cells::{Bounds, Cells, bounds, inflated};
+use super::cells::{Bounds, Cells, inflated};
 use super::patch::CityPatch;
 use crate::City;
 use crate::building::Building;

@@ -15,6 +15,7 @@ mod faces;
 mod in_world;
 mod index;
 mod patch;
+mod replace;
 mod streets;
 mod things;
 mod touched;
@@ -22,7 +23,7 @@ mod touched;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 use simworld_core::id::{IntersectionId, RoadId};
 use simworld_core::net::{CrossSection, RoadClass, Street, TurnLanes};
 
@@ -34,7 +35,8 @@ use crate::City;
 use crate::building::Building;
 use crate::element::Element;
 use crate::graph::{NodeId, StreetId};
-use cells::{bounds, inflated};
+use crate::range::is_place;
+use cells::inflated;
 use index::Index;
 use streets::with_neighbours;
 
@@ -234,8 +236,4 @@ impl CityEditor {
 
 fn missing(what: &'static str, index: usize, count: usize) -> Result<(), EditError> {
     if index < count { Ok(()) } else { Err(EditError::Missing { what, index, count }) }
-}
-
-fn is_place(point: &Point2) -> bool {
-    point.x.abs() <= 1e7 && point.y.abs() <= 1e7
 }

@@ -2,28 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
+use simworld_core::net::NetworkPatch;
 use simworld_core::ops::wrap_angle;
 use simworld_core::patch::{ArrayPatch, Book};
 
-use super::cells::{Bounds, bounds, inflated};
-use super::touched::FARTHEST_DOOR;
-use super::{CityEditor, CityPatch, EditError, PlanPatch, is_place, missing};
+use super::cells::{Bounds, inflated};
+use super::{CityEditor, CityPatch, EditError, PlanPatch, missing};
 use crate::block::Border;
 use crate::building::Building;
+use crate::doors::FARTHEST_DOOR;
 use crate::element::Element;
 use crate::occupancy::{Occupancy, overlap};
-use crate::strips::strip;
 use crate::zoning::Zoning;
-
-/// The least and the greatest size of a thing, m.
-const SIZES: (f64, f64) = (0.01, 2000.0);
-/// Most storeys.
-const MOST_STOREYS: u32 = 500;
-
-fn is_size(x: f64) -> bool {
-    (SIZES.0..=SIZES.1).contains(&x)
-}
 
 /// The rectangle round some pieces of ground.
 fn around(ground: &[Vec<Point2>]) -> Option<Bounds> {
@@ -97,19 +88,16 @@ impl CityEditor {
 
     /// A building of possible size, with what follows from where it stands.
     fn fitted(&self, building: Building) -> Result<Building, EditError> {
-        let is_sound = is_place(&building.center)
-            && building.facing.is_finite()
-            && is_size(building.width)
-            && is_size(building.depth)
-            && (1..=MOST_STOREYS).contains(&building.storeys)
-            && building.footprint.fits(building.width, building.depth);
-        if !is_sound {
+        // Its door is set below.
+        let building =
+            Building { access: building.center, frontage: building.width, given: true, ..building };
+        if !building.is_sound() || building.storeys == 0 {
             return Err(EditError::Size { what: "building" });
         }
         let (x, y) = (building.center.x, building.center.y);
         let zoning = Zoning::new(&self.city.config.zoning, self.city.provenance.seed);
-        let (zone, frontage) = (zoning.zone(building.center), building.width);
-        self.with_door(Building { zone, frontage, given: true, ..building }).ok_or(EditError::NoStreet {
+        let zone = zoning.zone(building.center);
+        self.with_door(Building { zone, ..building }).ok_or(EditError::NoStreet {
             x,
             y,
             reach: FARTHEST_DOOR,
@@ -145,11 +133,7 @@ impl CityEditor {
 
     /// An element that has room, in no lane that is driven on.
     fn room_for_element(&self, element: Element, but: Option<usize>) -> Result<Element, EditError> {
-        let size = element.shape.size();
-        let is_sound = is_place(&element.position)
-            && element.facing.is_finite()
-            && (0..3).all(|axis| is_size(size[axis]));
-        if !is_sound {
+        if !element.is_sound() {
             return Err(EditError::Size { what: "element" });
         }
         let element = Element { along: Border::LAND, ..element };
@@ -174,36 +158,30 @@ impl CityEditor {
 
     /// Whether no road, with its sidewalks, lies on a piece of ground.
     fn roads_free(&self, near: Bounds, ground: &[Vec<Point2>]) -> bool {
-        let roads = self.index.roads.near(inflated(near, 60.0));
-        let part = self.city.plan.part(super::streets::with_neighbours(&self.city.network, roads));
-        let network = simworld_core::net::RoadNetwork::derive(&part.plan, &self.city.config.network);
-        let land = network.map(|network| {
-            Occupancy::of_roads_where(&network, |road| network.roads[road.index()].level == 0)
-        });
-        land.is_ok_and(|land| ground.iter().all(|piece| land.is_free(piece)))
+        let network = &self.city.network;
+        let mut roads = self.index.roads.near(inflated(near, 60.0));
+        roads.retain(|road| network.roads[*road].level == 0);
+        let land = Occupancy::of_few_roads(network, &roads);
+        ground.iter().all(|piece| land.is_free(piece))
     }
 
     /// Whether no lane that is driven on lies on a piece of ground.
     fn lanes_free(&self, near: Bounds, ground: &[Vec<Point2>]) -> bool {
         let network = &self.city.network;
         let mut lanes = Occupancy::default();
-        let mut lay = |path: &[Point2], half: f64| {
-            for pair in path.windows(2).filter(|pair| (pair[1] - pair[0]).norm() > 0.01) {
-                lanes.add_box(&strip(pair[0], pair[1], half, half, 0.0));
-            }
-        };
         let mut junctions = BTreeSet::new();
         for road in self.index.roads.near(inflated(near, 30.0)) {
             let road = &network.roads[road];
             junctions.extend([road.from, road.to]);
             for lane in road.forward.iter().chain(&road.backward) {
                 let lane = &network.lanes[lane.index()];
-                lay(&lane.path, lane.width * 0.5);
+                lanes.add_path(&lane.path, (lane.width * 0.5, lane.width * 0.5));
             }
         }
         for way in junctions.iter().flat_map(|place| &network.intersections[place.index()].connections) {
             let way = &network.connections[way.index()];
-            lay(&way.path, network.lanes[way.from.index()].width * 0.5);
+            let half = network.lanes[way.from.index()].width * 0.5;
+            lanes.add_path(&way.path, (half, half));
         }
         ground.iter().all(|piece| lanes.is_free(piece))
     }
@@ -218,7 +196,7 @@ impl CityEditor {
     ) -> CityPatch {
         let patch = CityPatch {
             plan: PlanPatch::unchanged(&self.city.plan),
-            network: simworld_core::net::NetworkPatch::unchanged(&self.city.network),
+            network: NetworkPatch::unchanged(&self.city.network),
             buildings: exchanged(&mut self.city.buildings, buildings_out, buildings_in),
             elements: exchanged(&mut self.city.elements, elements_out, elements_in),
             frontage: self.city.frontage,

@@ -2,26 +2,24 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::geometry::Point2;
-use simworld_core::id::{LaneId, RoadId, SidewalkId};
-use simworld_core::net::{NetworkPatch, Road, RoadNetwork, Side, polyline};
-use simworld_core::patch::{ArrayPatch, Book};
+use simworld_core::geometry::{Point2, bounds};
+use simworld_core::id::{LaneId, SidewalkId};
+use simworld_core::net::{NetworkPatch, Road, RoadNetwork};
+use simworld_core::patch::ArrayPatch;
 
-use super::cells::{bounds, inflated};
+use super::cells::inflated;
 use super::faces::{Faces, Given, place_key, side_number};
-use super::index::Index;
 use super::patch::CityPatch;
 use super::streets::StreetsChanged;
 use super::{CityEditor, EditError};
 use crate::block::sides_round;
-use crate::building::{self, Building};
+use crate::building::Building;
+use crate::doors::{self, FARTHEST_DOOR};
 use crate::element::Element;
 use crate::occupancy::Occupancy;
 
 /// Given elements as near as this to a road that changed may stand on it, m.
 const GIVEN_NEAR: f64 = 100.0;
-/// A building farther than this from every sidewalk has no way in, m.
-pub(super) const FARTHEST_DOOR: f64 = 150.0;
 
 /// Both sides of some roads.
 fn both_sides(roads: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
@@ -29,24 +27,24 @@ fn both_sides(roads: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
 }
 
 /// What stood round the streets before they changed.
-struct Before {
+pub(super) struct Before {
     /// The roads that were changed, or have another number.
     roads: BTreeSet<usize>,
     /// All sides round their faces.
-    sides: BTreeSet<usize>,
+    pub(super) sides: BTreeSet<usize>,
     frontage: f64,
     land: Occupancy,
 }
 
 /// What stands now where something was.
 #[derive(Default)]
-struct After {
-    buildings: Vec<Building>,
-    elements: Vec<Element>,
+pub(super) struct After {
+    pub(super) buildings: Vec<Building>,
+    pub(super) elements: Vec<Element>,
     /// Given buildings that moved to another road or door, and those that have no room any more.
-    doors: Vec<(usize, Building)>,
-    buildings_gone: BTreeSet<usize>,
-    elements_gone: BTreeSet<usize>,
+    pub(super) doors: Vec<(usize, Building)>,
+    pub(super) buildings_gone: BTreeSet<usize>,
+    pub(super) elements_gone: BTreeSet<usize>,
     frontage: f64,
 }
 
@@ -93,8 +91,8 @@ impl CityEditor {
         }
     }
 
-    fn no_roads(&self) -> simworld_core::net::NetworkPatch {
-        simworld_core::net::NetworkPatch::unchanged(&self.city.network)
+    fn no_roads(&self) -> NetworkPatch {
+        NetworkPatch::unchanged(&self.city.network)
     }
 
     fn before(&self, roads: BTreeSet<usize>) -> Result<Before, EditError> {
@@ -168,7 +166,10 @@ impl CityEditor {
     }
 
     /// The generated buildings on some sides of streets.
-    fn generated_buildings<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
+    pub(super) fn generated_buildings<'a>(
+        &'a self,
+        sides: &'a BTreeSet<usize>,
+    ) -> impl Iterator<Item = usize> + 'a {
         at_roads(sides).flat_map(|road| self.index.buildings_at(road)).map(|number| *number as usize).filter(
             |number| {
                 let building = &self.city.buildings[*number];
@@ -178,7 +179,10 @@ impl CityEditor {
     }
 
     /// The generated elements on some sides of streets.
-    fn generated_elements<'a>(&'a self, sides: &'a BTreeSet<usize>) -> impl Iterator<Item = usize> + 'a {
+    pub(super) fn generated_elements<'a>(
+        &'a self,
+        sides: &'a BTreeSet<usize>,
+    ) -> impl Iterator<Item = usize> + 'a {
         at_roads(sides).flat_map(|road| self.index.elements_at(road)).map(|number| *number as usize).filter(
             |number| {
                 let along = self.city.elements[*number].along.as_street();
@@ -202,104 +206,14 @@ impl CityEditor {
 
     /// A building with the door at the nearest sidewalk; `None` if there is none within reach.
     pub(super) fn with_door(&self, mut building: Building) -> Option<Building> {
-        let (at, road, side) = nearest_walk(&self.city.network, &self.index, building.center)?;
-        (building.access, building.road, building.side) = (at, road, side);
+        let network = &self.city.network;
+        let near = self.index.roads.near(inflated((building.center, building.center), FARTHEST_DOOR));
+        let walks = near.into_iter().flat_map(|road| network.roads[road].sidewalks).flatten();
+        let walks = walks.map(|walk| walk.index() as u32);
+        let door = doors::nearest_of(network, walks, building.center, FARTHEST_DOOR)?;
+        (building.access, building.road, building.side) = (door.at, door.road, door.side);
         Some(building)
     }
-
-    /// Puts what stands now into the place of what stood there.
-    fn replace(&mut self, before: &Before, after: After) -> (ArrayPatch<Building>, ArrayPatch<Element>) {
-        let (old_buildings, old_elements): (Vec<usize>, Vec<usize>) = (
-            self.generated_buildings(&before.sides).collect(),
-            self.generated_elements(&before.sides).collect(),
-        );
-        let seed = self.city.provenance.seed;
-        let names = &mut self.index.names;
-        let mut buildings = Book::open(&mut self.city.buildings);
-        for (number, building) in after.doors {
-            *buildings.edit(number) = building;
-        }
-        let buildings = replaced(
-            buildings,
-            &Replacement { old: &old_buildings, gone: &after.buildings_gone },
-            after.buildings,
-            Rules {
-                key: |building: &Building| place_key(building.center),
-                keep: |old: &Building, new: &mut Building| {
-                    (new.place, new.name) = (old.place, old.name.clone());
-                    is_same(old, new)
-                },
-                begin: |building: &mut Building| {
-                    building.place = building.archetype.place;
-                    building.name = building::name_for(building, seed, |name| names.contains(name));
-                    names.extend(building.name.clone());
-                },
-            },
-        );
-        let elements = Book::open(&mut self.city.elements);
-        let elements = replaced(
-            elements,
-            &Replacement { old: &old_elements, gone: &after.elements_gone },
-            after.elements,
-            Rules {
-                key: |element: &Element| (place_key(element.position), element.kind),
-                keep: |old: &Element, new: &mut Element| Element { along: new.along, ..*old } == *new,
-                begin: |_: &mut Element| {},
-            },
-        );
-        (buildings, elements)
-    }
-}
-
-/// What is replaced in an array, by number.
-struct Replacement<'a> {
-    old: &'a [usize],
-    /// What has no room any more besides.
-    gone: &'a BTreeSet<usize>,
-}
-
-/// How the new finds its place among the old.
-struct Rules<Key, Keep, Begin> {
-    /// Where to look for a thing.
-    key: Key,
-    /// Whether an old thing stays as the new one, which takes over what it has to.
-    keep: Keep,
-    /// What a thing gets that was not there.
-    begin: Begin,
-}
-
-/// Replaces things of an array; what comes out as it was keeps its number.
-fn replaced<T: Clone + PartialEq, K: Ord>(
-    mut book: Book<'_, T>,
-    replacement: &Replacement<'_>,
-    new: Vec<T>,
-    mut rules: Rules<impl Fn(&T) -> K, impl Fn(&T, &mut T) -> bool, impl FnMut(&mut T)>,
-) -> ArrayPatch<T> {
-    let mut there: BTreeMap<K, Vec<usize>> = BTreeMap::new();
-    for number in replacement.old {
-        there.entry((rules.key)(book.get(*number))).or_default().push(*number);
-    }
-    let mut come = Vec::new();
-    for mut thing in new {
-        let found = there.get_mut(&(rules.key)(&thing)).and_then(|list| {
-            let rank = list.iter().position(|number| (rules.keep)(book.get(*number), &mut thing))?;
-            Some(list.swap_remove(rank))
-        });
-        match found {
-            Some(number) if *book.get(number) == thing => {}
-            Some(number) => *book.edit(number) = thing,
-            None => come.push(thing),
-        }
-    }
-    for number in there.into_values().flatten().chain(replacement.gone.iter().copied()) {
-        book.vacate(number);
-    }
-    for mut thing in come {
-        (rules.begin)(&mut thing);
-        book.fill(thing);
-    }
-    while book.close_gap().is_some() {}
-    book.close()
 }
 
 /// Whether nothing of a road changed but the numbers of its lanes and sidewalks; `back` takes the change back.
@@ -328,25 +242,4 @@ fn keeps_its_course(back: &NetworkPatch, network: &RoadNetwork, road: usize) -> 
 fn at_roads(sides: &BTreeSet<usize>) -> impl Iterator<Item = usize> + '_ {
     let mut last = None;
     sides.iter().map(|side| side / 2).filter(move |road| last.replace(*road) != Some(*road))
-}
-
-/// Whether two buildings at the same place differ in nothing but their use, their name and the numbers of their road.
-fn is_same(old: &Building, new: &Building) -> bool {
-    let Building { place, name, road, side, given, .. } = old.clone();
-    Building { place, name, road, side, given, ..new.clone() } == *old
-}
-
-/// The nearest place on a sidewalk, if one is within reach.
-fn nearest_walk(network: &RoadNetwork, index: &Index, from: Point2) -> Option<(Point2, RoadId, Side)> {
-    let near = index.roads.near(inflated((from, from), FARTHEST_DOOR));
-    let walks = near
-        .into_iter()
-        .flat_map(|road| [Side::Left, Side::Right].map(move |side| (RoadId::from_index(road), side)));
-    let found = walks.filter_map(|(road, side)| {
-        let walk = network.sidewalk(road, side)?;
-        let near = polyline::closest(&walk.path, &from)?;
-        Some((near.distance, polyline::at(&walk.path, near.station).0, road, side))
-    });
-    let (distance, at, road, side) = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)))?;
-    (distance <= FARTHEST_DOOR).then_some((at, road, side))
 }

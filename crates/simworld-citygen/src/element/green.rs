@@ -1,7 +1,7 @@
 //! Trees in parks and courtyards: on a jittered lattice, clear of the edges.
 
 use rayon::prelude::*;
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::{Point2, Vector2, bounds};
 use simworld_core::scene::EntityKind;
 use simworld_core::seed::Stream;
 
@@ -57,9 +57,7 @@ pub(super) fn plant(
 
 /// The trees that would stand on a green, with the ground that each takes.
 fn trees_on(outline: &[Point2], along: Border, spacing: f64, streams: Stream) -> Vec<(Element, [Point2; 4])> {
-    let (low, high) = outline
-        .iter()
-        .fold((outline[0], outline[0]), |(low, high), corner| (low.inf(corner), high.sup(corner)));
+    let Some((low, high)) = bounds(outline) else { return Vec::new() };
     let size: Vector2 = high - low;
     let (columns, rows) = ((size.x / spacing).ceil(), (size.y / spacing).ceil());
     let mut trees = Vec::new();

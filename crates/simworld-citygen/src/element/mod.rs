@@ -24,6 +24,7 @@ use crate::building::Building;
 use crate::decks;
 use crate::lot::Land;
 use crate::occupancy::Occupancy;
+use crate::range::{is_place, is_size};
 use crate::zoning::Zoning;
 
 /// Width kept free in the middle of every sidewalk, m: two people who pass, or one in a wheelchair.
@@ -46,6 +47,12 @@ pub struct Element {
 }
 
 impl Element {
+    /// Whether its place and size are possible.
+    pub(crate) fn is_sound(&self) -> bool {
+        let size = self.shape.size();
+        is_place(&self.position) && self.facing.is_finite() && (0..3).all(|axis| is_size(size[axis]))
+    }
+
     /// Its solid as an oriented box.
     pub fn obb(&self) -> Obb {
         self.shape.obb(&pose_facing(Point3::new(self.position.x, self.position.y, 0.0), self.facing))

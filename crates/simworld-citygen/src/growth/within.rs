@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use simworld_core::geometry::{Point2, heading};
+use simworld_core::geometry::{Point2, bounds, heading};
 use simworld_core::net::{RoadClass, Street};
 use simworld_core::seed::Seed;
 
@@ -63,9 +63,7 @@ pub(crate) fn grow_within(wall: &[Gate], config: &RoadConfig, fields: Seed, own:
 
 impl<'a> Growth<'a> {
     fn within(wall: &[Gate], config: &'a RoadConfig, fields: Seed, own: Seed) -> Self {
-        let (low, high) = wall
-            .iter()
-            .fold((wall[0].at, wall[0].at), |(low, high), gate| (low.inf(&gate.at), high.sup(&gate.at)));
+        let (low, high) = bounds(wall.iter().map(|gate| &gate.at)).unwrap_or_default();
         let reach = (high - low).norm() * 0.5 + 2.0 * config.length;
         let mut fabric = Fabric::around(nalgebra::center(&low, &high), reach, config.length, 2 * wall.len());
         // Two streets are the wall's own; the third leads in.

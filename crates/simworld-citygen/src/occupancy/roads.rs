@@ -1,10 +1,11 @@
 //! The land of the roads.
 
+use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_4;
 
 use simworld_core::geometry::{Point2, Vector2, direction};
 use simworld_core::id::RoadId;
-use simworld_core::net::{RoadNetwork, Side};
+use simworld_core::net::{Intersection, RoadNetwork, Side};
 
 use super::Occupancy;
 
@@ -21,40 +22,82 @@ impl Occupancy {
     pub(crate) fn of_roads_where(network: &RoadNetwork, counts: impl Fn(RoadId) -> bool) -> Self {
         // A bent street is some twenty strips; houses will come.
         let mut taken = Self::with_capacity(network.roads.len() * 16);
-        for (index, road) in network.roads.iter().enumerate() {
-            let id = RoadId::from_index(index);
-            if !counts(id) {
-                continue;
-            }
-            let walk = |side| network.sidewalk(id, side);
-            // From the outer edge of a sidewalk to the centreline, or from kerb to kerb.
-            let (left, right) = (walk(Side::Left), walk(Side::Right));
-            for (sidewalk, kerb, sign) in [(left, road.left_kerb, 1.0), (right, road.right_kerb, -1.0)] {
-                if let Some(sidewalk) = sidewalk {
-                    let (out, into) = (sidewalk.width * 0.5, sidewalk.width * 0.5 + kerb.max(0.0));
-                    let (left, right) = if sign > 0.0 { (out, into) } else { (into, out) };
-                    add_path(&mut taken, &sidewalk.path, left, right);
-                } else {
-                    let (left, right) = if sign > 0.0 { (kerb, 0.0) } else { (0.0, kerb) };
-                    add_path(&mut taken, &road.centerline, left, right);
-                }
-            }
+        for road in (0..network.roads.len()).map(RoadId::from_index).filter(|road| counts(*road)) {
+            taken.add_road(network, road);
         }
         for intersection in &network.intersections {
-            if !intersection.roads.iter().any(|road| counts(*road)) {
-                continue;
-            }
-            if let Some(circle) = intersection.turning {
-                let corner =
-                    |eighth: u32| circle.center + direction(f64::from(eighth) * FRAC_PI_4) * circle.radius;
-                taken.add(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner));
-            }
-            for corner in &intersection.corners {
-                let half = intersection_walk(network, &intersection.roads) * 0.5;
-                add_path(&mut taken, corner, half, half);
+            if intersection.roads.iter().any(|road| counts(*road)) {
+                taken.add_junction(network, intersection);
             }
         }
         taken
+    }
+
+    /// The land that a few roads of a large network take, with the junctions at their ends.
+    pub(crate) fn of_few_roads(network: &RoadNetwork, roads: &BTreeSet<usize>) -> Self {
+        let mut taken = Self::default();
+        let mut junctions = BTreeSet::new();
+        for road in roads {
+            taken.add_road(network, RoadId::from_index(*road));
+            junctions.extend([network.roads[*road].from, network.roads[*road].to]);
+        }
+        for junction in junctions {
+            taken.add_junction(network, &network.intersections[junction.index()]);
+        }
+        taken
+    }
+
+    /// Takes the land of a road: from the outer edge of a sidewalk to the centreline, or from kerb to kerb.
+    fn add_road(&mut self, network: &RoadNetwork, id: RoadId) {
+        let road = &network.roads[id.index()];
+        let (left, right) = (network.sidewalk(id, Side::Left), network.sidewalk(id, Side::Right));
+        for (sidewalk, kerb, sign) in [(left, road.left_kerb, 1.0), (right, road.right_kerb, -1.0)] {
+            if let Some(sidewalk) = sidewalk {
+                let (out, into) = (sidewalk.width * 0.5, sidewalk.width * 0.5 + kerb.max(0.0));
+                let sides = if sign > 0.0 { (out, into) } else { (into, out) };
+                self.add_path(&sidewalk.path, sides);
+            } else {
+                let sides = if sign > 0.0 { (kerb, 0.0) } else { (0.0, kerb) };
+                self.add_path(&road.centerline, sides);
+            }
+        }
+    }
+
+    /// Takes the turning circle and the walkways round the corners of an intersection.
+    fn add_junction(&mut self, network: &RoadNetwork, intersection: &Intersection) {
+        if let Some(circle) = intersection.turning {
+            let corner =
+                |eighth: u32| circle.center + direction(f64::from(eighth) * FRAC_PI_4) * circle.radius;
+            self.add(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner));
+        }
+        for corner in &intersection.corners {
+            let half = intersection_walk(network, &intersection.roads) * 0.5;
+            self.add_path(corner, (half, half));
+        }
+    }
+
+    /// Takes a strip along a path, so far to its left and to its right.
+    pub(crate) fn add_path(&mut self, path: &[Point2], (left, right): (f64, f64)) {
+        for pair in path.windows(2) {
+            let along = pair[1] - pair[0];
+            let length = along.norm();
+            if length < 1e-3 || left + right <= 1e-3 {
+                continue;
+            }
+            let across = Vector2::new(-along.y, along.x) / length;
+            let count = (length / LONGEST_STRIP).ceil();
+            for step in 0..count as u32 {
+                let at = |share: f64| pair[0] + along * (share / count);
+                let (start, end) = (at(f64::from(step)), at(f64::from(step) + 1.0));
+                // Across the street first: by that side most of what is near turns out to be beside it.
+                self.add(&[
+                    end - across * right,
+                    end + across * left,
+                    start + across * left,
+                    start - across * right,
+                ]);
+            }
+        }
     }
 }
 
@@ -64,28 +107,4 @@ pub(crate) fn intersection_walk(network: &RoadNetwork, roads: &[RoadId]) -> f64 
         roads.iter().flat_map(|road| [Side::Left, Side::Right].map(|side| network.sidewalk(*road, side)));
     let least = sides.flatten().map(|sidewalk| sidewalk.width).fold(f64::INFINITY, f64::min);
     if least.is_finite() { least } else { 0.0 }
-}
-
-/// Takes a strip along a path, so far to its left and to its right.
-fn add_path(taken: &mut Occupancy, path: &[Point2], left: f64, right: f64) {
-    for pair in path.windows(2) {
-        let along = pair[1] - pair[0];
-        let length = along.norm();
-        if length < 1e-3 || left + right <= 1e-3 {
-            continue;
-        }
-        let across = Vector2::new(-along.y, along.x) / length;
-        let count = (length / LONGEST_STRIP).ceil();
-        for step in 0..count as u32 {
-            let at = |share: f64| pair[0] + along * (share / count);
-            let (start, end) = (at(f64::from(step)), at(f64::from(step) + 1.0));
-            // Across the street first: by that side most of what is near turns out to be beside it.
-            taken.add(&[
-                end - across * right,
-                end + across * left,
-                start + across * left,
-                start - across * right,
-            ]);
-        }
-    }
 }

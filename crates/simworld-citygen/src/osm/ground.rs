@@ -1,6 +1,6 @@
 //! What is driven on, where something of the map might stand on it.
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 use simworld_core::net::RoadNetwork;
 
 use crate::occupancy::Occupancy;
@@ -42,8 +42,7 @@ impl Mask {
 
 /// The words and bits of the cells of a box; `None` if they are too many.
 fn cells(points: &[Point2], beside: f64) -> Option<impl Iterator<Item = (usize, u64)>> {
-    let first = points.first().copied().unwrap_or_default();
-    let (low, high) = points.iter().fold((first, first), |(low, high), at| (low.inf(at), high.sup(at)));
+    let (low, high) = bounds(points).unwrap_or_default();
     let cell = |x: f64| (x / CELL).floor() as i64;
     let columns = cell(low.x - beside)..=cell(high.x + beside);
     let rows = cell(low.y - beside)..=cell(high.y + beside);

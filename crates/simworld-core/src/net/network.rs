@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{DrivingSide, LaneDirection, LaneKind, SignalGroup, SignalPlan, polyline};
-use crate::geometry::Point2;
+use crate::geometry::{self, Point2};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId, RoadId, SidewalkId};
 
 /// The rank of a road.
@@ -336,8 +336,6 @@ impl RoadNetwork {
 
     /// The rectangle around all centrelines, least and greatest corner; `None` without roads.
     pub fn bounds(&self) -> Option<(Point2, Point2)> {
-        let mut points = self.roads.iter().flat_map(|road| road.centerline.iter());
-        let first = *points.next()?;
-        Some(points.fold((first, first), |(low, high), point| (low.inf(point), high.sup(point))))
+        geometry::bounds(self.roads.iter().flat_map(|road| &road.centerline))
     }
 }

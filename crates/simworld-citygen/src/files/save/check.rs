@@ -1,8 +1,6 @@
 //! What a loaded city must fulfil so that nothing built on it can fail: the checks that types cannot make.
 
-use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadNetwork, StreetPlan};
-use simworld_core::scene::Shape;
 
 use super::SaveError;
 use crate::building::Building;
@@ -10,11 +8,6 @@ use crate::element::Element;
 
 /// Streets at one node: the work at a junction grows with the square of its streets.
 const MOST_STREETS_A_NODE: usize = 32;
-/// Farthest coordinate, m.
-const FARTHEST: f64 = 1e7;
-/// Largest building, m, and most storeys.
-const LARGEST: f64 = 2000.0;
-const MOST_STOREYS: u32 = 500;
 
 /// Roads are indexed as the streets of the plan, intersections as its nodes.
 pub(super) fn streets(plan: &StreetPlan, network: &RoadNetwork) -> Result<(), SaveError> {
@@ -30,31 +23,15 @@ pub(super) fn streets(plan: &StreetPlan, network: &RoadNetwork) -> Result<(), Sa
 }
 
 pub(super) fn buildings(buildings: &[Building], network: &RoadNetwork) -> Result<(), SaveError> {
-    let size = |x: f64| x > 0.0 && x <= LARGEST;
-    let is_sound = |building: &Building| {
-        is_near(&building.center)
-            && is_near(&building.access)
-            && building.facing.is_finite()
-            && size(building.width)
-            && size(building.depth)
-            && building.storeys <= MOST_STOREYS
-            && (0.0..=FARTHEST).contains(&building.frontage)
-            && building.footprint.fits(building.width, building.depth)
-    };
-    fail(
-        "building",
-        buildings.iter().position(|building| !is_sound(building)),
-        "has no possible place or size",
-    )?;
+    let unsound = buildings.iter().position(|building| !building.is_sound());
+    fail("building", unsound, "has no possible place or size")?;
     let lost = buildings.iter().position(|building| building.road.index() >= network.roads.len());
     fail("building", lost, "stands at a road that is not there")
 }
 
 pub(super) fn elements(elements: &[Element]) -> Result<(), SaveError> {
-    let is_sound = |element: &Element| {
-        is_near(&element.position) && element.facing.is_finite() && is_solid(&element.shape)
-    };
-    fail("element", elements.iter().position(|element| !is_sound(element)), "has no possible place or size")
+    let unsound = elements.iter().position(|element| !element.is_sound());
+    fail("element", unsound, "has no possible place or size")
 }
 
 /// What stands along a road stands along one that is there.
@@ -63,15 +40,6 @@ pub(super) fn anchors(elements: &[Element], network: &RoadNetwork) -> Result<(),
         element.along.as_street().is_some_and(|(road, _)| road.index() >= network.roads.len())
     };
     fail("element", elements.iter().position(is_lost), "stands along a road that is not there")
-}
-
-fn is_solid(shape: &Shape) -> bool {
-    let size = shape.size();
-    (0..3).all(|axis| size[axis] > 0.0 && size[axis] <= LARGEST)
-}
-
-fn is_near(point: &Point2) -> bool {
-    point.x.abs() <= FARTHEST && point.y.abs() <= FARTHEST
 }
 
 fn fail(what: &'static str, at: Option<usize>, fault: &'static str) -> Result<(), SaveError> {

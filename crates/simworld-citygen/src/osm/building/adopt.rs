@@ -1,6 +1,6 @@
 //! Buildings take over what points inside them say: a restaurant is often a point in a house.
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 
 use super::outline::{Outline, contains};
 use super::usage::use_of;
@@ -20,11 +20,7 @@ fn cell(point: Point2) -> (i64, i64) {
 pub(in crate::osm) fn adopt(place: &Place, outlines: &mut [Outline]) {
     let mut cells: Vec<((i64, i64), u32)> = Vec::new();
     for (index, outline) in outlines.iter().enumerate() {
-        let Some(first) = outline.corners.first() else { continue };
-        let (low, high) = outline
-            .corners
-            .iter()
-            .fold((*first, *first), |(low, high), corner| (low.inf(corner), high.sup(corner)));
+        let Some((low, high)) = bounds(&outline.corners) else { continue };
         let (low, high) = (cell(low), cell(high));
         if (high.0 - low.0 + 1) * (high.1 - low.1 + 1) <= MOST_CELLS {
             let covered = (low.0..=high.0).flat_map(|x| (low.1..=high.1).map(move |y| (x, y)));

@@ -1,6 +1,6 @@
 //! From outlines to buildings: the rectangle round each, the way it looks, its door.
 
-use simworld_core::geometry::{Point2, Vector2, heading};
+use simworld_core::geometry::{Point2, Vector2, bounds, heading};
 use simworld_core::net::RoadNetwork;
 use simworld_core::ops::{sin_cos, wrap_angle};
 
@@ -100,9 +100,7 @@ fn round(corners: &[Point2]) -> Round {
 }
 
 fn along_axes(corners: &[Point2]) -> Round {
-    let first = corners.first().copied().unwrap_or_default();
-    let (low, high) =
-        corners.iter().fold((first, first), |(low, high), corner| (low.inf(corner), high.sup(corner)));
+    let (low, high) = bounds(corners).unwrap_or_default();
     let size = high - low;
     Round { middle: nalgebra::center(&low, &high), angle: 0.0, length: size.x, width: size.y }
 }

@@ -6,13 +6,11 @@ use simworld_core::net::RoadNetwork;
 
 use super::{Outline, raise};
 use crate::building::Building;
-use crate::doors::Doors;
+use crate::doors::{Doors, FARTHEST_DOOR};
 use crate::occupancy::Occupancy;
 use crate::osm::error::Warning;
 use crate::osm::place::Place;
 
-/// A building farther than this from every sidewalk has no way in, m.
-const FARTHEST_DOOR: f64 = 150.0;
 /// Most are nearer than this to one, m.
 const USUAL_DOOR: f64 = 40.0;
 
