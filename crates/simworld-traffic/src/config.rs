@@ -5,8 +5,9 @@ use simworld_core::net::NetworkError;
 use simworld_core::scene::WorldError;
 use thiserror::Error;
 
+use crate::DrivingConditions;
 use crate::crowd::AnticipationVelocity;
-use crate::vehicle::{Idm, Mobil};
+use crate::vehicle::{Mobil, VehicleKind, VehicleType, standard_types};
 
 /// How much traffic there is, and how it behaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,14 +17,12 @@ pub struct TrafficConfig {
     pub vehicles: u32,
     /// Pedestrians to place, in [0, 10 000 000].
     pub pedestrians: u32,
-    /// Car following.
-    pub idm: Idm,
+    /// The types of vehicles, 1 to 255 of them, with their shares, sizes and drivers.
+    pub types: Vec<VehicleType>,
     /// Lane changes.
     pub mobil: Mobil,
-    /// Share of buses among the vehicles, in [0, 1].
-    pub buses: f64,
-    /// Share of vans, in [0, 1].
-    pub vans: f64,
+    /// Road and weather at the start.
+    pub conditions: DrivingConditions,
     /// Lateral acceleration at which drivers take turns, m/s², in [0.5, 6].
     pub lateral_acceleration: f64,
     /// Weights of going straight, right and left at an intersection, each in [0, 1000], one of them positive.
@@ -43,10 +42,9 @@ impl Default for TrafficConfig {
         Self {
             vehicles: 40,
             pedestrians: 80,
-            idm: Idm::default(),
+            types: standard_types(),
             mobil: Mobil::default(),
-            buses: 0.04,
-            vans: 0.1,
+            conditions: DrivingConditions::default(),
             lateral_acceleration: 2.5,
             turns: [0.6, 0.2, 0.2],
             walking: AnticipationVelocity::default(),
@@ -70,6 +68,24 @@ pub enum TrafficError {
         value: f64,
         /// What is allowed, in words.
         allowed: &'static str,
+    },
+    /// A type of vehicle with a setting out of range.
+    #[error("types[{index}].{field} = {value} is out of range: give {allowed}")]
+    VehicleType {
+        /// The row of the table.
+        index: usize,
+        /// The setting.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed, in words.
+        allowed: &'static str,
+    },
+    /// No type of that kind is in the table.
+    #[error("the table of types has no {}: add a row of that kind to TrafficConfig::types", kind.as_str())]
+    NoSuchType {
+        /// The kind that was asked for.
+        kind: VehicleKind,
     },
     /// The walkways cannot be made.
     #[error(transparent)]
@@ -106,21 +122,14 @@ impl TrafficConfig {
     /// # Errors
     /// The first field out of range; NaN always is.
     pub fn validate(&self) -> Result<(), TrafficError> {
-        let Idm { desired_speed, headway, gap, acceleration, deceleration } = self.idm;
         let [straight, right, left] = self.turns;
         let checks = [
             ("vehicles", f64::from(self.vehicles), 0.0, 1e7, "0 to 10 000 000"),
             ("pedestrians", f64::from(self.pedestrians), 0.0, 1e7, "0 to 10 000 000"),
-            ("idm.desired_speed", desired_speed, 1.0, 70.0, "1 to 70 m/s"),
-            ("idm.headway", headway, 0.3, 5.0, "0.3 to 5 s"),
-            ("idm.gap", gap, 0.5, 10.0, "0.5 to 10 m"),
-            ("idm.acceleration", acceleration, 0.2, 6.0, "0.2 to 6 m/s²"),
-            ("idm.deceleration", deceleration, 0.5, 6.0, "0.5 to 6 m/s²"),
+            ("types (how many)", self.types.len() as f64, 1.0, 255.0, "1 to 255 types of vehicles"),
             ("mobil.politeness", self.mobil.politeness, 0.0, 2.0, "0 to 2"),
             ("mobil.threshold", self.mobil.threshold, 0.0, 5.0, "0 to 5 m/s²"),
             ("mobil.safe_braking", self.mobil.safe_braking, 0.5, 8.0, "0.5 to 8 m/s²"),
-            ("buses", self.buses, 0.0, 1.0, "0 to 1"),
-            ("vans", self.vans, 0.0, 1.0, "0 to 1"),
             ("lateral_acceleration", self.lateral_acceleration, 0.5, 6.0, "0.5 to 6 m/s²"),
             ("turns[0]", straight, 0.0, 1000.0, "0 to 1000"),
             ("turns[1]", right, 0.0, 1000.0, "0 to 1000"),
@@ -135,6 +144,32 @@ impl TrafficConfig {
                 return Err(TrafficError::Config { field, value, allowed });
             }
         }
-        Ok(())
+        self.conditions.validate()?;
+        self.types.iter().enumerate().try_for_each(|(index, row)| row.validate(index))
+    }
+
+    /// The first type of a kind, to change it; `None` if the table has none.
+    ///
+    /// ```
+    /// use simworld_traffic::TrafficConfig;
+    /// use simworld_traffic::vehicle::VehicleKind;
+    /// let mut config = TrafficConfig::default();
+    /// if let Some(bicycle) = config.type_mut(VehicleKind::Bicycle) { bicycle.share = 0.1; }
+    /// assert!(config.validate().is_ok());
+    /// ```
+    pub fn type_mut(&mut self, kind: VehicleKind) -> Option<&mut VehicleType> {
+        self.types.iter_mut().find(|row| row.kind == kind)
+    }
+
+    /// Whether there is a type of a kind.
+    pub(crate) fn has_type(&self, kind: VehicleKind) -> Result<(), TrafficError> {
+        let found = self.types.iter().any(|row| row.kind == kind);
+        if found { Ok(()) } else { Err(TrafficError::NoSuchType { kind }) }
+    }
+
+    /// The type of a row; vehicles name only rows that there are.
+    #[inline]
+    pub(crate) fn vehicle_type(&self, row: u8) -> &VehicleType {
+        &self.types[usize::from(row)]
     }
 }

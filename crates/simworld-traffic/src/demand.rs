@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use serde::{Deserialize, Serialize};
 use simworld_core::seed::{Stream, StreamRng};
 
-use crate::vehicle::{Tracks, VehicleKind, VehicleManager};
+use crate::vehicle::{Tracks, TypeIndex, VehicleKind, VehicleManager, draw_type};
 use crate::{Counters, Leg, Route, TrafficConfig, TrafficError};
 
 /// How the vehicles of a flow come.
@@ -29,7 +29,7 @@ pub struct Flow {
     pub per_hour: f64,
     /// How they come.
     pub arrivals: Arrivals,
-    /// Their type; drawn by the shares of the configuration if there is none.
+    /// Their kind, and their type among those of that kind by the shares of the configuration; drawn from all if there is none.
     pub kind: Option<VehicleKind>,
     /// When the first may come, s after the start.
     pub from: f64,
@@ -59,8 +59,10 @@ pub enum TripEnd {
 pub struct Trip {
     /// The vehicle's number, which another may have next.
     pub id: u32,
-    /// Its type.
+    /// Its kind.
     pub kind: VehicleKind,
+    /// Its type: a row of [`TrafficConfig::types`](crate::TrafficConfig::types).
+    pub vehicle_type: usize,
     /// Why it ended.
     pub end: TripEnd,
     /// When it was to depart, s after the start.
@@ -86,8 +88,25 @@ impl Trip {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Departure {
     pub(crate) route: u32,
-    pub(crate) kind: VehicleKind,
+    /// Its type: a row of the table.
+    pub(crate) row: TypeIndex,
+    /// The speed that its driver chooses, as a share of the limit.
+    pub(crate) factor: f32,
     pub(crate) scheduled: f64,
+}
+
+impl Departure {
+    /// A vehicle of a kind, or of any.
+    fn draw(
+        config: &TrafficConfig,
+        kind: Option<VehicleKind>,
+        route: u32,
+        scheduled: f64,
+        rng: &mut StreamRng,
+    ) -> Self {
+        let row = draw_type(&config.types, |row| kind.is_none_or(|kind| row.kind == kind), rng);
+        Self { route, row, factor: config.vehicle_type(row).draw_factor(rng), scheduled }
+    }
 }
 
 /// A flow with its clock.
@@ -105,6 +124,8 @@ pub(crate) struct DemandManager {
     sources: Vec<Source>,
     /// First come, first served, at the beginning of each leg.
     outside: BTreeMap<Leg, VecDeque<Departure>>,
+    /// Trips sent one by one so far.
+    sent: u64,
 }
 
 impl DemandManager {
@@ -135,7 +156,18 @@ impl DemandManager {
         Ok(())
     }
 
-    pub(crate) fn add_trip(&mut self, entry: Leg, departure: Departure) {
+    /// Sends one vehicle of a kind.
+    pub(crate) fn add_trip(
+        &mut self,
+        entry: Leg,
+        route: u32,
+        kind: VehicleKind,
+        (config, streams): (&TrafficConfig, Stream),
+        now: f64,
+    ) {
+        let mut rng = streams.named("trips").indexed(self.sent).rng();
+        self.sent += 1;
+        let departure = Departure::draw(config, Some(kind), route, now, &mut rng);
         self.outside.entry(entry).or_default().push_back(departure);
     }
 
@@ -172,8 +204,7 @@ impl DemandManager {
         let source = &mut self.sources[index];
         while source.next <= now && source.next < source.flow.until {
             let mut rng = source.stream(streams, index);
-            let kind = source.flow.kind.unwrap_or_else(|| VehicleKind::draw(config, &mut rng));
-            let departure = Departure { route: source.route, kind, scheduled: source.next };
+            let departure = Departure::draw(config, source.flow.kind, source.route, source.next, &mut rng);
             let entry = source.flow.route.0.first().copied();
             source.drawn += 1;
             source.next += source.wait(&mut rng);
@@ -184,15 +215,18 @@ impl DemandManager {
     }
 
     /// Whether a saved state is one of this network.
-    pub(crate) fn fits(&self, tracks: &Tracks, routes: usize) -> bool {
+    pub(crate) fn fits(&self, tracks: &Tracks, routes: usize, types: usize) -> bool {
         let known = |route: u32| (route as usize) < routes;
+        let is_type =
+            |departure: &Departure| usize::from(departure.row) < types && departure.factor.is_finite();
         self.sources.iter().all(|source| {
             known(source.route)
                 && source.next.is_finite()
                 && source.flow.per_hour > 0.0
                 && source.flow.route.validate(&tracks.network).is_ok()
         }) && self.outside.iter().all(|(leg, queue)| {
-            !leg.lanes(&tracks.network).is_empty() && queue.iter().all(|departure| known(departure.route))
+            !leg.lanes(&tracks.network).is_empty()
+                && queue.iter().all(|departure| known(departure.route) && is_type(departure))
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use simworld_core::environment::Weather;
 use simworld_core::geometry::{Point3, Twist, Vector3, direction, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
@@ -11,7 +12,7 @@ use simworld_core::seed::{Seed, Stream, StreamRng};
 use simworld_core::value::Value;
 
 use crate::traffic::State;
-use crate::{Body, Foreign, Traffic, TrafficConfig, TrafficError};
+use crate::{Body, DrivingConditions, Foreign, Traffic, TrafficConfig, TrafficError};
 
 /// Colours of cars, linear-light sRGB.
 const PAINTS: [[f32; 3]; 7] = [
@@ -55,6 +56,8 @@ pub struct TrafficDynamics {
     others: Vec<EntityId>,
     revision: Option<u64>,
     foreign: Vec<Foreign>,
+    /// The weather that was minded last.
+    weather: Option<Weather>,
 }
 
 impl TrafficDynamics {
@@ -90,6 +93,7 @@ impl TrafficDynamics {
             others: Vec::new(),
             revision: None,
             foreign: Vec::new(),
+            weather: None,
         })
     }
 
@@ -111,6 +115,23 @@ impl TrafficDynamics {
     /// The entities of the pedestrians, by number.
     pub fn pedestrians(&self) -> &[EntityId] {
         &self.pedestrians
+    }
+
+    /// Drivers mind the weather of the world, once it is not what it was.
+    fn mind_weather(&mut self, world: &World) -> Result<(), DynamicsError> {
+        let weather = world.environment().weather;
+        if self.weather != Some(weather) {
+            self.weather = Some(weather);
+            // The default weather leaves the conditions of the configuration as they are.
+            let conditions = if weather == Weather::default() {
+                self.traffic.config().conditions
+            } else {
+                DrivingConditions::from_weather(&weather)
+            };
+            let refused = |error: TrafficError| DynamicsError::Other(error.to_string());
+            self.traffic.set_conditions(conditions).map_err(refused)?;
+        }
+        Ok(())
     }
 
     fn look_around(&mut self, world: &World) {
@@ -185,7 +206,7 @@ impl TrafficDynamics {
 }
 
 fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
-    let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.kind.shape());
+    let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.shape);
     desc.colored(PAINTS[paint.below(PAINTS.len())])
 }
 
@@ -208,6 +229,7 @@ impl Dynamics for TrafficDynamics {
             let message = "the world's roads are not those the traffic was made for: make it anew";
             return Err(DynamicsError::Other(message.to_owned()));
         }
+        self.mind_weather(world)?;
         self.look_around(world);
         // Those who were taken out between two steps, and those who left in this one.
         self.clear_away(world)?;
@@ -241,6 +263,7 @@ impl Dynamics for TrafficDynamics {
         }
         (self.vehicles, self.pedestrians) = (vehicles, pedestrians);
         self.revision = None;
+        self.weather = None;
         Ok(())
     }
 

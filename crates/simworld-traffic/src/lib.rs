@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod conditions;
 mod config;
 pub mod control;
 pub mod crowd;
@@ -12,6 +13,7 @@ pub mod signal;
 mod traffic;
 pub mod vehicle;
 
+pub use conditions::DrivingConditions;
 pub use config::{TrafficConfig, TrafficError};
 pub use demand::{Arrivals, Flow, Trip, TripEnd};
 pub use dynamics::TrafficDynamics;

@@ -10,13 +10,14 @@ use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Pose, Twist, Vector2, Vector3, direction, heading, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::net::{Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, polyline};
+use simworld_core::scene::Shape;
 use simworld_core::seed::{Seed, Stream};
 
-use crate::demand::{DemandManager, Departure, Flow, Trip};
+use crate::demand::{DemandManager, Flow, Trip};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
-use crate::{Route, TrafficConfig, TrafficError};
+use crate::{DrivingConditions, Route, TrafficConfig, TrafficError};
 
 /// Where a body is held to its lane, as shares of its length from the front.
 const FRONT_AXLE: f64 = 0.1;
@@ -37,8 +38,12 @@ pub struct Counters {
     pub long_waits: u64,
     /// Lane changes.
     pub lane_changes: u64,
-    /// Vehicles that took another route because they could not get into the lane of theirs.
+    /// Vehicles that took another route because they could not get into the lane of theirs, or to undo a lock.
     pub rerouted: u64,
+    /// Rings of full lanes, each waiting for the next, that were found and undone.
+    pub locks: u64,
+    /// Vehicles that entered a junction without room behind it to undo a lock.
+    pub passes: u64,
     /// Vehicles that entered after the start.
     pub entered: u64,
     /// Vehicles that came to the end of their route.
@@ -61,8 +66,12 @@ pub struct Placed {
 pub struct Body {
     /// Its number, from zero.
     pub id: u32,
-    /// Its type.
+    /// Its kind.
     pub kind: VehicleKind,
+    /// Its type: a row of [`TrafficConfig::types`].
+    pub vehicle_type: usize,
+    /// Its solid.
+    pub shape: Shape,
     /// World from body: the origin is the middle of its bottom.
     pub pose: Pose,
     /// Velocity.
@@ -84,6 +93,8 @@ pub struct Body {
 /// ```
 pub struct Traffic {
     config: TrafficConfig,
+    /// The settings as the conditions of now make them.
+    driving: TrafficConfig,
     streams: Stream,
     tracks: Tracks,
     ways: WaypointGraph,
@@ -110,6 +121,7 @@ pub(crate) struct State {
     seconds: f64,
     steps: u64,
     counters: Counters,
+    conditions: DrivingConditions,
 }
 
 impl State {
@@ -139,13 +151,14 @@ impl Traffic {
         };
         let mut traffic = Self {
             config: config.clone(),
+            driving: config.conditions.applied(config),
             streams,
             finder: Finder::new(&tracks),
             walkers: vec![0; crossings],
             signals,
             tracks,
             ways,
-            state: State { vehicles, pedestrians, ..State::default() },
+            state: State { vehicles, pedestrians, conditions: config.conditions, ..State::default() },
             placed,
             obstacles: Vec::new(),
         };
@@ -162,22 +175,44 @@ impl Traffic {
     /// Adds vehicles that keep coming.
     ///
     /// # Errors
-    /// A route that cannot be driven, or a setting out of range.
+    /// A route that cannot be driven, a setting out of range, or a kind of which the configuration has no type.
     pub fn add_flow(&mut self, flow: Flow) -> Result<(), TrafficError> {
+        if let Some(kind) = flow.kind {
+            self.driving.has_type(kind)?;
+        }
         let State { vehicles, demand, .. } = &mut self.state;
         demand.add_flow(flow, &self.tracks, vehicles, self.streams)
+    }
+
+    /// Sets road and weather; everybody drives as they allow from the next step on.
+    ///
+    /// # Errors
+    /// A condition out of range.
+    pub fn set_conditions(&mut self, conditions: DrivingConditions) -> Result<(), TrafficError> {
+        conditions.validate()?;
+        if conditions != self.driving.conditions {
+            self.driving = conditions.applied(&self.config);
+            self.state.conditions = conditions;
+        }
+        Ok(())
+    }
+
+    /// Road and weather.
+    pub fn conditions(&self) -> DrivingConditions {
+        self.driving.conditions
     }
 
     /// Sends a vehicle on a route; it enters when there is room at the beginning of the first leg.
     ///
     /// # Errors
-    /// A route that cannot be driven.
+    /// A route that cannot be driven, or a kind of which the configuration has no type.
     pub fn insert(&mut self, route: Route, kind: VehicleKind) -> Result<(), TrafficError> {
         route.validate(&self.tracks.network)?;
+        self.driving.has_type(kind)?;
         let State { vehicles, demand, seconds, .. } = &mut self.state;
         if let Some(entry) = route.0.first().copied() {
-            let departure = Departure { route: vehicles.add_route(route), kind, scheduled: *seconds };
-            demand.add_trip(entry, departure);
+            let route = vehicles.add_route(route);
+            demand.add_trip(entry, route, kind, (&self.driving, self.streams), *seconds);
         }
         Ok(())
     }
@@ -185,7 +220,7 @@ impl Traffic {
     /// Takes a vehicle out, wherever it is; false if there is none of that number.
     pub fn remove(&mut self, id: u32) -> bool {
         let State { vehicles, counters, seconds, .. } = &mut self.state;
-        let removed = vehicles.remove(&self.tracks, &self.config, id, *seconds);
+        let removed = vehicles.remove(&self.tracks, &self.driving, id, *seconds);
         counters.removed += u64::from(removed);
         removed
     }
@@ -259,7 +294,7 @@ impl Traffic {
         let State { vehicles, demand, pedestrians, counters, shown, seconds, .. } = &mut self.state;
         vehicles.entered.clear();
         vehicles.ended.clear();
-        demand.step(vehicles, &self.tracks, &self.config, self.streams, *seconds, counters);
+        demand.step(vehicles, &self.tracks, &self.driving, self.streams, *seconds, counters);
         let sight = vehicle::Sight {
             aspects: &self.signals.aspects,
             shown,
@@ -268,7 +303,7 @@ impl Traffic {
             obstacles: &self.obstacles,
         };
         let streams = self.streams.named("vehicles");
-        vehicles.step(&self.tracks, &self.config, streams, &sight, (*seconds, dt), counters);
+        vehicles.step(&self.tracks, &self.driving, streams, &sight, (*seconds, dt), counters);
     }
 
     fn update_pedestrians(&mut self, dt: f64) {
@@ -279,7 +314,7 @@ impl Traffic {
             aspects: &self.signals.aspects,
             claims: &vehicles.claims,
         };
-        pedestrians.step(&sight, &self.config, self.streams.named("pedestrians"), dt);
+        pedestrians.step(&sight, &self.driving, self.streams.named("pedestrians"), dt);
     }
 
     fn update_signals(&mut self, dt: f64) {
@@ -333,7 +368,8 @@ impl Traffic {
     /// The vehicles, in the order of their tracks.
     pub fn vehicles(&self) -> impl Iterator<Item = Body> {
         self.state.vehicles.iter().map(|(track, vehicle)| {
-            let length = vehicle.kind.length();
+            let length = vehicle.length();
+            let row = self.driving.vehicle_type(vehicle.row);
             // The rear may still be on the track before. Steered front wheels and a rear that hardly swings out.
             let front = self.point(track, vehicle.id, vehicle.s - FRONT_AXLE * length);
             let rear = self.point(track, vehicle.id, vehicle.s - REAR_AXLE * length);
@@ -345,7 +381,9 @@ impl Traffic {
             let ahead = ahead * vehicle.v;
             Body {
                 id: vehicle.id,
-                kind: vehicle.kind,
+                kind: row.kind,
+                vehicle_type: usize::from(vehicle.row),
+                shape: row.shape(),
                 pose: pose_facing(simworld_core::geometry::Point3::new(middle.x, middle.y, 0.0), yaw),
                 twist: Twist { linear: Vector3::new(ahead.x, ahead.y, 0.0), angular: Vector3::zeros() },
             }
@@ -383,10 +421,12 @@ impl Traffic {
 
     /// Takes up a saved state; false if it is not that of this network and configuration.
     pub(crate) fn set_state(&mut self, state: State) -> bool {
-        let vehicles = state.vehicles.fits(&self.tracks);
+        let types = self.driving.types.len();
+        let vehicles = state.vehicles.fits(&self.tracks, types);
         let people = state.pedestrians.walkers.len();
         let fits = vehicles
-            && state.demand.fits(&self.tracks, state.vehicles.route_count())
+            && state.demand.fits(&self.tracks, state.vehicles.route_count(), types)
+            && state.conditions.validate().is_ok()
             && people == self.placed.pedestrians as usize
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()
@@ -395,6 +435,7 @@ impl Traffic {
             && state.pedestrians.fits(&self.ways, self.walkers.len());
         if fits {
             self.signals.aspects.clone_from(&state.aspects);
+            self.driving = state.conditions.applied(&self.config);
             self.state = state;
         }
         fits

@@ -15,7 +15,7 @@ fn grid(columns: usize, vehicles: u32, pedestrians: u32) -> Traffic {
 }
 
 fn solid(body: &Body) -> Obb {
-    body.kind.shape().obb(&body.pose)
+    body.shape.obb(&body.pose)
 }
 
 /// Pairs of vehicles whose bodies overlap, by exact rectangles over a sweep along x.

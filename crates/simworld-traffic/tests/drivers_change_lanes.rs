@@ -11,7 +11,7 @@ use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{Body, Flow, Leg, Router, Traffic, TrafficConfig, TripEnd};
 
 fn solid(body: &Body) -> Obb {
-    body.kind.shape().obb(&body.pose)
+    body.shape.obb(&body.pose)
 }
 
 fn assert_apart(traffic: &Traffic, bodies: &mut Vec<Body>, step: usize) {
@@ -39,7 +39,8 @@ fn ten_thousand_steps_on_avenues_without_a_collision() {
     for seed in 0..if soak { 40 } else { 1 } {
         let lanes = [3, 2, 4, 1][seed as usize % 4];
         let vehicles = 50 * u32::from(lanes);
-        let config = TrafficConfig { vehicles, pedestrians: 60, buses: 0.08, ..TrafficConfig::default() };
+        let mut config = TrafficConfig { vehicles, pedestrians: 60, ..TrafficConfig::default() };
+        config.type_mut(VehicleKind::Bus).unwrap().share = 0.08;
         let mut traffic = Traffic::new(avenues(3, 3, lanes), &config, Seed(3 + seed)).unwrap();
         let mut bodies = Vec::new();
         for step in 0..10_000 {

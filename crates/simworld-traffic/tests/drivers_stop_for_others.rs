@@ -24,7 +24,7 @@ fn drivers_stop_behind_a_body_on_their_lane() {
     for step in 0..3000 {
         traffic.step_among(&[body], 0.1);
         for vehicle in traffic.vehicles() {
-            let distance = vehicle.kind.shape().planar_distance(&vehicle.pose, &position);
+            let distance = vehicle.shape.planar_distance(&vehicle.pose, &position);
             nearest = nearest.min(distance);
             assert!(distance > body.radius, "step {step}: {vehicle:?} drove into the body");
         }

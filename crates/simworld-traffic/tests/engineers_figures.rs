@@ -13,8 +13,11 @@ use simworld_traffic::{Arrivals, Flow, Leg, Route, Traffic, TrafficConfig};
 
 const DT: f64 = 0.1;
 
+/// Drivers who all keep to the limit: what the formulae suppose.
 fn empty() -> TrafficConfig {
-    TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() }
+    let mut config = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+    config.types.iter_mut().for_each(|row| row.speed_deviation = 0.0);
+    config
 }
 
 fn crossroads(arm: f64) -> Arc<RoadNetwork> {

@@ -60,11 +60,12 @@ fn what_finds_no_room_is_reported() {
 proptest! {
     #[test]
     fn arbitrary_settings_are_used_or_refused(
-        headway in any::<f64>(), gap in any::<f64>(), buses in any::<f64>(), turns in any::<[f64; 3]>(), speed in any::<f64>(),
+        headway in any::<f64>(), gap in any::<f64>(), share in any::<f64>(), turns in any::<[f64; 3]>(), speed in any::<f64>(),
     ) {
-        let mut config = TrafficConfig { vehicles: 5, pedestrians: 5, buses, turns, walking_speed: speed, ..TrafficConfig::default() };
-        config.idm.headway = headway;
-        config.idm.gap = gap;
+        let mut config = TrafficConfig { vehicles: 5, pedestrians: 5, turns, walking_speed: speed, ..TrafficConfig::default() };
+        config.types[0].driver.headway = headway;
+        config.types[0].driver.gap = gap;
+        config.types[1].share = share;
         if let Ok(mut traffic) = Traffic::new(network(), &config, Seed(1)) {
             traffic.step(0.1);
         }

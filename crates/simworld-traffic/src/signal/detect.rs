@@ -108,7 +108,7 @@ impl Detectors {
             let Some(connection) = tracks.network.connections.get(vehicle.next as usize) else { continue };
             let Some(group) = connection.signal.map(SignalGroup::index) else { continue };
             // A vehicle at rest takes its length and the gap before it.
-            let share = (vehicle.kind.length() + 2.0) / end;
+            let share = (vehicle.length() + 2.0) / end;
             self.taken[lane as usize] += share;
             if self.wanted[vehicle.next as usize] == 0.0 {
                 self.ways.push(vehicle.next);
@@ -119,7 +119,7 @@ impl Detectors {
                 self.queued[group] += u32::from(vehicle.v < STANDING);
             }
             let moved = vehicle.v * dt;
-            if vehicle.s >= advance && vehicle.s - moved - vehicle.kind.length() <= advance {
+            if vehicle.s >= advance && vehicle.s - moved - vehicle.length() <= advance {
                 self.gap[group] = 0.0;
             }
         }

@@ -1,5 +1,6 @@
 //! How vehicles enter the network, follow their routes and leave it.
 
+use super::VehicleKind;
 use super::manager::{EXIT, NONE, Path, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::demand::Departure;
@@ -27,29 +28,44 @@ impl VehicleManager {
         now: f64,
     ) -> bool {
         let next = self.routes.get(departure.route as usize).and_then(|route| route.0.get(1)).copied();
-        let length = departure.kind.length();
-        let lanes = leg.lanes(&tracks.network).iter().map(|lane| lane.0);
-        let leads_on = |lane: &Track| next.is_none_or(|next| tracks.way_to(*lane, next).is_some());
+        let row = config.vehicle_type(departure.row);
+        let (length, idm) = (row.length, &row.driver);
+        let leads_on = |lane: &Track| next.is_none_or(|next| tracks.way_to(*lane, next, row.kind).is_some());
         let room = |lane: Track| {
             let last = self.queues[lane as usize].back();
-            last.map_or(f64::INFINITY, |last| last.s - last.kind.length() - length)
+            last.map_or(f64::INFINITY, |last| last.s - last.length() - length)
         };
-        let best = lanes
+        let best = tracks
+            .lanes_of(leg, row.kind)
             .filter(leads_on)
             .filter(|lane| self.inbound[*lane as usize] <= 0.0 && tracks.length[*lane as usize] > length)
-            .max_by(|a, b| room(*a).total_cmp(&room(*b)).then(b.cmp(a)));
-        let Some(lane) = best.filter(|lane| room(*lane) > config.idm.gap) else { return false };
-        let limit = config.idm.desired_speed.min(tracks.speed[lane as usize]);
+            .filter(|lane| room(*lane) > idm.gap)
+            .max_by(|a, b| {
+                let suits = |lane: Track| tracks.suits(lane, row.kind);
+                suits(*a).cmp(&suits(*b)).then(room(*a).total_cmp(&room(*b))).then(b.cmp(a))
+            });
+        let Some(lane) = best else { return false };
+        let limit = row.free_speed(config, departure.factor, tracks.speed[lane as usize]);
         let speed = self.queues[lane as usize].back().map_or(limit, |leader| {
-            let spare = room(lane) - config.idm.gap;
-            let stopping = (leader.v * leader.v + 2.0 * config.idm.deceleration * spare).sqrt();
-            limit.min(stopping).min(spare / config.idm.headway)
+            let spare = room(lane) - idm.gap;
+            let stopping = (leader.v * leader.v + 2.0 * idm.deceleration * spare).sqrt();
+            limit.min(stopping).min(spare / idm.headway)
         });
-        self.put(tracks, departure, lane, length, speed, now);
+        self.put(tracks, config, departure, lane, speed, now);
         true
     }
 
-    fn put(&mut self, tracks: &Tracks, departure: &Departure, lane: Track, s: f64, v: f64, now: f64) {
+    fn put(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        departure: &Departure,
+        lane: Track,
+        v: f64,
+        now: f64,
+    ) {
+        let row = config.vehicle_type(departure.row);
+        let s = row.length;
         let path = Path::new(lane, departure.route, departure.scheduled, now);
         let id = if let Some(id) = self.free.pop() {
             self.paths[id as usize] = path;
@@ -60,20 +76,13 @@ impl VehicleManager {
         };
         // Its way is not driven up to where its front appears.
         self.paths[id as usize].driven = -s;
-        self.paths[id as usize].free_time = -s / tracks.speed[lane as usize];
+        self.paths[id as usize].free_time =
+            -s / row.free_speed(config, departure.factor, tracks.speed[lane as usize]);
         let route = self.routes.get(departure.route as usize);
-        let next = route.map_or(NONE, |route| route_way(tracks, route, &self.paths[id as usize], lane));
-        let kind = departure.kind;
-        self.queues[lane as usize].push_back(Vehicle {
-            s,
-            v,
-            stood: 0.0,
-            id,
-            next,
-            holding: NONE,
-            kind,
-            shift: 0.0,
-        });
+        let next =
+            route.map_or(NONE, |route| route_way(tracks, route, &self.paths[id as usize], lane, row.kind));
+        let vehicle = Vehicle::new(row, departure.row, departure.factor, id, s);
+        self.queues[lane as usize].push_back(Vehicle { v, next, ..vehicle });
         if let Err(place) = self.active.binary_search(&lane) {
             self.active.insert(place, lane);
         }
@@ -81,10 +90,19 @@ impl VehicleManager {
     }
 
     /// Ends the trip of a vehicle that is in no queue any more.
-    pub(super) fn leave(&mut self, tracks: &Tracks, track: Track, vehicle: &Vehicle, end: TripEnd, now: f64) {
+    pub(super) fn leave(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        track: Track,
+        vehicle: &Vehicle,
+        end: TripEnd,
+        now: f64,
+    ) {
+        let row = config.vehicle_type(vehicle.row);
         if vehicle.holding != NONE {
             self.holders[vehicle.holding as usize] -= 1;
-            self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.kind.is_long());
+            self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.is_long());
         }
         let path = &self.paths[vehicle.id as usize];
         let (track, s) = (track as usize, vehicle.s.min(tracks.length[track as usize]));
@@ -92,13 +110,14 @@ impl VehicleManager {
         let early = (vehicle.s - s) / vehicle.v.max(0.1);
         self.ended.push(Trip {
             id: vehicle.id,
-            kind: vehicle.kind,
+            kind: row.kind,
+            vehicle_type: usize::from(vehicle.row),
             end,
             scheduled: path.scheduled,
             entered: path.entered,
             left: now - early,
             distance: path.driven + s,
-            free_time: path.free_time + s / tracks.speed[track],
+            free_time: path.free_time + s / row.free_speed(config, vehicle.factor, tracks.speed[track]),
         });
         self.free.push(vehicle.id);
     }
@@ -114,21 +133,21 @@ impl VehicleManager {
             && (tracks.connection(track).is_some() || vehicle.holding == vehicle.next);
         if before_lane {
             let lane = tracks.lane_after(vehicle.holding as usize);
-            self.inbound[lane as usize] -= super::manager::room_for(vehicle.kind, config);
+            self.inbound[lane as usize] -= super::manager::room_for(&vehicle, config);
         }
         if self.queues[track as usize].is_empty() {
             self.active.retain(|active| *active != track);
         }
-        self.leave(tracks, track, &vehicle, TripEnd::Removed, now);
+        self.leave(tracks, config, track, &vehicle, TripEnd::Removed, now);
         true
     }
 }
 
 /// The way from a lane to the next leg of a route; out of the network at its end.
-pub(super) fn route_way(tracks: &Tracks, route: &Route, path: &Path, lane: Track) -> u32 {
+pub(super) fn route_way(tracks: &Tracks, route: &Route, path: &Path, lane: Track, kind: VehicleKind) -> u32 {
     match route.0.get(path.leg as usize + 1) {
         None => EXIT,
         // A lane that does not lead on is one to leave.
-        Some(next) => tracks.way_to(lane, *next).unwrap_or(NONE),
+        Some(next) => tracks.way_to(lane, *next, kind).unwrap_or(NONE),
     }
 }

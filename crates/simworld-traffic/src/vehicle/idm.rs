@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The hardest braking of any vehicle, m/s²: tyres on dry asphalt.
+/// The hardest braking of a car, m/s²: tyres on dry asphalt.
 pub const HARDEST_BRAKING: f64 = 9.0;
 
 /// The parameters of the model; the default is an urban driver.
@@ -28,17 +28,26 @@ pub struct Idm {
     pub acceleration: f64,
     /// Comfortable braking, m/s².
     pub deceleration: f64,
+    /// The hardest braking that brakes and tyres give, m/s².
+    pub emergency_deceleration: f64,
 }
 
 impl Default for Idm {
     fn default() -> Self {
-        Self { desired_speed: 13.9, headway: 1.0, gap: 2.0, acceleration: 1.5, deceleration: 2.0 }
+        Self {
+            desired_speed: 13.9,
+            headway: 1.0,
+            gap: 2.0,
+            acceleration: 1.5,
+            deceleration: 2.0,
+            emergency_deceleration: HARDEST_BRAKING,
+        }
     }
 }
 
 impl Idm {
     /// Acceleration at speed `v` m/s with the free speed `free` m/s, `gap` m behind a leader at `leader` m/s; an infinite gap
-    /// is a free road. Never below minus [`HARDEST_BRAKING`].
+    /// is a free road. Never below minus the emergency braking.
     #[inline]
     pub fn acceleration(&self, v: f64, free: f64, gap: f64, leader: f64) -> f64 {
         self.respond(v, free, self.pressure(v, gap, leader))
@@ -60,7 +69,7 @@ impl Idm {
         let square = ratio * ratio;
         // Above its free speed a vehicle brakes comfortably, however far above.
         let road = (self.acceleration * (1.0 - square * square)).max(-self.deceleration);
-        (road - self.acceleration * pressure * pressure).max(-HARDEST_BRAKING)
+        (road - self.acceleration * pressure * pressure).max(-self.emergency_deceleration)
     }
 
     /// The gap at which one follows at constant speed, m; infinite at the desired speed.

@@ -8,7 +8,6 @@ use simworld_core::net::Aspect;
 
 use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager, room_for};
 use super::tracks::{Track, Tracks};
-use super::{HARDEST_BRAKING, VehicleKind};
 use crate::{Counters, TrafficConfig};
 
 /// Braking that drivers accept to stop at yellow, m/s².
@@ -57,14 +56,16 @@ pub(super) fn revoke(
                 tracks.network.connections[way].turn == tracks.network.driving_side.turn_across();
             let gone = match sight.aspects[group.index()] {
                 Aspect::Green => false,
-                Aspect::Yellow => needed <= COMFORTABLE && !(crosses_oncoming && distance < AT_LINE),
-                Aspect::Red => needed <= HARDEST_BRAKING,
+                Aspect::Yellow => {
+                    needed <= at_yellow(config, vehicle) && !(crosses_oncoming && distance < AT_LINE)
+                }
+                Aspect::Red => needed <= config.vehicle_type(vehicle.row).driver.emergency_deceleration,
             };
             if gone {
                 vehicle.holding = NONE;
                 holders[way] -= 1;
-                long_holders[way] -= u32::from(vehicle.kind.is_long());
-                inbound[tracks.lane_after(way) as usize] -= room_for(vehicle.kind, config);
+                long_holders[way] -= u32::from(vehicle.is_long());
+                inbound[tracks.lane_after(way) as usize] -= room_for(vehicle, config);
             } else if sight.aspects[group.index()] == Aspect::Red {
                 counters.dilemmas += 1;
             }
@@ -99,9 +100,12 @@ pub(super) fn grant(
             let way = vehicle.next as usize;
             manager.queues[request.lane as usize][request.rank].holding = vehicle.next;
             manager.holders[way] += 1;
-            manager.long_holders[way] += u32::from(vehicle.kind.is_long());
-            manager.inbound[tracks.lane_after(way) as usize] += room_for(vehicle.kind, config);
+            manager.long_holders[way] += u32::from(vehicle.is_long());
+            manager.inbound[tracks.lane_after(way) as usize] += room_for(&vehicle, config);
             counters.crossings += 1;
+            if let Ok(place) = manager.passes.binary_search(&vehicle.id) {
+                manager.passes.remove(place);
+            }
         }
     }
     manager.requests = requests;
@@ -139,23 +143,35 @@ fn may_enter(
     let connection = &tracks.network.connections[way];
     let distance = tracks.length[lane as usize] - vehicle.s;
     vehicle.shift == 0.0
-        && signal_allows(tracks, sight, way, vehicle, distance)
+        && signal_allows(tracks, config, sight, way, vehicle, distance)
         && connection.conflicts.iter().all(|other| manager.holders[other.index()] == 0)
         && tracks.tight[way].iter().all(|other| {
-            let held = if vehicle.kind.is_long() { &manager.holders } else { &manager.long_holders };
+            let held = if vehicle.is_long() { &manager.holders } else { &manager.long_holders };
             held[*other as usize] == 0
         })
         && tracks.strips[way].iter().all(|strip| {
             sight.walkers[strip.crossing as usize] == 0 && sight.waiting[strip.crossing as usize] == 0
         })
-        && has_room(manager, tracks, config, way, vehicle.kind)
+        && (has_room(manager, tracks, config, way, vehicle) || may_pass(manager, vehicle))
         && connection
             .yields_to
             .iter()
             .all(|other| !is_hindered(manager, tracks, sight, other.index(), way, vehicle, distance))
 }
 
-fn signal_allows(tracks: &Tracks, sight: &Sight<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {
+/// The braking that a driver accepts to stop at yellow, m/s²: less on a slippery road.
+fn at_yellow(config: &TrafficConfig, vehicle: &Vehicle) -> f64 {
+    COMFORTABLE.min(config.vehicle_type(vehicle.row).driver.emergency_deceleration * 0.6)
+}
+
+fn signal_allows(
+    tracks: &Tracks,
+    config: &TrafficConfig,
+    sight: &Sight<'_>,
+    way: usize,
+    vehicle: &Vehicle,
+    distance: f64,
+) -> bool {
     let connection = &tracks.network.connections[way];
     let Some(group) = connection.signal else { return true };
     match sight.aspects[group.index()] {
@@ -164,7 +180,7 @@ fn signal_allows(tracks: &Tracks, sight: &Sight<'_>, way: usize, vehicle: &Vehic
         Aspect::Yellow => {
             // Too late to stop; or a turn across oncoming traffic that waited through the whole green for its gap.
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
-            needed > COMFORTABLE
+            needed > at_yellow(config, vehicle)
                 || (connection.turn == tracks.network.driving_side.turn_across()
                     && distance < AT_LINE
                     && vehicle.stood > 5.0
@@ -173,23 +189,28 @@ fn signal_allows(tracks: &Tracks, sight: &Sight<'_>, way: usize, vehicle: &Vehic
     }
 }
 
+/// Whether a vehicle may enter without room behind the junction, because it is in a lock.
+fn may_pass(manager: &VehicleManager, vehicle: &Vehicle) -> bool {
+    manager.passes.binary_search(&vehicle.id).is_ok()
+}
+
 /// Whether the lane behind the junction has room, so that the junction is not blocked.
-fn has_room(
+pub(super) fn has_room(
     manager: &VehicleManager,
     tracks: &Tracks,
     config: &TrafficConfig,
     way: usize,
-    kind: VehicleKind,
+    vehicle: &Vehicle,
 ) -> bool {
     let lane = tracks.lane_after(way) as usize;
     let inbound = manager.inbound[lane];
     let Some(last) = manager.queues[lane].back() else {
         // An empty lane takes one vehicle even if it is longer than the lane.
-        return inbound <= 0.0 || inbound + room_for(kind, config) <= tracks.length[lane];
+        return inbound <= 0.0 || inbound + room_for(vehicle, config) <= tracks.length[lane];
     };
     // What moves will have moved on by the time one gets there.
-    let rear = last.s - last.kind.length() + if last.v > STANDING { last.v * 2.0 } else { 0.0 };
-    rear - inbound >= room_for(kind, config)
+    let rear = last.s - last.length() + if last.v > STANDING { last.v * 2.0 } else { 0.0 };
+    rear - inbound >= room_for(vehicle, config)
 }
 
 /// Whether somebody with priority on another way would have to brake.
@@ -215,6 +236,6 @@ fn is_hindered(
     }
     let track = tracks.lanes + way;
     let pace = ((vehicle.v + tracks.speed[track].min(8.0)) * 0.5).max(2.5);
-    let clear = (distance + tracks.length[track] + vehicle.kind.length()) / pace;
+    let clear = (distance + tracks.length[track] + vehicle.length()) / pace;
     (end - rival.s) / rival.v.max(3.0) < clear + MARGIN
 }

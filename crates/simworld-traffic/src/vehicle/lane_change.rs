@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 
 use serde::{Deserialize, Serialize};
 
-use super::Idm;
+use super::VehicleKind;
 use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::{Leg, TrafficConfig};
@@ -43,9 +43,11 @@ const EVERY: u64 = 5;
 /// Nobody changes nearer to the junction behind, whose drivers look at whole lanes, m.
 const CLEAR: f64 = 12.0;
 /// A change of lanes takes so much of the road even at a walk, m: four metres aside at the greatest steepness.
-const ROOM: f64 = 4.0 / STEEPNESS + 1.0;
+pub(super) const CHANGE_ROOM: f64 = 4.0 / STEEPNESS + 1.0;
 /// One begins no change for speed that would not be done this long before the stop line, s.
 const BEFORE_LINE: f64 = 5.0;
+/// What a lane of one's own is worth, m/s²: buses keep to bus lanes, riders to cycle lanes and else to the right.
+const OWN_LANE: f64 = 2.0;
 /// Who stands in a lane that does not lead on for so long looks for another way, s.
 const PATIENCE: f64 = 40.0;
 
@@ -121,15 +123,17 @@ impl VehicleManager {
         if !must && to_end < BEFORE_LINE * vehicle.v + 10.0 {
             return false;
         }
+        let kind = config.vehicle_type(vehicle.row).kind;
         let wanted = self.next_leg(tracks, &vehicle);
         let mut best: Option<(f64, Track, u32, usize)> = None;
-        for target in tracks.beside[lane as usize].into_iter().filter(|lane| *lane != NONE) {
+        let sides = tracks.beside[lane as usize].into_iter();
+        for target in sides.filter(|target| *target != NONE && tracks.may_use(*target, kind)) {
             // A lane on the way to one that leads on is a step towards it.
-            let towards = |leg| (must && leads_towards(tracks, lane, target, leg)).then_some(NONE);
+            let towards = |leg| (must && leads_towards(tracks, lane, target, leg, kind)).then_some(NONE);
             let way = if vehicle.next == EXIT {
                 Some(EXIT)
             } else {
-                wanted.and_then(|leg| tracks.way_to(target, leg).or_else(|| towards(leg)))
+                wanted.and_then(|leg| tracks.way_to(target, leg, kind).or_else(|| towards(leg)))
             };
             let Some(way) = way else { continue };
             if let Some((gain, place)) = self.gain(tracks, config, lane, rank, target, must)
@@ -163,18 +167,19 @@ impl VehicleManager {
         target: Track,
         must: bool,
     ) -> Option<(f64, usize)> {
-        let (idm, mobil) = (&config.idm, &config.mobil);
+        let mobil = &config.mobil;
         let queue = &self.queues[lane as usize];
         let vehicle = queue[rank];
-        let length = vehicle.kind.length();
+        let row = config.vehicle_type(vehicle.row);
+        let idm = &row.driver;
+        let length = vehicle.length();
         let scale = tracks.length[target as usize] / tracks.length[lane as usize];
         let s = vehicle.s * scale;
         if s >= tracks.length[target as usize] - 1.0 || (s - length) < 0.5 {
             return None;
         }
         let there = self.neighbours(target, s, length);
-        let free = |lane: Track| idm.desired_speed.min(tracks.speed[lane as usize]);
-        let follow = |v: f64, free: f64, gap: f64, leader: f64| idm.acceleration(v, free, gap, leader);
+        let free = |lane: Track| row.free_speed(config, vehicle.factor, tracks.speed[lane as usize]);
         let ahead = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - s);
         let behind = there.behind.map_or(f64::INFINITY, |(front, _)| s - length - front);
         let least = if vehicle.v < 1.0 { 0.5 } else { idm.gap * 0.5 };
@@ -190,11 +195,13 @@ impl VehicleManager {
         if there.behind.is_none() && self.inbound[target as usize] > 0.0 && s - length < 25.0 {
             return None;
         }
-        let mine = follow(vehicle.v, free(target), ahead, there.ahead.map_or(0.0, |a| a.1));
-        let follower = there.behind.map(|(_, v)| {
+        let mine = idm.acceleration(vehicle.v, free(target), ahead, there.ahead.map_or(0.0, |a| a.1));
+        let follower = follower.map(|other| {
+            let row = config.vehicle_type(other.row);
+            let free = row.free_speed(config, other.factor, tracks.speed[target as usize]);
             let alone = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - (s - length - behind));
-            let before = follow(v, free(target), alone, there.ahead.map_or(0.0, |a| a.1));
-            (before, follow(v, free(target), behind, vehicle.v))
+            let before = row.driver.acceleration(other.v, free, alone, there.ahead.map_or(0.0, |a| a.1));
+            (before, row.driver.acceleration(other.v, free, behind, vehicle.v))
         });
         let safe = -mobil.safe_braking;
         if mine < safe || follower.is_some_and(|(_, after)| after < safe) {
@@ -203,9 +210,10 @@ impl VehicleManager {
         if must {
             return Some((1e3 + mine, there.rank));
         }
-        let (now, left_behind) = staying(idm, queue, rank, free(lane));
+        let (now, left_behind) = staying(config, tracks, queue, rank, lane);
+        let own = f64::from(tracks.suits(target, row.kind) - tracks.suits(lane, row.kind)) * OWN_LANE;
         let loss = follower.map_or(0.0, |(before, after)| before - after);
-        let gain = mine - now + mobil.politeness * (left_behind - loss);
+        let gain = mine - now + own + mobil.politeness * (left_behind - loss);
         (gain > mobil.threshold).then_some((gain, there.rank))
     }
 
@@ -213,8 +221,7 @@ impl VehicleManager {
     fn neighbours(&self, lane: Track, s: f64, length: f64) -> Neighbours {
         let queue = &self.queues[lane as usize];
         let rank = queue.partition_point(|other| other.s >= s);
-        let mut ahead =
-            rank.checked_sub(1).map(|rank| (queue[rank].s - queue[rank].kind.length(), queue[rank].v));
+        let mut ahead = rank.checked_sub(1).map(|rank| (queue[rank].s - queue[rank].length(), queue[rank].v));
         let behind = queue.get(rank).map(|other| (other.s, other.v));
         let from = self.ghosts.partition_point(|ghost| ghost.lane < lane);
         // One that is beside the place counts as ahead, with a gap that forbids the change.
@@ -268,7 +275,7 @@ impl VehicleManager {
         let s = vehicle.s * tracks.length[old as usize] / tracks.length[lane as usize];
         let queue = &self.queues[old as usize];
         let leader = queue.partition_point(|other| other.s >= s).checked_sub(1).map(|rank| &queue[rank]);
-        let leader = leader.map(|leader| (leader.s - leader.kind.length() - s, leader.v));
+        let leader = leader.map(|leader| (leader.s - leader.length() - s, leader.v));
         // Another may be on its way out of the same lane.
         let ghost = first_ghost(&self.ghosts, old, s);
         [leader, ghost].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
@@ -276,31 +283,43 @@ impl VehicleManager {
 
     /// Those who have stood too long in a lane that does not lead on take a way that does, and their route anew from there.
     pub(super) fn lose_patience(&mut self, tracks: &Tracks, counters: &mut crate::Counters) {
-        for lane in self.active.iter().copied().filter(|track| (*track as usize) < tracks.lanes) {
-            let Some(vehicle) = self.queues[lane as usize].front_mut() else { continue };
+        for index in 0..self.active.len() {
+            let lane = self.active[index];
+            if lane as usize >= tracks.lanes {
+                break; // lanes come first
+            }
+            let Some(vehicle) = self.queues[lane as usize].front() else { continue };
             if vehicle.next != NONE || vehicle.stood < PATIENCE || vehicle.shift != 0.0 {
                 continue;
             }
-            let path = &mut self.paths[vehicle.id as usize];
-            let ways = &tracks.network.lanes[lane as usize].outgoing;
-            let Some(goal) = self.routes.get(path.route as usize).and_then(|route| route.0.last()).copied()
-            else {
-                continue;
-            };
-            let here = Leg::of(&tracks.network, simworld_core::id::LaneId(lane));
-            let rest = ways.iter().find_map(|way| {
-                let after = Leg::of(&tracks.network, tracks.network.connections[way.index()].to);
-                Some((way.0, tracks.router.quickest(after, goal)?))
-            });
-            if let Some((way, mut rest)) = rest {
-                rest.0.insert(0, here);
-                vehicle.next = way;
-                path.route = self.routes.len() as u32;
-                path.leg = 0;
-                self.routes.push(rest);
+            let id = vehicle.id;
+            let mut ways = tracks.network.lanes[lane as usize].outgoing.iter();
+            if self.goal(id).is_some() && ways.any(|way| self.take_way(tracks, lane, 0, way.0)) {
                 counters.rerouted += 1;
             }
         }
+    }
+
+    /// The last leg of the route of a vehicle; none if it turns at random.
+    pub(super) fn goal(&self, id: u32) -> Option<Leg> {
+        let route = self.paths[id as usize].route;
+        self.routes.get(route as usize)?.0.last().copied()
+    }
+
+    /// Lets a vehicle of a lane take a way from it, and its route anew from there; false if its end cannot be reached so.
+    pub(super) fn take_way(&mut self, tracks: &Tracks, lane: Track, rank: usize, way: u32) -> bool {
+        let id = self.queues[lane as usize][rank].id;
+        if let Some(goal) = self.goal(id) {
+            let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
+            let Some(mut rest) = tracks.router.quickest(after, goal) else { return false };
+            rest.0.insert(0, Leg::of(&tracks.network, simworld_core::id::LaneId(lane)));
+            let path = &mut self.paths[id as usize];
+            path.route = self.routes.len() as u32;
+            path.leg = 0;
+            self.routes.push(rest);
+        }
+        self.queues[lane as usize][rank].next = way;
+        true
     }
 }
 
@@ -308,21 +327,31 @@ impl VehicleManager {
 fn may_change(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
     vehicle.shift == 0.0
         && vehicle.holding == NONE
-        && vehicle.s - vehicle.kind.length() > CLEAR
-        && tracks.length[lane as usize] - vehicle.s > ROOM
+        && vehicle.s - vehicle.length() > CLEAR
+        && tracks.length[lane as usize] - vehicle.s > CHANGE_ROOM
 }
 
 /// The acceleration of a vehicle that stays in its lane, and what the one behind it gains if it leaves, m/s².
-fn staying(idm: &Idm, queue: &VecDeque<Vehicle>, rank: usize, free: f64) -> (f64, f64) {
+fn staying(
+    config: &TrafficConfig,
+    tracks: &Tracks,
+    queue: &VecDeque<Vehicle>,
+    rank: usize,
+    lane: Track,
+) -> (f64, f64) {
     let vehicle = &queue[rank];
+    let limit = tracks.speed[lane as usize];
+    let drive = |other: &Vehicle, gap: f64, leader: f64| {
+        let row = config.vehicle_type(other.row);
+        row.driver.acceleration(other.v, row.free_speed(config, other.factor, limit), gap, leader)
+    };
     let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
-    let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.kind.length() - s);
+    let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.length() - s);
     let speed = leader.map_or(0.0, |leader| leader.v);
-    let now = idm.acceleration(vehicle.v, free, gap(vehicle.s), speed);
+    let now = drive(vehicle, gap(vehicle.s), speed);
     let gain = queue.get(rank + 1).map_or(0.0, |other| {
-        let near = vehicle.s - vehicle.kind.length() - other.s;
-        let before = idm.acceleration(other.v, free, near, vehicle.v);
-        idm.acceleration(other.v, free, gap(other.s), speed) - before
+        let near = vehicle.s - vehicle.length() - other.s;
+        drive(other, gap(other.s), speed) - drive(other, near, vehicle.v)
     });
     (now, gain)
 }
@@ -335,11 +364,11 @@ fn old_lane(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> Option<Track> {
 }
 
 /// Whether a lane that leads to a leg lies beyond `target`, seen from `lane`.
-fn leads_towards(tracks: &Tracks, lane: Track, target: Track, leg: Leg) -> bool {
+fn leads_towards(tracks: &Tracks, lane: Track, target: Track, leg: Leg, kind: VehicleKind) -> bool {
     let side = usize::from(tracks.beside[lane as usize][1] == target);
     let mut next = tracks.beside[target as usize][side];
     while next != NONE {
-        if tracks.way_to(next, leg).is_some() {
+        if tracks.way_to(next, leg, kind).is_some() {
             return true;
         }
         next = tracks.beside[next as usize][side];
@@ -356,7 +385,7 @@ pub(super) fn first_ghost(ghosts: &[Ghost], lane: Track, s: f64) -> Option<(f64,
 
 impl Ghost {
     fn of(vehicle: &Vehicle, lane: Track, station: f64) -> Self {
-        let length = vehicle.kind.length();
+        let length = vehicle.length();
         Self { lane, rear: station - length, length, v: vehicle.v }
     }
 }
@@ -367,6 +396,7 @@ fn sort(ghosts: &mut [Ghost]) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Idm;
     use super::*;
 
     #[test]

@@ -1,15 +1,13 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
 use super::Idm;
-use super::lane_change::first_ghost;
+use super::lane_change::{CHANGE_ROOM, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::TrafficConfig;
 
 /// Where a vehicle stops before a line, m.
 const BEFORE_LINE: f64 = 0.5;
-/// Braking for which drivers lay out their speed before a turn and before a lane whose end they cannot see past, m/s².
-const PLANNED_BRAKING: f64 = 2.0;
 
 /// The acceleration of a vehicle, m/s².
 #[inline]
@@ -22,23 +20,25 @@ pub(super) fn acceleration(
     vehicle: &Vehicle,
     leader: Option<&Vehicle>,
 ) -> f64 {
-    let idm = &config.idm;
+    let kind = config.vehicle_type(vehicle.row);
+    let idm = &kind.driver;
     let mut view = View {
         idm,
         s: vehicle.s,
         v: vehicle.v,
         gap: f64::INFINITY,
         pressure: 0.0,
-        free: idm.desired_speed.min(tracks.speed[track as usize]),
+        factor: f64::from(vehicle.factor) * config.conditions.speed,
+        free: kind.free_speed(config, vehicle.factor, tracks.speed[track as usize]),
     };
     if let Some(leader) = leader {
-        view.follow(leader.s - leader.kind.length() - vehicle.s, leader.v);
+        view.follow(leader.s - leader.length() - vehicle.s, leader.v);
     }
     let to_end = tracks.length[track as usize] - vehicle.s;
     match tracks.connection(track) {
         Some(way) => view.across(manager, tracks, sight, way, to_end, vehicle.s, leader.is_none()),
         None if vehicle.next == EXIT => {}
-        None if vehicle.next == NONE => view.stop_in(to_end, idm.gap),
+        None if vehicle.next == NONE => view.stop_in(view.before_change(tracks, track, to_end), idm.gap),
         None if vehicle.holding != vehicle.next => view.stop_in(to_end, idm.gap),
         None => view.enter_junction(manager, tracks, sight, vehicle.next as usize, to_end, leader.is_none()),
     }
@@ -68,6 +68,8 @@ struct View<'a> {
     v: f64,
     gap: f64,
     pressure: f64,
+    /// The driver's share of the limits.
+    factor: f64,
     free: f64,
 }
 
@@ -84,9 +86,18 @@ impl View<'_> {
         self.follow(distance + gap - BEFORE_LINE, 0.0);
     }
 
-    /// Must have a speed so far ahead.
+    /// Where one who must change lanes waits for a gap: so far from the end of its lane that a change still has room, if it can
+    /// still stop there.
+    fn before_change(&self, tracks: &Tracks, lane: Track, to_end: f64) -> f64 {
+        let early = to_end - CHANGE_ROOM - 1.0;
+        let stopping = self.v * self.v / (2.0 * self.idm.deceleration);
+        let has_neighbour = tracks.beside[lane as usize] != [NONE; 2];
+        if has_neighbour && early > stopping { early } else { to_end }
+    }
+
+    /// Must have a speed so far ahead, braking comfortably.
     fn slow_to(&mut self, speed: f64, distance: f64) {
-        let allowed = (speed * speed + 2.0 * PLANNED_BRAKING * distance.max(0.0)).sqrt();
+        let allowed = (speed * speed + 2.0 * self.idm.deceleration * distance.max(0.0)).sqrt();
         self.free = self.free.min(allowed.max(0.5));
     }
 
@@ -101,14 +112,14 @@ impl View<'_> {
         is_first: bool,
     ) {
         let track = tracks.lanes + way;
-        self.slow_to(tracks.speed[track], to_line);
+        self.slow_to(self.factor * tracks.speed[track], to_line);
         self.mind_people(tracks, sight, way, to_line);
         if !is_first {
             return;
         }
         self.let_part(manager, tracks, way, -to_line);
         match manager.queues[track].back() {
-            Some(leader) => self.follow(to_line + leader.s - leader.kind.length(), leader.v),
+            Some(leader) => self.follow(to_line + leader.s - leader.length(), leader.v),
             None => self.after_way(manager, tracks, way, to_line + tracks.length[track]),
         }
         if let Some(station) = first_obstacle(sight, track as Track, 0.0) {
@@ -149,7 +160,7 @@ impl View<'_> {
             let behind = manager.queues[lane].iter().rev().filter(|other| other.holding as usize == sibling);
             let all = on_way.chain(behind.map(|other| (other, other.s + length)));
             for (other, front) in all {
-                let rear = front - other.kind.length();
+                let rear = front - other.length();
                 if front > at && rear < *clear {
                     self.follow(rear - at, other.v);
                 }
@@ -161,7 +172,7 @@ impl View<'_> {
     fn after_way(&mut self, manager: &VehicleManager, tracks: &Tracks, way: usize, to_lane: f64) {
         let lane = tracks.lane_after(way) as usize;
         if let Some(leader) = manager.queues[lane].back() {
-            self.follow(to_lane + leader.s - leader.kind.length(), leader.v);
+            self.follow(to_lane + leader.s - leader.length(), leader.v);
         }
         self.slow_to(0.0, to_lane + tracks.length[lane]);
     }

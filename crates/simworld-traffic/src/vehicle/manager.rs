@@ -10,12 +10,14 @@ use simworld_core::hash::StateHasher;
 use simworld_core::net::Aspect;
 use simworld_core::seed::Stream;
 
+use super::deadlock::Waits;
 use super::entry::route_way;
 use super::idm::advance;
+use super::junction;
 use super::lane_change::Ghost;
 use super::lookahead;
 use super::tracks::{Track, Tracks};
-use super::{VehicleKind, junction};
+use super::types::{TypeIndex, VehicleType, is_long};
 use crate::{Counters, Route, TrafficConfig, Trip, TripEnd};
 
 /// No connection.
@@ -41,9 +43,44 @@ pub(crate) struct Vehicle {
     pub(crate) next: u32,
     /// The connection it has been granted and not yet cleared.
     pub(crate) holding: u32,
-    pub(crate) kind: VehicleKind,
+    /// Its type: a row of the table.
+    pub(crate) row: TypeIndex,
+    /// Length, m, as in the table.
+    pub(crate) length: f32,
+    /// The speed that its driver chooses, as a share of the limit.
+    pub(crate) factor: f32,
     /// How far its body is to the left of its lane while it changes, m.
     pub(crate) shift: f64,
+}
+
+impl Vehicle {
+    /// One at rest at a station, with no way on yet.
+    pub(super) fn new(kind: &VehicleType, row: TypeIndex, factor: f32, id: u32, s: f64) -> Self {
+        Self {
+            s,
+            v: 0.0,
+            stood: 0.0,
+            id,
+            next: NONE,
+            holding: NONE,
+            row,
+            length: kind.length as f32,
+            factor,
+            shift: 0.0,
+        }
+    }
+
+    /// Length, m.
+    #[inline]
+    pub(crate) fn length(&self) -> f64 {
+        f64::from(self.length)
+    }
+
+    /// Whether its ends swing out of its lane in a turn.
+    #[inline]
+    pub(crate) fn is_long(&self) -> bool {
+        is_long(self.length())
+    }
 }
 
 /// What a vehicle was, apart from its motion.
@@ -115,6 +152,8 @@ pub(crate) struct VehicleManager {
     pub(super) shifting: Vec<u32>,
     pub(super) ghosts: Vec<Ghost>,
     pub(super) changes: u64,
+    /// Those in a lock who may enter their junction without room behind it, ascending.
+    pub(super) passes: Vec<u32>,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
     /// Numbers of those who entered in the last step, and the trips that ended in it.
@@ -122,6 +161,8 @@ pub(crate) struct VehicleManager {
     pub(crate) entered: Vec<u32>,
     #[serde(skip)]
     pub(crate) ended: Vec<Trip>,
+    #[serde(skip)]
+    pub(super) waits: Waits,
     #[serde(skip)]
     accelerations: Vec<f64>,
     #[serde(skip)]
@@ -142,58 +183,23 @@ impl VehicleManager {
         }
     }
 
-    /// Places vehicles on lanes, in proportion to their length, and returns how many found room.
-    pub(crate) fn spawn(&mut self, tracks: &Tracks, config: &TrafficConfig, streams: Stream) -> u32 {
-        /// Room before and behind each vehicle at the start, m.
-        const ROOM: f64 = 4.0;
-        let mut rng = streams.named("places").rng();
-        let longest = VehicleKind::Bus.length() + ROOM;
-        let mut places: Vec<(Track, f64)> = Vec::new();
-        for lane in (0..tracks.lanes).filter(|lane| tracks.network.lanes[*lane].is_driven()) {
-            let count = ((tracks.length[lane] - 1.0) / longest).floor().max(0.0) as usize;
-            places.extend((1..=count).map(|slot| (lane as Track, slot as f64 * longest)));
-        }
-        rng.shuffle(&mut places);
-        places.truncate(config.vehicles as usize);
-        // Front to back on each lane, so that pushing to the back keeps the order.
-        places.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        for (index, (track, s)) in places.iter().enumerate() {
-            let kind = VehicleKind::draw(config, &mut rng);
-            self.paths.push(Path::new(*track, NONE, 0.0, 0.0));
-            let mut vehicle = Vehicle {
-                s: *s,
-                v: 0.0,
-                stood: 0.0,
-                id: index as u32,
-                next: NONE,
-                holding: NONE,
-                kind,
-                shift: 0.0,
-            };
-            vehicle.next = self.choose(tracks, config, streams, vehicle.id, *track);
-            self.queues[*track as usize].push_back(vehicle);
-            self.active.push(*track);
-        }
-        self.active.dedup();
-        places.len() as u32
-    }
-
     /// The way on from a lane: that of the route, or one drawn at random.
-    fn choose(
+    pub(super) fn choose(
         &mut self,
         tracks: &Tracks,
         config: &TrafficConfig,
         streams: Stream,
-        id: u32,
+        vehicle: &Vehicle,
         lane: Track,
     ) -> u32 {
-        let path = &mut self.paths[id as usize];
+        let kind = config.vehicle_type(vehicle.row).kind;
+        let path = &mut self.paths[vehicle.id as usize];
         if let Some(route) = self.routes.get(path.route as usize) {
-            return route_way(tracks, route, path, lane);
+            return route_way(tracks, route, path, lane, kind);
         }
         path.decisions += 1;
-        let mut rng = streams.indexed(u64::from(id)).indexed(path.decisions).rng();
-        let ways = tracks.ways(lane, &config.turns, &mut self.weights);
+        let mut rng = streams.indexed(u64::from(vehicle.id)).indexed(path.decisions).rng();
+        let ways = tracks.ways(lane, kind, &config.turns, &mut self.weights);
         // If every way has weight zero, the first is as good as any.
         let index = rng.weighted(&self.weights).unwrap_or(0);
         ways.get(index).map_or(NONE, |way| way.0)
@@ -213,6 +219,7 @@ impl VehicleManager {
         self.change_lanes(tracks, config, (now / dt) as u64);
         self.lose_patience(tracks, counters);
         counters.lane_changes = self.changes;
+        self.unlock(tracks, config, (now, dt), counters);
         junction::revoke(self, tracks, config, sight, counters);
         junction::grant(self, tracks, config, sight, counters);
         self.accelerate(tracks, config, sight);
@@ -280,7 +287,7 @@ impl VehicleManager {
                 }
                 self.queues[track as usize].pop_front();
                 if front.next == EXIT && tracks.connection(track).is_none() {
-                    self.leave(tracks, track, &front, TripEnd::Arrived, now);
+                    self.leave(tracks, config, track, &front, TripEnd::Arrived, now);
                     counters.arrived += 1;
                 } else {
                     self.move_on(tracks, config, streams, track, front);
@@ -307,14 +314,15 @@ impl VehicleManager {
         vehicle.s -= tracks.length[from as usize];
         let path = &mut self.paths[vehicle.id as usize];
         path.driven += tracks.length[from as usize];
-        path.free_time +=
-            tracks.length[from as usize] / config.idm.desired_speed.min(tracks.speed[from as usize]);
+        let row = config.vehicle_type(vehicle.row);
+        path.free_time += tracks.length[from as usize]
+            / row.free_speed(config, vehicle.factor, tracks.speed[from as usize]);
         let to = match tracks.connection(from) {
             Some(connection) => {
                 let lane = tracks.lane_after(connection);
-                self.inbound[lane as usize] -= room_for(vehicle.kind, config);
+                self.inbound[lane as usize] -= room_for(&vehicle, config);
                 path.leg += 1;
-                vehicle.next = self.choose(tracks, config, streams, vehicle.id, lane);
+                vehicle.next = self.choose(tracks, config, streams, &vehicle, lane);
                 lane
             }
             None => tracks.lanes as Track + vehicle.next,
@@ -338,9 +346,9 @@ impl VehicleManager {
                 break;
             }
             let still_before = vehicle.holding == NONE || vehicle.holding == vehicle.next;
-            if !still_before && vehicle.s - vehicle.kind.length() > 0.3 {
+            if !still_before && vehicle.s - vehicle.length() > 0.3 {
                 self.holders[vehicle.holding as usize] -= 1;
-                self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.kind.is_long());
+                self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.is_long());
                 vehicle.holding = NONE;
             }
         }
@@ -354,7 +362,7 @@ impl VehicleManager {
                     continue;
                 }
                 let way = vehicle.holding as usize;
-                let rear = position_on_way(tracks, *track, vehicle, way) - vehicle.kind.length();
+                let rear = position_on_way(tracks, *track, vehicle, way) - vehicle.length();
                 for strip in &tracks.strips[way] {
                     if rear < strip.end {
                         self.claims[strip.crossing as usize] += 1;
@@ -372,7 +380,7 @@ impl VehicleManager {
     }
 
     /// Whether a saved state is one of this network.
-    pub(crate) fn fits(&self, tracks: &Tracks) -> bool {
+    pub(crate) fn fits(&self, tracks: &Tracks, types: usize) -> bool {
         let ways = tracks.count() - tracks.lanes;
         let is_way = |way: u32| way >= EXIT || (way as usize) < ways;
         let is_route = |route: u32| route == NONE || (route as usize) < self.routes.len();
@@ -390,8 +398,12 @@ impl VehicleManager {
             && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
             && self.shifting.iter().all(|id| (*id as usize) < count)
             && self.free.iter().all(|id| (*id as usize) < count)
+            && self.passes.is_sorted()
             && self.queues.iter().flatten().all(|v| {
                 (v.id as usize) < count
+                    && usize::from(v.row) < types
+                    && v.length > 0.0
+                    && v.factor > 0.0
                     && is_way(v.next)
                     && is_way(v.holding)
                     && v.s.is_finite()
@@ -421,7 +433,7 @@ pub(crate) fn position_on_way(tracks: &Tracks, track: Track, vehicle: &Vehicle, 
 }
 
 /// Room on a lane that a vehicle takes when it stands, m.
-pub(crate) fn room_for(kind: VehicleKind, config: &TrafficConfig) -> f64 {
+pub(crate) fn room_for(vehicle: &Vehicle, config: &TrafficConfig) -> f64 {
     // In parts of a power of two: what comes and goes adds up to nothing again, to the bit.
-    ((kind.length() + config.idm.gap) * 1024.0).ceil() / 1024.0
+    ((vehicle.length() + config.vehicle_type(vehicle.row).driver.gap) * 1024.0).ceil() / 1024.0
 }

@@ -1,16 +1,20 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
+mod deadlock;
 mod entry;
 mod idm;
 mod junction;
-mod kinds;
 mod lane_change;
+mod lanes;
 mod lookahead;
 mod manager;
+mod spawn;
 mod tracks;
+mod types;
 
 pub use idm::{HARDEST_BRAKING, Idm};
-pub use kinds::VehicleKind;
 pub use lane_change::Mobil;
 pub(crate) use manager::{STANDING, Sight, VehicleManager};
 pub(crate) use tracks::Tracks;
+pub(crate) use types::{TypeIndex, draw_type};
+pub use types::{VehicleKind, VehicleType, standard_types};

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
-use simworld_core::net::{Connection, LaneKind, RoadNetwork, Turn, polyline};
+use simworld_core::net::{Connection, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
-use super::manager::NONE;
+use super::{VehicleKind, lanes};
 use crate::{Leg, Router, TrafficConfig};
 
 /// A lane or a connection: lanes come first.
@@ -38,6 +38,8 @@ pub(crate) struct Tracks {
     pub(crate) tight: Vec<Vec<u32>>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
+    /// Whether each lane is the last of its leg before the kerb or the cycle lane.
+    pub(crate) outermost: Vec<bool>,
     pub(crate) router: Router,
     /// The crossings on each connection, in the order in which it meets them.
     pub(crate) strips: Vec<Vec<Strip>>,
@@ -57,9 +59,21 @@ impl Tracks {
         let strips = (0..network.connections.len()).map(|index| strips(&network, index)).collect();
         let siblings = (0..network.connections.len()).map(|index| siblings(&network, index)).collect();
         let tight = (0..network.connections.len()).map(|index| tight(&network, index)).collect();
-        let beside = beside(&network);
+        let beside = lanes::beside(&network);
+        let outermost = lanes::outermost(&network);
         let router = Router::new(&network);
-        Self { lanes: network.lanes.len(), length, speed, siblings, tight, beside, router, strips, network }
+        Self {
+            lanes: network.lanes.len(),
+            length,
+            speed,
+            siblings,
+            tight,
+            beside,
+            outermost,
+            router,
+            strips,
+            network,
+        }
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -83,11 +97,13 @@ impl Tracks {
         (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
     }
 
-    /// The way from a lane to a leg, if one leads there.
-    pub(crate) fn way_to(&self, lane: Track, leg: Leg) -> Option<u32> {
+    /// The way from a lane to a leg, if one leads there; best to a lane on which the kind may drive.
+    pub(crate) fn way_to(&self, lane: Track, leg: Leg, kind: VehicleKind) -> Option<u32> {
         let ways = &self.network.lanes[lane as usize].outgoing;
         let to = |way: &ConnectionId| self.network.connections[way.index()].to;
-        ways.iter().find(|way| Leg::of(&self.network, to(way)) == leg).map(|way| way.0)
+        let mut found = ways.iter().filter(|way| Leg::of(&self.network, to(way)) == leg);
+        let first = found.clone().next()?;
+        Some(found.find(|way| self.may_use(to(way).0, kind)).unwrap_or(first).0)
     }
 
     pub(crate) fn path(&self, track: Track) -> &[Point2] {
@@ -98,38 +114,31 @@ impl Tracks {
     }
 
     /// The ways on from a lane, with their weights by turn, into `weights`.
-    pub(crate) fn ways(&self, lane: Track, turns: &[f64; 3], weights: &mut Vec<f64>) -> &[ConnectionId] {
+    pub(crate) fn ways(
+        &self,
+        lane: Track,
+        kind: VehicleKind,
+        turns: &[f64; 3],
+        weights: &mut Vec<f64>,
+    ) -> &[ConnectionId] {
         let ways = &self.network.lanes[lane as usize].outgoing;
         weights.clear();
-        weights.extend(ways.iter().map(|way| match self.network.connections[way.index()].turn {
+        weights.extend(ways.iter().map(|way| {
+            let is_open = self.may_use(self.lane_after(way.index()), kind);
+            if is_open { self.weight(way.index(), turns) } else { 0.0 }
+        }));
+        ways
+    }
+
+    /// The weight of a way by its turn.
+    pub(crate) fn weight(&self, way: usize, turns: &[f64; 3]) -> f64 {
+        match self.network.connections[way].turn {
             Turn::Straight => turns[0],
             Turn::Right => turns[1],
             Turn::Left => turns[2],
             Turn::UTurn => 1.0,
-        }));
-        ways
-    }
-}
-
-/// The neighbours of each lane: those next to it in its road's list, and touching it.
-fn beside(network: &RoadNetwork) -> Vec<[Track; 2]> {
-    let mut beside = vec![[NONE; 2]; network.lanes.len()];
-    for lanes in network.roads.iter().flat_map(|road| [&road.forward, &road.backward]) {
-        for pair in lanes.windows(2) {
-            let (a, b) = (&network.lanes[pair[0].index()], &network.lanes[pair[1].index()]);
-            let middle = polyline::at(&b.path, b.length * 0.5).0;
-            let Some(near) = polyline::closest(&a.path, &middle) else { continue };
-            let touching = near.distance < (a.width + b.width) * 0.5 + 0.5;
-            // Only lanes for everybody: a bus lane is left to buses, and a median keeps lanes apart.
-            if !touching || a.kind != LaneKind::Driving || b.kind != LaneKind::Driving {
-                continue;
-            }
-            let side = usize::from(near.lateral < 0.0);
-            beside[pair[0].index()][side] = pair[1].0;
-            beside[pair[1].index()][1 - side] = pair[0].0;
         }
     }
-    beside
 }
 
 /// The speed at which the tightest part of a path is taken, m/s.

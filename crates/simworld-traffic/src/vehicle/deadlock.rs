@@ -1,0 +1,162 @@
+//! Locks: rings of lanes, each full, whose first vehicles wait for room in the next; and how they are undone.
+//!
+//! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane. Every lane
+//! waits for one at most, so that rings are found by following. A ring is undone by whichever of its first vehicles has
+//! another way with room, which it takes; if none has, all of them may enter their junctions at once without room behind: as
+//! all go, each makes the room of the one behind it. Nobody jumps, and all other rules of crossing hold.
+
+use super::junction::has_room;
+use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
+use super::tracks::{Track, Tracks};
+use crate::{Counters, Leg, TrafficConfig};
+
+/// Who has stood for so long may be in a lock, s: longer than a red light.
+const LOCKED: f64 = 45.0;
+/// Where no signal makes wait, s.
+const LOCKED_WITHOUT_SIGNAL: f64 = 15.0;
+/// Locks are looked for so often, s.
+const EVERY: f64 = 1.0;
+
+/// Which lane waits for which, and what was seen of it: memory of the search, kept from one to the next.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Waits {
+    /// Lane, the lane that it waits for, and the search that met it; by lane.
+    edges: Vec<(Track, Track, u32)>,
+}
+
+impl Waits {
+    fn of(&self, lane: Track) -> Option<usize> {
+        self.edges.binary_search_by_key(&lane, |edge| edge.0).ok()
+    }
+
+    /// A lane of the ring to which the waiting from an edge leads, if no search has met that ring before.
+    fn ring_from(&mut self, start: usize) -> Option<Track> {
+        let search = start as u32 + 1;
+        let mut at = start;
+        while self.edges[at].2 == 0 {
+            self.edges[at].2 = search;
+            at = self.of(self.edges[at].1)?;
+        }
+        (self.edges[at].2 == search).then_some(self.edges[at].0)
+    }
+
+    /// The lane for which one of a ring waits.
+    fn after(&self, lane: Track) -> Track {
+        self.of(lane).map_or(lane, |index| self.edges[index].1)
+    }
+}
+
+impl VehicleManager {
+    /// Finds the locks there are, once a second, and undoes them.
+    pub(super) fn unlock(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        (now, dt): (f64, f64),
+        counters: &mut Counters,
+    ) {
+        if (now / EVERY).floor() == ((now - dt) / EVERY).floor() {
+            return;
+        }
+        let mut waits = std::mem::take(&mut self.waits);
+        waits.edges.clear();
+        for lane in self.active.iter().copied().filter(|track| (*track as usize) < tracks.lanes) {
+            if let Some(target) = self.waits_for(tracks, config, lane) {
+                waits.edges.push((lane, target, 0));
+            }
+        }
+        for start in 0..waits.edges.len() {
+            if let Some(ring) = waits.ring_from(start) {
+                counters.locks += 1;
+                self.undo(tracks, config, &waits, ring, counters);
+            }
+        }
+        self.waits = waits;
+    }
+
+    /// The lane for room on which the first of a lane has long waited.
+    fn waits_for(&self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> Option<Track> {
+        let first = self.queues[lane as usize].front()?;
+        if first.next >= EXIT || first.holding != NONE {
+            return None;
+        }
+        let signal = tracks.network.connections[first.next as usize].signal;
+        let long = if signal.is_some() { LOCKED } else { LOCKED_WITHOUT_SIGNAL };
+        let is_stuck = first.stood > long && !has_room(self, tracks, config, first.next as usize, first);
+        is_stuck.then(|| tracks.lane_after(first.next as usize))
+    }
+
+    fn undo(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        waits: &Waits,
+        ring: Track,
+        counters: &mut Counters,
+    ) {
+        let mut lane = ring;
+        loop {
+            if self.turn_elsewhere(tracks, config, lane) {
+                counters.rerouted += 1;
+                return;
+            }
+            lane = waits.after(lane);
+            if lane == ring {
+                break;
+            }
+        }
+        loop {
+            let first = self.queues[lane as usize].front().map_or(NONE, |first| first.id);
+            if let Err(place) = self.passes.binary_search(&first) {
+                self.passes.insert(place, first);
+                counters.passes += 1;
+            }
+            lane = waits.after(lane);
+            if lane == ring {
+                break;
+            }
+        }
+    }
+
+    /// Lets the first of a lane take another way that has room, if there is one; its route leads to the same end.
+    fn turn_elsewhere(&mut self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> bool {
+        let Some(first) = self.queues[lane as usize].front().copied() else { return false };
+        let kind = config.vehicle_type(first.row).kind;
+        let weight = |way: u32| tracks.weight(way as usize, &config.turns) > 0.0;
+        let ways = tracks.network.lanes[lane as usize].outgoing.iter().map(|way| way.0);
+        let open = ways.filter(|way| *way != first.next && weight(*way)).find(|way| {
+            let other = Vehicle { next: *way, ..first };
+            tracks.may_use(tracks.lane_after(*way as usize), kind)
+                && has_room(self, tracks, config, *way as usize, &other)
+                && self.leads_home(tracks, &first, *way)
+        });
+        let Some(way) = open else { return false };
+        self.take_way(tracks, lane, 0, way)
+    }
+
+    /// Whether one may come to the end of one's route by a way; without a route, always.
+    fn leads_home(&self, tracks: &Tracks, vehicle: &Vehicle, way: u32) -> bool {
+        let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
+        self.goal(vehicle.id).is_none_or(|goal| tracks.router.quickest(after, goal).is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rings(edges: &[(Track, Track)]) -> Vec<Track> {
+        let mut waits = Waits { edges: edges.iter().map(|edge| (edge.0, edge.1, 0)).collect() };
+        (0..edges.len()).filter_map(|start| waits.ring_from(start)).collect()
+    }
+
+    #[test]
+    fn every_ring_is_found_once() {
+        // Two rings, 0-1-2 and 5-6, a tail 3-4 into the first, and 8 that waits for a lane which moves.
+        let edges = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 1), (5, 6), (6, 5), (8, 9)];
+        assert_eq!(rings(&edges), [0, 5]);
+        assert_eq!(rings(&[(1, 2), (2, 3), (3, 2)]), [2]);
+        assert_eq!(rings(&[(1, 2), (2, 3)]), []);
+        assert_eq!(rings(&[(7, 7)]), [7]);
+    }
+}
