@@ -167,12 +167,7 @@ impl TrafficDynamics {
 
     /// Makes an entity for everybody who entered.
     fn welcome(&mut self, world: &mut World) -> Result<(), DynamicsError> {
-        if self.traffic.entered().is_empty() {
-            return Ok(());
-        }
-        let entered: Vec<u32> = self.traffic.entered().to_vec();
-        let bodies: Vec<_> = self.traffic.vehicles().filter(|body| entered.contains(&body.id)).collect();
-        for body in bodies {
+        for body in self.traffic.entered().iter().filter_map(|id| self.traffic.vehicle(*id)) {
             let index = body.id as usize;
             if self.vehicles.len() <= index {
                 self.vehicles.resize(index + 1, EntityId::default());

@@ -21,4 +21,4 @@ pub use pedestrian::Pedestrian;
 pub use route::{Leg, Route, Router};
 #[cfg(feature = "hierarchy")]
 pub use route::{LegHierarchy, LegScratch};
-pub use traffic::{Body, Counters, Foreign, Placed, Traffic};
+pub use traffic::{Body, Counters, Foreign, Interest, Placed, Traffic};

@@ -1,16 +1,18 @@
 //! The traffic of a network: three managers on a fixed step (the paper's Algorithm 2).
 
+mod bodies;
 mod foreign;
+mod interest;
 
 use std::sync::Arc;
 
+pub use bodies::Body;
 use foreign::Finder;
 pub use foreign::Foreign;
+pub use interest::Interest;
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Point2, Pose, Twist, Vector2, Vector3, direction, heading, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
-use simworld_core::net::{Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, polyline};
-use simworld_core::scene::Shape;
+use simworld_core::net::{Alone, Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, Workers};
 use simworld_core::seed::{Seed, Stream};
 
 use crate::demand::{DemandManager, Flow, Trip};
@@ -18,10 +20,6 @@ use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
 use crate::{DrivingConditions, Route, TrafficConfig, TrafficError};
-
-/// Where a body is held to its lane, as shares of its length from the front.
-const FRONT_AXLE: f64 = 0.1;
-const REAR_AXLE: f64 = 0.95;
 
 /// What was counted since the start; the first two say how much was done, the others what went less than well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -32,7 +30,7 @@ pub struct Counters {
     pub crossings: u64,
     /// Steps in which a vehicle went on at red because it could no longer stop.
     pub dilemmas: u64,
-    /// Times that a vehicle was held at a stop line by more than its brakes.
+    /// Times that a vehicle was held at a stop line, or far from all interest behind another, by more than its brakes.
     pub forced_stops: u64,
     /// Times that a vehicle had stood for three minutes.
     pub long_waits: u64,
@@ -61,23 +59,6 @@ pub struct Placed {
     pub pedestrians: u32,
 }
 
-/// A vehicle as others see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// Its number, from zero.
-    pub id: u32,
-    /// Its kind.
-    pub kind: VehicleKind,
-    /// Its type: a row of [`TrafficConfig::types`].
-    pub vehicle_type: usize,
-    /// Its solid.
-    pub shape: Shape,
-    /// World from body: the origin is the middle of its bottom.
-    pub pose: Pose,
-    /// Velocity.
-    pub twist: Twist,
-}
-
 /// The traffic of a network.
 ///
 /// ```
@@ -104,11 +85,14 @@ pub struct Traffic {
     placed: Placed,
     // Buffers kept from step to step.
     walkers: Vec<u32>,
+    claims: Vec<u32>,
     obstacles: Vec<(u32, f64)>,
+    /// Who does the work.
+    workers: Box<dyn Workers + Send + Sync>,
 }
 
 /// Everything that changes, for snapshots.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct State {
     vehicles: VehicleManager,
     demand: DemandManager,
@@ -118,16 +102,50 @@ pub(crate) struct State {
     aspects: Vec<Aspect>,
     /// How long each group has shown its aspect, s.
     shown: Vec<f64>,
+    /// What is of interest; everything if nobody says.
+    interest: Option<Vec<Interest>>,
     seconds: f64,
     steps: u64,
     counters: Counters,
     conditions: DrivingConditions,
 }
 
+impl Counters {
+    /// Adds what was counted elsewhere.
+    pub(crate) fn absorb(&mut self, other: &Self) {
+        let Self {
+            updates,
+            crossings,
+            dilemmas,
+            forced_stops,
+            long_waits,
+            lane_changes,
+            rerouted,
+            locks,
+            passes,
+            entered,
+            arrived,
+            removed,
+        } = other;
+        self.updates += updates;
+        self.crossings += crossings;
+        self.dilemmas += dilemmas;
+        self.forced_stops += forced_stops;
+        self.long_waits += long_waits;
+        self.lane_changes += lane_changes;
+        self.rerouted += rerouted;
+        self.locks += locks;
+        self.passes += passes;
+        self.entered += entered;
+        self.arrived += arrived;
+        self.removed += removed;
+    }
+}
+
 impl State {
     /// How many numbers vehicles have.
     pub(crate) fn numbers(&self) -> usize {
-        self.vehicles.paths.len()
+        self.vehicles.numbers()
     }
 }
 
@@ -160,7 +178,9 @@ impl Traffic {
             ways,
             state: State { vehicles, pedestrians, conditions: config.conditions, ..State::default() },
             placed,
+            claims: Vec::new(),
             obstacles: Vec::new(),
+            workers: Box::new(Alone),
         };
         traffic.state.detectors = Detectors::new(groups);
         traffic.restart_signals();
@@ -170,6 +190,13 @@ impl Traffic {
     /// Gives the signals another policy than [`FixedTime`](crate::signal::FixedTime); it decides from the next step on.
     pub fn set_policy(&mut self, policy: Box<dyn SignalPolicy + Send>) {
         self.signals.set_policy(policy);
+        self.state.detectors.rest();
+    }
+
+    /// Gives the work of each step to threads. However many they are, the result is the same to the bit; without this one
+    /// thread does it all.
+    pub fn set_workers(&mut self, workers: Box<dyn Workers + Send + Sync>) {
+        self.workers = workers;
     }
 
     /// Adds vehicles that keep coming.
@@ -291,7 +318,7 @@ impl Traffic {
     }
 
     fn update_vehicles(&mut self, dt: f64) {
-        let State { vehicles, demand, pedestrians, counters, shown, seconds, .. } = &mut self.state;
+        let State { vehicles, demand, pedestrians, counters, shown, seconds, steps, .. } = &mut self.state;
         vehicles.entered.clear();
         vehicles.ended.clear();
         demand.step(vehicles, &self.tracks, &self.driving, self.streams, *seconds, counters);
@@ -303,23 +330,30 @@ impl Traffic {
             obstacles: &self.obstacles,
         };
         let streams = self.streams.named("vehicles");
-        vehicles.step(&self.tracks, &self.driving, streams, &sight, (*seconds, dt), counters);
+        let at = vehicle::Moment { now: *seconds, dt, step: *steps };
+        vehicles.step(&self.tracks, &self.driving, streams, sight, at, counters, &*self.workers);
     }
 
     fn update_pedestrians(&mut self, dt: f64) {
         let State { vehicles, pedestrians, .. } = &mut self.state;
+        self.claims.clear();
+        self.claims.extend(vehicles.claims().iter());
         let sight = pedestrian::Sight {
             network: &self.tracks.network,
             ways: &self.ways,
             aspects: &self.signals.aspects,
-            claims: &vehicles.claims,
+            claims: &self.claims,
         };
         pedestrians.step(&sight, &self.driving, self.streams.named("pedestrians"), dt);
     }
 
     fn update_signals(&mut self, dt: f64) {
         let State { vehicles, pedestrians, controllers, detectors, seconds, .. } = &mut self.state;
-        detectors.look(&self.tracks, vehicles, &pedestrians.waiting, &self.tracks.network, dt);
+        if self.signals.watches() {
+            detectors.look(&self.tracks, vehicles, &pedestrians.waiting, &self.tracks.network, dt);
+        } else if !detectors.is_ready() {
+            detectors.rest();
+        }
         self.signals.step(controllers, *seconds, detectors.demand(), dt);
         let State { aspects, shown, .. } = &mut self.state;
         for ((old, new), shown) in aspects.iter_mut().zip(&self.signals.aspects).zip(shown) {
@@ -360,59 +394,14 @@ impl Traffic {
         &self.tracks.network
     }
 
+    /// Memory that the vehicles take with all that is kept for their steps, bytes; the network and the routes are not theirs.
+    pub fn vehicle_bytes(&self) -> usize {
+        self.state.vehicles.bytes()
+    }
+
     /// The walkers, by number.
     pub fn pedestrians(&self) -> &[Pedestrian] {
         &self.state.pedestrians.walkers
-    }
-
-    /// The vehicles, in the order of their tracks.
-    pub fn vehicles(&self) -> impl Iterator<Item = Body> {
-        self.state.vehicles.iter().map(|(track, vehicle)| {
-            let length = vehicle.length();
-            let row = self.driving.vehicle_type(vehicle.row);
-            // The rear may still be on the track before. Steered front wheels and a rear that hardly swings out.
-            let front = self.point(track, vehicle.id, vehicle.s - FRONT_AXLE * length);
-            let rear = self.point(track, vehicle.id, vehicle.s - REAR_AXLE * length);
-            let yaw = heading(&(front - rear));
-            let ahead = direction(yaw);
-            let left = Vector2::new(-ahead.y, ahead.x);
-            let middle =
-                rear + (front - rear) * ((REAR_AXLE - 0.5) / (REAR_AXLE - FRONT_AXLE)) + left * vehicle.shift;
-            let ahead = ahead * vehicle.v;
-            Body {
-                id: vehicle.id,
-                kind: row.kind,
-                vehicle_type: usize::from(vehicle.row),
-                shape: row.shape(),
-                pose: pose_facing(simworld_core::geometry::Point3::new(middle.x, middle.y, 0.0), yaw),
-                twist: Twist { linear: Vector3::new(ahead.x, ahead.y, 0.0), angular: Vector3::zeros() },
-            }
-        })
-    }
-
-    fn point(&self, track: u32, id: u32, station: f64) -> Point2 {
-        let path = self.tracks.path(track);
-        if station >= 0.0 {
-            return polyline::at(path, station).0;
-        }
-        let before = self.state.vehicles.paths[id as usize].before;
-        if before == track {
-            // At the start a vehicle has come from nowhere: its lane is continued backwards.
-            let (start, yaw) = polyline::at(path, 0.0);
-            return start + direction(yaw) * station;
-        }
-        let length = self.tracks.length[before as usize];
-        if station + length >= 0.0 {
-            return polyline::at(self.tracks.path(before), station + length).0;
-        }
-        let (start, yaw) = polyline::at(self.tracks.path(before), 0.0);
-        start + direction(yaw) * (station + length)
-    }
-
-    /// Where each vehicle is: the lane or connection it is on, and its front on it, m. Lanes are numbered as in the network,
-    /// connections after them.
-    pub fn stations(&self) -> impl Iterator<Item = (u32, u32, f64, f64)> {
-        self.state.vehicles.iter().map(|(track, vehicle)| (vehicle.id, track, vehicle.s, vehicle.v))
     }
 
     pub(crate) fn state(&self) -> &State {
@@ -430,6 +419,7 @@ impl Traffic {
             && people == self.placed.pedestrians as usize
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()
+            && state.interest.iter().flatten().all(Interest::is_sound)
             && state.detectors.gap.len() == state.aspects.len()
             && self.signals.fits(&state.controllers)
             && state.pedestrians.fits(&self.ways, self.walkers.len());
@@ -437,6 +427,7 @@ impl Traffic {
             self.signals.aspects.clone_from(&state.aspects);
             self.driving = state.conditions.applied(&self.config);
             self.state = state;
+            self.mark_far();
         }
         fits
     }
@@ -445,7 +436,7 @@ impl Traffic {
 impl StateHash for Traffic {
     fn state_hash(&self, hasher: &mut StateHasher) {
         hasher.u64(self.state.steps);
-        self.state.vehicles.state_hash(hasher);
+        self.state.vehicles.state_hash(&self.tracks, hasher);
         self.state.pedestrians.state_hash(hasher);
         for aspect in &self.state.aspects {
             hasher.u64(*aspect as u64);

@@ -91,12 +91,13 @@ impl IntersectionManager {
 
     /// Moves every controller on by `dt` s and shows what it says.
     pub(crate) fn step(&mut self, controllers: &mut Controllers, seconds: f64, demand: Demand<'_>, dt: f64) {
-        let Self { plans, stages, policy, .. } = self;
+        let Self { plans, stages, policy, aspects } = self;
         for ((plan, stages), controller) in plans.iter().zip(stages).zip(controllers.iter_mut()) {
             if stages.is_empty() {
                 continue;
             }
             controller.elapsed += dt;
+            let before = (controller.stage, controller.ending);
             let stage = &stages[controller.stage as usize];
             if controller.ending == 0 && controller.elapsed + ROUNDING >= stage.least_green {
                 let junction = JunctionView {
@@ -115,21 +116,21 @@ impl IntersectionManager {
                 }
             }
             controller.go_through_ending(plan, stages);
+            if (controller.stage, controller.ending) != before {
+                controller.show(plan, stages, aspects);
+            }
         }
-        self.show(controllers);
+    }
+
+    /// Whether the policy looks at what detectors tell.
+    pub(crate) fn watches(&self) -> bool {
+        self.policy.watches()
     }
 
     /// Writes the aspects that the controllers show.
     pub(crate) fn show(&mut self, controllers: &Controllers) {
         for ((plan, stages), controller) in self.plans.iter().zip(&self.stages).zip(controllers) {
-            let Some(stage) = stages.get(controller.stage as usize) else { continue };
-            let phase = match controller.ending {
-                0 => stage.phase,
-                step => stage.ending[step as usize - 1],
-            };
-            for group in &plan.groups {
-                self.aspects[group.index()] = plan.phases[phase].aspect(*group);
-            }
+            controller.show(plan, stages, &mut self.aspects);
         }
     }
 }
@@ -138,6 +139,18 @@ impl Controller {
     pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
         hasher.u64(u64::from(self.stage)).u64(u64::from(self.next)).u64(u64::from(self.ending));
         hasher.f64(self.elapsed);
+    }
+
+    /// Writes the aspects of its groups.
+    fn show(&self, plan: &SignalPlan, stages: &[Stage], aspects: &mut [Aspect]) {
+        let Some(stage) = stages.get(self.stage as usize) else { return };
+        let phase = match self.ending {
+            0 => stage.phase,
+            step => stage.ending[step as usize - 1],
+        };
+        for group in &plan.groups {
+            aspects[group.index()] = plan.phases[phase].aspect(*group);
+        }
     }
 
     /// Passes the intervals of an ending that are over; what is left of the time counts for the next.

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 use simworld_core::id::CrossingId;
-use simworld_core::net::{RoadNetwork, SignalGroup};
+use simworld_core::net::RoadNetwork;
 
 use super::Demand;
-use crate::vehicle::{STANDING, Tracks, VehicleManager};
+use crate::vehicle::{NONE, STANDING, Tracks, Vehicle, VehicleManager, Way};
 
 /// Video detection sees so far from the stop line, m.
 const SEEN: f64 = 50.0;
@@ -60,19 +60,13 @@ impl Detectors {
         network: &RoadNetwork,
         dt: f64,
     ) {
-        let groups = self.gap.len();
-        for counts in [&mut self.approaching, &mut self.queued, &mut self.waiting] {
-            counts.clear();
-            counts.resize(groups, 0);
-        }
-        self.pressure.clear();
-        self.pressure.resize(groups, 0.0);
+        self.rest();
         for gap in &mut self.gap {
             *gap += dt;
         }
         self.clear_shares(tracks);
-        for lane in vehicles.active.iter().copied().filter(|track| (*track as usize) < tracks.lanes) {
-            self.look_at_lane(tracks, vehicles, lane, dt);
+        for (lane, queue) in vehicles.queues(tracks) {
+            self.look_at_lane(tracks, queue, lane, dt);
         }
         self.press(tracks);
         for (index, count) in waiting.iter().enumerate() {
@@ -80,6 +74,22 @@ impl Detectors {
                 self.waiting[group.index()] += count;
             }
         }
+    }
+
+    /// Tells of nobody.
+    pub(crate) fn rest(&mut self) {
+        let groups = self.gap.len();
+        for counts in [&mut self.approaching, &mut self.queued, &mut self.waiting] {
+            counts.clear();
+            counts.resize(groups, 0);
+        }
+        self.pressure.clear();
+        self.pressure.resize(groups, 0.0);
+    }
+
+    /// Whether it has places for what it tells.
+    pub(crate) fn is_ready(&self) -> bool {
+        self.pressure.len() == self.gap.len()
     }
 
     fn clear_shares(&mut self, tracks: &Tracks) {
@@ -92,21 +102,22 @@ impl Detectors {
     /// The pressure of a movement is what is before it less what is behind it, and never less than nothing.
     fn press(&mut self, tracks: &Tracks) {
         for way in &self.ways {
-            let connection = &tracks.network.connections[*way as usize];
-            if let Some(group) = connection.signal {
-                let behind = self.taken[connection.to.index()];
-                self.pressure[group.index()] += (self.wanted[*way as usize] - behind).max(0.0);
+            let Way { to, signal, .. } = tracks.ways[*way as usize];
+            if signal != NONE {
+                let behind = self.taken[to as usize];
+                self.pressure[signal as usize] += (self.wanted[*way as usize] - behind).max(0.0);
             }
         }
     }
 
-    fn look_at_lane(&mut self, tracks: &Tracks, vehicles: &VehicleManager, lane: u32, dt: f64) {
+    fn look_at_lane(&mut self, tracks: &Tracks, queue: &[Vehicle], lane: u32, dt: f64) {
         let end = tracks.length[lane as usize];
         self.lanes.push(lane);
         let advance = (end - ADVANCE * tracks.speed[lane as usize]).max(0.0);
-        for vehicle in &vehicles.queues[lane as usize] {
-            let Some(connection) = tracks.network.connections.get(vehicle.next as usize) else { continue };
-            let Some(group) = connection.signal.map(SignalGroup::index) else { continue };
+        for vehicle in queue {
+            let signal = tracks.ways.get(vehicle.next as usize).map(|way| way.signal);
+            let Some(group) = signal.filter(|signal| *signal != NONE) else { continue };
+            let group = group as usize;
             // A vehicle at rest takes its length and the gap before it.
             let share = (vehicle.length() + 2.0) / end;
             self.taken[lane as usize] += share;

@@ -18,6 +18,10 @@ impl SignalPolicy for FixedTime {
             _ => junction.current,
         }
     }
+
+    fn watches(&self) -> bool {
+        false
+    }
 }
 
 /// Webster's timing of a fixed plan (Webster 1958, Road Research Technical Paper 39).

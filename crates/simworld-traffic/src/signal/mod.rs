@@ -104,4 +104,10 @@ pub trait SignalPolicy {
     ///
     /// A policy without memory survives a snapshot as it is: what it sees of time and demand is saved.
     fn next_stage(&mut self, junction: &JunctionView<'_>) -> usize;
+
+    /// Whether it looks at [`JunctionView::demand`], as most do. Detectors rest under a policy that does not: they tell it of
+    /// nobody.
+    fn watches(&self) -> bool {
+        true
+    }
 }

@@ -5,8 +5,9 @@
 //! another way with room, which it takes; if none has, all of them may enter their junctions at once without room behind: as
 //! all go, each makes the room of the one behind it. Nobody jumps, and all other rules of crossing hold.
 
-use super::junction::has_room;
+use super::junction::is_room;
 use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
+use super::part::Tail;
 use super::tracks::{Track, Tracks};
 use crate::{Counters, Leg, TrafficConfig};
 
@@ -60,11 +61,12 @@ impl VehicleManager {
         }
         let mut waits = std::mem::take(&mut self.waits);
         waits.edges.clear();
-        for lane in self.active.iter().copied().filter(|track| (*track as usize) < tracks.lanes) {
-            if let Some(target) = self.waits_for(tracks, config, lane) {
+        for (lane, queue) in self.queues(tracks) {
+            if let Some(target) = queue.first().and_then(|first| self.waits_for(tracks, config, first)) {
                 waits.edges.push((lane, target, 0));
             }
         }
+        waits.edges.sort_unstable();
         for start in 0..waits.edges.len() {
             if let Some(ring) = waits.ring_from(start) {
                 counters.locks += 1;
@@ -75,15 +77,21 @@ impl VehicleManager {
     }
 
     /// The lane for room on which the first of a lane has long waited.
-    fn waits_for(&self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> Option<Track> {
-        let first = self.queues[lane as usize].front()?;
+    fn waits_for(&self, tracks: &Tracks, config: &TrafficConfig, first: &Vehicle) -> Option<Track> {
         if first.next >= EXIT || first.holding != NONE {
             return None;
         }
-        let signal = tracks.network.connections[first.next as usize].signal;
-        let long = if signal.is_some() { LOCKED } else { LOCKED_WITHOUT_SIGNAL };
-        let is_stuck = first.stood > long && !has_room(self, tracks, config, first.next as usize, first);
+        let signal = tracks.ways[first.next as usize].signal;
+        let long = if signal == NONE { LOCKED_WITHOUT_SIGNAL } else { LOCKED };
+        let is_stuck = first.stood > long && !self.has_room(tracks, config, first.next, first);
         is_stuck.then(|| tracks.lane_after(first.next as usize))
+    }
+
+    /// Whether there is room for a vehicle behind a way.
+    fn has_room(&self, tracks: &Tracks, config: &TrafficConfig, way: u32, vehicle: &Vehicle) -> bool {
+        let lane = tracks.lane_after(way as usize);
+        let last = self.queue(tracks, lane).last().map_or_else(Tail::default, Tail::of);
+        is_room(tracks, config, &self.junctions, (lane, &last), vehicle)
     }
 
     fn undo(
@@ -106,7 +114,7 @@ impl VehicleManager {
             }
         }
         loop {
-            let first = self.queues[lane as usize].front().map_or(NONE, |first| first.id);
+            let first = self.queue(tracks, lane).first().map_or(NONE, |first| first.id);
             if let Err(place) = self.passes.binary_search(&first) {
                 self.passes.insert(place, first);
                 counters.passes += 1;
@@ -120,24 +128,24 @@ impl VehicleManager {
 
     /// Lets the first of a lane take another way that has room, if there is one; its route leads to the same end.
     fn turn_elsewhere(&mut self, tracks: &Tracks, config: &TrafficConfig, lane: Track) -> bool {
-        let Some(first) = self.queues[lane as usize].front().copied() else { return false };
+        let Some(first) = self.queue(tracks, lane).first().copied() else { return false };
         let kind = config.vehicle_type(first.row).kind;
         let weight = |way: u32| tracks.weight(way as usize, &config.turns) > 0.0;
         let ways = tracks.network.lanes[lane as usize].outgoing.iter().map(|way| way.0);
         let open = ways.filter(|way| *way != first.next && weight(*way)).find(|way| {
             let other = Vehicle { next: *way, ..first };
             tracks.may_use(tracks.lane_after(*way as usize), kind)
-                && has_room(self, tracks, config, *way as usize, &other)
-                && self.leads_home(tracks, &first, *way)
+                && self.has_room(tracks, config, *way, &other)
+                && self.leads_home(tracks, lane, *way)
         });
         let Some(way) = open else { return false };
         self.take_way(tracks, lane, 0, way)
     }
 
-    /// Whether one may come to the end of one's route by a way; without a route, always.
-    fn leads_home(&self, tracks: &Tracks, vehicle: &Vehicle, way: u32) -> bool {
+    /// Whether the first of a lane may come to the end of its route by a way; without a route, always.
+    fn leads_home(&self, tracks: &Tracks, lane: Track, way: u32) -> bool {
         let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
-        self.goal(vehicle.id).is_none_or(|goal| tracks.router.quickest(after, goal).is_some())
+        self.goal(tracks, lane, 0).is_none_or(|goal| tracks.router.quickest(after, goal).is_some())
     }
 }
 

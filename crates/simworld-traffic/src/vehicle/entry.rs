@@ -32,13 +32,13 @@ impl VehicleManager {
         let (length, idm) = (row.length, &row.driver);
         let leads_on = |lane: &Track| next.is_none_or(|next| tracks.way_to(*lane, next, row.kind).is_some());
         let room = |lane: Track| {
-            let last = self.queues[lane as usize].back();
+            let last = self.queue(tracks, lane).last();
             last.map_or(f64::INFINITY, |last| last.s - last.length() - length)
         };
         let best = tracks
             .lanes_of(leg, row.kind)
             .filter(leads_on)
-            .filter(|lane| self.inbound[*lane as usize] <= 0.0 && tracks.length[*lane as usize] > length)
+            .filter(|lane| self.junctions.inbound(*lane) <= 0.0 && tracks.length[*lane as usize] > length)
             .filter(|lane| room(*lane) > idm.gap)
             .max_by(|a, b| {
                 let suits = |lane: Track| tracks.suits(lane, row.kind);
@@ -46,7 +46,7 @@ impl VehicleManager {
             });
         let Some(lane) = best else { return false };
         let limit = row.free_speed(config, departure.factor, tracks.speed[lane as usize]);
-        let speed = self.queues[lane as usize].back().map_or(limit, |leader| {
+        let speed = self.queue(tracks, lane).last().map_or(limit, |leader| {
             let spare = room(lane) - idm.gap;
             let stopping = (leader.v * leader.v + 2.0 * idm.deceleration * spare).sqrt();
             limit.min(stopping).min(spare / idm.headway)
@@ -66,80 +66,74 @@ impl VehicleManager {
     ) {
         let row = config.vehicle_type(departure.row);
         let s = row.length;
-        let path = Path::new(lane, departure.route, departure.scheduled, now);
+        let mut path = Path::new(lane, departure.route, departure.scheduled, now);
+        // Its way is not driven up to where its front appears.
+        path.driven = -s;
+        path.free_time = -s / row.free_speed(config, departure.factor, tracks.speed[lane as usize]);
         let id = if let Some(id) = self.free.pop() {
-            self.paths[id as usize] = path;
+            self.whereabouts.set(id as usize, lane);
             id
         } else {
-            self.paths.push(path);
-            (self.paths.len() - 1) as u32
+            self.whereabouts.push(lane);
+            (self.whereabouts.len() - 1) as u32
         };
-        // Its way is not driven up to where its front appears.
-        self.paths[id as usize].driven = -s;
-        self.paths[id as usize].free_time =
-            -s / row.free_speed(config, departure.factor, tracks.speed[lane as usize]);
         let route = self.routes.get(departure.route as usize);
-        let next =
-            route.map_or(NONE, |route| route_way(tracks, route, &self.paths[id as usize], lane, row.kind));
+        let next = route.map_or(NONE, |route| route_way(tracks, route, &path, lane, row.kind));
         let vehicle = Vehicle::new(row, departure.row, departure.factor, id, s);
-        self.queues[lane as usize].push_back(Vehicle { v, next, ..vehicle });
-        if let Err(place) = self.active.binary_search(&lane) {
-            self.active.insert(place, lane);
-        }
+        self.push(tracks, lane, Vehicle { v, next, ..vehicle }, path);
         self.entered.push(id);
-    }
-
-    /// Ends the trip of a vehicle that is in no queue any more.
-    pub(super) fn leave(
-        &mut self,
-        tracks: &Tracks,
-        config: &TrafficConfig,
-        track: Track,
-        vehicle: &Vehicle,
-        end: TripEnd,
-        now: f64,
-    ) {
-        let row = config.vehicle_type(vehicle.row);
-        if vehicle.holding != NONE {
-            self.holders[vehicle.holding as usize] -= 1;
-            self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.is_long());
-        }
-        let path = &self.paths[vehicle.id as usize];
-        let (track, s) = (track as usize, vehicle.s.min(tracks.length[track as usize]));
-        // What it drove beyond the end in its last step takes it this long; it left so much earlier.
-        let early = (vehicle.s - s) / vehicle.v.max(0.1);
-        self.ended.push(Trip {
-            id: vehicle.id,
-            kind: row.kind,
-            vehicle_type: usize::from(vehicle.row),
-            end,
-            scheduled: path.scheduled,
-            entered: path.entered,
-            left: now - early,
-            distance: path.driven + s,
-            free_time: path.free_time + s / row.free_speed(config, vehicle.factor, tracks.speed[track]),
-        });
-        self.free.push(vehicle.id);
     }
 
     /// Takes a vehicle out, wherever it is; false if there is none of that number.
     pub(crate) fn remove(&mut self, tracks: &Tracks, config: &TrafficConfig, id: u32, now: f64) -> bool {
-        let Some(track) = self.paths.get(id as usize).map(|path| path.track) else { return false };
-        let queue = &mut self.queues[track as usize];
-        let Some(rank) = queue.iter().position(|vehicle| vehicle.id == id) else { return false };
-        let Some(vehicle) = queue.remove(rank) else { return false };
+        if id as usize >= self.numbers() || self.whereabouts.get(id as usize) == NONE {
+            return false;
+        }
+        let track = self.whereabouts.get(id as usize);
+        let place = tracks.layout.place(track);
+        let slabs = &mut self.parts[place.part as usize].slabs;
+        let rank = slabs.queue(place.local as usize).iter().position(|vehicle| vehicle.id == id);
+        let taken = rank.and_then(|rank| slabs.remove(place.local as usize, rank));
+        let Some((vehicle, path)) = taken else { return false };
+        if vehicle.holding != NONE {
+            self.junctions.clear_way(vehicle.holding, vehicle.is_long());
+        }
         // The room that it was to take behind the junction is free again, unless it is there already.
         let before_lane = vehicle.holding != NONE
             && (tracks.connection(track).is_some() || vehicle.holding == vehicle.next);
         if before_lane {
-            let lane = tracks.lane_after(vehicle.holding as usize);
-            self.inbound[lane as usize] -= super::manager::room_for(&vehicle, config);
+            self.junctions.arrive(tracks.lane_after(vehicle.holding as usize), &vehicle, config);
         }
-        if self.queues[track as usize].is_empty() {
-            self.active.retain(|active| *active != track);
-        }
-        self.leave(tracks, config, track, &vehicle, TripEnd::Removed, now);
+        self.whereabouts.set(id as usize, NONE);
+        self.free.push(id);
+        self.ended.push(trip(tracks, config, track, (&vehicle, &path), TripEnd::Removed, now));
         true
+    }
+}
+
+/// The trip of a vehicle that is on no track any more.
+pub(super) fn trip(
+    tracks: &Tracks,
+    config: &TrafficConfig,
+    track: Track,
+    (vehicle, path): (&Vehicle, &Path),
+    end: TripEnd,
+    now: f64,
+) -> Trip {
+    let row = config.vehicle_type(vehicle.row);
+    let (track, s) = (track as usize, vehicle.s.min(tracks.length[track as usize]));
+    // What it drove beyond the end in its last step takes it this long; it left so much earlier.
+    let early = (vehicle.s - s) / vehicle.v.max(0.1);
+    Trip {
+        id: vehicle.id,
+        kind: row.kind,
+        vehicle_type: usize::from(vehicle.row),
+        end,
+        scheduled: path.scheduled,
+        entered: path.entered,
+        left: now - early,
+        distance: path.driven + s,
+        free_time: path.free_time + s / row.free_speed(config, vehicle.factor, tracks.speed[track]),
     }
 }
 

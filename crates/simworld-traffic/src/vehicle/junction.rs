@@ -4,11 +4,14 @@
 //! nobody is on the strips that it passes over, and there is room behind it. Leave ends when the vehicle's rear is
 //! out. Two vehicles on touching ways are therefore never in the junction at once, whatever their drivers do.
 
+use serde::{Deserialize, Serialize};
 use simworld_core::net::Aspect;
 
-use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager, room_for};
-use super::tracks::{Track, Tracks};
-use crate::{Counters, TrafficConfig};
+use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
+use super::part::{Part, Tail};
+use super::tally::Tally;
+use super::tracks::{Track, Tracks, Way};
+use crate::TrafficConfig;
 
 /// Braking that drivers accept to stop at yellow, m/s².
 const COMFORTABLE: f64 = 3.0;
@@ -21,142 +24,247 @@ const AT_LINE: f64 = 1.5;
 /// Vehicles with priority are looked for within this distance, m.
 const SIGHT: f64 = 90.0;
 
+/// Parts of a metre in which room is counted: what comes and goes adds up to nothing again.
+const TICKS: f64 = 1024.0;
+
+/// Who has leave to cross, and who is on the way to each lane and over each crossing. Only the part of an intersection reads
+/// and grants leave there in the second phase of a step; in the third everybody takes away what has ended.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Junctions {
+    /// Vehicles that hold each connection, and those of them that are long.
+    holders: Tally,
+    long_holders: Tally,
+    /// Room on each lane that vehicles on their way to it will take, in ticks.
+    inbound: Tally,
+    /// Vehicles that hold a way over each crossing and have not passed it.
+    pub(super) claims: Tally,
+}
+
+impl Junctions {
+    pub(super) fn new(tracks: &Tracks) -> Self {
+        Self {
+            holders: Tally::new(tracks.ways.len()),
+            long_holders: Tally::new(tracks.ways.len()),
+            inbound: Tally::new(tracks.lanes),
+            claims: Tally::new(tracks.network.crossings.len()),
+        }
+    }
+
+    pub(super) fn fits(&self, tracks: &Tracks) -> bool {
+        let ways = tracks.ways.len();
+        (self.holders.len(), self.long_holders.len()) == (ways, ways)
+            && self.inbound.len() == tracks.lanes
+            && self.claims.len() == tracks.network.crossings.len()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        [&self.holders, &self.long_holders, &self.inbound, &self.claims]
+            .map(|tally| tally.len() * 4)
+            .iter()
+            .sum()
+    }
+
+    /// Whether somebody holds a way.
+    #[inline]
+    pub(super) fn is_held(&self, way: u32) -> bool {
+        self.holders.get(way as usize) > 0
+    }
+
+    /// Room on a lane that is promised to vehicles on their way to it, m.
+    #[inline]
+    pub(super) fn inbound(&self, lane: Track) -> f64 {
+        f64::from(self.inbound.get(lane as usize)) / TICKS
+    }
+
+    fn grant(&self, tracks: &Tracks, vehicle: &Vehicle, config: &TrafficConfig) {
+        let way = vehicle.next as usize;
+        self.holders.add(way, 1);
+        self.long_holders.add(way, u32::from(vehicle.is_long()));
+        self.inbound.add(tracks.lane_after(way) as usize, ticks(vehicle, config));
+    }
+
+    /// A vehicle no longer holds a way.
+    pub(super) fn clear_way(&self, way: u32, is_long: bool) {
+        self.holders.take(way as usize, 1);
+        self.long_holders.take(way as usize, u32::from(is_long));
+    }
+
+    /// A vehicle is on its lane, or will not come.
+    pub(super) fn arrive(&self, lane: Track, vehicle: &Vehicle, config: &TrafficConfig) {
+        self.inbound.take(lane as usize, ticks(vehicle, config));
+    }
+
+    /// Claims the crossings that a vehicle with leave has not passed; `front` is where it is on its way, negative before it.
+    pub(super) fn claim(&self, tracks: &Tracks, vehicle: &Vehicle, front: f64) {
+        let rear = front - vehicle.length();
+        for strip in tracks.strips[vehicle.holding as usize].iter().filter(|strip| rear < strip.end) {
+            self.claims.add(strip.crossing as usize, 1);
+        }
+    }
+}
+
 /// A vehicle that asks for leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Request {
     stood: f64,
     id: u32,
-    lane: Track,
-    rank: usize,
+    /// The number of its lane in the part.
+    lane: u32,
+    rank: u32,
 }
 
-/// Takes leave back from those who can still stop for a signal that changed; counts those who cannot.
-pub(super) fn revoke(
-    manager: &mut VehicleManager,
-    tracks: &Tracks,
-    config: &TrafficConfig,
-    sight: &Sight<'_>,
-    counters: &mut Counters,
-) {
-    let VehicleManager { queues, active, holders, long_holders, inbound, .. } = manager;
-    for track in active.iter().filter(|track| (**track as usize) < tracks.lanes) {
-        let end = tracks.length[*track as usize];
-        for vehicle in &mut queues[*track as usize] {
+impl Part {
+    /// Takes leave back and grants it, intersection by intersection.
+    pub(super) fn rule(&mut self, scene: &Scene<'_>) {
+        let layout = self.layout(scene.tracks);
+        let mut requests = std::mem::take(&mut self.work.requests);
+        requests.clear();
+        let mut junctions = layout.junctions.iter().map(|lanes| lanes.end as usize);
+        let (mut until, mut from) = (0, 0);
+        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
+            from = local + 1;
+            if local >= until {
+                self.grant(scene, &mut requests);
+                until = junctions.find(|end| *end > local).unwrap_or(layout.lanes);
+            }
+            let track = layout.tracks[local];
+            let end = scene.tracks.length[track as usize];
+            self.revoke(scene, local, end);
+            // Who stands at the line pulls away at once.
+            let stands = self.slabs.queue(local).first().is_some_and(|front| front.stood > 0.0);
+            if stands || !self.rests(scene, local, track) {
+                self.collect(local, end, &mut requests);
+                if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {
+                    self.work.stuck.push(track);
+                }
+            }
+        }
+        self.grant(scene, &mut requests);
+        self.work.requests = requests;
+    }
+
+    /// Takes leave back from those who can still stop for a signal that changed; counts those who cannot.
+    fn revoke(&mut self, scene: &Scene<'_>, local: usize, end: f64) {
+        for vehicle in self.slabs.queue_mut(local) {
             if vehicle.holding == NONE || vehicle.holding != vehicle.next {
                 if vehicle.holding == NONE && vehicle.next != EXIT {
                     break; // nobody behind has leave either
                 }
                 continue;
             }
-            let way = vehicle.holding as usize;
-            let Some(group) = tracks.network.connections[way].signal else { continue };
+            let way = &scene.tracks.ways[vehicle.holding as usize];
+            if way.signal == NONE {
+                continue;
+            }
             let distance = end - vehicle.s;
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
-            let crosses_oncoming =
-                tracks.network.connections[way].turn == tracks.network.driving_side.turn_across();
-            let gone = match sight.aspects[group.index()] {
+            let aspect = scene.sight.aspects[way.signal as usize];
+            let gone = match aspect {
                 Aspect::Green => false,
                 Aspect::Yellow => {
-                    needed <= at_yellow(config, vehicle) && !(crosses_oncoming && distance < AT_LINE)
+                    needed <= at_yellow(scene.config, vehicle)
+                        && !(way.crosses_oncoming && distance < AT_LINE)
                 }
-                Aspect::Red => needed <= config.vehicle_type(vehicle.row).driver.emergency_deceleration,
+                Aspect::Red => needed <= scene.config.vehicle_type(vehicle.row).driver.emergency_deceleration,
             };
             if gone {
+                scene.junctions.clear_way(vehicle.holding, vehicle.is_long());
+                scene.junctions.arrive(way.to, vehicle, scene.config);
                 vehicle.holding = NONE;
-                holders[way] -= 1;
-                long_holders[way] -= u32::from(vehicle.is_long());
-                inbound[tracks.lane_after(way) as usize] -= room_for(vehicle, config);
-            } else if sight.aspects[group.index()] == Aspect::Red {
-                counters.dilemmas += 1;
+                // Until it decides: what brings it to a stand at the line.
+                vehicle.acceleration = vehicle.acceleration.min(-needed as f32);
+            } else if aspect == Aspect::Red {
+                self.work.counters.dilemmas += 1;
+            }
+        }
+    }
+
+    /// The vehicles of a lane that are near enough to its end to ask.
+    fn collect(&mut self, local: usize, end: f64, requests: &mut Vec<Request>) {
+        let queue = self.slabs.queue(local);
+        for (rank, vehicle) in queue.iter().enumerate() {
+            let distance = end - vehicle.s;
+            let horizon = 8.0 + vehicle.v * 1.5 + vehicle.v * vehicle.v / 4.0;
+            if distance > horizon || vehicle.next == NONE {
+                break;
+            }
+            if vehicle.next == EXIT {
+                continue;
+            }
+            if vehicle.holding == NONE {
+                let Vehicle { stood, id, .. } = *vehicle;
+                requests.push(Request { stood, id, lane: local as u32, rank: rank as u32 });
+            } else if vehicle.holding != vehicle.next {
+                break; // its rear is still in the junction behind it
+            }
+        }
+    }
+
+    /// Grants leave at one intersection, to those who have stood longest first.
+    fn grant(&mut self, scene: &Scene<'_>, requests: &mut Vec<Request>) {
+        // Within a lane the first in line asks first, whoever has stood longer.
+        requests.sort_unstable_by(|a, b| {
+            b.stood.total_cmp(&a.stood).then(a.rank.cmp(&b.rank)).then(a.id.cmp(&b.id))
+        });
+        for request in requests.drain(..) {
+            let (lane, rank) = (request.lane as usize, request.rank as usize);
+            let queue = self.slabs.queue(lane);
+            let vehicle = queue[rank];
+            let before = rank.checked_sub(1).map(|rank| &queue[rank]);
+            let stays = |before: &Vehicle| before.next != EXIT && before.holding != before.next;
+            if before.is_some_and(|before| stays(before) || before.next == NONE) {
+                continue; // one's turn comes after those before
+            }
+            let track = self.layout(scene.tracks).tracks[lane];
+            if may_enter(self, scene, track, &vehicle) {
+                self.slabs.queue_mut(lane)[rank].holding = vehicle.next;
+                scene.junctions.grant(scene.tracks, &vehicle, scene.config);
+                self.work.counters.crossings += 1;
+                if may_pass(scene, &vehicle) {
+                    self.work.used_passes.push(vehicle.id);
+                }
             }
         }
     }
 }
 
-/// Grants leave, to those who have stood longest first.
-pub(super) fn grant(
-    manager: &mut VehicleManager,
-    tracks: &Tracks,
-    config: &TrafficConfig,
-    sight: &Sight<'_>,
-    counters: &mut Counters,
-) {
-    let mut requests = std::mem::take(&mut manager.requests);
-    requests.clear();
-    for track in manager.active.iter().filter(|track| (**track as usize) < tracks.lanes) {
-        collect(manager, tracks, *track, &mut requests);
-    }
-    // Within a lane the first in line asks first, whoever has stood longer.
-    requests.sort_by(|a, b| b.stood.total_cmp(&a.stood).then(a.rank.cmp(&b.rank)).then(a.id.cmp(&b.id)));
-    for request in &requests {
-        let queue = &manager.queues[request.lane as usize];
-        let vehicle = queue[request.rank];
-        let before = request.rank.checked_sub(1).map(|rank| &queue[rank]);
-        let stays = |before: &Vehicle| before.next != EXIT && before.holding != before.next;
-        if before.is_some_and(|before| stays(before) || before.next == NONE) {
-            continue; // one's turn comes after those before
-        }
-        if may_enter(manager, tracks, config, sight, request.lane, &vehicle) {
-            let way = vehicle.next as usize;
-            manager.queues[request.lane as usize][request.rank].holding = vehicle.next;
-            manager.holders[way] += 1;
-            manager.long_holders[way] += u32::from(vehicle.is_long());
-            manager.inbound[tracks.lane_after(way) as usize] += room_for(&vehicle, config);
-            counters.crossings += 1;
-            if let Ok(place) = manager.passes.binary_search(&vehicle.id) {
-                manager.passes.remove(place);
-            }
-        }
-    }
-    manager.requests = requests;
-}
-
-/// The vehicles of a lane that are near enough to its end to ask.
-fn collect(manager: &VehicleManager, tracks: &Tracks, lane: Track, requests: &mut Vec<Request>) {
-    let end = tracks.length[lane as usize];
-    for (rank, vehicle) in manager.queues[lane as usize].iter().enumerate() {
-        let distance = end - vehicle.s;
-        let horizon = 8.0 + vehicle.v * 1.5 + vehicle.v * vehicle.v / 4.0;
-        if distance > horizon || vehicle.next == NONE {
-            break;
-        }
-        if vehicle.next == EXIT {
-            continue;
-        }
-        if vehicle.holding == NONE {
-            requests.push(Request { stood: vehicle.stood, id: vehicle.id, lane, rank });
-        } else if vehicle.holding != vehicle.next {
-            break; // its rear is still in the junction behind it
-        }
-    }
-}
-
-fn may_enter(
-    manager: &VehicleManager,
-    tracks: &Tracks,
-    config: &TrafficConfig,
-    sight: &Sight<'_>,
-    lane: Track,
-    vehicle: &Vehicle,
-) -> bool {
+fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> bool {
+    let Scene { tracks, sight, junctions, .. } = scene;
     let way = vehicle.next as usize;
-    let connection = &tracks.network.connections[way];
     let distance = tracks.length[lane as usize] - vehicle.s;
     vehicle.shift == 0.0
-        && signal_allows(tracks, config, sight, way, vehicle, distance)
-        && connection.conflicts.iter().all(|other| manager.holders[other.index()] == 0)
+        && signal_allows(scene, way, vehicle, distance)
+        && !tracks.conflicts[way].iter().any(|other| junctions.is_held(*other))
         && tracks.tight[way].iter().all(|other| {
-            let held = if vehicle.is_long() { &manager.holders } else { &manager.long_holders };
-            held[*other as usize] == 0
+            let held = if vehicle.is_long() { &junctions.holders } else { &junctions.long_holders };
+            held.get(*other as usize) == 0
         })
         && tracks.strips[way].iter().all(|strip| {
             sight.walkers[strip.crossing as usize] == 0 && sight.waiting[strip.crossing as usize] == 0
         })
-        && (has_room(manager, tracks, config, way, vehicle) || may_pass(manager, vehicle))
-        && connection
-            .yields_to
-            .iter()
-            .all(|other| !is_hindered(manager, tracks, sight, other.index(), way, vehicle, distance))
+        && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
+        && !tracks.yields_to[way].iter().any(|other| is_hindered(part, scene, *other, way, vehicle, distance))
+}
+
+fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {
+    let Scene { tracks, sight, config, .. } = scene;
+    let Way { signal, crosses_oncoming, .. } = tracks.ways[way];
+    if signal == NONE {
+        return true;
+    }
+    match sight.aspects[signal as usize] {
+        Aspect::Green => true,
+        Aspect::Red => false,
+        Aspect::Yellow => {
+            // Too late to stop; or a turn across oncoming traffic that waited through the whole green for its gap.
+            let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
+            needed > at_yellow(config, vehicle)
+                || (crosses_oncoming
+                    && distance < AT_LINE
+                    && vehicle.stood > 5.0
+                    && sight.shown[signal as usize] < FRESH)
+        }
+    }
 }
 
 /// The braking that a driver accepts to stop at yellow, m/s²: less on a slippery road.
@@ -164,72 +272,51 @@ fn at_yellow(config: &TrafficConfig, vehicle: &Vehicle) -> f64 {
     COMFORTABLE.min(config.vehicle_type(vehicle.row).driver.emergency_deceleration * 0.6)
 }
 
-fn signal_allows(
-    tracks: &Tracks,
-    config: &TrafficConfig,
-    sight: &Sight<'_>,
-    way: usize,
-    vehicle: &Vehicle,
-    distance: f64,
-) -> bool {
-    let connection = &tracks.network.connections[way];
-    let Some(group) = connection.signal else { return true };
-    match sight.aspects[group.index()] {
-        Aspect::Green => true,
-        Aspect::Red => false,
-        Aspect::Yellow => {
-            // Too late to stop; or a turn across oncoming traffic that waited through the whole green for its gap.
-            let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
-            needed > at_yellow(config, vehicle)
-                || (connection.turn == tracks.network.driving_side.turn_across()
-                    && distance < AT_LINE
-                    && vehicle.stood > 5.0
-                    && sight.shown[group.index()] < FRESH)
-        }
-    }
-}
-
 /// Whether a vehicle may enter without room behind the junction, because it is in a lock.
-fn may_pass(manager: &VehicleManager, vehicle: &Vehicle) -> bool {
-    manager.passes.binary_search(&vehicle.id).is_ok()
+fn may_pass(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+    scene.passes.binary_search(&vehicle.id).is_ok()
 }
 
 /// Whether the lane behind the junction has room, so that the junction is not blocked.
-pub(super) fn has_room(
-    manager: &VehicleManager,
+fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
+    let lane = scene.tracks.lane_after(way);
+    is_room(scene.tracks, scene.config, scene.junctions, (lane, scene.tail(lane)), vehicle)
+}
+
+/// Whether a lane with such a last vehicle has room for another.
+pub(super) fn is_room(
     tracks: &Tracks,
     config: &TrafficConfig,
-    way: usize,
+    junctions: &Junctions,
+    (lane, last): (Track, &Tail),
     vehicle: &Vehicle,
 ) -> bool {
-    let lane = tracks.lane_after(way) as usize;
-    let inbound = manager.inbound[lane];
-    let Some(last) = manager.queues[lane].back() else {
+    let (inbound, room) = (junctions.inbound(lane), f64::from(ticks(vehicle, config)) / TICKS);
+    if last.is_none() {
         // An empty lane takes one vehicle even if it is longer than the lane.
-        return inbound <= 0.0 || inbound + room_for(vehicle, config) <= tracks.length[lane];
-    };
+        return inbound <= 0.0 || inbound + room <= tracks.length[lane as usize];
+    }
     // What moves will have moved on by the time one gets there.
-    let rear = last.s - last.length() + if last.v > STANDING { last.v * 2.0 } else { 0.0 };
-    rear - inbound >= room_for(vehicle, config)
+    let rear = last.rear + if last.v > STANDING { last.v * 2.0 } else { 0.0 };
+    rear - inbound >= room
 }
 
 /// Whether somebody with priority on another way would have to brake.
 fn is_hindered(
-    manager: &VehicleManager,
-    tracks: &Tracks,
-    sight: &Sight<'_>,
-    other: usize,
+    part: &Part,
+    scene: &Scene<'_>,
+    other: u32,
     way: usize,
     vehicle: &Vehicle,
     distance: f64,
 ) -> bool {
-    let rival_way = &tracks.network.connections[other];
-    if rival_way.signal.is_some_and(|group| sight.aspects[group.index()] != Aspect::Green) {
+    let tracks = scene.tracks;
+    let Way { from, signal, .. } = tracks.ways[other as usize];
+    if signal != NONE && scene.sight.aspects[signal as usize] != Aspect::Green {
         return false;
     }
-    let rival_lane = rival_way.from.index();
-    let end = tracks.length[rival_lane];
-    let rival = manager.queues[rival_lane].iter().find(|rival| rival.next as usize == other);
+    let end = tracks.length[from as usize];
+    let rival = part.slabs.queue(tracks.layout.local(from)).iter().find(|rival| rival.next == other);
     let Some(rival) = rival.filter(|rival| end - rival.s < SIGHT) else { return false };
     if rival.v < STANDING && rival.stood > 3.0 {
         return false; // it cannot go, or lets one go
@@ -238,4 +325,9 @@ fn is_hindered(
     let pace = ((vehicle.v + tracks.speed[track].min(8.0)) * 0.5).max(2.5);
     let clear = (distance + tracks.length[track] + vehicle.length()) / pace;
     (end - rival.s) / rival.v.max(3.0) < clear + MARGIN
+}
+
+/// Room on a lane that a vehicle takes when it stands, in ticks.
+fn ticks(vehicle: &Vehicle, config: &TrafficConfig) -> u32 {
+    ((vehicle.length() + config.vehicle_type(vehicle.row).driver.gap) * TICKS).ceil() as u32
 }

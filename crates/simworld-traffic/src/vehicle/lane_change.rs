@@ -5,14 +5,14 @@
 //! moves over in some seconds; meanwhile it stands in both: those behind it in the old lane see it there, and it minds
 //! who is before it in either.
 
-use std::collections::VecDeque;
-
 use serde::{Deserialize, Serialize};
+use simworld_core::id::LaneId;
 
 use super::VehicleKind;
-use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
+use super::manager::{EXIT, NONE, Scene, Vehicle, VehicleManager};
+use super::part::Part;
 use super::tracks::{Track, Tracks};
-use crate::{Leg, TrafficConfig};
+use crate::{Counters, Leg, TrafficConfig};
 
 /// When drivers change lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ const SIDEWAYS: f64 = 1.2;
 const STEEPNESS: f64 = 0.25;
 /// With less than this to its new lane's middle a body is out of its old lane, m.
 const OUT: f64 = 0.5;
-/// Everybody looks beside once in so many steps.
+/// The drivers of a lane look beside once in so many steps.
 const EVERY: u64 = 5;
 /// Nobody changes nearer to the junction behind, whose drivers look at whole lanes, m.
 const CLEAR: f64 = 12.0;
@@ -52,9 +52,10 @@ const OWN_LANE: f64 = 2.0;
 const PATIENCE: f64 = 40.0;
 
 /// A body in a lane that it has not quite left.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ghost {
-    lane: Track,
+    /// The number of the lane in the part.
+    pub(super) lane: u32,
     /// Its rear there, m.
     rear: f64,
     length: f64,
@@ -68,63 +69,66 @@ struct Neighbours {
     rank: usize,
 }
 
-impl VehicleManager {
+impl Part {
     /// Moves those over who are changing, and lists where they still are.
-    pub(super) fn shift(&mut self, tracks: &Tracks, dt: f64) {
+    pub(super) fn shift(&mut self, scene: &Scene<'_>) {
         let mut shifting = std::mem::take(&mut self.shifting);
-        self.ghosts.clear();
-        shifting.retain(|id| {
-            let lane = self.paths[*id as usize].track;
-            let Some(vehicle) = self.queues[lane as usize].iter_mut().find(|v| v.id == *id) else {
-                return false;
-            };
-            let step = SIDEWAYS.min(STEEPNESS * vehicle.v) * dt;
+        self.work.ghosts.clear();
+        let layout = self.layout(scene.tracks);
+        shifting.retain(|(local, id)| {
+            let lane = layout.tracks[*local as usize];
+            let queue = self.slabs.queue_mut(*local as usize);
+            let Some(vehicle) = queue.iter_mut().find(|v| v.id == *id) else { return false };
+            let step = SIDEWAYS.min(STEEPNESS * vehicle.v) * scene.at.dt;
             let left = vehicle.shift.abs() - step;
             vehicle.shift = if left <= 0.0 { 0.0 } else { left.copysign(vehicle.shift) };
             if left > OUT
-                && let Some(old) = old_lane(tracks, lane, vehicle)
+                && let Some(old) = old_lane(scene.tracks, lane, vehicle)
             {
-                let station = vehicle.s * tracks.length[old as usize] / tracks.length[lane as usize];
-                self.ghosts.push(Ghost::of(vehicle, old, station));
+                let station = vehicle.s * stretch(scene.tracks, lane, old);
+                let old = scene.tracks.layout.local(old) as u32;
+                self.work.ghosts.push(Ghost::of(vehicle, old, station));
             }
             vehicle.shift != 0.0
         });
         self.shifting = shifting;
-        sort(&mut self.ghosts);
+        sort(&mut self.work.ghosts);
     }
 
-    /// Lets those change who want to and may, a fifth of all in each step.
-    pub(super) fn change_lanes(&mut self, tracks: &Tracks, config: &TrafficConfig, step: u64) {
-        for index in 0..self.active.len() {
-            let lane = self.active[index];
-            if tracks.beside.get(lane as usize).is_none_or(|beside| *beside == [NONE; 2]) {
+    /// Lets those change who want to and may; a fifth of the lanes in each step.
+    pub(super) fn change_lanes(&mut self, scene: &Scene<'_>) {
+        let layout = self.layout(scene.tracks);
+        let mut from = 0;
+        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
+            from = local + 1;
+            let lane = layout.tracks[local];
+            let is_its_turn = (scene.at.step + u64::from(lane)).is_multiple_of(EVERY);
+            if !is_its_turn || scene.tracks.beside[lane as usize] == [NONE; 2] {
                 continue;
             }
             let mut rank = 0;
-            while let Some(vehicle) = self.queues[lane as usize].get(rank).copied() {
+            while let Some(vehicle) = self.slabs.queue(local).get(rank) {
                 rank += 1;
-                let is_its_turn = (step + u64::from(vehicle.id)).is_multiple_of(EVERY);
-                if is_its_turn && may_change(tracks, lane, &vehicle) {
+                if may_change(scene.tracks, lane, vehicle) {
                     // Who leaves makes the next take its rank.
-                    rank -= usize::from(self.consider(tracks, config, lane, rank - 1));
+                    rank -= usize::from(self.consider(scene, lane, rank - 1));
                 }
             }
         }
-        self.active.sort_unstable();
-        self.active.dedup();
-        let queues = &self.queues;
-        self.active.retain(|track| !queues[*track as usize].is_empty());
     }
 
-    fn consider(&mut self, tracks: &Tracks, config: &TrafficConfig, lane: Track, rank: usize) -> bool {
-        let vehicle = self.queues[lane as usize][rank];
+    fn consider(&mut self, scene: &Scene<'_>, lane: Track, rank: usize) -> bool {
+        let tracks = scene.tracks;
+        let local = tracks.layout.local(lane);
+        let vehicle = self.slabs.queue(local)[rank];
         let must = vehicle.next == NONE;
         let to_end = tracks.length[lane as usize] - vehicle.s;
         if !must && to_end < BEFORE_LINE * vehicle.v + 10.0 {
             return false;
         }
-        let kind = config.vehicle_type(vehicle.row).kind;
-        let wanted = self.next_leg(tracks, &vehicle);
+        let kind = scene.config.vehicle_type(vehicle.row).kind;
+        let path = &self.slabs.paths(local)[rank];
+        let wanted = VehicleManager::next_leg(tracks, scene.routes, &vehicle, path);
         let mut best: Option<(f64, Track, u32, usize)> = None;
         let sides = tracks.beside[lane as usize].into_iter();
         for target in sides.filter(|target| *target != NONE && tracks.may_use(*target, kind)) {
@@ -136,49 +140,38 @@ impl VehicleManager {
                 wanted.and_then(|leg| tracks.way_to(target, leg, kind).or_else(|| towards(leg)))
             };
             let Some(way) = way else { continue };
-            if let Some((gain, place)) = self.gain(tracks, config, lane, rank, target, must)
+            if let Some((gain, place)) = self.gain(scene, lane, rank, target, must)
                 && best.is_none_or(|best| gain > best.0)
             {
                 best = Some((gain, target, way, place));
             }
         }
         let Some((_, target, way, place)) = best else { return false };
-        self.move_over(tracks, lane, rank, target, way, place);
+        self.move_over(scene, lane, rank, target, way, place);
         true
-    }
-
-    /// The leg to which a vehicle wants to go from its lane.
-    fn next_leg(&self, tracks: &Tracks, vehicle: &Vehicle) -> Option<Leg> {
-        let path = &self.paths[vehicle.id as usize];
-        if let Some(route) = self.routes.get(path.route as usize) {
-            return route.0.get(path.leg as usize + 1).copied();
-        }
-        let way = tracks.network.connections.get(vehicle.next as usize)?;
-        Some(Leg::of(&tracks.network, way.to))
     }
 
     /// The advantage of a lane, m/s², and the place in its queue; `None` if it is not safe or not worth it.
     fn gain(
         &self,
-        tracks: &Tracks,
-        config: &TrafficConfig,
+        scene: &Scene<'_>,
         lane: Track,
         rank: usize,
         target: Track,
         must: bool,
     ) -> Option<(f64, usize)> {
+        let Scene { tracks, config, .. } = scene;
         let mobil = &config.mobil;
-        let queue = &self.queues[lane as usize];
+        let queue = self.slabs.queue(tracks.layout.local(lane));
         let vehicle = queue[rank];
         let row = config.vehicle_type(vehicle.row);
         let idm = &row.driver;
         let length = vehicle.length();
-        let scale = tracks.length[target as usize] / tracks.length[lane as usize];
-        let s = vehicle.s * scale;
+        let s = vehicle.s * stretch(tracks, lane, target);
         if s >= tracks.length[target as usize] - 1.0 || (s - length) < 0.5 {
             return None;
         }
-        let there = self.neighbours(target, s, length);
+        let there = self.neighbours(tracks.layout.local(target), s, length);
         let free = |lane: Track| row.free_speed(config, vehicle.factor, tracks.speed[lane as usize]);
         let ahead = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - s);
         let behind = there.behind.map_or(f64::INFINITY, |(front, _)| s - length - front);
@@ -187,12 +180,12 @@ impl VehicleManager {
             return None;
         }
         // Who has leave to cross is not cut off: the junction waits for it.
-        let follower = self.queues[target as usize].get(there.rank);
+        let follower = self.slabs.queue(tracks.layout.local(target)).get(there.rank);
         if follower.is_some_and(|follower| follower.holding != NONE && follower.holding == follower.next) {
             return None;
         }
         // Whoever comes out of the junction behind has not joined the queue yet.
-        if there.behind.is_none() && self.inbound[target as usize] > 0.0 && s - length < 25.0 {
+        if there.behind.is_none() && scene.junctions.inbound(target) > 0.0 && s - length < 25.0 {
             return None;
         }
         let mine = idm.acceleration(vehicle.v, free(target), ahead, there.ahead.map_or(0.0, |a| a.1));
@@ -218,14 +211,13 @@ impl VehicleManager {
     }
 
     /// Those around a place in a lane, bodies that are changing out of it included.
-    fn neighbours(&self, lane: Track, s: f64, length: f64) -> Neighbours {
-        let queue = &self.queues[lane as usize];
+    fn neighbours(&self, lane: usize, s: f64, length: f64) -> Neighbours {
+        let queue = self.slabs.queue(lane);
         let rank = queue.partition_point(|other| other.s >= s);
         let mut ahead = rank.checked_sub(1).map(|rank| (queue[rank].s - queue[rank].length(), queue[rank].v));
         let behind = queue.get(rank).map(|other| (other.s, other.v));
-        let from = self.ghosts.partition_point(|ghost| ghost.lane < lane);
         // One that is beside the place counts as ahead, with a gap that forbids the change.
-        for ghost in self.ghosts[from..].iter().take_while(|ghost| ghost.lane == lane) {
+        for ghost in self.ghosts(lane) {
             let beside = ghost.rear + ghost.length > s - length - 1.0;
             if beside && ahead.is_none_or(|ahead| ghost.rear < ahead.0) {
                 ahead = Some((ghost.rear, ghost.v));
@@ -236,29 +228,38 @@ impl VehicleManager {
 
     fn move_over(
         &mut self,
-        tracks: &Tracks,
+        scene: &Scene<'_>,
         lane: Track,
         rank: usize,
         target: Track,
         way: u32,
         place: usize,
     ) {
-        let Some(mut vehicle) = self.queues[lane as usize].remove(rank) else { return };
-        vehicle.s *= tracks.length[target as usize] / tracks.length[lane as usize];
+        let tracks = scene.tracks;
+        let (from, to) = (tracks.layout.local(lane), tracks.layout.local(target));
+        let Some((mut vehicle, mut path)) = self.slabs.remove(from, rank) else { return };
+        let station = vehicle.s;
+        vehicle.s *= stretch(tracks, lane, target);
         vehicle.next = way;
         let to_left = tracks.beside[lane as usize][0] == target;
         let apart = tracks.apart(lane, target);
         // It still stands in its old lane: to the right of the new one if it goes left.
         vehicle.shift = if to_left { -apart } else { apart };
-        self.paths[vehicle.id as usize].track = target;
-        self.paths[vehicle.id as usize].before = target;
-        let station = vehicle.s * tracks.length[lane as usize] / tracks.length[target as usize];
-        self.ghosts.push(Ghost::of(&vehicle, lane, station));
-        sort(&mut self.ghosts);
-        self.shifting.push(vehicle.id);
-        self.queues[target as usize].insert(place, vehicle);
-        self.active.push(target);
-        self.changes += 1;
+        path.before = target;
+        scene.whereabouts.set(vehicle.id as usize, target);
+        self.work.ghosts.push(Ghost::of(&vehicle, from as u32, station));
+        sort(&mut self.work.ghosts);
+        self.shifting.push((to as u32, vehicle.id));
+        self.slabs.insert(to, place, vehicle, path);
+        self.work.counters.lane_changes += 1;
+    }
+
+    /// Bodies that have not quite left a lane, from back to front.
+    fn ghosts(&self, lane: usize) -> &[Ghost] {
+        let ghosts = &self.work.ghosts;
+        let from = ghosts.partition_point(|ghost| (ghost.lane as usize) < lane);
+        let count = ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == lane).count();
+        &ghosts[from..from + count]
     }
 
     /// The body before a place in a lane that is being left, for whoever is still in it: its rear and speed.
@@ -272,55 +273,65 @@ impl VehicleManager {
             return None;
         }
         let old = old_lane(tracks, lane, vehicle)?;
-        let s = vehicle.s * tracks.length[old as usize] / tracks.length[lane as usize];
-        let queue = &self.queues[old as usize];
+        let s = vehicle.s * stretch(tracks, lane, old);
+        let old = tracks.layout.local(old);
+        let queue = self.slabs.queue(old);
         let leader = queue.partition_point(|other| other.s >= s).checked_sub(1).map(|rank| &queue[rank]);
         let leader = leader.map(|leader| (leader.s - leader.length() - s, leader.v));
         // Another may be on its way out of the same lane.
-        let ghost = first_ghost(&self.ghosts, old, s);
+        let ghost = first_ghost(self.ghosts(old), s);
         [leader, ghost].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
     }
+}
 
+impl VehicleManager {
     /// Those who have stood too long in a lane that does not lead on take a way that does, and their route anew from there.
-    pub(super) fn lose_patience(&mut self, tracks: &Tracks, counters: &mut crate::Counters) {
-        for index in 0..self.active.len() {
-            let lane = self.active[index];
-            if lane as usize >= tracks.lanes {
-                break; // lanes come first
-            }
-            let Some(vehicle) = self.queues[lane as usize].front() else { continue };
-            if vehicle.next != NONE || vehicle.stood < PATIENCE || vehicle.shift != 0.0 {
-                continue;
-            }
-            let id = vehicle.id;
+    pub(super) fn lose_patience(&mut self, tracks: &Tracks, counters: &mut Counters) {
+        let mut stuck = std::mem::take(&mut self.stuck);
+        for lane in stuck.drain(..) {
             let mut ways = tracks.network.lanes[lane as usize].outgoing.iter();
-            if self.goal(id).is_some() && ways.any(|way| self.take_way(tracks, lane, 0, way.0)) {
+            let has_goal = self.goal(tracks, lane, 0).is_some();
+            if has_goal && ways.any(|way| self.take_way(tracks, lane, 0, way.0)) {
                 counters.rerouted += 1;
             }
         }
+        self.stuck = stuck;
     }
 
-    /// The last leg of the route of a vehicle; none if it turns at random.
-    pub(super) fn goal(&self, id: u32) -> Option<Leg> {
-        let route = self.paths[id as usize].route;
-        self.routes.get(route as usize)?.0.last().copied()
+    /// The last leg of the route of a vehicle of a lane; none if it turns at random.
+    pub(super) fn goal(&self, tracks: &Tracks, lane: Track, rank: usize) -> Option<Leg> {
+        let path = self.paths(tracks, lane).get(rank)?;
+        self.routes.get(path.route as usize)?.0.last().copied()
     }
 
     /// Lets a vehicle of a lane take a way from it, and its route anew from there; false if its end cannot be reached so.
     pub(super) fn take_way(&mut self, tracks: &Tracks, lane: Track, rank: usize, way: u32) -> bool {
-        let id = self.queues[lane as usize][rank].id;
-        if let Some(goal) = self.goal(id) {
+        let mut route = None;
+        if let Some(goal) = self.goal(tracks, lane, rank) {
             let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
             let Some(mut rest) = tracks.router.quickest(after, goal) else { return false };
-            rest.0.insert(0, Leg::of(&tracks.network, simworld_core::id::LaneId(lane)));
-            let path = &mut self.paths[id as usize];
-            path.route = self.routes.len() as u32;
-            path.leg = 0;
-            self.routes.push(rest);
+            rest.0.insert(0, Leg::of(&tracks.network, LaneId(lane)));
+            route = Some(self.add_route(rest));
         }
-        self.queues[lane as usize][rank].next = way;
+        let (queue, paths) = self.both_mut(tracks, lane);
+        queue[rank].next = way;
+        if let Some(route) = route {
+            (paths[rank].route, paths[rank].leg) = (route, 0);
+        }
         true
     }
+}
+
+impl Vehicle {
+    /// Whether, first in its lane, it has waited long enough for a gap to a lane that leads on.
+    pub(super) fn is_stuck(&self) -> bool {
+        self.next == NONE && self.stood >= PATIENCE && self.shift == 0.0
+    }
+}
+
+/// How much longer one lane is than another beside it: stations along them are in proportion.
+fn stretch(tracks: &Tracks, from: Track, to: Track) -> f64 {
+    tracks.length[to as usize] / tracks.length[from as usize]
 }
 
 /// Whole in its lane, with no leave to cross, clear of the junction behind and not yet at the line before it.
@@ -335,7 +346,7 @@ fn may_change(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
 fn staying(
     config: &TrafficConfig,
     tracks: &Tracks,
-    queue: &VecDeque<Vehicle>,
+    queue: &[Vehicle],
     rank: usize,
     lane: Track,
 ) -> (f64, f64) {
@@ -377,14 +388,14 @@ fn leads_towards(tracks: &Tracks, lane: Track, target: Track, leg: Leg, kind: Ve
 }
 
 /// The gap to the first body ahead that is leaving a lane, and its speed.
-pub(super) fn first_ghost(ghosts: &[Ghost], lane: Track, s: f64) -> Option<(f64, f64)> {
+pub(super) fn first_ghost(ghosts: &[Ghost], s: f64) -> Option<(f64, f64)> {
     // One whose rear is behind one's own front is beside or behind: it minds whoever is before it.
-    let start = ghosts.partition_point(|ghost| (ghost.lane, ghost.rear) < (lane, s));
-    ghosts.get(start).filter(|ghost| ghost.lane == lane).map(|ghost| (ghost.rear - s, ghost.v))
+    let start = ghosts.partition_point(|ghost| ghost.rear < s);
+    ghosts.get(start).map(|ghost| (ghost.rear - s, ghost.v))
 }
 
 impl Ghost {
-    fn of(vehicle: &Vehicle, lane: Track, station: f64) -> Self {
+    fn of(vehicle: &Vehicle, lane: u32, station: f64) -> Self {
         let length = vehicle.length();
         Self { lane, rear: station - length, length, v: vehicle.v }
     }

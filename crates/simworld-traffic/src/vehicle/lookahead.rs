@@ -1,25 +1,64 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
 use super::Idm;
-use super::lane_change::{CHANGE_ROOM, first_ghost};
-use super::manager::{EXIT, NONE, STANDING, Sight, Vehicle, VehicleManager};
+use super::lane_change::{CHANGE_ROOM, Ghost, first_ghost};
+use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
+use super::part::Part;
 use super::tracks::{Track, Tracks};
-use crate::TrafficConfig;
 
 /// Where a vehicle stops before a line, m.
 const BEFORE_LINE: f64 = 0.5;
 
+/// A track as its drivers see it.
+pub(super) struct Lane<'a> {
+    part: &'a Part,
+    scene: &'a Scene<'a>,
+    track: Track,
+    /// The connection that it is, if it is one.
+    way: Option<usize>,
+    /// Its length, m.
+    end: f64,
+    /// The speed that the law and its bends allow, m/s.
+    limit: f64,
+    /// Bodies that have not quite left it, from back to front.
+    ghosts: &'a [Ghost],
+}
+
+impl<'a> Lane<'a> {
+    pub(super) fn new(part: &'a Part, scene: &'a Scene<'a>, track: Track, ghosts: &'a [Ghost]) -> Self {
+        let tracks = scene.tracks;
+        let (end, limit) = (tracks.length[track as usize], tracks.speed[track as usize]);
+        Self { part, scene, track, way: tracks.connection(track), end, limit, ghosts }
+    }
+
+    /// Whether a driver must decide in this step even far from all interest: who crosses, is about to, changes lanes, or may
+    /// pull away.
+    fn is_pressing(&self, vehicle: &Vehicle, leader: Option<&Vehicle>) -> bool {
+        let to_end = self.end - vehicle.s;
+        let reaches_line = vehicle.v > STANDING && to_end < vehicle.v + 2.0;
+        let pulls_away = vehicle.v < STANDING && leader.is_some_and(|leader| leader.v > STANDING);
+        self.way.is_some() || vehicle.shift != 0.0 || vehicle.holding != NONE || reaches_line || pulls_away
+    }
+}
+
+/// The accelerations of the vehicles of a track, front to back, m/s². Where they rest, only those decide who cannot wait.
+pub(super) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], rests: bool, accelerations: &mut Vec<f64>) {
+    let mut leader: Option<&Vehicle> = None;
+    for vehicle in queue {
+        let waits = rests && !lane.is_pressing(vehicle, leader);
+        accelerations.push(if waits {
+            f64::from(vehicle.acceleration)
+        } else {
+            acceleration(lane, vehicle, leader)
+        });
+        leader = Some(vehicle);
+    }
+}
+
 /// The acceleration of a vehicle, m/s².
 #[inline]
-pub(super) fn acceleration(
-    manager: &VehicleManager,
-    tracks: &Tracks,
-    config: &TrafficConfig,
-    sight: &Sight<'_>,
-    track: Track,
-    vehicle: &Vehicle,
-    leader: Option<&Vehicle>,
-) -> f64 {
+fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) -> f64 {
+    let config = lane.scene.config;
     let kind = config.vehicle_type(vehicle.row);
     let idm = &kind.driver;
     let mut view = View {
@@ -29,29 +68,31 @@ pub(super) fn acceleration(
         gap: f64::INFINITY,
         pressure: 0.0,
         factor: f64::from(vehicle.factor) * config.conditions.speed,
-        free: kind.free_speed(config, vehicle.factor, tracks.speed[track as usize]),
+        free: kind.free_speed(config, vehicle.factor, lane.limit),
     };
     if let Some(leader) = leader {
         view.follow(leader.s - leader.length() - vehicle.s, leader.v);
     }
-    let to_end = tracks.length[track as usize] - vehicle.s;
-    match tracks.connection(track) {
-        Some(way) => view.across(manager, tracks, sight, way, to_end, vehicle.s, leader.is_none()),
+    let to_end = lane.end - vehicle.s;
+    match lane.way {
+        Some(way) => view.across(lane, way, to_end, vehicle.s, leader.is_none()),
         None if vehicle.next == EXIT => {}
-        None if vehicle.next == NONE => view.stop_in(view.before_change(tracks, track, to_end), idm.gap),
+        None if vehicle.next == NONE => view.stop_in(view.before_change(lane, to_end), idm.gap),
         None if vehicle.holding != vehicle.next => view.stop_in(to_end, idm.gap),
-        None => view.enter_junction(manager, tracks, sight, vehicle.next as usize, to_end, leader.is_none()),
+        None => view.enter_junction(lane, vehicle.next as usize, to_end, leader.is_none()),
     }
-    if let Some((gap, speed)) = first_ghost(&manager.ghosts, track, vehicle.s) {
-        view.follow(gap, speed);
-    }
-    if vehicle.shift != 0.0
-        && let Some((gap, speed)) = manager.ahead_in_old_lane(tracks, track, vehicle)
+    if !lane.ghosts.is_empty()
+        && let Some((gap, speed)) = first_ghost(lane.ghosts, vehicle.s)
     {
         view.follow(gap, speed);
     }
-    if !sight.obstacles.is_empty() {
-        view.beware(sight, track, vehicle.s, idm.gap);
+    if vehicle.shift != 0.0
+        && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene.tracks, lane.track, vehicle)
+    {
+        view.follow(gap, speed);
+    }
+    if !lane.scene.sight.obstacles.is_empty() {
+        view.beware(&lane.scene.sight, lane.track, vehicle.s, idm.gap);
     }
     let mut acceleration = idm.respond(vehicle.v, view.free, view.pressure);
     if vehicle.v < STANDING && view.gap < idm.gap {
@@ -88,10 +129,10 @@ impl View<'_> {
 
     /// Where one who must change lanes waits for a gap: so far from the end of its lane that a change still has room, if it can
     /// still stop there.
-    fn before_change(&self, tracks: &Tracks, lane: Track, to_end: f64) -> f64 {
+    fn before_change(&self, lane: &Lane<'_>, to_end: f64) -> f64 {
         let early = to_end - CHANGE_ROOM - 1.0;
         let stopping = self.v * self.v / (2.0 * self.idm.deceleration);
-        let has_neighbour = tracks.beside[lane as usize] != [NONE; 2];
+        let has_neighbour = lane.scene.tracks.beside[lane.track as usize] != [NONE; 2];
         if has_neighbour && early > stopping { early } else { to_end }
     }
 
@@ -102,79 +143,65 @@ impl View<'_> {
     }
 
     /// On a lane with leave to cross: what is on the way, and behind it.
-    fn enter_junction(
-        &mut self,
-        manager: &VehicleManager,
-        tracks: &Tracks,
-        sight: &Sight<'_>,
-        way: usize,
-        to_line: f64,
-        is_first: bool,
-    ) {
+    fn enter_junction(&mut self, lane: &Lane<'_>, way: usize, to_line: f64, is_first: bool) {
+        let tracks = lane.scene.tracks;
         let track = tracks.lanes + way;
         self.slow_to(self.factor * tracks.speed[track], to_line);
-        self.mind_people(tracks, sight, way, to_line);
+        self.mind_people(tracks, &lane.scene.sight, way, to_line);
         if !is_first {
             return;
         }
-        self.let_part(manager, tracks, way, -to_line);
-        match manager.queues[track].back() {
+        self.let_part(lane, way, -to_line);
+        match lane.part.slabs.queue(tracks.layout.local(track as Track)).last() {
             Some(leader) => self.follow(to_line + leader.s - leader.length(), leader.v),
-            None => self.after_way(manager, tracks, way, to_line + tracks.length[track]),
+            None => self.after_way(lane.scene, way, to_line + tracks.length[track]),
         }
-        if let Some(station) = first_obstacle(sight, track as Track, 0.0) {
+        if let Some(station) = first_obstacle(&lane.scene.sight, track as Track, 0.0) {
             self.follow(to_line + station, 0.0);
         }
     }
 
     /// On the way across.
-    #[expect(clippy::too_many_arguments, reason = "all of it is one driver's view of one junction")]
-    fn across(
-        &mut self,
-        manager: &VehicleManager,
-        tracks: &Tracks,
-        sight: &Sight<'_>,
-        way: usize,
-        to_end: f64,
-        s: f64,
-        is_first: bool,
-    ) {
-        self.mind_people(tracks, sight, way, -s);
-        self.let_part(manager, tracks, way, s);
+    fn across(&mut self, lane: &Lane<'_>, way: usize, to_end: f64, s: f64, is_first: bool) {
+        self.mind_people(lane.scene.tracks, &lane.scene.sight, way, -s);
+        self.let_part(lane, way, s);
         if is_first {
-            self.after_way(manager, tracks, way, to_end);
+            self.after_way(lane.scene, way, to_end);
         }
     }
 
     /// Stays behind those who left the same lane for another way until their rear is out of one's own; `at` is where one is
     /// on the way, negative before it.
-    fn let_part(&mut self, manager: &VehicleManager, tracks: &Tracks, way: usize, at: f64) {
+    fn let_part(&mut self, lane: &Lane<'_>, way: usize, at: f64) {
+        let tracks = lane.scene.tracks;
         for (sibling, clear) in &tracks.siblings[way] {
-            if manager.holders[*sibling as usize] == 0 {
+            if !lane.scene.junctions.is_held(*sibling) {
                 continue;
             }
-            let sibling = *sibling as usize;
-            let length = tracks.length[tracks.lanes + sibling];
-            let lane = tracks.lane_after(sibling) as usize;
-            let on_way = manager.queues[tracks.lanes + sibling].iter().rev().map(|other| (other, other.s));
-            let behind = manager.queues[lane].iter().rev().filter(|other| other.holding as usize == sibling);
-            let all = on_way.chain(behind.map(|other| (other, other.s + length)));
-            for (other, front) in all {
-                let rear = front - other.length();
+            let track = tracks.lanes + *sibling as usize;
+            let on_way = lane.part.slabs.queue(tracks.layout.local(track as Track)).iter();
+            let on_way = on_way.map(|other| (other.s, other.s - other.length(), other.v));
+            // Of those behind the way only the last can still have its rear on it.
+            let tail = lane.scene.tail(tracks.lane_after(*sibling as usize));
+            let length = tracks.length[track];
+            let rear = tail.rear + length;
+            let behind = (tail.way == *sibling).then_some((rear + f64::from(tail.length), rear, tail.v));
+            for (front, rear, v) in on_way.chain(behind) {
                 if front > at && rear < *clear {
-                    self.follow(rear - at, other.v);
+                    self.follow(rear - at, v);
                 }
             }
         }
     }
 
     /// The lane behind a junction: its last vehicle, and its end, where one may have to stop.
-    fn after_way(&mut self, manager: &VehicleManager, tracks: &Tracks, way: usize, to_lane: f64) {
-        let lane = tracks.lane_after(way) as usize;
-        if let Some(leader) = manager.queues[lane].back() {
-            self.follow(to_lane + leader.s - leader.length(), leader.v);
+    fn after_way(&mut self, scene: &Scene<'_>, way: usize, to_lane: f64) {
+        let lane = scene.tracks.lane_after(way);
+        let last = scene.tail(lane);
+        if !last.is_none() {
+            self.follow(to_lane + last.rear, last.v);
         }
-        self.slow_to(0.0, to_lane + tracks.length[lane]);
+        self.slow_to(0.0, to_lane + scene.tracks.length[lane as usize]);
     }
 
     /// Stops before strips with people on them; `offset` is the distance to the beginning of the way, negative on it.

@@ -1,36 +1,41 @@
-//! The vehicle manager: where vehicles are, how they accelerate, and how they pass from track to track.
+//! The vehicle manager: all vehicles, in parts that threads work on, and what the parts share.
 //!
-//! Vehicles stand front to back in one queue a track, so that a leader is the entry before. A step computes all
-//! accelerations from the frozen state, then moves everybody; only occupied tracks are visited.
-
-use std::collections::VecDeque;
+//! A step has three phases, and all threads end one before any begins the next:
+//!
+//! 1. *Arrange*: those who change lanes move over, others begin to; each part shows the last vehicle of each of its lanes.
+//! 2. *Drive*: leave to cross is taken back and granted, accelerations are computed from the frozen state, everybody moves;
+//!    who passes into the next road is handed over.
+//! 3. *Settle*: those handed over join their lanes, junctions that were cleared become free, claims on crossings are counted.
+//!
+//! A part writes its own vehicles only. Of other parts it sees what they show, and the sums in [`Junctions`], which nobody reads
+//! in the phase in which others add to them. The result is the same on any number of threads.
 
 use serde::{Deserialize, Serialize};
 use simworld_core::hash::StateHasher;
-use simworld_core::net::Aspect;
+use simworld_core::id::IntersectionId;
+use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
 use super::deadlock::Waits;
 use super::entry::route_way;
-use super::idm::advance;
-use super::junction;
-use super::lane_change::Ghost;
-use super::lookahead;
+use super::junction::Junctions;
+use super::part::{Part, Tail, Transfer};
+use super::slabs::Slabs;
+use super::tally::Tally;
+use super::threads::each;
 use super::tracks::{Track, Tracks};
 use super::types::{TypeIndex, VehicleType, is_long};
-use crate::{Counters, Route, TrafficConfig, Trip, TripEnd};
+use crate::{Counters, Leg, Route, TrafficConfig, Trip};
 
-/// No connection.
+/// No connection, no track, no route.
 pub(crate) const NONE: u32 = u32::MAX;
 /// No connection: the vehicle leaves the network at the end of its lane.
 pub(crate) const EXIT: u32 = u32::MAX - 1;
 /// A vehicle slower than this stands, m/s.
 pub(crate) const STANDING: f64 = 0.1;
-/// Standing longer than this is counted, s.
-const LONG: f64 = 180.0;
 
 /// One vehicle, as far as a step needs it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Vehicle {
     /// Its front, m along its track.
     pub(crate) s: f64,
@@ -51,23 +56,15 @@ pub(crate) struct Vehicle {
     pub(crate) factor: f32,
     /// How far its body is to the left of its lane while it changes, m.
     pub(crate) shift: f64,
+    /// Its acceleration in the last step, m/s²: kept between decisions by those who decide less often.
+    pub(crate) acceleration: f32,
 }
 
 impl Vehicle {
     /// One at rest at a station, with no way on yet.
     pub(super) fn new(kind: &VehicleType, row: TypeIndex, factor: f32, id: u32, s: f64) -> Self {
-        Self {
-            s,
-            v: 0.0,
-            stood: 0.0,
-            id,
-            next: NONE,
-            holding: NONE,
-            row,
-            length: kind.length as f32,
-            factor,
-            shift: 0.0,
-        }
+        let length = kind.length as f32;
+        Self { s, id, next: NONE, holding: NONE, row, length, factor, ..Self::default() }
     }
 
     /// Length, m.
@@ -84,17 +81,16 @@ impl Vehicle {
 }
 
 /// What a vehicle was, apart from its motion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Path {
-    pub(crate) track: Track,
     /// The track it came from, where its rear may still be.
     pub(crate) before: Track,
-    /// Decisions made so far: the index of its next draw.
-    decisions: u64,
     /// Its route, or none if it turns at random.
     pub(super) route: u32,
     /// The leg of the route that it is on.
     pub(super) leg: u32,
+    /// Decisions made so far: the index of its next draw.
+    decisions: u32,
     pub(super) scheduled: f64,
     pub(super) entered: f64,
     /// Distance and free travel time of the tracks that it has left, m and s.
@@ -104,21 +100,12 @@ pub(crate) struct Path {
 
 impl Path {
     pub(super) fn new(track: Track, route: u32, scheduled: f64, entered: f64) -> Self {
-        Self {
-            track,
-            before: track,
-            decisions: 0,
-            route,
-            leg: 0,
-            scheduled,
-            entered,
-            driven: 0.0,
-            free_time: 0.0,
-        }
+        Self { before: track, route, scheduled, entered, ..Self::default() }
     }
 }
 
 /// What drivers see of people and signals.
+#[derive(Clone, Copy)]
 pub(crate) struct Sight<'a> {
     pub(crate) aspects: &'a [Aspect],
     /// How long each group has shown its aspect, s.
@@ -131,27 +118,84 @@ pub(crate) struct Sight<'a> {
     pub(crate) obstacles: &'a [(Track, f64)],
 }
 
+/// When a step is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moment {
+    /// Time at its beginning, s since the start.
+    pub(crate) now: f64,
+    /// Its duration, s.
+    pub(crate) dt: f64,
+    /// Steps before it.
+    pub(crate) step: u64,
+}
+
+impl Moment {
+    /// Whether those far from all interest decide now, the drivers of one lane after those of another.
+    #[inline]
+    pub(super) fn is_turn_of(&self, track: Track) -> bool {
+        /// Time between two decisions, s: half the time gap that drivers keep.
+        const INTERVAL: f64 = 0.5;
+        let steps = (INTERVAL / self.dt).round().max(1.0) as u64;
+        (self.step + u64::from(track)).is_multiple_of(steps)
+    }
+}
+
+/// What every part sees in a phase.
+#[derive(Clone, Copy)]
+pub(crate) struct Scene<'a> {
+    pub(crate) tracks: &'a Tracks,
+    pub(crate) config: &'a TrafficConfig,
+    pub(crate) sight: Sight<'a>,
+    pub(crate) streams: Stream,
+    pub(crate) at: Moment,
+    pub(crate) routes: &'a [Route],
+    pub(crate) junctions: &'a Junctions,
+    pub(crate) whereabouts: &'a Tally,
+    /// The last vehicle of each lane, by part and number in the part.
+    pub(crate) tails: &'a [Vec<Tail>],
+    /// Those in a lock who may enter their junction without room behind it, ascending.
+    pub(crate) passes: &'a [u32],
+    /// Who was handed over, by the part that they left and the part that they enter.
+    pub(crate) handed: &'a [Vec<Vec<Transfer>>],
+}
+
+impl Scene<'_> {
+    /// The last vehicle of a lane, anywhere.
+    #[inline]
+    pub(crate) fn tail(&self, lane: Track) -> &Tail {
+        let place = self.tracks.layout.place(lane);
+        &self.tails[place.part as usize][place.local as usize]
+    }
+
+    /// The way on from a lane: that of the route, or one drawn at random.
+    pub(crate) fn choose(
+        &self,
+        weights: &mut Vec<f64>,
+        vehicle: &Vehicle,
+        path: &mut Path,
+        lane: Track,
+    ) -> u32 {
+        let kind = self.config.vehicle_type(vehicle.row).kind;
+        if let Some(route) = self.routes.get(path.route as usize) {
+            return route_way(self.tracks, route, path, lane, kind);
+        }
+        path.decisions += 1;
+        let mut rng = self.streams.indexed(u64::from(vehicle.id)).indexed(u64::from(path.decisions)).rng();
+        let ways = self.tracks.weighted_ways(lane, kind, &self.config.turns, weights);
+        // If every way has weight zero, the first is as good as any.
+        let index = rng.weighted(weights).unwrap_or(0);
+        ways.get(index).map_or(NONE, |way| way.0)
+    }
+}
+
 /// All vehicles.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct VehicleManager {
-    /// Front to back, one queue a track.
-    pub(crate) queues: Vec<VecDeque<Vehicle>>,
-    /// Tracks with vehicles, ascending.
-    pub(crate) active: Vec<Track>,
-    pub(crate) paths: Vec<Path>,
-    /// Vehicles that hold each connection.
-    pub(crate) holders: Vec<u32>,
-    /// Those of them that are long.
-    pub(crate) long_holders: Vec<u32>,
-    /// Room on each lane that vehicles on their way to it will take, m.
-    pub(crate) inbound: Vec<f64>,
-    /// Vehicles that hold a way over each crossing and have not passed it.
-    pub(crate) claims: Vec<u32>,
+    pub(super) parts: Vec<Part>,
+    pub(super) junctions: Junctions,
+    /// The track of each vehicle by its number; [`NONE`] for numbers that nobody has.
+    pub(super) whereabouts: Tally,
     pub(super) routes: Vec<Route>,
-    /// Who is changing lanes, and where they still are.
-    pub(super) shifting: Vec<u32>,
-    pub(super) ghosts: Vec<Ghost>,
-    pub(super) changes: u64,
     /// Those in a lock who may enter their junction without room behind it, ascending.
     pub(super) passes: Vec<u32>,
     /// Numbers that nobody has any more.
@@ -163,277 +207,246 @@ pub(crate) struct VehicleManager {
     pub(crate) ended: Vec<Trip>,
     #[serde(skip)]
     pub(super) waits: Waits,
+    /// Lanes whose first has lost patience.
     #[serde(skip)]
-    accelerations: Vec<f64>,
+    pub(super) stuck: Vec<Track>,
     #[serde(skip)]
-    weights: Vec<f64>,
+    tails: Vec<Vec<Tail>>,
     #[serde(skip)]
-    pub(crate) requests: Vec<junction::Request>,
+    handed: Vec<Vec<Vec<Transfer>>>,
 }
 
 impl VehicleManager {
     pub(crate) fn new(tracks: &Tracks) -> Self {
+        let part = |layout: &super::layout::PartLayout| Slabs::new(layout.tracks.len());
+        let slabs = tracks.layout.parts.iter().map(part);
         Self {
-            queues: vec![VecDeque::new(); tracks.count()],
-            holders: vec![0; tracks.count() - tracks.lanes],
-            long_holders: vec![0; tracks.count() - tracks.lanes],
-            inbound: vec![0.0; tracks.lanes],
-            claims: vec![0; tracks.network.crossings.len()],
+            parts: slabs.enumerate().map(|(number, slabs)| Part::new(number, slabs)).collect(),
+            junctions: Junctions::new(tracks),
             ..Self::default()
         }
     }
 
-    /// The way on from a lane: that of the route, or one drawn at random.
+    /// The way on of a vehicle that comes to a lane between two steps.
     pub(super) fn choose(
-        &mut self,
-        tracks: &Tracks,
-        config: &TrafficConfig,
+        &self,
+        (tracks, config): (&Tracks, &TrafficConfig),
         streams: Stream,
+        weights: &mut Vec<f64>,
         vehicle: &Vehicle,
+        path: &mut Path,
         lane: Track,
     ) -> u32 {
-        let kind = config.vehicle_type(vehicle.row).kind;
-        let path = &mut self.paths[vehicle.id as usize];
-        if let Some(route) = self.routes.get(path.route as usize) {
-            return route_way(tracks, route, path, lane, kind);
+        let nothing = Sight { aspects: &[], shown: &[], walkers: &[], waiting: &[], obstacles: &[] };
+        let at = Moment { now: 0.0, dt: 0.0, step: 0 };
+        self.scene(tracks, config, nothing, streams, at).choose(weights, vehicle, path, lane)
+    }
+
+    fn scene<'a>(
+        &'a self,
+        tracks: &'a Tracks,
+        config: &'a TrafficConfig,
+        sight: Sight<'a>,
+        streams: Stream,
+        at: Moment,
+    ) -> Scene<'a> {
+        Scene {
+            tracks,
+            config,
+            sight,
+            streams,
+            at,
+            routes: &self.routes,
+            junctions: &self.junctions,
+            whereabouts: &self.whereabouts,
+            tails: &self.tails,
+            passes: &self.passes,
+            handed: &self.handed,
         }
-        path.decisions += 1;
-        let mut rng = streams.indexed(u64::from(vehicle.id)).indexed(path.decisions).rng();
-        let ways = tracks.ways(lane, kind, &config.turns, &mut self.weights);
-        // If every way has weight zero, the first is as good as any.
-        let index = rng.weighted(&self.weights).unwrap_or(0);
-        ways.get(index).map_or(NONE, |way| way.0)
+    }
+
+    /// The vehicles of a track, front to back.
+    pub(crate) fn queue(&self, tracks: &Tracks, track: Track) -> &[Vehicle] {
+        let place = tracks.layout.place(track);
+        self.parts[place.part as usize].slabs.queue(place.local as usize)
+    }
+
+    /// The vehicles of a track and what they were, to change them.
+    pub(super) fn both_mut(&mut self, tracks: &Tracks, track: Track) -> (&mut [Vehicle], &mut [Path]) {
+        let place = tracks.layout.place(track);
+        self.parts[place.part as usize].slabs.both_mut(place.local as usize)
+    }
+
+    /// What the vehicles of a track were, front to back.
+    pub(super) fn paths(&self, tracks: &Tracks, track: Track) -> &[Path] {
+        let place = tracks.layout.place(track);
+        self.parts[place.part as usize].slabs.paths(place.local as usize)
+    }
+
+    /// A vehicle by its number, with its track.
+    pub(crate) fn find<'a>(&'a self, tracks: &Tracks, id: u32) -> Option<(Track, &'a Vehicle, &'a Path)> {
+        let known = (id as usize) < self.numbers();
+        let track = known.then(|| self.whereabouts.get(id as usize)).filter(|track| *track != NONE)?;
+        let place = tracks.layout.place(track);
+        let slabs = &self.parts[place.part as usize].slabs;
+        let rank = slabs.queue(place.local as usize).iter().position(|vehicle| vehicle.id == id)?;
+        Some((track, &slabs.queue(place.local as usize)[rank], &slabs.paths(place.local as usize)[rank]))
+    }
+
+    pub(super) fn push(&mut self, tracks: &Tracks, track: Track, vehicle: Vehicle, path: Path) {
+        let place = tracks.layout.place(track);
+        self.parts[place.part as usize].slabs.push(place.local as usize, vehicle, path);
+    }
+
+    /// Marks the lanes to intersections that are far from all interest; none are if nobody says what is of interest.
+    pub(crate) fn set_far(&mut self, tracks: &Tracks, is_far: impl Fn(IntersectionId) -> bool) {
+        for (part, layout) in self.parts.iter_mut().zip(&tracks.layout.parts) {
+            part.set_far(layout.lanes, |local| {
+                is_far(tracks.network.lanes[layout.tracks[local] as usize].to)
+            });
+        }
+    }
+
+    /// How many numbers vehicles have.
+    pub(crate) fn numbers(&self) -> usize {
+        self.whereabouts.len()
+    }
+
+    /// Vehicles about to pass each crossing.
+    pub(crate) fn claims(&self) -> &Tally {
+        &self.junctions.claims
     }
 
     /// One step of all vehicles.
+    #[expect(clippy::too_many_arguments, reason = "a step sees all of the traffic")]
     pub(crate) fn step(
         &mut self,
         tracks: &Tracks,
         config: &TrafficConfig,
         streams: Stream,
-        sight: &Sight<'_>,
-        (now, dt): (f64, f64),
+        sight: Sight<'_>,
+        at: Moment,
         counters: &mut Counters,
+        workers: &dyn Workers,
     ) {
-        self.shift(tracks, dt);
-        self.change_lanes(tracks, config, (now / dt) as u64);
+        self.unlock(tracks, config, (at.now, at.dt), counters);
+        self.tails.resize_with(self.parts.len(), Vec::new);
+        self.handed.resize_with(self.parts.len(), Vec::new);
+        let mut parts = std::mem::take(&mut self.parts);
+        let scene = self.scene(tracks, config, sight, streams, at);
+        each(workers, &mut parts, |_, part| part.arrange(&scene));
+        for (part, tails) in parts.iter_mut().zip(&mut self.tails) {
+            std::mem::swap(&mut part.work.tails, tails);
+        }
+        let scene = self.scene(tracks, config, sight, streams, at);
+        each(workers, &mut parts, |_, part| part.drive(&scene));
+        for ((part, tails), handed) in parts.iter_mut().zip(&mut self.tails).zip(&mut self.handed) {
+            std::mem::swap(&mut part.work.tails, tails);
+            std::mem::swap(&mut part.work.handed, handed);
+        }
+        self.junctions.claims.clear();
+        let scene = self.scene(tracks, config, sight, streams, at);
+        each(workers, &mut parts, |_, part| part.settle(&scene));
+        for (part, handed) in parts.iter_mut().zip(&mut self.handed) {
+            std::mem::swap(&mut part.work.handed, handed);
+        }
+        self.parts = parts;
+        self.sum_up(tracks, counters);
+    }
+
+    /// Takes together what the parts counted, whose trips ended, and who lost patience.
+    fn sum_up(&mut self, tracks: &Tracks, counters: &mut Counters) {
+        let begin = self.ended.len();
+        let mut parts = std::mem::take(&mut self.parts);
+        for part in &mut parts {
+            counters.absorb(&std::mem::take(&mut part.work.counters));
+            self.ended.append(&mut part.work.ended);
+            self.stuck.append(&mut part.work.stuck);
+            let passes = &mut self.passes;
+            part.work.used_passes.drain(..).for_each(|id| passes.retain(|pass| *pass != id));
+        }
+        self.parts = parts;
         self.lose_patience(tracks, counters);
-        counters.lane_changes = self.changes;
-        self.unlock(tracks, config, (now, dt), counters);
-        junction::revoke(self, tracks, config, sight, counters);
-        junction::grant(self, tracks, config, sight, counters);
-        self.accelerate(tracks, config, sight);
-        self.integrate(tracks, dt, counters);
-        self.pass_on(tracks, config, streams, now + dt, counters);
-        self.count_claims(tracks);
-    }
-
-    fn accelerate(&mut self, tracks: &Tracks, config: &TrafficConfig, sight: &Sight<'_>) {
-        self.accelerations.clear();
-        let mut accelerations = std::mem::take(&mut self.accelerations);
-        for track in &self.active {
-            let queue = &self.queues[*track as usize];
-            let mut leader: Option<&Vehicle> = None;
-            for vehicle in queue {
-                accelerations
-                    .push(lookahead::acceleration(self, tracks, config, sight, *track, vehicle, leader));
-                leader = Some(vehicle);
-            }
-        }
-        self.accelerations = accelerations;
-    }
-
-    fn integrate(&mut self, tracks: &Tracks, dt: f64, counters: &mut Counters) {
-        let mut next = 0;
-        for track in &self.active {
-            let is_lane = (*track as usize) < tracks.lanes;
-            let end = tracks.length[*track as usize];
-            for vehicle in &mut self.queues[*track as usize] {
-                let (v, way) = advance(vehicle.v, self.accelerations[next], dt);
-                next += 1;
-                counters.updates += 1;
-                vehicle.s += way;
-                vehicle.v = v;
-                if is_lane && vehicle.holding == NONE && vehicle.next != EXIT && vehicle.s >= end {
-                    // A stop line is never passed without leave, whatever the brakes would say.
-                    vehicle.s = end - 1e-6;
-                    vehicle.v = 0.0;
-                    counters.forced_stops += 1;
-                }
-                let before = vehicle.stood;
-                vehicle.stood = if vehicle.v < STANDING { before + dt } else { 0.0 };
-                if before < LONG && vehicle.stood >= LONG {
-                    counters.long_waits += 1;
-                }
-            }
-        }
-    }
-
-    /// Moves vehicles whose front left their track to the next, and frees what their rear has cleared.
-    fn pass_on(
-        &mut self,
-        tracks: &Tracks,
-        config: &TrafficConfig,
-        streams: Stream,
-        now: f64,
-        counters: &mut Counters,
-    ) {
-        let occupied = self.active.len();
-        for index in 0..occupied {
-            let track = self.active[index];
-            while let Some(front) = self.queues[track as usize].front().copied() {
-                if front.s < tracks.length[track as usize] {
-                    break;
-                }
-                self.queues[track as usize].pop_front();
-                if front.next == EXIT && tracks.connection(track).is_none() {
-                    self.leave(tracks, config, track, &front, TripEnd::Arrived, now);
-                    counters.arrived += 1;
-                } else {
-                    self.move_on(tracks, config, streams, track, front);
-                }
-            }
-            if (track as usize) < tracks.lanes {
-                self.release_cleared(track);
-            }
-        }
-        self.active.sort_unstable();
-        self.active.dedup();
-        let queues = &self.queues;
-        self.active.retain(|track| !queues[*track as usize].is_empty());
-    }
-
-    fn move_on(
-        &mut self,
-        tracks: &Tracks,
-        config: &TrafficConfig,
-        streams: Stream,
-        from: Track,
-        mut vehicle: Vehicle,
-    ) {
-        vehicle.s -= tracks.length[from as usize];
-        let path = &mut self.paths[vehicle.id as usize];
-        path.driven += tracks.length[from as usize];
-        let row = config.vehicle_type(vehicle.row);
-        path.free_time += tracks.length[from as usize]
-            / row.free_speed(config, vehicle.factor, tracks.speed[from as usize]);
-        let to = match tracks.connection(from) {
-            Some(connection) => {
-                let lane = tracks.lane_after(connection);
-                self.inbound[lane as usize] -= room_for(&vehicle, config);
-                path.leg += 1;
-                vehicle.next = self.choose(tracks, config, streams, &vehicle, lane);
-                lane
-            }
-            None => tracks.lanes as Track + vehicle.next,
-        };
-        let path = &mut self.paths[vehicle.id as usize];
-        path.before = from;
-        path.track = to;
-        if vehicle.s >= tracks.length[to as usize] && tracks.connection(to).is_some() {
-            // A step longer than the whole way across: on to the lane behind it.
-            self.move_on(tracks, config, streams, to, vehicle);
-            return;
-        }
-        self.queues[to as usize].push_back(vehicle);
-        self.active.push(to);
-    }
-
-    /// Vehicles at the beginning of a lane whose rear has left the junction give it free.
-    fn release_cleared(&mut self, lane: Track) {
-        for vehicle in self.queues[lane as usize].iter_mut().rev() {
-            if vehicle.s > 60.0 {
-                break;
-            }
-            let still_before = vehicle.holding == NONE || vehicle.holding == vehicle.next;
-            if !still_before && vehicle.s - vehicle.length() > 0.3 {
-                self.holders[vehicle.holding as usize] -= 1;
-                self.long_holders[vehicle.holding as usize] -= u32::from(vehicle.is_long());
-                vehicle.holding = NONE;
-            }
-        }
-    }
-
-    fn count_claims(&mut self, tracks: &Tracks) {
-        self.claims.fill(0);
-        for track in &self.active {
-            for vehicle in &self.queues[*track as usize] {
-                if vehicle.holding == NONE {
-                    continue;
-                }
-                let way = vehicle.holding as usize;
-                let rear = position_on_way(tracks, *track, vehicle, way) - vehicle.length();
-                for strip in &tracks.strips[way] {
-                    if rear < strip.end {
-                        self.claims[strip.crossing as usize] += 1;
-                    }
-                }
-            }
+        // By number: parts are no matter of those who watch.
+        self.ended[begin..].sort_by_key(|trip| trip.id);
+        for trip in &self.ended[begin..] {
+            self.free.push(trip.id);
         }
     }
 
     /// Every vehicle with its track, track by track, front to back.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (Track, &Vehicle)> {
-        self.active
-            .iter()
-            .flat_map(|track| self.queues[*track as usize].iter().map(move |vehicle| (*track, vehicle)))
+    pub(crate) fn iter<'a>(
+        &'a self,
+        tracks: &'a Tracks,
+    ) -> impl Iterator<Item = (Track, &'a Vehicle, &'a Path)> {
+        self.parts.iter().zip(&tracks.layout.parts).flat_map(|(part, layout)| {
+            part.slabs.occupied().flat_map(move |local| {
+                let pairs = part.slabs.queue(local).iter().zip(part.slabs.paths(local));
+                pairs.map(move |(vehicle, path)| (layout.tracks[local], vehicle, path))
+            })
+        })
+    }
+
+    /// The lanes that have vehicles, and these.
+    pub(crate) fn queues<'a>(&'a self, tracks: &'a Tracks) -> impl Iterator<Item = (Track, &'a [Vehicle])> {
+        self.parts.iter().zip(&tracks.layout.parts).flat_map(|(part, layout)| {
+            let lanes = part.slabs.occupied().take_while(|local| *local < layout.lanes);
+            lanes.map(move |local| (layout.tracks[local], part.slabs.queue(local)))
+        })
+    }
+
+    /// The leg to which a vehicle wants to go from its lane.
+    pub(super) fn next_leg(tracks: &Tracks, routes: &[Route], vehicle: &Vehicle, path: &Path) -> Option<Leg> {
+        if let Some(route) = routes.get(path.route as usize) {
+            return route.0.get(path.leg as usize + 1).copied();
+        }
+        let way = tracks.network.connections.get(vehicle.next as usize)?;
+        Some(Leg::of(&tracks.network, way.to))
+    }
+
+    /// Bytes that the vehicles take, hot and cold, with all that is kept for a step.
+    pub(crate) fn bytes(&self) -> usize {
+        let parts: usize = self.parts.iter().map(Part::bytes).sum();
+        let tails: usize = self.tails.iter().map(|tails| tails.capacity() * size_of::<Tail>()).sum();
+        parts + tails + self.whereabouts.len() * 4 + self.junctions.bytes()
     }
 
     /// Whether a saved state is one of this network.
     pub(crate) fn fits(&self, tracks: &Tracks, types: usize) -> bool {
-        let ways = tracks.count() - tracks.lanes;
+        let ways = tracks.ways.len();
         let is_way = |way: u32| way >= EXIT || (way as usize) < ways;
         let is_route = |route: u32| route == NONE || (route as usize) < self.routes.len();
-        let count = self.paths.len();
-        self.queues.len() == tracks.count()
-            && self.holders.len() == ways
-            && self.long_holders.len() == ways
-            && self.inbound.len() == tracks.lanes
-            && self.claims.len() == tracks.network.crossings.len()
-            && self.active.iter().all(|track| (*track as usize) < tracks.count())
-            && self
-                .paths
-                .iter()
-                .all(|p| (p.track.max(p.before) as usize) < tracks.count() && is_route(p.route))
+        let count = self.numbers();
+        let is_part = |(part, layout): (&Part, &super::layout::PartLayout)| part.fits(layout);
+        self.parts.len() == tracks.layout.parts.len()
+            && self.parts.iter().zip(&tracks.layout.parts).all(is_part)
+            && self.junctions.fits(tracks)
+            && self.whereabouts.iter().all(|track| track == NONE || (track as usize) < tracks.count())
             && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
-            && self.shifting.iter().all(|id| (*id as usize) < count)
-            && self.free.iter().all(|id| (*id as usize) < count)
             && self.passes.is_sorted()
-            && self.queues.iter().flatten().all(|v| {
+            && self.free.iter().all(|id| (*id as usize) < count)
+            && self.iter(tracks).all(|(track, v, path)| {
                 (v.id as usize) < count
                     && usize::from(v.row) < types
                     && v.length > 0.0
                     && v.factor > 0.0
+                    && self.whereabouts.get(v.id as usize) == track
                     && is_way(v.next)
                     && is_way(v.holding)
                     && v.s.is_finite()
                     && v.shift.is_finite()
                     && v.v.is_finite()
+                    && v.acceleration.is_finite()
+                    && (path.before as usize) < tracks.count()
+                    && is_route(path.route)
             })
     }
 
-    pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
-        for track in &self.active {
-            hasher.u64(u64::from(*track));
-            for vehicle in &self.queues[*track as usize] {
-                hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
-                hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(vehicle.shift);
-            }
+    pub(crate) fn state_hash(&self, tracks: &Tracks, hasher: &mut StateHasher) {
+        for (track, vehicle, _) in self.iter(tracks) {
+            hasher.u64(u64::from(track));
+            hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
+            hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(vehicle.shift);
         }
     }
-}
-
-/// The front of a vehicle in metres along the way that it holds: negative before it, beyond its length behind it.
-pub(crate) fn position_on_way(tracks: &Tracks, track: Track, vehicle: &Vehicle, way: usize) -> f64 {
-    match tracks.connection(track) {
-        Some(_) => vehicle.s,
-        None if vehicle.next as usize == way => vehicle.s - tracks.length[track as usize],
-        None => vehicle.s + tracks.length[tracks.lanes + way],
-    }
-}
-
-/// Room on a lane that a vehicle takes when it stands, m.
-pub(crate) fn room_for(vehicle: &Vehicle, config: &TrafficConfig) -> f64 {
-    // In parts of a power of two: what comes and goes adds up to nothing again, to the bit.
-    ((vehicle.length() + config.vehicle_type(vehicle.row).driver.gap) * 1024.0).ceil() / 1024.0
 }

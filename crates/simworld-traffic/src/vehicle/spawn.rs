@@ -71,14 +71,15 @@ impl VehicleManager {
         }
         // Front to back on each lane, so that pushing to the back keeps the order.
         taken.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        let mut weights = Vec::new();
         for (index, (track, s, row, factor)) in taken.iter().enumerate() {
-            self.paths.push(Path::new(*track, NONE, 0.0, 0.0));
+            let mut path = Path::new(*track, NONE, 0.0, 0.0);
             let mut vehicle = Vehicle::new(config.vehicle_type(*row), *row, *factor, index as u32, *s);
-            vehicle.next = self.choose(tracks, config, streams, &vehicle, *track);
-            self.queues[*track as usize].push_back(vehicle);
-            self.active.push(*track);
+            let mind = (tracks, config);
+            vehicle.next = self.choose(mind, streams, &mut weights, &vehicle, &mut path, *track);
+            self.whereabouts.push(*track);
+            self.push(tracks, *track, vehicle, path);
         }
-        self.active.dedup();
         taken.len() as u32
     }
 }

@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
-use simworld_core::net::{Connection, RoadNetwork, Turn, polyline};
+use simworld_core::net::{Connection, Lane, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
+use super::layout::Layout;
+use super::manager::NONE;
+use super::ragged::Ragged;
 use super::{VehicleKind, lanes};
 use crate::{Leg, Router, TrafficConfig};
 
@@ -23,6 +26,17 @@ pub(crate) struct Strip {
     pub(crate) end: f64,
 }
 
+/// What a step asks of a way across an intersection, apart from its lists.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way {
+    pub(crate) from: Track,
+    pub(crate) to: Track,
+    /// The number of its signal group, or [`NONE`].
+    pub(crate) signal: u32,
+    /// Whether it turns across oncoming traffic.
+    pub(crate) crosses_oncoming: bool,
+}
+
 /// The network as drivers see it.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracks {
@@ -32,17 +46,26 @@ pub(crate) struct Tracks {
     pub(crate) length: Vec<f64>,
     /// Speed allowed on each track by law and curvature, m/s.
     pub(crate) speed: Vec<f64>,
+    /// The ways across, by connection.
+    pub(crate) ways: Vec<Way>,
+    /// The connections whose vehicles could touch one on this connection, and those of them to which it gives way.
+    pub(crate) conflicts: Ragged<u32>,
+    pub(crate) yields_to: Ragged<u32>,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
-    pub(crate) siblings: Vec<Vec<(u32, f64)>>,
+    pub(crate) siblings: Ragged<(u32, f64)>,
     /// Ways so near to each connection that a long vehicle on either sweeps over the other in the turn.
-    pub(crate) tight: Vec<Vec<u32>>,
+    pub(crate) tight: Ragged<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
     /// Whether each lane is the last of its leg before the kerb or the cycle lane.
     pub(crate) outermost: Vec<bool>,
+    /// The ways from the end of each lane, with the leg to which each leads.
+    exits: Ragged<(u32, Leg)>,
     pub(crate) router: Router,
     /// The crossings on each connection, in the order in which it meets them.
-    pub(crate) strips: Vec<Vec<Strip>>,
+    pub(crate) strips: Ragged<Strip>,
+    /// Which part of the network each track belongs to.
+    pub(crate) layout: Layout,
 }
 
 impl Tracks {
@@ -56,22 +79,23 @@ impl Tracks {
             limit.min(curve_speed(connection, config.lateral_acceleration))
         });
         let speed = lane_speeds.chain(way_speeds).collect();
-        let strips = (0..network.connections.len()).map(|index| strips(&network, index)).collect();
-        let siblings = (0..network.connections.len()).map(|index| siblings(&network, index)).collect();
-        let tight = (0..network.connections.len()).map(|index| tight(&network, index)).collect();
-        let beside = lanes::beside(&network);
-        let outermost = lanes::outermost(&network);
-        let router = Router::new(&network);
+        let connections = 0..network.connections.len();
+        let ids = |list: &[ConnectionId]| list.iter().map(|id| id.0).collect::<Vec<_>>();
         Self {
             lanes: network.lanes.len(),
             length,
             speed,
-            siblings,
-            tight,
-            beside,
-            outermost,
-            router,
-            strips,
+            ways: network.connections.iter().map(|connection| way(&network, connection)).collect(),
+            conflicts: network.connections.iter().map(|connection| ids(&connection.conflicts)).collect(),
+            yields_to: network.connections.iter().map(|connection| ids(&connection.yields_to)).collect(),
+            siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
+            tight: connections.clone().map(|index| tight(&network, index)).collect(),
+            strips: connections.map(|index| strips(&network, index)).collect(),
+            beside: lanes::beside(&network),
+            outermost: lanes::outermost(&network),
+            exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
+            router: Router::new(&network),
+            layout: Layout::new(&network),
             network,
         }
     }
@@ -89,7 +113,7 @@ impl Tracks {
     /// The lane to which a connection leads.
     #[inline]
     pub(crate) fn lane_after(&self, connection: usize) -> Track {
-        self.network.connections[connection].to.0
+        self.ways[connection].to
     }
 
     /// Distance between the middles of two lanes side by side, m.
@@ -99,11 +123,9 @@ impl Tracks {
 
     /// The way from a lane to a leg, if one leads there; best to a lane on which the kind may drive.
     pub(crate) fn way_to(&self, lane: Track, leg: Leg, kind: VehicleKind) -> Option<u32> {
-        let ways = &self.network.lanes[lane as usize].outgoing;
-        let to = |way: &ConnectionId| self.network.connections[way.index()].to;
-        let mut found = ways.iter().filter(|way| Leg::of(&self.network, to(way)) == leg);
-        let first = found.clone().next()?;
-        Some(found.find(|way| self.may_use(to(way).0, kind)).unwrap_or(first).0)
+        let ways = self.exits[lane as usize].iter().filter(|exit| exit.1 == leg).map(|exit| exit.0);
+        let first = ways.clone().next()?;
+        Some(ways.clone().find(|way| self.may_use(self.ways[*way as usize].to, kind)).unwrap_or(first))
     }
 
     pub(crate) fn path(&self, track: Track) -> &[Point2] {
@@ -114,7 +136,7 @@ impl Tracks {
     }
 
     /// The ways on from a lane, with their weights by turn, into `weights`.
-    pub(crate) fn ways(
+    pub(crate) fn weighted_ways(
         &self,
         lane: Track,
         kind: VehicleKind,
@@ -138,6 +160,20 @@ impl Tracks {
             Turn::Left => turns[2],
             Turn::UTurn => 1.0,
         }
+    }
+}
+
+fn exits(network: &RoadNetwork, lane: &Lane) -> Vec<(u32, Leg)> {
+    let leg = |way: &ConnectionId| Leg::of(network, network.connections[way.index()].to);
+    lane.outgoing.iter().map(|way| (way.0, leg(way))).collect()
+}
+
+fn way(network: &RoadNetwork, connection: &Connection) -> Way {
+    Way {
+        from: connection.from.0,
+        to: connection.to.0,
+        signal: connection.signal.map_or(NONE, |group| group.index() as u32),
+        crosses_oncoming: connection.turn == network.driving_side.turn_across(),
     }
 }
 

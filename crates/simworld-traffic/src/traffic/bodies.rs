@@ -1,0 +1,92 @@
+//! Vehicles as others see them: bodies in the plane.
+
+use simworld_core::geometry::{
+    Point2, Point3, Pose, Twist, Vector2, Vector3, direction, heading, pose_facing,
+};
+use simworld_core::net::polyline;
+use simworld_core::scene::Shape;
+
+use super::Traffic;
+use crate::vehicle::{Path, Vehicle, VehicleKind};
+
+/// Where a body is held to its lane, as shares of its length from the front.
+const FRONT_AXLE: f64 = 0.1;
+const REAR_AXLE: f64 = 0.95;
+
+/// A vehicle as others see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Its number, from zero.
+    pub id: u32,
+    /// Its kind.
+    pub kind: VehicleKind,
+    /// Its type: a row of [`TrafficConfig::types`](crate::TrafficConfig::types).
+    pub vehicle_type: usize,
+    /// Its solid.
+    pub shape: Shape,
+    /// World from body: the origin is the middle of its bottom.
+    pub pose: Pose,
+    /// Velocity.
+    pub twist: Twist,
+}
+
+impl Traffic {
+    /// The vehicles, track by track, front to back on each; the tracks of one intersection after those of another.
+    pub fn vehicles(&self) -> impl Iterator<Item = Body> {
+        let vehicles = self.state.vehicles.iter(&self.tracks);
+        vehicles.map(|(track, vehicle, path)| self.body(track, vehicle, path))
+    }
+
+    /// A vehicle by its number; `None` if nobody has it.
+    pub fn vehicle(&self, id: u32) -> Option<Body> {
+        let (track, vehicle, path) = self.state.vehicles.find(&self.tracks, id)?;
+        Some(self.body(track, vehicle, path))
+    }
+
+    /// Where each vehicle is: its number, the lane or connection it is on, its front on it, m, and its speed, m/s. Lanes are
+    /// numbered as in the network, connections after them.
+    pub fn stations(&self) -> impl Iterator<Item = (u32, u32, f64, f64)> {
+        let vehicles = self.state.vehicles.iter(&self.tracks);
+        vehicles.map(|(track, vehicle, _)| (vehicle.id, track, vehicle.s, vehicle.v))
+    }
+
+    fn body(&self, track: u32, vehicle: &Vehicle, path: &Path) -> Body {
+        let length = vehicle.length();
+        let row = self.driving.vehicle_type(vehicle.row);
+        // The rear may still be on the track before. Steered front wheels and a rear that hardly swings out.
+        let front = self.point(track, path.before, vehicle.s - FRONT_AXLE * length);
+        let rear = self.point(track, path.before, vehicle.s - REAR_AXLE * length);
+        let yaw = heading(&(front - rear));
+        let ahead = direction(yaw);
+        let left = Vector2::new(-ahead.y, ahead.x);
+        let middle =
+            rear + (front - rear) * ((REAR_AXLE - 0.5) / (REAR_AXLE - FRONT_AXLE)) + left * vehicle.shift;
+        let ahead = ahead * vehicle.v;
+        Body {
+            id: vehicle.id,
+            kind: row.kind,
+            vehicle_type: usize::from(vehicle.row),
+            shape: row.shape(),
+            pose: pose_facing(Point3::new(middle.x, middle.y, 0.0), yaw),
+            twist: Twist { linear: Vector3::new(ahead.x, ahead.y, 0.0), angular: Vector3::zeros() },
+        }
+    }
+
+    fn point(&self, track: u32, before: u32, station: f64) -> Point2 {
+        let path = self.tracks.path(track);
+        if station >= 0.0 {
+            return polyline::at(path, station).0;
+        }
+        if before == track {
+            // At the start a vehicle has come from nowhere: its lane is continued backwards.
+            let (start, yaw) = polyline::at(path, 0.0);
+            return start + direction(yaw) * station;
+        }
+        let length = self.tracks.length[before as usize];
+        if station + length >= 0.0 {
+            return polyline::at(self.tracks.path(before), station + length).0;
+        }
+        let (start, yaw) = polyline::at(self.tracks.path(before), 0.0);
+        start + direction(yaw) * (station + length)
+    }
+}

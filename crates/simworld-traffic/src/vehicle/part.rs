@@ -1,0 +1,362 @@
+//! One part of the network: its vehicles, and how they move along its tracks and out of it.
+
+use serde::{Deserialize, Serialize};
+
+use super::entry::trip;
+use super::idm::advance;
+use super::junction::Request;
+use super::lane_change::Ghost;
+use super::layout::PartLayout;
+use super::lookahead::{self, Lane};
+use super::manager::{EXIT, NONE, Path, STANDING, Scene, Vehicle};
+use super::slabs::Slabs;
+use super::tracks::{Track, Tracks};
+use crate::{Counters, Trip, TripEnd};
+
+/// Standing longer than this is counted, s.
+const LONG: f64 = 180.0;
+/// A rear so far into its lane has cleared the junction behind it, m.
+const CLEARED: f64 = 0.3;
+/// No vehicle is so long, m.
+const LONGEST: f64 = 60.0;
+
+/// The last vehicle of a lane, as the drivers behind the junction see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tail {
+    /// Its rear, m; infinite if the lane is empty.
+    pub(crate) rear: f64,
+    pub(crate) v: f64,
+    /// Its length, m.
+    pub(crate) length: f32,
+    /// The connection it came by, if its rear has not cleared it.
+    pub(crate) way: u32,
+}
+
+impl Tail {
+    pub(super) fn of(last: &Vehicle) -> Self {
+        let way = if last.holding == last.next { NONE } else { last.holding };
+        Self { rear: last.s - last.length(), v: last.v, length: last.length, way }
+    }
+
+    /// Whether the lane is empty.
+    #[inline]
+    pub(super) fn is_none(&self) -> bool {
+        self.rear == f64::INFINITY
+    }
+}
+
+impl Default for Tail {
+    fn default() -> Self {
+        Self { rear: f64::INFINITY, v: 0.0, length: 0.0, way: NONE }
+    }
+}
+
+/// A vehicle that passes to another lane by a junction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Transfer {
+    pub(crate) lane: Track,
+    pub(crate) vehicle: Vehicle,
+    pub(crate) path: Path,
+}
+
+/// What is kept from step to step only to spare the heap, and what a step gives out.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Work {
+    pub(super) ghosts: Vec<Ghost>,
+    pub(super) accelerations: Vec<f64>,
+    pub(super) weights: Vec<f64>,
+    pub(super) requests: Vec<Request>,
+    /// Tracks whose front left them in this step.
+    passed: Vec<u32>,
+    /// The last vehicle of each lane, and the lanes that were shown to have one.
+    pub(super) tails: Vec<Tail>,
+    shown: Vec<u32>,
+    /// Who leaves for the lanes of each part.
+    pub(super) handed: Vec<Vec<Transfer>>,
+    pub(super) ended: Vec<Trip>,
+    /// Ways that are to be cleared in the third phase, by whom.
+    cleared: Vec<(u32, bool)>,
+    pub(super) counters: Counters,
+    /// Lanes whose first has lost patience.
+    pub(super) stuck: Vec<Track>,
+    /// Who entered by a pass.
+    pub(super) used_passes: Vec<u32>,
+}
+
+/// One part of the network, worked on by one thread at a time.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Part {
+    number: u32,
+    pub(crate) slabs: Slabs,
+    /// Who is changing lanes: the number of the lane in the part, and of the vehicle.
+    pub(super) shifting: Vec<(u32, u32)>,
+    /// Lanes far from all interest, a bit each; nothing if none is.
+    #[serde(skip)]
+    far: Vec<u64>,
+    #[serde(skip)]
+    pub(super) work: Work,
+}
+
+impl Part {
+    pub(super) fn new(number: usize, slabs: Slabs) -> Self {
+        Self { number: number as u32, slabs, ..Self::default() }
+    }
+
+    /// Its tracks.
+    #[inline]
+    pub(super) fn layout<'a>(&self, tracks: &'a Tracks) -> &'a PartLayout {
+        &tracks.layout.parts[self.number as usize]
+    }
+
+    /// Marks lanes as far from all interest.
+    pub(super) fn set_far(&mut self, lanes: usize, is_far: impl Fn(usize) -> bool) {
+        self.far.clear();
+        for lane in (0..lanes).filter(|lane| is_far(*lane)) {
+            self.far.resize(lanes.div_ceil(64), 0);
+            self.far[lane / 64] |= 1 << (lane % 64);
+        }
+    }
+
+    /// Whether the drivers of a track do without decisions in this step, for what may wait.
+    #[inline]
+    pub(super) fn rests(&self, scene: &Scene<'_>, local: usize, track: Track) -> bool {
+        let is_far = self.far.get(local / 64).is_some_and(|word| word >> (local % 64) & 1 == 1);
+        is_far && !scene.at.is_turn_of(track)
+    }
+
+    /// The first phase: lane changes.
+    pub(super) fn arrange(&mut self, scene: &Scene<'_>) {
+        self.shift(scene);
+        self.change_lanes(scene);
+        self.show_tails(self.layout(scene.tracks).lanes);
+    }
+
+    fn show_tails(&mut self, lanes: usize) {
+        let Work { tails, shown, .. } = &mut self.work;
+        if tails.len() != lanes {
+            *tails = vec![Tail::default(); lanes];
+        }
+        shown.drain(..).for_each(|lane| tails[lane as usize] = Tail::default());
+        for lane in self.slabs.occupied().take_while(|lane| *lane < lanes) {
+            let Some(last) = self.slabs.queue(lane).last() else { continue };
+            tails[lane] = Tail::of(last);
+            shown.push(lane as u32);
+        }
+    }
+
+    /// The second phase: leave to cross, accelerations, motion.
+    pub(super) fn drive(&mut self, scene: &Scene<'_>) {
+        self.work.handed.resize_with(scene.tails.len(), Vec::new);
+        self.work.handed.iter_mut().for_each(Vec::clear);
+        self.rule(scene);
+        self.accelerate(scene);
+        self.integrate(scene);
+        self.pass_on(scene);
+    }
+
+    fn accelerate(&mut self, scene: &Scene<'_>) {
+        let mut accelerations = std::mem::take(&mut self.work.accelerations);
+        accelerations.clear();
+        let layout = self.layout(scene.tracks);
+        let mut ghosts = &self.work.ghosts[..];
+        for local in self.slabs.occupied() {
+            let from = ghosts.iter().position(|ghost| ghost.lane as usize >= local).unwrap_or(ghosts.len());
+            let until = from + ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == local).count();
+            let track = layout.tracks[local];
+            let lane = Lane::new(self, scene, track, &ghosts[from..until]);
+            ghosts = &ghosts[until..];
+            let rests = from == until && self.rests(scene, local, track);
+            lookahead::accelerations(&lane, self.slabs.queue(local), rests, &mut accelerations);
+        }
+        self.work.accelerations = accelerations;
+    }
+
+    fn integrate(&mut self, scene: &Scene<'_>) {
+        let dt = scene.at.dt;
+        let layout = self.layout(scene.tracks);
+        let Work { accelerations, passed, counters, .. } = &mut self.work;
+        passed.clear();
+        let mut accelerations = &accelerations[..];
+        let mut from = 0;
+        while let Some(local) = self.slabs.occupied_from(from) {
+            from = local + 1;
+            let end = scene.tracks.length[layout.tracks[local] as usize];
+            let queue = self.slabs.queue_mut(local);
+            let (own, rest) = accelerations.split_at(queue.len());
+            accelerations = rest;
+            counters.updates += queue.len() as u64;
+            // Those who decide in every step keep their distance by themselves.
+            let (mut ahead, is_far) = (f64::INFINITY, !self.far.is_empty());
+            for (vehicle, acceleration) in queue.iter_mut().zip(own) {
+                let (v, way) = advance(vehicle.v, *acceleration, dt);
+                let old = vehicle.s;
+                vehicle.s += way;
+                vehicle.v = v;
+                vehicle.acceleration = *acceleration as f32;
+                if vehicle.s >= end && local < layout.lanes && !may_pass(vehicle) {
+                    // A stop line is never passed without leave, whatever the brakes would say.
+                    vehicle.s = end - 1e-6;
+                    vehicle.v = 0.0;
+                    counters.forced_stops += 1;
+                }
+                if is_far && vehicle.s > ahead {
+                    vehicle.s = ahead.max(old);
+                    vehicle.v = 0.0;
+                    counters.forced_stops += 1;
+                }
+                ahead = vehicle.s - vehicle.length();
+                let before = vehicle.stood;
+                vehicle.stood = if vehicle.v < STANDING { before + dt } else { 0.0 };
+                if before < LONG && vehicle.stood >= LONG {
+                    counters.long_waits += 1;
+                }
+            }
+            if queue.first().is_some_and(|front| front.s >= end) {
+                passed.push(local as u32);
+            }
+        }
+    }
+
+    /// Moves vehicles whose front left their track to the next.
+    fn pass_on(&mut self, scene: &Scene<'_>) {
+        let passed = std::mem::take(&mut self.work.passed);
+        let layout = self.layout(scene.tracks);
+        for local in passed.iter().map(|local| *local as usize) {
+            let track = layout.tracks[local];
+            let end = scene.tracks.length[track as usize];
+            while self.slabs.queue(local).first().is_some_and(|front| front.s >= end) {
+                let Some((vehicle, path)) = self.slabs.remove(local, 0) else { break };
+                if local >= layout.lanes {
+                    self.hand_over(scene, track, vehicle, path);
+                } else if vehicle.next == EXIT {
+                    self.arrive(scene, track, &vehicle, &path);
+                } else {
+                    self.enter_way(scene, track, vehicle, path);
+                }
+            }
+        }
+        self.work.passed = passed;
+    }
+
+    fn arrive(&mut self, scene: &Scene<'_>, track: Track, vehicle: &Vehicle, path: &Path) {
+        if vehicle.holding != NONE {
+            self.work.cleared.push((vehicle.holding, vehicle.is_long()));
+        }
+        scene.whereabouts.set(vehicle.id as usize, NONE);
+        let now = scene.at.now + scene.at.dt;
+        self.work.ended.push(trip(scene.tracks, scene.config, track, (vehicle, path), TripEnd::Arrived, now));
+        self.work.counters.arrived += 1;
+    }
+
+    /// From a lane onto the way that it holds.
+    fn enter_way(&mut self, scene: &Scene<'_>, lane: Track, mut vehicle: Vehicle, mut path: Path) {
+        let tracks = scene.tracks;
+        leave_behind(scene, lane, &mut vehicle, &mut path);
+        let track = tracks.lanes as Track + vehicle.next;
+        scene.whereabouts.set(vehicle.id as usize, track);
+        if vehicle.s >= tracks.length[track as usize] {
+            // A step longer than the whole way across: on to the lane behind it.
+            self.hand_over(scene, track, vehicle, path);
+            return;
+        }
+        self.slabs.push(tracks.layout.local(track), vehicle, path);
+    }
+
+    /// From a way to the lane behind it, wherever that is kept.
+    fn hand_over(&mut self, scene: &Scene<'_>, way: Track, mut vehicle: Vehicle, mut path: Path) {
+        leave_behind(scene, way, &mut vehicle, &mut path);
+        let lane = scene.tracks.lane_after(way as usize - scene.tracks.lanes);
+        let part = scene.tracks.layout.place(lane).part;
+        self.work.handed[part as usize].push(Transfer { lane, vehicle, path });
+    }
+
+    /// The third phase: those handed over join their lanes, junctions are cleared, claims counted.
+    pub(super) fn settle(&mut self, scene: &Scene<'_>) {
+        self.receive(scene);
+        for (way, is_long) in self.work.cleared.drain(..) {
+            scene.junctions.clear_way(way, is_long);
+        }
+        let layout = self.layout(scene.tracks);
+        for local in self.slabs.occupied() {
+            if local >= layout.lanes {
+                for vehicle in self.slabs.queue(local) {
+                    scene.junctions.claim(scene.tracks, vehicle, vehicle.s);
+                }
+                continue;
+            }
+            let end = scene.tracks.length[layout.tracks[local] as usize];
+            for vehicle in self.slabs.queue(local) {
+                if vehicle.holding == vehicle.next && vehicle.next != NONE {
+                    scene.junctions.claim(scene.tracks, vehicle, vehicle.s - end);
+                } else if vehicle.next != EXIT {
+                    break; // nobody behind has leave either
+                }
+            }
+        }
+        let mut from = 0;
+        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
+            from = local + 1;
+            release_cleared(scene, self.slabs.queue_mut(local));
+        }
+    }
+
+    fn receive(&mut self, scene: &Scene<'_>) {
+        let mut weights = std::mem::take(&mut self.work.weights);
+        for transfer in scene.handed.iter().filter_map(|from| from.get(self.number as usize)).flatten() {
+            let Transfer { lane, mut vehicle, mut path } = *transfer;
+            scene.junctions.arrive(lane, &vehicle, scene.config);
+            path.leg += 1;
+            vehicle.next = scene.choose(&mut weights, &vehicle, &mut path, lane);
+            scene.whereabouts.set(vehicle.id as usize, lane);
+            self.slabs.push(scene.tracks.layout.local(lane), vehicle, path);
+        }
+        self.work.weights = weights;
+    }
+
+    pub(super) fn fits(&self, layout: &PartLayout) -> bool {
+        self.slabs.tracks() == layout.tracks.len()
+            && self.shifting.iter().all(|(lane, _)| (*lane as usize) < layout.lanes)
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        let work = &self.work;
+        self.slabs.bytes()
+            + (work.accelerations.capacity() + work.weights.capacity()) * 8
+            + work.tails.capacity() * size_of::<Tail>()
+            + work.handed.iter().map(|handed| handed.capacity() * size_of::<Transfer>()).sum::<usize>()
+    }
+}
+
+/// Whether a vehicle at the end of its lane may go on.
+fn may_pass(vehicle: &Vehicle) -> bool {
+    vehicle.next == EXIT || (vehicle.next != NONE && vehicle.holding == vehicle.next)
+}
+
+/// Counts a track that a vehicle has left.
+fn leave_behind(scene: &Scene<'_>, track: Track, vehicle: &mut Vehicle, path: &mut Path) {
+    let (length, speed) = (scene.tracks.length[track as usize], scene.tracks.speed[track as usize]);
+    vehicle.s -= length;
+    path.driven += length;
+    let row = scene.config.vehicle_type(vehicle.row);
+    path.free_time += length / row.free_speed(scene.config, vehicle.factor, speed);
+    path.before = track;
+}
+
+/// Vehicles at the beginning of a lane whose rear has left the junction give it free; until then they claim its crossings.
+fn release_cleared(scene: &Scene<'_>, queue: &mut [Vehicle]) {
+    for vehicle in queue.iter_mut().rev() {
+        if vehicle.s > LONGEST {
+            break;
+        }
+        if vehicle.holding == NONE || vehicle.holding == vehicle.next {
+            continue;
+        }
+        if vehicle.s - vehicle.length() > CLEARED {
+            scene.junctions.clear_way(vehicle.holding, vehicle.is_long());
+            vehicle.holding = NONE;
+        } else {
+            let length = scene.tracks.length[scene.tracks.lanes + vehicle.holding as usize];
+            scene.junctions.claim(scene.tracks, vehicle, vehicle.s + length);
+        }
+    }
+}
