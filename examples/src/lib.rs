@@ -1,10 +1,11 @@
 //! Where the crates meet: the delivery run, assembled from citygen, traffic, physics, render and agents; and what the
-//! city example does behind its command line.
+//! city example and the comparison with SUMO do behind their command lines.
 //!
 //! The crates know only simworld-core; this package is unpublished and exists so that the examples and the
 //! workspace's tests put the parts together in the same way.
 
 #![forbid(unsafe_code)]
 
+pub mod beside_sumo;
 pub mod city;
 pub mod delivery;

@@ -1,7 +1,14 @@
 //! Demand: flows and trips that enter the network, wait outside while there is no room, and leave at the end of their route.
 
+mod activity;
+mod matrix;
+mod schedule;
+
 use std::collections::{BTreeMap, VecDeque};
 
+pub use activity::{Activity, ActivityChains, DayTimes, Person, commuters};
+pub use matrix::{OdMatrix, TimeProfile, Zone};
+pub use schedule::{Departing, Schedule};
 use serde::{Deserialize, Serialize};
 use simworld_core::seed::{Stream, StreamRng};
 
@@ -41,6 +48,21 @@ impl Flow {
     /// So many vehicles an hour on a route, at random, for ever.
     pub fn new(route: Route, per_hour: f64) -> Self {
         Self { route, per_hour, arrivals: Arrivals::Poisson, kind: None, from: 0.0, until: f64::MAX }
+    }
+
+    /// Checks its rate and its times.
+    pub(crate) fn validate(&self) -> Result<(), TrafficError> {
+        let checks = [
+            ("per_hour", self.per_hour, 1e-3, 1e4, "more than 0, at most 10 000 vehicles an hour"),
+            ("from", self.from, 0.0, f64::MAX, "0 s or later"),
+            ("until", self.until, self.from, f64::MAX, "a time after from"),
+        ];
+        for (field, value, low, high, allowed) in checks {
+            if !(low..=high).contains(&value) {
+                return Err(TrafficError::Config { field, value, allowed });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -93,19 +115,59 @@ pub(crate) struct Departure {
     /// The speed that its driver chooses, as a share of the limit.
     pub(crate) factor: f32,
     pub(crate) scheduled: f64,
+    /// Its number among those who were sent one by one; [`OF_FLOW`] if a flow sent it.
+    pub(crate) number: u64,
+}
+
+/// The number of those whom flows send.
+pub(crate) const OF_FLOW: u64 = u64::MAX;
+
+/// Which vehicle is sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VehicleChoice {
+    /// One of a kind: its type is drawn among those of that kind by the shares of the configuration.
+    Kind(VehicleKind),
+    /// One of the type in that row of [`TrafficConfig::types`](crate::TrafficConfig::types).
+    Type(usize),
+}
+
+impl From<VehicleKind> for VehicleChoice {
+    fn from(kind: VehicleKind) -> Self {
+        Self::Kind(kind)
+    }
+}
+
+impl VehicleChoice {
+    /// Whether the configuration has such a vehicle.
+    pub(crate) fn validate(self, config: &TrafficConfig) -> Result<(), TrafficError> {
+        match self {
+            Self::Kind(kind) => config.has_type(kind),
+            Self::Type(row) if row < config.types.len() => Ok(()),
+            Self::Type(row) => Err(TrafficError::Config {
+                field: "vehicle type",
+                value: row as f64,
+                allowed: "a row of TrafficConfig::types",
+            }),
+        }
+    }
 }
 
 impl Departure {
-    /// A vehicle of a kind, or of any.
+    /// A vehicle of a kind or type, or of any.
     fn draw(
         config: &TrafficConfig,
-        kind: Option<VehicleKind>,
+        choice: Option<VehicleChoice>,
         route: u32,
         scheduled: f64,
         rng: &mut StreamRng,
     ) -> Self {
-        let row = draw_type(&config.types, |row| kind.is_none_or(|kind| row.kind == kind), rng);
-        Self { route, row, factor: config.vehicle_type(row).draw_factor(rng), scheduled }
+        let row = match choice {
+            Some(VehicleChoice::Type(row)) => row as TypeIndex,
+            Some(VehicleChoice::Kind(kind)) => draw_type(&config.types, |row| row.kind == kind, rng),
+            None => draw_type(&config.types, |_| true, rng),
+        };
+        Self { route, row, factor: config.vehicle_type(row).draw_factor(rng), scheduled, number: OF_FLOW }
     }
 }
 
@@ -124,8 +186,11 @@ pub(crate) struct DemandManager {
     sources: Vec<Source>,
     /// First come, first served, at the beginning of each leg.
     outside: BTreeMap<Leg, VecDeque<Departure>>,
-    /// Trips sent one by one so far.
+    /// How many were sent one by one.
     sent: u64,
+    /// The numbers of those who entered in the last step, in their order.
+    #[serde(skip)]
+    pub(crate) admitted: Vec<u64>,
 }
 
 impl DemandManager {
@@ -137,16 +202,7 @@ impl DemandManager {
         streams: Stream,
     ) -> Result<(), TrafficError> {
         flow.route.validate(&tracks.network)?;
-        let checks = [
-            ("per_hour", flow.per_hour, 1e-3, 1e4, "more than 0, at most 10 000 vehicles an hour"),
-            ("from", flow.from, 0.0, f64::MAX, "0 s or later"),
-            ("until", flow.until, flow.from, f64::MAX, "a time after from"),
-        ];
-        for (field, value, low, high, allowed) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(TrafficError::Config { field, value, allowed });
-            }
-        }
+        flow.validate()?;
         let route = vehicles.add_route(flow.route.clone());
         let mut source = Source { next: flow.from, flow, route, drawn: 0 };
         if source.flow.arrivals == Arrivals::Poisson {
@@ -156,19 +212,21 @@ impl DemandManager {
         Ok(())
     }
 
-    /// Sends one vehicle of a kind.
+    /// Sends one vehicle and returns its number.
     pub(crate) fn add_trip(
         &mut self,
         entry: Leg,
         route: u32,
-        kind: VehicleKind,
+        vehicle: VehicleChoice,
         (config, streams): (&TrafficConfig, Stream),
-        now: f64,
-    ) {
-        let mut rng = streams.named("trips").indexed(self.sent).rng();
+        scheduled: f64,
+    ) -> u64 {
+        let number = self.sent;
         self.sent += 1;
-        let departure = Departure::draw(config, Some(kind), route, now, &mut rng);
-        self.outside.entry(entry).or_default().push_back(departure);
+        let mut rng = streams.named("trips").indexed(number).rng();
+        let departure = Departure::draw(config, Some(vehicle), route, scheduled, &mut rng);
+        self.outside.entry(entry).or_default().push_back(Departure { number, ..departure });
+        number
     }
 
     /// Vehicles that wait outside.
@@ -186,6 +244,7 @@ impl DemandManager {
         now: f64,
         counters: &mut Counters,
     ) {
+        self.admitted.clear();
         for index in 0..self.sources.len() {
             self.draw(index, config, streams, now);
         }
@@ -194,6 +253,7 @@ impl DemandManager {
                 if !vehicles.enter(tracks, config, *leg, departure, now) {
                     break;
                 }
+                self.admitted.push(departure.number);
                 queue.pop_front();
                 counters.entered += 1;
             }
@@ -204,7 +264,8 @@ impl DemandManager {
         let source = &mut self.sources[index];
         while source.next <= now && source.next < source.flow.until {
             let mut rng = source.stream(streams, index);
-            let departure = Departure::draw(config, source.flow.kind, source.route, source.next, &mut rng);
+            let kind = source.flow.kind.map(VehicleChoice::Kind);
+            let departure = Departure::draw(config, kind, source.route, source.next, &mut rng);
             let entry = source.flow.route.0.first().copied();
             source.drawn += 1;
             source.next += source.wait(&mut rng);

@@ -1,22 +1,31 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+pub mod assignment;
 mod conditions;
 mod config;
 pub mod control;
 pub mod crowd;
 mod demand;
 mod dynamics;
+mod names;
+pub mod output;
 mod pedestrian;
 mod route;
 pub mod signal;
+#[cfg(feature = "sumo")]
+pub mod sumo;
 mod traffic;
 pub mod vehicle;
 
 pub use conditions::DrivingConditions;
 pub use config::{TrafficConfig, TrafficError};
-pub use demand::{Arrivals, Flow, Trip, TripEnd};
+pub use demand::{
+    Activity, ActivityChains, Arrivals, DayTimes, Departing, Flow, OdMatrix, Person, Schedule, TimeProfile,
+    Trip, TripEnd, VehicleChoice, Zone, commuters,
+};
 pub use dynamics::TrafficDynamics;
+pub use names::NetworkNames;
 pub use pedestrian::Pedestrian;
 pub use route::{Leg, Route, Router};
 #[cfg(feature = "hierarchy")]

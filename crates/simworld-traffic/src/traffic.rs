@@ -15,7 +15,7 @@ use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::net::{Alone, Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, Workers};
 use simworld_core::seed::{Seed, Stream};
 
-use crate::demand::{DemandManager, Flow, Trip};
+use crate::demand::{DemandManager, Flow, OF_FLOW, Trip, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
@@ -229,19 +229,33 @@ impl Traffic {
         self.driving.conditions
     }
 
-    /// Sends a vehicle on a route; it enters when there is room at the beginning of the first leg.
+    /// Sends a vehicle of a kind on a route; it enters when there is room at the beginning of the first leg. Returns how many
+    /// were sent before, by which [`admitted`](Self::admitted) tells when it enters.
     ///
     /// # Errors
     /// A route that cannot be driven, or a kind of which the configuration has no type.
-    pub fn insert(&mut self, route: Route, kind: VehicleKind) -> Result<(), TrafficError> {
+    pub fn insert(&mut self, route: Route, kind: VehicleKind) -> Result<u64, TrafficError> {
+        self.insert_scheduled(route, kind.into(), self.state.seconds)
+    }
+
+    /// The same for a vehicle of a kind or type that was to depart at another time than now, s after the start: its trip tells
+    /// how long it waited since.
+    ///
+    /// # Errors
+    /// A route that cannot be driven, or a kind or type that the configuration has not.
+    pub fn insert_scheduled(
+        &mut self,
+        route: Route,
+        vehicle: VehicleChoice,
+        scheduled: f64,
+    ) -> Result<u64, TrafficError> {
         route.validate(&self.tracks.network)?;
-        self.driving.has_type(kind)?;
-        let State { vehicles, demand, seconds, .. } = &mut self.state;
-        if let Some(entry) = route.0.first().copied() {
-            let route = vehicles.add_route(route);
-            demand.add_trip(entry, route, kind, (&self.driving, self.streams), *seconds);
-        }
-        Ok(())
+        vehicle.validate(&self.driving)?;
+        let State { vehicles, demand, .. } = &mut self.state;
+        // A route that can be driven has a first leg.
+        let entry = route.0[0];
+        let route = vehicles.add_route(route);
+        Ok(demand.add_trip(entry, route, vehicle, (&self.driving, self.streams), scheduled))
     }
 
     /// Takes a vehicle out, wherever it is; false if there is none of that number.
@@ -260,6 +274,13 @@ impl Traffic {
     /// The vehicles that entered in the last step.
     pub fn entered(&self) -> &[u32] {
         &self.state.vehicles.entered
+    }
+
+    /// Of those who [entered](Self::entered) in the last step the numbers that [`insert`](Self::insert) gave them; `None` for
+    /// those of flows.
+    pub fn admitted(&self) -> impl Iterator<Item = (u32, Option<u64>)> + '_ {
+        let numbers = self.state.demand.admitted.iter().map(|number| (*number != OF_FLOW).then_some(*number));
+        self.state.vehicles.entered.iter().copied().zip(numbers)
     }
 
     /// The trips that ended in the last step, and since then by [`remove`](Self::remove).

@@ -1,5 +1,6 @@
 //! Roads as data: lanes, intersections, crossings, signals; and the two-level waypoint graph over them.
 
+mod assemble;
 mod check;
 mod derive;
 #[cfg(feature = "hierarchy")]
@@ -15,6 +16,7 @@ mod turn_lanes;
 mod turning;
 mod waypoint;
 
+pub use assemble::{NetworkBuilder, NewLane, NewRoad};
 pub use check::NetworkFault;
 pub use derive::{Alone, NetworkConfig, NetworkError, Workers};
 #[cfg(feature = "hierarchy")]

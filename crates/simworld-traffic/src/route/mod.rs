@@ -25,6 +25,15 @@ impl Leg {
         Self(road.0 * 2 + matches!(direction, LaneDirection::Backward) as u32)
     }
 
+    /// Its place among all legs: two a road.
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    pub(crate) const fn from_index(index: usize) -> Self {
+        Self(index as u32)
+    }
+
     /// The leg to which a lane belongs.
     pub fn of(network: &RoadNetwork, lane: LaneId) -> Self {
         let lane = &network.lanes[lane.index()];

@@ -47,6 +47,31 @@ pub(super) fn of_nodes(
     builder.made
 }
 
+/// Finds what the connections of one intersection touch and over which crossings they lead, where nobody derived them; the
+/// first only if `meetings` are wanted.
+pub(in crate::net) fn settle(network: &mut RoadNetwork, place: IntersectionId, meetings: bool) {
+    let ids = network.intersections[place.index()].connections.clone();
+    let made = ids.iter().map(|id| network.connections[id.index()].clone()).collect();
+    let mut builder = Builder { made, ..Builder::default() };
+    for (rank, connection) in builder.made.iter().enumerate() {
+        let id = ConnectionId::from_index(rank);
+        builder.claims.push(claim(network, connection, id, &mut builder.traces));
+    }
+    if meetings {
+        let signals = network.intersections[place.index()].signals;
+        builder.set_conflicts(signals.map(|index| &network.signals[index as usize]), 0);
+        for other in
+            builder.made.iter_mut().flat_map(|own| own.conflicts.iter_mut().chain(&mut own.yields_to))
+        {
+            *other = ids[other.index()];
+        }
+    }
+    builder.set_crossings(&network.intersections[place.index()].crossings, network);
+    for (id, connection) in ids.iter().zip(builder.made) {
+        network.connections[id.index()] = connection;
+    }
+}
+
 /// Adds connections that were made with numbers from zero on.
 pub(super) fn append(network: &mut RoadNetwork, made: Vec<Connection>) {
     let shift = network.connections.len() as u32;
@@ -242,7 +267,7 @@ fn connection(
 }
 
 /// A cubic Bézier curve that leaves and arrives along the given directions, a point about every metre.
-fn curve(start: Point2, leaving: Vector2, end: Point2, arriving: Vector2) -> Vec<Point2> {
+pub(in crate::net) fn curve(start: Point2, leaving: Vector2, end: Point2, arriving: Vector2) -> Vec<Point2> {
     let apart = (end - start).norm();
     // Longer handles where the curve turns back, so that a U-turn bulges like half a circle.
     let turned_back = (1.0 - leaving.dot(&arriving)) * 0.5;

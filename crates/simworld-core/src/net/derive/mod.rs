@@ -17,6 +17,7 @@ use thiserror::Error;
 use super::{Control, DrivingSide, Intersection, Road, RoadClass, RoadNetwork, Street, StreetPlan};
 use crate::geometry::Point2;
 use crate::id::{IntersectionId, RoadId};
+pub(super) use connections::{curve, settle};
 use legs::Leg;
 pub use workers::{Alone, Workers};
 

@@ -1,0 +1,154 @@
+//! From names of edges to a schedule.
+
+use std::collections::BTreeMap;
+
+use simworld_core::seed::{Seed, StreamRng};
+
+use super::{Distribution, SumoDemand, SumoWay};
+use crate::sumo::{SumoError, SumoNet, SumoWarning};
+use crate::vehicle::VehicleKind;
+use crate::{Departing, Flow, Leg, Route, Router, Schedule, VehicleChoice};
+
+/// The fewest and most vehicles an hour that a flow may bring.
+const RATES: (f64, f64) = (1e-3, 1e4);
+
+impl SumoDemand {
+    /// Who departs when on a network, and what of the demand cannot be driven there. Draws, of distributions and random
+    /// flows, are those of the seed. Types of the file are rows of the table that [`vehicle_types`](Self::vehicle_types)
+    /// gives: the traffic must be made with it.
+    ///
+    /// # Errors
+    /// An edge, route or type that is named and not there.
+    pub fn schedule(&self, net: &SumoNet, seed: Seed) -> Result<(Schedule, Vec<SumoWarning>), SumoError> {
+        let mut plan = Plan {
+            demand: self,
+            net,
+            router: Router::new(&net.network),
+            routes: self.routes.iter().map(|(id, edges)| (id.as_str(), edges.as_slice())).collect(),
+            rng: seed.stream("traffic/sumo").rng(),
+        };
+        let mut schedule = Schedule::new(seed);
+        let mut warnings = Vec::new();
+        for vehicle in &self.vehicles {
+            let (choice, route) = (
+                plan.vehicle(&vehicle.id, vehicle.vehicle_type.as_deref())?,
+                plan.route(&vehicle.id, &vehicle.way)?,
+            );
+            match route {
+                Ok(route) => {
+                    let (name, depart) = (vehicle.id.clone(), vehicle.depart);
+                    schedule.add(Departing { name, depart, route, vehicle: choice });
+                }
+                Err(reason) => warnings.push(SumoWarning::new("vehicle", &vehicle.id, reason)),
+            }
+        }
+        for flow in &self.flows {
+            let (choice, route) =
+                (plan.vehicle(&flow.id, flow.vehicle_type.as_deref())?, plan.route(&flow.id, &flow.way)?);
+            let route = match route {
+                Ok(route) => route,
+                Err(reason) => {
+                    warnings.push(SumoWarning::new("flow", &flow.id, reason));
+                    continue;
+                }
+            };
+            let per_hour = flow.per_hour.clamp(RATES.0, RATES.1);
+            if per_hour != flow.per_hour {
+                let reason = format!("of {} vehicles an hour was made one of {per_hour}", flow.per_hour);
+                warnings.push(SumoWarning::new("flow", &flow.id, reason));
+            }
+            let arrivals = flow.arrivals;
+            let flow_here = Flow { route, per_hour, arrivals, kind: None, from: flow.begin, until: flow.end };
+            if let Err(error) = schedule.add_flow_of(&flow.id, flow_here, choice, flow.number) {
+                warnings.push(SumoWarning::new("flow", &flow.id, error.to_string()));
+            }
+        }
+        warnings.sort();
+        Ok((schedule, warnings))
+    }
+}
+
+/// What is needed to find ways.
+struct Plan<'a> {
+    demand: &'a SumoDemand,
+    net: &'a SumoNet,
+    router: Router,
+    routes: BTreeMap<&'a str, &'a [String]>,
+    rng: StreamRng,
+}
+
+/// A route, or why there is none.
+type Found = Result<Route, String>;
+
+impl Plan<'_> {
+    fn draw(&mut self, distribution: &Distribution) -> Option<String> {
+        let weights: Vec<f64> = distribution.choices.iter().map(|(_, weight)| *weight).collect();
+        let index = self.rng.weighted(&weights)?;
+        distribution.choices.get(index).map(|(id, _)| id.clone())
+    }
+
+    fn vehicle(&mut self, owner: &str, wanted: Option<&str>) -> Result<VehicleChoice, SumoError> {
+        let Some(id) = wanted else { return Ok(VehicleKind::Car.into()) };
+        let demand = self.demand;
+        let drawn = demand.type_distributions.iter().find(|one| one.id == id);
+        let id = drawn.and_then(|one| self.draw(one)).unwrap_or_else(|| id.to_owned());
+        match (demand.choice(&id), id.as_str()) {
+            (Some(choice), _) => Ok(choice),
+            // Types that SUMO knows without being told.
+            (None, "DEFAULT_VEHTYPE") => Ok(VehicleKind::Car.into()),
+            (None, "DEFAULT_BIKETYPE") => Ok(VehicleKind::Bicycle.into()),
+            (None, "DEFAULT_TAXITYPE") => Ok(VehicleKind::Car.into()),
+            (None, _) => Err(dangling(owner, "type", &id)),
+        }
+    }
+
+    /// Outside: something that is not there; inside: a way that cannot be driven.
+    fn route(&mut self, owner: &str, way: &SumoWay) -> Result<Found, SumoError> {
+        match way {
+            SumoWay::Edges(edges) => self.along(owner, edges),
+            SumoWay::Route(id) => {
+                let demand = self.demand;
+                let drawn = demand.route_distributions.iter().find(|one| one.id == *id);
+                let id = drawn.and_then(|one| self.draw(one)).unwrap_or_else(|| id.clone());
+                match self.routes.get(id.as_str()).copied() {
+                    Some(edges) => self.along(owner, edges),
+                    None => Err(dangling(owner, "route", &id)),
+                }
+            }
+            SumoWay::Trip { from, via, to } => self.quickest(owner, from, via, to),
+        }
+    }
+
+    fn leg(&self, owner: &str, edge: &str) -> Result<Leg, SumoError> {
+        self.net.names.leg(edge).ok_or_else(|| dangling(owner, "edge", edge))
+    }
+
+    fn along(&self, owner: &str, edges: &[String]) -> Result<Found, SumoError> {
+        let legs: Result<Vec<Leg>, SumoError> = edges.iter().map(|edge| self.leg(owner, edge)).collect();
+        let route = Route(legs?);
+        Ok(match route.validate(&self.net.network) {
+            Ok(()) => Ok(route),
+            Err(error) => Err(format!("was left out: {error}")),
+        })
+    }
+
+    fn quickest(&self, owner: &str, from: &str, via: &[String], to: &str) -> Result<Found, SumoError> {
+        let mut route = Route(vec![self.leg(owner, from)?]);
+        for edge in via.iter().map(String::as_str).chain([to]) {
+            let next = self.leg(owner, edge)?;
+            let last = route.0[route.0.len() - 1];
+            let Some(way) = self.router.quickest(last, next) else {
+                return Ok(Err(format!("was left out: no way leads on to edge `{edge}`")));
+            };
+            route.0.extend(way.0.into_iter().skip(1));
+        }
+        Ok(route
+            .validate(&self.net.network)
+            .map(|()| route)
+            .map_err(|error| format!("was left out: {error}")))
+    }
+}
+
+fn dangling(owner: &str, what: &'static str, target: &str) -> SumoError {
+    SumoError::Dangling { element: "vehicle", id: owner.to_owned(), what, target: target.to_owned() }
+}
