@@ -59,7 +59,7 @@ proptest! {
     /// Wardrop's first principle, and conservation, on grids of random links.
     #[test]
     fn nobody_can_do_better_alone(
-        times in prop::collection::vec((1.0..50.0_f64, 50.0..500.0_f64), 40),
+        times in prop::collection::vec((1.0..50.0_f64, 300.0..1500.0_f64), 40),
         volumes in prop::collection::vec(0.0..800.0_f64, 3),
     ) {
         // A grid of 4 by 4 nodes, one-way east and north, and a way round.

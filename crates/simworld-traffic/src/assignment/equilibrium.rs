@@ -7,7 +7,7 @@ use super::paths::Graph;
 use super::{AssignmentError, Link, Pair};
 
 /// How often all pairs are balanced between two searches for new paths.
-const BALANCES: u32 = 3;
+const BALANCES: u32 = 10;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
