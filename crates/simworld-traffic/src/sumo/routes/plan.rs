@@ -95,9 +95,8 @@ impl Plan<'_> {
         match (demand.choice(&id), id.as_str()) {
             (Some(choice), _) => Ok(choice),
             // Types that SUMO knows without being told.
-            (None, "DEFAULT_VEHTYPE") => Ok(VehicleKind::Car.into()),
+            (None, "DEFAULT_VEHTYPE" | "DEFAULT_TAXITYPE") => Ok(VehicleKind::Car.into()),
             (None, "DEFAULT_BIKETYPE") => Ok(VehicleKind::Bicycle.into()),
-            (None, "DEFAULT_TAXITYPE") => Ok(VehicleKind::Car.into()),
             (None, _) => Err(dangling(owner, "type", &id)),
         }
     }
