@@ -5,11 +5,14 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
-use simworld_core::id::{ConnectionId, IntersectionId};
-use simworld_core::net::{Aspect, Control, DrivingSide, LaneKind, RoadNetwork, Turn, polyline};
+use simworld_core::id::{ConnectionId, IntersectionId, RoadId};
+use simworld_core::net::{
+    Aspect, Control, DrivingSide, LaneDirection, LaneKind, RoadNetwork, Turn, polyline,
+};
 use simworld_core::seed::Seed;
 use simworld_traffic::sumo::{SumoError, SumoNet};
-use simworld_traffic::{Traffic, TrafficConfig};
+use simworld_traffic::vehicle::VehicleKind;
+use simworld_traffic::{Leg, Router, Traffic, TrafficConfig};
 
 /// 3 by 3 junctions with signals, two lanes a direction, sidewalks and crossings, by netgenerate 1.28.
 const GRID: &str = include_str!("data/grid.net.xml");
@@ -190,22 +193,48 @@ fn an_offset_delays_the_program() {
 
 #[test]
 fn people_and_vehicles_move_on_it() {
-    for (xml, vehicles, pedestrians) in [(GRID, 60, 40), (COUNTRY, 40, 0)] {
-        let network = Arc::new(read(xml).network);
-        let config = TrafficConfig { vehicles, pedestrians, ..TrafficConfig::default() };
-        let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(3)).unwrap();
-        assert_eq!((traffic.placed().vehicles, traffic.placed().pedestrians), (vehicles, pedestrians));
-        for _ in 0..3000 {
-            traffic.step(0.1);
-        }
-        assert_eq!(traffic.vehicles().count(), vehicles as usize);
-        assert!(traffic.counters().crossings > u64::from(vehicles) * 2, "{:?}", traffic.counters());
-        assert_eq!(traffic.counters().forced_stops, 0);
-        if pedestrians > 0 {
-            let walked = traffic.pedestrians().iter().filter(|walker| walker.crossing.is_some()).count();
-            assert!(walked > 0 || traffic.pedestrians().iter().any(|walker| walker.waits_at.is_some()));
+    let network = Arc::new(read(GRID).network);
+    let config = TrafficConfig { vehicles: 60, pedestrians: 40, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(3)).unwrap();
+    assert_eq!((traffic.placed().vehicles, traffic.placed().pedestrians), (60, 40));
+    let mut crossed = 0;
+    for _ in 0..3000 {
+        traffic.step(0.1);
+        crossed += traffic.pedestrians().iter().filter(|walker| walker.crossing.is_some()).count();
+    }
+    assert_eq!(traffic.vehicles().count(), 60);
+    assert!(traffic.counters().crossings > 300, "{:?}", traffic.counters());
+    assert_eq!(traffic.counters().forced_stops, 0);
+    assert!(crossed > 0, "somebody crosses in five minutes");
+}
+
+#[test]
+fn nobody_stands_for_good_where_junctions_are_a_car_length_apart() {
+    // Streets of the country end nowhere: whoever has no route stops there. Its turning lanes are 2 to 5 m long.
+    let network = Arc::new(read(COUNTRY).network);
+    let config = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(3)).unwrap();
+    let router = Router::new(&network);
+    let legs: Vec<Leg> =
+        (0..network.roads.len()).map(|road| Leg::new(RoadId(road as u32), LaneDirection::Forward)).collect();
+    let mut sent = 0;
+    for (index, from) in legs.iter().enumerate() {
+        let to = legs[(index * 7 + 11) % legs.len()];
+        let is_long = from.lanes(&network).iter().all(|lane| network.lanes[lane.index()].length > 20.0);
+        let route = router.quickest(*from, to).filter(|route| is_long && route.0.len() > 2);
+        if let Some(route) = route {
+            traffic.insert(route, VehicleKind::Car).unwrap();
+            sent += 1;
         }
     }
+    assert!(sent > 15, "{sent} pairs of edges have a way between them");
+    for _ in 0..6000 {
+        traffic.step(0.1);
+    }
+    // Some took another way, for there was no room to change lanes; they may still look for theirs.
+    let counters = traffic.counters();
+    assert_eq!((counters.entered, counters.long_waits), (sent, 0), "{counters:?}");
+    assert!(counters.arrived * 2 > sent, "{counters:?}");
 }
 
 #[test]

@@ -351,7 +351,7 @@ fn release_cleared(scene: &Scene<'_>, queue: &mut [Vehicle]) {
         if vehicle.holding == NONE || vehicle.holding == vehicle.next {
             continue;
         }
-        if vehicle.s - vehicle.length() > CLEARED {
+        if vehicle.s - vehicle.length() > CLEARED || is_free_behind(scene, vehicle) {
             scene.junctions.clear_way(vehicle.holding, vehicle.is_long());
             vehicle.holding = NONE;
         } else {
@@ -359,4 +359,12 @@ fn release_cleared(scene: &Scene<'_>, queue: &mut [Vehicle]) {
             scene.junctions.claim(scene.tracks, vehicle, vehicle.s + length);
         }
     }
+}
+
+/// Whether a vehicle may go on although its rear is still on the way behind: its lane is too short for it ever to clear that,
+/// and nobody meets it there. On such lanes, as between the junctions of imported maps, everybody would stand for good.
+fn is_free_behind(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+    let way = &scene.tracks.network.connections[vehicle.holding as usize];
+    let is_short = scene.tracks.length[way.to.index()] <= vehicle.length() + CLEARED;
+    is_short && way.conflicts.is_empty() && way.crossings.is_empty()
 }
