@@ -34,6 +34,9 @@ pub enum EventKind {
         point: Point3,
         /// Speed at which they approached along the contact normal, m/s, not negative.
         closing_speed: f64,
+        /// Impulse that they exchanged along the normal within the step, N s, not negative; zero where one of them
+        /// moves by itself and takes none.
+        impulse: f64,
     },
     /// A body could not do what it was told.
     ActionFailed {

@@ -5,10 +5,11 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Embodiment};
 
-use crate::body::{Bonds, PhysicsBody};
+use crate::body::{Bonds, Detail, PhysicsBody};
 use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::shape::material_of_entity;
 use crate::sync::Slot;
-use crate::{Humanoid, HumanoidConfig, PhysicsError, Rigid, Vehicle, VehicleConfig};
+use crate::{Humanoid, HumanoidConfig, PhysicsError, Rigid, Vehicle, VehicleParameters};
 
 impl PhysicsDynamics {
     /// Gives a person's entity a body of its pose and size.
@@ -25,18 +26,18 @@ impl PhysicsDynamics {
         self.insert(world, id, Box::new(Humanoid::of(&entity, config)?))
     }
 
-    /// Gives a car's entity a body of its pose and size.
+    /// Gives a vehicle's entity a body of its pose, velocity, size and mass.
     ///
     /// # Errors
-    /// An unknown entity, one that has a body, a shape too small for the wheels, or a setting out of range.
+    /// An unknown entity, one that has a body, a shape of another class of vehicles, or a setting out of range.
     pub fn add_vehicle(
         &mut self,
         world: &World,
         id: EntityId,
-        config: VehicleConfig,
+        parameters: VehicleParameters,
     ) -> Result<(), PhysicsError> {
         let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Vehicle::of(&entity, config)?))
+        self.insert(world, id, Box::new(Vehicle::of(&entity, parameters)?))
     }
 
     /// Lets an entity fall and tumble as a free rigid body of its pose, velocity, shape and mass.
@@ -45,7 +46,7 @@ impl PhysicsDynamics {
     /// An unknown entity, or one that has a body.
     pub fn add_rigid(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
         let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Rigid::of(&entity, self.config.friction)))
+        self.insert(world, id, Box::new(Rigid::of(&entity, material_of_entity(&entity))))
     }
 
     /// Gives an entity a body of any kind.
@@ -68,8 +69,8 @@ impl PhysicsDynamics {
         let rigid = body.attach(id, &mut self.physics);
         // Otherwise the engine knows the mass only after its first step, and the body drives before that.
         self.physics.bodies[rigid].recompute_mass_properties_from_colliders(&self.physics.colliders);
-        let owned =
-            Owned { id, body, rigid, written: *entity.pose, bonds: Bonds::default(), before: Twist::ZERO };
+        let (written, bonds, before) = (*entity.pose, Bonds::default(), Twist::ZERO);
+        let owned = Owned { id, body, rigid, written, bonds, before, detail: Detail::Full };
         self.bodies.insert(place, owned);
         self.file_body(rigid);
         Ok(())

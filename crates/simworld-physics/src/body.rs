@@ -4,12 +4,25 @@ use rapier3d_f64::prelude::{
     Collider, PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody, RigidBodyHandle,
     RigidBodySet,
 };
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::scene::Role;
 use simworld_core::seam::{BodyState, Embodiment};
 
 use crate::PhysicsConfig;
+use crate::surface::Conditions;
+
+/// How finely a body is to move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Detail {
+    /// By all the laws it knows.
+    #[default]
+    Full,
+    /// By a simpler model, because it is far from what is of interest. A body with one model only goes on as it is.
+    Reduced,
+}
 
 /// What ties a body to other things this step, as the world knows it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,7 +50,7 @@ pub struct Bonds {
 /// use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 /// use simworld_core::seam::{BodyState, Dynamics, Embodiment, EmbodimentError};
 /// use simworld_physics::rapier::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
-/// use simworld_physics::{BodyContext, PhysicsBody, PhysicsConfig, PhysicsDynamics, collider_for, convert};
+/// use simworld_physics::{BodyContext, Material, PhysicsBody, PhysicsConfig, PhysicsDynamics, collider_for, convert};
 ///
 /// struct Drone { state: BodyState, climb: f64 }
 ///
@@ -57,7 +70,7 @@ pub struct Bonds {
 /// impl PhysicsBody for Drone {
 ///     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
 ///         let frame = RigidBodyBuilder::dynamic().pose(convert::to_pose(&self.state.pose)).gravity_scale(0.0);
-///         let hull = collider_for(&Shape::Sphere { radius: 0.2 }, id, 0.5).mass(2.0);
+///         let hull = collider_for(&Shape::Sphere { radius: 0.2 }, id, Material::Metal).mass(2.0);
 ///         physics.insert(frame, hull).0
 ///     }
 ///     fn drive(&mut self, context: &mut BodyContext<'_>, _: f64) {
@@ -91,6 +104,12 @@ pub trait PhysicsBody: Embodiment + Send {
     /// Learns what it is tied to, once a step before it moves; of no interest to most bodies.
     fn bind(&mut self, _bonds: Bonds) {}
 
+    /// The longest substep in which it moves well, s; the physics takes as many substeps as its bodies ask for, and
+    /// at least those of the [`PhysicsConfig`]. Any length by default.
+    fn longest_substep(&self) -> f64 {
+        f64::INFINITY
+    }
+
     /// Looks around before anybody moves and makes up its mind; reads, and changes only itself.
     fn sense(&mut self, _around: &Surroundings<'_>, _dt: f64) {}
 
@@ -113,6 +132,8 @@ pub struct Surroundings<'a> {
     pub(crate) nobody: &'a RigidBodySet,
     pub(crate) rigid: RigidBodyHandle,
     pub(crate) config: &'a PhysicsConfig,
+    pub(crate) conditions: &'a Conditions,
+    pub(crate) detail: Detail,
 }
 
 impl Surroundings<'_> {
@@ -129,6 +150,21 @@ impl Surroundings<'_> {
     pub fn collider(&self) -> Option<&Collider> {
         let first = self.physics.bodies.get(self.rigid)?.colliders().first()?;
         self.physics.colliders.get(*first)
+    }
+
+    /// Whether the engine has put the body to sleep because it rests.
+    pub fn is_sleeping(&self) -> bool {
+        self.physics.bodies.get(self.rigid).is_some_and(RigidBody::is_sleeping)
+    }
+
+    /// What the air and the roads are like.
+    pub fn conditions(&self) -> &Conditions {
+        self.conditions
+    }
+
+    /// How finely the body is to move in this substep.
+    pub fn detail(&self) -> Detail {
+        self.detail
     }
 
     /// The settings of the physics.
@@ -155,6 +191,8 @@ pub struct BodyContext<'a> {
     pub(crate) physics: &'a mut PhysicsWorld,
     pub(crate) rigid: RigidBodyHandle,
     pub(crate) config: &'a PhysicsConfig,
+    pub(crate) conditions: &'a Conditions,
+    pub(crate) detail: Detail,
     pub(crate) claims: &'a mut Vec<Claim>,
 }
 
@@ -178,6 +216,16 @@ impl BodyContext<'_> {
             &mut world.colliders,
             QueryFilter::new().exclude_rigid_body(self.rigid),
         )
+    }
+
+    /// What the air and the roads are like.
+    pub fn conditions(&self) -> &Conditions {
+        self.conditions
+    }
+
+    /// How finely the body is to move in this substep.
+    pub fn detail(&self) -> Detail {
+        self.detail
     }
 
     /// The settings of the physics.

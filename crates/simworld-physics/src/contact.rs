@@ -38,6 +38,7 @@ struct Contact {
     pair: (EntityId, EntityId),
     point: Point3,
     closing_speed: f64,
+    impulse: f64,
 }
 
 impl Contacts {
@@ -45,8 +46,8 @@ impl Contacts {
     pub(crate) fn report(&mut self, world: &mut World) {
         self.begun.sort_by_key(|contact| contact.pair);
         self.begun.dedup_by_key(|contact| contact.pair);
-        for Contact { pair: (a, b), point, closing_speed } in self.begun.drain(..) {
-            world.emit(EventKind::Contact { a, b, point, closing_speed });
+        for Contact { pair: (a, b), point, closing_speed, impulse } in self.begun.drain(..) {
+            world.emit(EventKind::Contact { a, b, point, closing_speed, impulse });
         }
     }
 
@@ -55,7 +56,15 @@ impl Contacts {
     }
 
     fn note(&mut self, contact: Contact) {
-        if !self.touched(contact.pair) && !self.now.contains(&contact.pair) {
+        if self.now.contains(&contact.pair) {
+            return; // noted from the other side
+        }
+        if self.touched(contact.pair) {
+            // A contact of this step goes on: a blow takes several substeps.
+            if let Some(begun) = self.begun.iter_mut().find(|begun| begun.pair == contact.pair) {
+                begun.impulse += contact.impulse;
+            }
+        } else {
             self.begun.push(contact);
         }
         self.now.push(contact.pair);
@@ -98,7 +107,8 @@ impl PhysicsDynamics {
             // The manifold's normal points from the first to the second.
             let normal = from_vector(manifold.data.normal);
             let towards_other = if is_first { normal } else { -normal };
-            self.note(owned, other, point, towards_other, contacts);
+            let impulse = pair.total_impulse_magnitude();
+            self.note(owned, other, point, towards_other, impulse, contacts);
         }
     }
 
@@ -116,7 +126,7 @@ impl PhysicsDynamics {
             let reach = if contacts.touched(ordered(owned.id, id)) { PART } else { TOUCH };
             if found.dist <= reach {
                 let point = from_point(found.point2);
-                self.note(owned, other, point, from_vector(found.normal1), contacts);
+                self.note(owned, other, point, from_vector(found.normal1), 0.0, contacts);
             }
         }
     }
@@ -127,13 +137,16 @@ impl PhysicsDynamics {
         other: ColliderHandle,
         point: Point3,
         towards_other: Vector3,
+        impulse: f64,
         contacts: &mut Contacts,
     ) {
         let collider = &self.physics.colliders[other];
         let Some(id) = BodyTag::from_user_data(collider.user_data).entity() else { return };
         let approach = velocity_before(owned, &point) - self.velocity_of(id, other, &point);
         let closing_speed = approach.dot(&towards_other).max(0.0);
-        contacts.note(Contact { pair: ordered(owned.id, id), point, closing_speed });
+        // The engine keeps the impulse of a contact that the bodies have already left.
+        let impulse = if closing_speed > 0.0 { impulse } else { 0.0 };
+        contacts.note(Contact { pair: ordered(owned.id, id), point, closing_speed, impulse });
     }
 
     fn velocity_of(&self, id: EntityId, collider: ColliderHandle, point: &Point3) -> Vector3 {

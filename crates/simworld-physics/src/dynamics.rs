@@ -1,25 +1,31 @@
 //! The physics of a world: which bodies it has, and the step.
 
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
-use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyHandle, RigidBodySet};
+use rapier3d_f64::prelude::{
+    CoefficientCombineRule, ColliderBuilder, PhysicsWorld, RigidBodyHandle, RigidBodySet,
+};
 use rayon::prelude::*;
 use simworld_core::event::EventKind;
-use simworld_core::geometry::{Pose, Twist};
+use simworld_core::geometry::{Point3, Pose, Twist};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
-use crate::body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
+use crate::body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
 use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::mirror::Moving;
-use crate::shape::BodyTag;
+use crate::shape::{BodyTag, marked};
+use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// Thickness of the ground, m: no body falls through it in a step.
 const GROUND_THICKNESS: f64 = 100.0;
+
+/// More substeps than this in a step are not taken, however finely a body would like to move.
+const MOST_SUBSTEPS: f64 = 1000.0;
 
 /// The bodies of a world under the laws of physics.
 ///
@@ -60,6 +66,10 @@ pub struct PhysicsDynamics {
     /// By ascending id.
     pub(crate) bodies: Vec<Owned>,
     pub(crate) contacts: Contacts,
+    /// What the air and the roads are like.
+    pub(crate) conditions: Conditions,
+    /// Where bodies move in full detail; everywhere, if there are none.
+    pub(crate) interest: Vec<Point3>,
     /// An empty set, lent to queries that must not know rigid bodies.
     pub(crate) nobody: RigidBodySet,
     // Scratch space of a step.
@@ -79,6 +89,8 @@ pub(crate) struct Owned {
     pub(crate) bonds: Bonds,
     /// Velocity at the start of the substep, for the closing speed of contacts.
     pub(crate) before: Twist,
+    /// How finely it is to move.
+    pub(crate) detail: Detail,
 }
 
 impl PhysicsDynamics {
@@ -93,8 +105,10 @@ impl PhysicsDynamics {
         let (reach, depth) = (config.ground_half_extent, GROUND_THICKNESS * 0.5);
         let ground = ColliderBuilder::cuboid(reach, reach, depth)
             .position(RapierPose::from_translation(Vector::new(0.0, 0.0, -depth)))
-            .friction(config.friction)
-            .user_data(BodyTag::Ground.to_user_data());
+            .friction(config.ground.friction())
+            .friction_combine_rule(CoefficientCombineRule::GeometricMean)
+            .restitution(config.ground.restitution())
+            .user_data(marked(BodyTag::Ground, config.ground));
         let ground = physics.insert_collider(ground, None);
         let mut dynamics = Self {
             config,
@@ -102,6 +116,8 @@ impl PhysicsDynamics {
             slots: Vec::new(),
             bodies: Vec::new(),
             contacts: Contacts::default(),
+            conditions: Conditions::default(),
+            interest: Vec::new(),
             nobody: RigidBodySet::new(),
             moving: Vec::new(),
             near: Vec::new(),
@@ -115,6 +131,14 @@ impl PhysicsDynamics {
     /// The settings.
     pub fn config(&self) -> &PhysicsConfig {
         &self.config
+    }
+
+    /// How many substeps a step of `dt` s takes: what the settings say, or more if a body needs it.
+    fn substeps(&self, dt: f64) -> u32 {
+        let longest =
+            self.bodies.iter().map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
+        let needed = (dt / longest - 1e-9).ceil().clamp(1.0, MOST_SUBSTEPS);
+        self.config.substeps.max(needed as u32)
     }
 
     /// Passes on what bodies were told; what they refuse becomes an event.
@@ -136,10 +160,12 @@ impl PhysicsDynamics {
 
     /// Lets every body look around; the state is frozen, so the order and the thread do not matter.
     fn sense(&mut self, dt: f64) {
-        let (physics, nobody, config) = (&self.physics, &self.nobody, &self.config);
+        let (physics, nobody, config, conditions) =
+            (&self.physics, &self.nobody, &self.config, &self.conditions);
         let sense = |owned: &mut Owned| {
             if owned.bonds.carried.is_none() {
-                owned.body.sense(&Surroundings { physics, nobody, rigid: owned.rigid, config }, dt);
+                let (rigid, detail) = (owned.rigid, owned.detail);
+                owned.body.sense(&Surroundings { physics, nobody, rigid, config, conditions, detail }, dt);
             }
         };
         if self.bodies.len() >= config.parallel_threshold {
@@ -156,9 +182,10 @@ impl PhysicsDynamics {
         for owned in &mut self.bodies {
             owned.before = owned.body.state().twist;
             if owned.bonds.carried.is_none() {
-                let (physics, rigid) = (&mut self.physics, owned.rigid);
-                let claims = &mut self.claims;
-                owned.body.drive(&mut BodyContext { physics, rigid, config: &self.config, claims }, dt);
+                let (physics, rigid, detail) = (&mut self.physics, owned.rigid, owned.detail);
+                let (config, conditions, claims) = (&self.config, &self.conditions, &mut self.claims);
+                let mut context = BodyContext { physics, rigid, config, conditions, detail, claims };
+                owned.body.drive(&mut context, dt);
             }
         }
         self.advance_mirrors(share);
@@ -212,7 +239,9 @@ impl PhysicsDynamics {
         let rigid = owned.rigid;
         let body = &mut self.physics.bodies[rigid];
         body.set_position(to_pose(&state.pose), true);
-        body.set_linvel(to_vector(&state.twist.linear), true);
+        // The engine's velocity is that of the centre of mass.
+        let arm = from_vector(body.center_of_mass()) - state.pose.translation.vector;
+        body.set_linvel(to_vector(&(state.twist.linear + state.twist.angular.cross(&arm))), true);
         body.set_angvel(to_vector(&state.twist.angular), true);
         self.file_body(rigid);
     }
@@ -220,14 +249,17 @@ impl PhysicsDynamics {
 
 impl Dynamics for PhysicsDynamics {
     fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
-        let substeps = f64::from(self.config.substeps);
         if !(dt.is_finite() && dt > 0.0) {
             return Err(DynamicsError::Other(format!("physics cannot step by {dt} s: give a positive time")));
         }
+        self.set_conditions(Conditions::of(&world.environment().weather));
         self.synchronise(world);
+        self.choose_detail();
         self.take_actions(world);
+        let count = self.substeps(dt);
+        let substeps = f64::from(count);
         self.physics.integration_parameters.dt = dt / substeps;
-        for substep in 1..=self.config.substeps {
+        for substep in 1..=count {
             self.substep(dt / substeps, f64::from(substep) / substeps)?;
         }
         self.write_back(world)?;

@@ -6,18 +6,21 @@ mod body;
 mod config;
 mod contact;
 pub mod convert;
+mod detail;
 mod dynamics;
 mod error;
 mod humanoid;
 mod mirror;
+pub mod proving;
 mod query;
 mod rigid;
 mod shape;
 mod snapshot;
+mod surface;
 mod sync;
 mod vehicle;
 
-pub use body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
+pub use body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
 pub use config::PhysicsConfig;
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;
@@ -26,4 +29,9 @@ pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture};
 pub use rapier3d_f64 as rapier;
 pub use rigid::Rigid;
 pub use shape::{BodyTag, collider_for, shape_from};
-pub use vehicle::{Vehicle, VehicleConfig};
+pub use surface::{Conditions, Material, RoadCondition};
+pub use vehicle::{
+    AxleParameters, BalanceParameters, BrakeParameters, ChassisParameters, Drive, PatchForce, Powertrain,
+    SingleTrackInput, SingleTrackParameters, SingleTrackState, SlipControl, SteeringParameters,
+    TyreParameters, Vehicle, VehicleClass, VehicleParameters,
+};

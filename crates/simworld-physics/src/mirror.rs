@@ -9,7 +9,7 @@ use simworld_core::scene::{EntityRef, Shape};
 
 use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
-use crate::shape::collider_for;
+use crate::shape::{collider_for, material_of_entity};
 use crate::sync::Slot;
 
 /// How much farther than the mirror radius something stays solid once it is, m: it does not flicker at the rim.
@@ -76,7 +76,7 @@ impl PhysicsDynamics {
 
     fn mirror(&mut self, entity: &EntityRef<'_>) -> RigidBodyHandle {
         let body = RigidBodyBuilder::kinematic_position_based().pose(to_pose(entity.pose));
-        let collider = collider_for(&entity.info.shape, entity.id, self.config.friction);
+        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity));
         let rigid = self.physics.insert(body, collider).0;
         self.file_body(rigid);
         rigid

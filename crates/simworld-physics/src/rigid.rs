@@ -9,6 +9,7 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 use crate::body::{BodyContext, PhysicsBody};
 use crate::convert::{to_pose, to_vector};
 use crate::shape::collider_for;
+use crate::surface::Material;
 
 /// Density of things whose mass nobody gave, kg/m³: about that of seasoned softwood.
 const DENSITY: f64 = 500.0;
@@ -19,16 +20,16 @@ pub struct Rigid {
     state: BodyState,
     shape: Shape,
     mass: Option<f64>,
-    friction: f64,
+    material: Material,
 }
 
 impl Rigid {
-    /// A body with the pose, velocity, shape and mass of an entity, and a friction coefficient; without a mass it
+    /// A body with the pose, velocity, shape and mass of an entity, and a material; without a mass it
     /// weighs what softwood would, 500 kg/m³.
-    pub fn of(entity: &EntityRef<'_>, friction: f64) -> Self {
+    pub fn of(entity: &EntityRef<'_>, material: Material) -> Self {
         let state = BodyState { pose: *entity.pose, twist: *entity.twist };
         let mass = entity.info.mass.filter(|mass| mass.is_finite() && *mass > 0.0);
-        Self { state, shape: entity.info.shape, mass, friction }
+        Self { state, shape: entity.info.shape, mass, material }
     }
 }
 
@@ -61,7 +62,7 @@ impl PhysicsBody for Rigid {
             .linvel(to_vector(&self.state.twist.linear))
             .angvel(to_vector(&self.state.twist.angular))
             .ccd_enabled(true);
-        let collider = collider_for(&self.shape, id, self.friction);
+        let collider = collider_for(&self.shape, id, self.material);
         let collider = match self.mass {
             Some(mass) => collider.mass(mass),
             None => collider.density(DENSITY),

@@ -6,9 +6,12 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
-use rapier3d_f64::prelude::{Collider, ColliderBuilder, SharedShape};
+use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderBuilder, SharedShape};
 use simworld_core::id::EntityId;
-use simworld_core::scene::Shape;
+use simworld_core::scene::{EntityRef, Shape};
+use simworld_core::value::Value;
+
+use crate::surface::Material;
 
 /// The mark on a collider that says whose it is: rapier's `user_data`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +33,7 @@ impl BodyTag {
 
     /// As rapier stored it.
     pub fn from_user_data(data: u128) -> Self {
-        match data.checked_sub(1) {
+        match (data & ((1 << MATERIAL_BITS) - 1)).checked_sub(1) {
             Some(id) => Self::Entity(EntityId::from(id as u64)),
             None => Self::Ground,
         }
@@ -42,6 +45,28 @@ impl BodyTag {
             Self::Ground => None,
             Self::Entity(id) => Some(id),
         }
+    }
+}
+
+/// Where the material stands in a mark, above what names the entity.
+const MATERIAL_BITS: u32 = 96;
+
+/// The mark of whose a collider is, with what it is made of.
+pub(crate) fn marked(tag: BodyTag, material: Material) -> u128 {
+    tag.to_user_data() | (material as u128) << MATERIAL_BITS
+}
+
+/// What a collider is made of, by its mark.
+pub(crate) fn material_of(data: u128) -> Material {
+    let index = (data >> MATERIAL_BITS) as usize;
+    Material::ALL.get(index).copied().unwrap_or_default()
+}
+
+/// What an entity is made of: its attribute `material`, or else concrete.
+pub(crate) fn material_of_entity(entity: &EntityRef<'_>) -> Material {
+    match entity.info.attributes.get("material") {
+        Some(Value::Text(name)) => Material::from_name(name).unwrap_or(Material::Concrete),
+        _ => Material::Concrete,
     }
 }
 
@@ -71,13 +96,16 @@ pub fn shape_from(shape: &Shape) -> (SharedShape, RapierPose) {
     }
 }
 
-/// The collider of an entity's shape, marked as the entity's, to be hung on a rigid body at the entity's pose.
-pub fn collider_for(shape: &Shape, id: EntityId, friction: f64) -> ColliderBuilder {
+/// The collider of an entity's shape, marked as the entity's, with the dry friction of a
+/// material, to be hung on a rigid body at the entity's pose.
+pub fn collider_for(shape: &Shape, id: EntityId, material: Material) -> ColliderBuilder {
     let (solid, body_from_solid) = shape_from(shape);
     ColliderBuilder::new(solid)
         .position(body_from_solid)
-        .friction(friction)
-        .user_data(BodyTag::Entity(id).to_user_data())
+        .friction(material.friction())
+        .friction_combine_rule(CoefficientCombineRule::GeometricMean)
+        .restitution(material.restitution())
+        .user_data(marked(BodyTag::Entity(id), material))
 }
 
 #[cfg(test)]
@@ -90,6 +118,9 @@ mod tests {
             assert_eq!(BodyTag::from_user_data(BodyTag::Entity(id).to_user_data()), BodyTag::Entity(id));
         }
         assert_eq!(BodyTag::from_user_data(0).entity(), None);
+        let tag = BodyTag::Entity(EntityId::new(u32::MAX, u32::MAX));
+        let mark = marked(tag, Material::Ice);
+        assert_eq!((BodyTag::from_user_data(mark), material_of(mark)), (tag, Material::Ice));
     }
 
     #[test]

@@ -5,20 +5,21 @@
 
 use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Pose, Twist};
+use simworld_core::geometry::{Point3, Pose, Twist};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Embodiment};
 
-use crate::body::Bonds;
+use crate::body::{Bonds, Detail};
 use crate::convert::{from_pose, from_vector};
 use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// The mark of this crate's saved state and its version.
-const MARK: [u8; 8] = *b"swphys01";
+const MARK: [u8; 8] = *b"swphys02";
 
 /// What is written, by reference.
 #[derive(Serialize)]
@@ -27,6 +28,8 @@ struct Written<'a> {
     physics: &'a PhysicsWorld,
     slots: &'a [Slot],
     touching: &'a [(EntityId, EntityId)],
+    conditions: Conditions,
+    interest: &'a [Point3],
     bodies: Vec<SavedBody>,
 }
 
@@ -37,6 +40,8 @@ struct Read {
     physics: PhysicsWorld,
     slots: Vec<Slot>,
     touching: Vec<(EntityId, EntityId)>,
+    conditions: Conditions,
+    interest: Vec<Point3>,
     bodies: Vec<SavedBody>,
 }
 
@@ -45,6 +50,7 @@ struct SavedBody {
     id: EntityId,
     rigid: RigidBodyHandle,
     written: Pose,
+    detail: Detail,
     pose: Pose,
     twist: Twist,
     inner: Vec<u8>,
@@ -63,13 +69,15 @@ impl PhysicsDynamics {
         let save = |owned: &Owned| {
             let BodyState { pose, twist } = owned.body.state();
             let (id, rigid, written) = (owned.id, owned.rigid, owned.written);
-            SavedBody { id, rigid, written, pose, twist, inner: owned.body.save() }
+            SavedBody { id, rigid, written, detail: owned.detail, pose, twist, inner: owned.body.save() }
         };
         let written = Written {
             config: &self.config,
             physics: &self.physics,
             slots: &self.slots,
             touching: &self.contacts.touching,
+            conditions: self.conditions,
+            interest: &self.interest,
             bodies: self.bodies.iter().map(save).collect(),
         };
         let rest = postcard::to_allocvec(&written).map_err(|error| saved_error(error.to_string()))?;
@@ -105,10 +113,13 @@ impl PhysicsDynamics {
             owned.written = body.written;
             owned.before = body.twist;
             owned.bonds = Bonds::default();
+            owned.detail = body.detail;
         }
         self.physics = read.physics;
         self.slots = read.slots;
         self.contacts.touching = read.touching;
+        self.conditions = read.conditions;
+        self.interest = read.interest;
         Ok(())
     }
 
@@ -128,6 +139,10 @@ impl PhysicsDynamics {
             for point in pair.manifolds().iter().flat_map(|manifold| &manifold.points) {
                 hasher.f64(point.dist).f64(point.data.impulse);
             }
+        }
+        hasher.u64(self.interest.len() as u64);
+        for point in &self.interest {
+            hasher.point(point);
         }
         hasher.u64(self.contacts.touching.len() as u64);
         for (a, b) in &self.contacts.touching {

@@ -14,7 +14,7 @@ use crate::body::Bonds;
 use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
 use crate::mirror::Mirror;
-use crate::shape::{body_from, collider_for, shape_from};
+use crate::shape::{body_from, collider_for, material_of_entity, shape_from};
 
 /// What the physics makes of a slot of the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -94,7 +94,7 @@ impl PhysicsDynamics {
     fn fix(&mut self, slot: usize, entity: &EntityRef<'_>) {
         self.vacate(slot);
         let (_, body_from_solid) = shape_from(&entity.info.shape);
-        let collider = collider_for(&entity.info.shape, entity.id, self.config.friction)
+        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity))
             .position(to_pose(entity.pose) * body_from_solid);
         let collider = self.physics.insert_collider(collider, None);
         self.file(collider);

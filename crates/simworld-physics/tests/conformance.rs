@@ -12,13 +12,13 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Scene, Shape, World};
 use simworld_core::seam::{Dynamics, DynamicsError};
 use simworld_core::testing::{check_dynamics, check_embodiment};
-use simworld_physics::{Humanoid, HumanoidConfig, PhysicsConfig, PhysicsDynamics, Vehicle, VehicleConfig};
+use simworld_physics::{Humanoid, HumanoidConfig, PhysicsConfig, PhysicsDynamics, Vehicle, VehicleClass};
 
 #[test]
 fn humanoids_and_vehicles_are_embodiments() {
     let pose = at(1.0, 2.0, 0.5);
     check_embodiment(|| Box::new(Humanoid::new(pose, HumanoidConfig::default()).unwrap()));
-    check_embodiment(|| Box::new(Vehicle::new(pose, VehicleConfig::default()).unwrap()));
+    check_embodiment(|| Box::new(Vehicle::new(pose, VehicleClass::Sedan.parameters()).unwrap()));
 }
 
 /// Physics whose bodies are told, by the clock alone, to walk, turn and drive; and traffic that passes by.
@@ -99,7 +99,7 @@ impl Yard {
         for id in &self.walkers {
             physics.add_humanoid(&self.world, *id, HumanoidConfig::default()).unwrap();
         }
-        physics.add_vehicle(&self.world, self.car, VehicleConfig::default()).unwrap();
+        physics.add_vehicle(&self.world, self.car, VehicleClass::Sedan.parameters()).unwrap();
         for id in &self.boxes {
             physics.add_rigid(&self.world, *id).unwrap();
         }

@@ -9,7 +9,7 @@ use simworld_core::event::EventKind;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Shape};
 use simworld_core::seam::Dynamics;
-use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, PhysicsError, VehicleConfig};
+use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, PhysicsError, VehicleClass};
 
 #[test]
 fn settings_out_of_range_are_named() {
@@ -22,13 +22,15 @@ fn settings_out_of_range_are_named() {
     assert_eq!(field(PhysicsConfig { gravity: f64::NAN, ..sound() }), "gravity");
     assert_eq!(field(PhysicsConfig { gravity: -9.81, ..sound() }), "gravity");
     assert_eq!(field(PhysicsConfig { ground_half_extent: f64::INFINITY, ..sound() }), "ground_half_extent");
-    assert_eq!(field(PhysicsConfig { friction: -0.1, ..sound() }), "friction");
+    assert_eq!(field(PhysicsConfig { detail_radius: -0.1, ..sound() }), "detail_radius");
     assert_eq!(field(PhysicsConfig { max_slope: 2.0, ..sound() }), "max_slope");
     assert_eq!(field(PhysicsConfig { step_height: -1.0, ..sound() }), "step_height");
     assert_eq!(field(PhysicsConfig { mirror_radius: 0.0, ..sound() }), "mirror_radius");
     assert_eq!(field(PhysicsConfig { parallel_threshold: 0, ..sound() }), "parallel_threshold");
     assert!(HumanoidConfig { turning_rate: 0.0, ..HumanoidConfig::default() }.validate().is_err());
-    assert!(VehicleConfig { mass: f64::NAN, ..VehicleConfig::default() }.validate().is_err());
+    let mut absurd = VehicleClass::Sedan.parameters();
+    absurd.chassis.mass = f64::NAN;
+    assert!(absurd.validate().is_err());
 }
 
 #[test]
@@ -45,7 +47,7 @@ fn unknown_occupied_and_unsuitable_entities_are_named() {
     assert!(
         matches!(physics.add_humanoid(world, flat, walks()), Err(PhysicsError::Shape { id, .. }) if id == flat)
     );
-    let drives = VehicleConfig::default();
+    let drives = VehicleClass::Sedan.parameters();
     assert!(matches!(physics.add_vehicle(world, flat, drives), Err(PhysicsError::Shape { .. })));
     assert_eq!(physics.remove(flat), Err(PhysicsError::Bodiless { id: flat }));
     assert_eq!(physics.state(flat), None);
@@ -95,7 +97,7 @@ proptest! {
         let mut stage = Stage::new();
         let person = stage.person(at(0.0, 0.0, 0.0));
         let car = stage.spawn(EntityKind::Car, at(10.0, 0.0, 0.0), Shape::cuboid(4.3, 1.8, 1.5));
-        stage.physics.add_vehicle(&stage.world, car, VehicleConfig::default()).unwrap();
+        stage.physics.add_vehicle(&stage.world, car, VehicleClass::Sedan.parameters()).unwrap();
         let (who, action) = match which {
             0 => (person, Action::MoveForward { speed: number }),
             1 => (person, Action::Rotate { angle: number }),

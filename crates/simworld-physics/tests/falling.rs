@@ -43,7 +43,7 @@ fn a_box_on_a_box_reports_one_blow_with_its_speed() {
         .contacts
         .iter()
         .map(|event| match event {
-            EventKind::Contact { a, b, point, closing_speed } => (*a, *b, *point, *closing_speed),
+            EventKind::Contact { a, b, point, closing_speed, .. } => (*a, *b, *point, *closing_speed),
             other => panic!("{other:?}"),
         })
         .collect();

@@ -1,112 +1,56 @@
-//! A four-wheeled vehicle: its data and what it is told. How it moves is in `drive`.
+//! Road vehicles: what they are, what they are told, and at which level of detail they move.
+//!
+//! `rigid` moves a vehicle as a body on springs and tyres; `reduced` as a single track on the ground.
 
-mod drive;
+mod balance;
+mod cars;
+mod class;
+mod heavy;
+mod parameters;
+mod physics_body;
+mod powertrain;
+mod reduced;
+mod rigid;
+mod single_track;
+mod tyre;
+mod wheel;
 
-use rapier3d_f64::control::DynamicRayCastVehicleController;
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionKind, ActionSet};
 use simworld_core::geometry::{Pose, Twist, Vector3};
 use simworld_core::scene::EntityRef;
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
-use crate::error::{PhysicsError, check_range};
+pub use class::VehicleClass;
+pub use parameters::{
+    AxleParameters, BalanceParameters, BrakeParameters, ChassisParameters, SlipControl, SteeringParameters,
+    VehicleParameters,
+};
+use powertrain::Gearbox;
+pub use powertrain::{Drive, Powertrain};
+use reduced::Track;
+pub use single_track::{SingleTrackInput, SingleTrackParameters, SingleTrackState};
+pub use tyre::{PatchForce, TyreParameters};
+use wheel::Wheel;
 
-/// The data of a car. The defaults are those of a mean new car of the European Union: 1392 kg and 95 kW (ICCT
-/// pocketbook 2016).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct VehicleConfig {
-    /// Mass, kg, 50 to 60 000.
-    pub mass: f64,
-    /// Power at the wheels, W, 100 to 1e6.
-    pub power: f64,
-    /// Greatest driving force, N, 100 to 1e6; it is what limits the acceleration from rest.
-    pub drive_force: f64,
-    /// Deceleration under full braking, m/s², 0.5 to 12.
-    pub braking: f64,
-    /// Greatest speed forward, m/s, 1 to 100.
-    pub top_speed: f64,
-    /// Greatest speed backward, m/s, 0 to 30.
-    pub reverse_speed: f64,
-    /// Greatest angle of the front wheels, radians, 0.05 to 1.2.
-    pub steering_limit: f64,
-    /// How fast the front wheels turn, rad/s, 0.05 to 20.
-    pub steering_rate: f64,
-    /// Share of the length between the axles, 0.3 to 0.95.
-    pub wheelbase_share: f64,
-    /// Wheel radius, m, 0.05 to 1.
-    pub wheel_radius: f64,
-    /// Free height under the chassis, m, 0.02 to 1.
-    pub clearance: f64,
-    /// Height of the centre of mass, m, 0.05 to 3.
-    pub center_of_mass: f64,
-    /// Friction coefficient of the tyres, 0.05 to 1.5; dry asphalt 0.7 to 0.85, ice 0.05 to 0.15.
-    pub grip: f64,
-    /// Aerodynamic drag, N/(m/s)², that is half the density of air by drag coefficient and frontal area, 0 to 20.
-    pub drag: f64,
-    /// Rolling resistance as a share of the weight, 0 to 0.1.
-    pub rolling_resistance: f64,
-}
+use crate::body::Detail;
+use crate::error::PhysicsError;
 
-impl Default for VehicleConfig {
-    fn default() -> Self {
-        Self {
-            mass: 1392.0,
-            power: 95e3,
-            drive_force: 5000.0,
-            braking: 7.0,
-            top_speed: 50.0,
-            reverse_speed: 5.0,
-            steering_limit: 0.6,
-            steering_rate: 1.0,
-            wheelbase_share: 0.6,
-            wheel_radius: 0.31,
-            clearance: 0.18,
-            center_of_mass: 0.5,
-            grip: 0.8,
-            drag: 0.4,
-            rolling_resistance: 0.012,
-        }
-    }
-}
-
-impl VehicleConfig {
-    /// Checks every field.
-    ///
-    /// # Errors
-    /// The first field out of range, with what is allowed.
-    pub fn validate(&self) -> Result<(), PhysicsError> {
-        let check = |field, value, range, allowed| check_range("VehicleConfig", field, value, range, allowed);
-        check("mass", self.mass, 50.0..=6e4, "50 to 60000 kg")?;
-        check("power", self.power, 100.0..=1e6, "100 to 1e6 W")?;
-        check("drive_force", self.drive_force, 100.0..=1e6, "100 to 1e6 N")?;
-        check("braking", self.braking, 0.5..=12.0, "0.5 to 12 m/s²")?;
-        check("top_speed", self.top_speed, 1.0..=100.0, "1 to 100 m/s")?;
-        check("reverse_speed", self.reverse_speed, 0.0..=30.0, "0 to 30 m/s")?;
-        check("steering_limit", self.steering_limit, 0.05..=1.2, "0.05 to 1.2 rad")?;
-        check("steering_rate", self.steering_rate, 0.05..=20.0, "0.05 to 20 rad/s")?;
-        check("wheelbase_share", self.wheelbase_share, 0.3..=0.95, "0.3 to 0.95")?;
-        check("wheel_radius", self.wheel_radius, 0.05..=1.0, "0.05 to 1 m")?;
-        check("clearance", self.clearance, 0.02..=1.0, "0.02 to 1 m")?;
-        check("center_of_mass", self.center_of_mass, 0.05..=3.0, "0.05 to 3 m")?;
-        check("grip", self.grip, 0.05..=1.5, "0.05 to 1.5")?;
-        check("drag", self.drag, 0.0..=20.0, "0 to 20 N s²/m²")?;
-        check("rolling_resistance", self.rolling_resistance, 0.0..=0.1, "0 to 0.1")
-    }
-}
-
-/// A car, bus or truck on rapier's ray-cast vehicle controller, driven by throttle, brake and steering.
+/// A car, van, truck, bus or scooter, driven by throttle, brake and steering.
 ///
-/// The wheels are rays with springs; the tyres have a friction limit and no slip angle.
+/// In full detail it is a rigid body on springs, whose tyres have slip and load ([`TyreParameters`]); reduced it is a
+/// single track ([`SingleTrackParameters`]) with the same controls. The physics chooses by the distance from what is
+/// of interest ([`PhysicsDynamics::set_interest`](crate::PhysicsDynamics::set_interest)), and the vehicle goes over
+/// from one to the other with the same pose, velocity and yaw rate.
 #[derive(Clone, Debug)]
 pub struct Vehicle {
-    config: VehicleConfig,
-    /// Length, width and height, m.
-    size: Vector3,
+    parameters: VehicleParameters,
     state: BodyState,
     controls: Controls,
-    /// Wheels on the chassis, once it is in an engine.
-    wheels: Option<DynamicRayCastVehicleController>,
+    gearbox: Gearbox,
+    wheels: Vec<Wheel>,
+    detail: Detail,
+    track: Track,
 }
 
 /// What the driver does.
@@ -120,46 +64,158 @@ struct Controls {
     steering: f64,
     /// Angle of the front wheels now, radians.
     wheel_angle: f64,
+    /// How far the brakes are on, in [0, 1].
+    braking: f64,
 }
 
+/// How much a shape may differ from the vehicle's own size, as a factor.
+const FIT: f64 = 1.6;
+
 impl Vehicle {
-    /// A passenger car 4.3 m long, 1.8 m wide and 1.5 m high at a pose.
+    /// A vehicle that stands at a pose.
     ///
     /// # Errors
     /// A setting out of range.
-    pub fn new(pose: Pose, config: VehicleConfig) -> Result<Self, PhysicsError> {
-        config.validate()?;
+    pub fn new(pose: Pose, parameters: VehicleParameters) -> Result<Self, PhysicsError> {
+        parameters.validate()?;
         let state = BodyState { pose, twist: Twist::ZERO };
-        let size = Vector3::new(4.3, 1.8, 1.5);
-        Ok(Self { config, size, state, controls: Controls::default(), wheels: None })
+        let wheels = mount_wheels(&parameters);
+        Ok(Self {
+            parameters,
+            state,
+            controls: Controls::default(),
+            gearbox: Gearbox::default(),
+            wheels,
+            detail: Detail::Full,
+            track: Track::default(),
+        })
     }
 
-    /// A vehicle with the pose and the size of an entity.
+    /// A vehicle with the pose, velocity and size of an entity, and its mass if it has one.
     ///
     /// # Errors
-    /// A setting out of range, or a shape too small to stand on four such wheels: it must be higher than the
-    /// clearance, and its axles farther apart than two wheel radii.
-    pub fn of(entity: &EntityRef<'_>, config: VehicleConfig) -> Result<Self, PhysicsError> {
-        let vehicle = Self::new(*entity.pose, config)?;
-        let (size, config) = (entity.info.shape.size(), &vehicle.config);
-        let room = size.x * config.wheelbase_share > 2.0 * config.wheel_radius
-            && size.z > config.clearance + 0.1
-            && size.y > 0.2;
-        if !room {
+    /// A setting out of range, or a shape that differs from the vehicle's own length, width or height by more than a
+    /// factor of 1.6.
+    pub fn of(entity: &EntityRef<'_>, parameters: VehicleParameters) -> Result<Self, PhysicsError> {
+        parameters.validate()?;
+        let (size, chassis) = (entity.info.shape.size(), &parameters.chassis);
+        let fits = |a: f64, b: f64| a <= b * FIT && b <= a * FIT;
+        if !(fits(size.x, chassis.length) && fits(size.y, chassis.width) && fits(size.z, chassis.height)) {
             let reason = format!(
-                "{:.2} x {:.2} x {:.2} m is too small for wheels of {} m radius and {} m clearance",
-                size.x, size.y, size.z, config.wheel_radius, config.clearance
+                "it is {:.2} x {:.2} x {:.2} m, and the vehicle {:.2} x {:.2} x {:.2} m: choose another class",
+                size.x, size.y, size.z, chassis.length, chassis.width, chassis.height
             );
             return Err(PhysicsError::Shape { id: entity.id, body: "vehicle", reason });
         }
-        let state = BodyState { pose: *entity.pose, twist: *entity.twist };
-        Ok(Self { size, state, ..vehicle })
+        let mut parameters = parameters.with_size(size.x, size.y, size.z);
+        if let Some(mass) = entity.info.mass {
+            parameters.chassis.mass = mass;
+        }
+        let mut vehicle = Self::new(*entity.pose, parameters)?;
+        vehicle.take_state(&BodyState { pose: *entity.pose, twist: *entity.twist });
+        Ok(vehicle)
+    }
+
+    /// Its data.
+    pub fn parameters(&self) -> &VehicleParameters {
+        &self.parameters
     }
 
     /// The angle of the front wheels now, radians, positive to the left.
     pub fn wheel_angle(&self) -> f64 {
         self.controls.wheel_angle
     }
+
+    /// The level of detail at which it moves now.
+    pub fn detail(&self) -> Detail {
+        self.detail
+    }
+
+    /// The gear that is engaged, from 1.
+    pub fn gear(&self) -> usize {
+        usize::from(self.gearbox.gear) + 1
+    }
+
+    /// The load on each wheel, N: front left, front right, rear left, rear right; front and rear of a two-wheeler.
+    pub fn wheel_loads(&self) -> impl Iterator<Item = f64> + '_ {
+        self.wheels.iter().map(|wheel| wheel.load)
+    }
+
+    /// The centre of mass, body frame, m.
+    fn center_of_mass(&self) -> Vector3 {
+        Vector3::new(self.parameters.center_of_mass_x(), 0.0, self.parameters.chassis.center_of_mass)
+    }
+
+    /// Speed along the vehicle, m/s.
+    fn speed(&self) -> f64 {
+        self.state.twist.linear.dot(&(self.state.pose.rotation * Vector3::x()))
+    }
+
+    /// Takes up a pose and velocity from outside; the wheels roll with it.
+    fn take_state(&mut self, state: &BodyState) {
+        self.state = *state;
+        self.track = Track::default();
+        self.roll_freely();
+    }
+
+    /// Lets the wheels turn with the ground.
+    fn roll_freely(&mut self) {
+        let (speed, parameters) = (self.speed(), &self.parameters);
+        for wheel in &mut self.wheels {
+            wheel.spin = speed / axle_of(parameters, wheel).wheel_radius;
+            wheel.deflection = [0.0; 2];
+        }
+    }
+
+    /// Moves steering and brakes towards what they were told.
+    fn follow_controls(&mut self, steering: f64, dt: f64) {
+        let limits = &self.parameters.steering;
+        let (most, target) = (limits.rate * dt, steering.clamp(-limits.limit, limits.limit));
+        let controls = &mut self.controls;
+        controls.wheel_angle += (target - controls.wheel_angle).clamp(-most, most);
+        let speed = self.state.twist.linear.dot(&(self.state.pose.rotation * Vector3::x()));
+        // A throttle against the motion brakes first.
+        let against =
+            if controls.throttle * speed < 0.0 && speed.abs() > 0.5 { controls.throttle.abs() } else { 0.0 };
+        let wanted = controls.brake.max(against);
+        let share = dt / (self.parameters.brakes.response + dt);
+        controls.braking += (wanted - controls.braking) * share;
+        if wanted == 0.0 && controls.braking < 1e-4 {
+            controls.braking = 0.0;
+        }
+    }
+
+    /// The throttle that reaches the engine: none while it brakes.
+    fn engine_throttle(&self) -> f64 {
+        let (throttle, speed) = (self.controls.throttle, self.speed());
+        let against = throttle * speed < 0.0 && speed.abs() > 0.5;
+        if against || self.controls.brake > 0.0 { 0.0 } else { throttle }
+    }
+}
+
+/// Wheels of both axles with their loads at rest under standard gravity; `attach` sets them for another one.
+fn mount_wheels(parameters: &VehicleParameters) -> Vec<Wheel> {
+    let chassis = &parameters.chassis;
+    let weight = chassis.mass * 9.81;
+    let mut wheels = Vec::with_capacity(4);
+    let axles = [
+        (&parameters.front, parameters.front_axle(), chassis.front_share),
+        (&parameters.rear, parameters.rear_axle(), 1.0 - chassis.front_share),
+    ];
+    for (axle, x, share) in axles {
+        match axle.wheels() {
+            1 => wheels.push(Wheel::new(x, 0.0, weight * share)),
+            _ => {
+                wheels.extend([0.5, -0.5].map(|side| Wheel::new(x, side * axle.track, weight * share * 0.5)));
+            }
+        }
+    }
+    wheels
+}
+
+/// The axle that a wheel is on.
+fn axle_of<'a>(parameters: &'a VehicleParameters, wheel: &Wheel) -> &'a AxleParameters {
+    if wheel.x > parameters.center_of_mass_x() { &parameters.front } else { &parameters.rear }
 }
 
 impl Embodiment for Vehicle {
@@ -180,7 +236,7 @@ impl Embodiment for Vehicle {
             }
             Action::Steer { angle } => {
                 let angle = checked(action.kind(), "angle", *angle, f64::MIN, f64::MAX, "a finite angle")?;
-                let limit = self.config.steering_limit;
+                let limit = self.parameters.steering.limit;
                 controls.steering = angle.clamp(-limit, limit);
             }
             Action::Stop => {
@@ -198,15 +254,18 @@ impl Embodiment for Vehicle {
     }
 
     fn save(&self) -> Vec<u8> {
-        postcard::to_allocvec(&("vehicle", &self.config, self.size, &self.controls, &self.wheels))
+        let Self { parameters, controls, gearbox, wheels, detail, track, .. } = self;
+        postcard::to_allocvec(&("vehicle", parameters, controls, gearbox, wheels, detail, track))
             .expect("plain numbers always serialise")
     }
 
     fn restore(&mut self, state: &BodyState, saved: &[u8]) -> bool {
-        type Saved<'a> = (&'a str, VehicleConfig, Vector3, Controls, Option<DynamicRayCastVehicleController>);
+        type Saved<'a> = (&'a str, VehicleParameters, Controls, Gearbox, Vec<Wheel>, Detail, Track);
         match postcard::from_bytes::<Saved<'_>>(saved) {
-            Ok(("vehicle", config, size, controls, wheels)) if config.validate().is_ok() => {
-                *self = Self { config, size, state: *state, controls, wheels };
+            Ok(("vehicle", parameters, controls, gearbox, wheels, detail, track))
+                if parameters.validate().is_ok() && wheels.len() == mount_wheels(&parameters).len() =>
+            {
+                *self = Self { parameters, state: *state, controls, gearbox, wheels, detail, track };
                 true
             }
             _ => false,

@@ -1,0 +1,221 @@
+//! What surfaces are made of, and how weather changes their friction.
+//!
+//! Two figures describe a surface: the friction coefficient of a solid that slides on it, and the grip it gives to
+//! rubber tyres as a share of what clean dry asphalt gives. The bands of road friction are those of accident
+//! reconstruction (dry 0.70 to 0.85, wet 0.45 to 0.65, packed snow 0.20 to 0.35, ice 0.05 to 0.15: Noon, Engineering
+//! Analysis of Vehicular Accidents, 1994; Bosch Automotive Handbook).
+
+use serde::{Deserialize, Serialize};
+use simworld_core::environment::Weather;
+use simworld_core::geometry::Vector3;
+
+/// What a surface is made of.
+///
+/// An entity names its own with the attribute `material` ([`Material::from_name`] lists the names); without one it
+/// is concrete, and the ground is what [`PhysicsConfig::ground`](crate::PhysicsConfig::ground) says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[repr(u8)]
+pub enum Material {
+    /// Clean asphalt, and whatever has no better name.
+    #[default]
+    Asphalt,
+    /// Concrete, brick and other masonry.
+    Concrete,
+    /// Cobblestones, worn smooth.
+    Cobblestone,
+    /// Loose gravel.
+    Gravel,
+    /// Grass.
+    Grass,
+    /// Bare metal: rails, manhole covers, car bodies.
+    Metal,
+    /// Wood: decking, crates.
+    Wood,
+    /// Rubber: soles, mats.
+    Rubber,
+    /// Ice, in any weather.
+    Ice,
+}
+
+impl Material {
+    /// Every material, in the order of declaration.
+    pub const ALL: &'static [Self] = &[
+        Self::Asphalt,
+        Self::Concrete,
+        Self::Cobblestone,
+        Self::Gravel,
+        Self::Grass,
+        Self::Metal,
+        Self::Wood,
+        Self::Rubber,
+        Self::Ice,
+    ];
+
+    /// The name in files.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Asphalt => "asphalt",
+            Self::Concrete => "concrete",
+            Self::Cobblestone => "cobblestone",
+            Self::Gravel => "gravel",
+            Self::Grass => "grass",
+            Self::Metal => "metal",
+            Self::Wood => "wood",
+            Self::Rubber => "rubber",
+            Self::Ice => "ice",
+        }
+    }
+
+    /// The material of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|material| material.as_str() == name)
+    }
+
+    /// Coefficient of sliding friction between two pieces, dry; that of unlike ones is the geometric mean of both.
+    /// Rounded from the tables of the Engineering Toolbox and the Bosch Automotive Handbook.
+    pub const fn friction(self) -> f64 {
+        match self {
+            Self::Asphalt => 0.7,
+            Self::Concrete => 0.65,
+            Self::Cobblestone => 0.6,
+            Self::Gravel | Self::Grass => 0.5,
+            Self::Metal => 0.3,
+            Self::Wood => 0.4,
+            Self::Rubber => 0.9,
+            Self::Ice => 0.05,
+        }
+    }
+
+    /// Coefficient of restitution between two pieces, in [0, 1]; that of unlike ones is the mean of both. Crates,
+    /// masonry and car bodies crush rather than bounce.
+    pub const fn restitution(self) -> f64 {
+        match self {
+            Self::Rubber => 0.7,
+            Self::Metal | Self::Ice => 0.1,
+            _ => 0.0,
+        }
+    }
+
+    /// Grip on a rubber tyre, dry, as a share of that of asphalt.
+    pub const fn grip(self) -> f64 {
+        match self {
+            Self::Asphalt | Self::Rubber => 1.0,
+            Self::Concrete => 0.95,
+            Self::Cobblestone => 0.75,
+            Self::Gravel => 0.6,
+            Self::Grass => 0.5,
+            Self::Metal => 0.55,
+            Self::Wood => 0.7,
+            Self::Ice => 0.1,
+        }
+    }
+}
+
+/// What weather has laid on the surfaces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RoadCondition {
+    /// Nothing.
+    #[default]
+    Dry,
+    /// A film of water.
+    Wet,
+    /// Packed snow.
+    Snow,
+    /// Ice.
+    Ice,
+}
+
+impl RoadCondition {
+    /// Every condition, from the best grip to the least.
+    pub const ALL: &'static [Self] = &[Self::Dry, Self::Wet, Self::Snow, Self::Ice];
+
+    /// What falls now is what lies: rain wets and freezes below 0 °C, snow lies up to 2 °C and is rain above. What
+    /// fell before is not remembered.
+    pub fn of(weather: &Weather) -> Self {
+        const TRACE: f64 = 0.05; // mm/h: less does not wet a road
+        let is_snow = weather.snow > TRACE;
+        let falls = is_snow || weather.rain > TRACE;
+        match (falls, is_snow, weather.temperature) {
+            (true, true, temperature) if temperature <= 2.0 => Self::Snow,
+            (true, false, temperature) if temperature < 0.0 => Self::Ice,
+            (true, ..) => Self::Wet,
+            (false, ..) => Self::Dry,
+        }
+    }
+
+    /// The grip of a material as a share of that of dry asphalt: for the good tyres of the braking tests, which stop
+    /// from 100 km/h in 36 m on a dry road and in 48 m on a wet one (Continental, CAR South Africa 2018-10).
+    pub fn grip(self, material: Material) -> f64 {
+        let (dry, wet) = (material.grip(), material.grip() * 0.75);
+        match self {
+            Self::Dry => dry,
+            Self::Wet => wet,
+            Self::Snow => wet.min(0.28),
+            Self::Ice => wet.min(0.1),
+        }
+    }
+
+    /// The coefficient of sliding friction of a material.
+    pub fn friction(self, material: Material) -> f64 {
+        let (dry, wet) = (material.friction(), material.friction() * 0.75);
+        match self {
+            Self::Dry => dry,
+            Self::Wet => wet,
+            Self::Snow => wet.min(0.28),
+            Self::Ice => wet.min(0.08),
+        }
+    }
+}
+
+/// What the air and the roads are like in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Conditions {
+    /// What lies on surfaces.
+    pub road: RoadCondition,
+    /// Velocity of the air, world frame, m/s.
+    pub wind: Vector3,
+}
+
+impl Default for Conditions {
+    /// Dry and calm.
+    fn default() -> Self {
+        Self { road: RoadCondition::Dry, wind: Vector3::zeros() }
+    }
+}
+
+impl Conditions {
+    /// Those of a weather.
+    pub fn of(weather: &Weather) -> Self {
+        Self { road: RoadCondition::of(weather), wind: Vector3::new(weather.wind.x, weather.wind.y, 0.0) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weather_lies_on_the_road() {
+        let condition = |rain, snow, temperature| {
+            RoadCondition::of(&Weather { rain, snow, temperature, ..Weather::default() })
+        };
+        assert_eq!(condition(0.0, 0.0, -10.0), RoadCondition::Dry);
+        assert_eq!(condition(2.0, 0.0, 10.0), RoadCondition::Wet);
+        assert_eq!(condition(2.0, 0.0, -3.0), RoadCondition::Ice);
+        assert_eq!(condition(0.0, 1.0, -3.0), RoadCondition::Snow);
+        assert_eq!(condition(0.0, 1.0, 8.0), RoadCondition::Wet);
+    }
+
+    #[test]
+    fn worse_conditions_never_grip_better() {
+        for material in Material::ALL {
+            for pair in RoadCondition::ALL.windows(2) {
+                assert!(pair[0].grip(*material) >= pair[1].grip(*material), "{material:?}: {pair:?}");
+                assert!(pair[0].friction(*material) >= pair[1].friction(*material), "{material:?}: {pair:?}");
+            }
+            assert_eq!(Material::from_name(material.as_str()), Some(*material));
+        }
+    }
+}
