@@ -59,8 +59,9 @@ impl Traffic {
         let yaw = heading(&(front - rear));
         let ahead = direction(yaw);
         let left = Vector2::new(-ahead.y, ahead.x);
-        let middle =
-            rear + (front - rear) * ((REAR_AXLE - 0.5) / (REAR_AXLE - FRONT_AXLE)) + left * vehicle.shift;
+        let middle = rear
+            + (front - rear) * ((REAR_AXLE - 0.5) / (REAR_AXLE - FRONT_AXLE))
+            + left * f64::from(vehicle.shift);
         let ahead = ahead * vehicle.v;
         Body {
             id: vehicle.id,

@@ -80,8 +80,8 @@ impl Part {
             let queue = self.slabs.queue_mut(*local as usize);
             let Some(vehicle) = queue.iter_mut().find(|v| v.id == *id) else { return false };
             let step = SIDEWAYS.min(STEEPNESS * vehicle.v) * scene.at.dt;
-            let left = vehicle.shift.abs() - step;
-            vehicle.shift = if left <= 0.0 { 0.0 } else { left.copysign(vehicle.shift) };
+            let left = f64::from(vehicle.shift.abs()) - step;
+            vehicle.shift = if left <= 0.0 { 0.0 } else { (left as f32).copysign(vehicle.shift) };
             if left > OUT
                 && let Some(old) = old_lane(scene.tracks, lane, vehicle)
             {
@@ -242,7 +242,7 @@ impl Part {
         vehicle.s *= stretch(tracks, lane, target);
         vehicle.next = way;
         let to_left = tracks.beside[lane as usize][0] == target;
-        let apart = tracks.apart(lane, target);
+        let apart = tracks.apart(lane, target) as f32;
         // It still stands in its old lane: to the right of the new one if it goes left.
         vehicle.shift = if to_left { -apart } else { apart };
         path.before = target;
@@ -269,7 +269,7 @@ impl Part {
         lane: Track,
         vehicle: &Vehicle,
     ) -> Option<(f64, f64)> {
-        if vehicle.shift.abs() <= OUT {
+        if f64::from(vehicle.shift.abs()) <= OUT {
             return None;
         }
         let old = old_lane(tracks, lane, vehicle)?;

@@ -56,13 +56,13 @@ impl Tracks {
     /// Whether a kind may drive on a lane.
     #[inline]
     pub(crate) fn may_use(&self, lane: Track, kind: VehicleKind) -> bool {
-        kind.may_use(self.network.lanes[lane as usize].kind)
+        kind.may_use(self.kinds[lane as usize])
     }
 
     /// How well a lane suits a kind: a lane of its own before all others, for riders the right one before the rest; a lane that
     /// is not for it least.
     pub(crate) fn suits(&self, lane: Track, kind: VehicleKind) -> i8 {
-        let lane_kind = self.network.lanes[lane as usize].kind;
+        let lane_kind = self.kinds[lane as usize];
         if !kind.may_use(lane_kind) {
             -1
         } else if kind.prefers(lane_kind) {

@@ -55,7 +55,7 @@ pub(crate) struct Vehicle {
     /// The speed that its driver chooses, as a share of the limit.
     pub(crate) factor: f32,
     /// How far its body is to the left of its lane while it changes, m.
-    pub(crate) shift: f64,
+    pub(crate) shift: f32,
     /// Its acceleration in the last step, m/s²: kept between decisions by those who decide less often.
     pub(crate) acceleration: f32,
 }
@@ -446,7 +446,7 @@ impl VehicleManager {
         for (track, vehicle, _) in self.iter(tracks) {
             hasher.u64(u64::from(track));
             hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
-            hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(vehicle.shift);
+            hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(f64::from(vehicle.shift));
         }
     }
 }

@@ -66,6 +66,8 @@ pub(crate) struct Work {
     pub(super) accelerations: Vec<f64>,
     pub(super) weights: Vec<f64>,
     pub(super) requests: Vec<Request>,
+    /// Tracks on which somebody holds a way, a bit each.
+    busy: Vec<u64>,
     /// Tracks whose front left them in this step.
     passed: Vec<u32>,
     /// The last vehicle of each lane, and the lanes that were shown to have one.
@@ -174,8 +176,10 @@ impl Part {
     fn integrate(&mut self, scene: &Scene<'_>) {
         let dt = scene.at.dt;
         let layout = self.layout(scene.tracks);
-        let Work { accelerations, passed, counters, .. } = &mut self.work;
+        let Work { accelerations, passed, busy, counters, .. } = &mut self.work;
         passed.clear();
+        busy.clear();
+        busy.resize(layout.tracks.len().div_ceil(64), 0);
         let mut accelerations = &accelerations[..];
         let mut from = 0;
         while let Some(local) = self.slabs.occupied_from(from) {
@@ -187,6 +191,7 @@ impl Part {
             counters.updates += queue.len() as u64;
             // Those who decide in every step keep their distance by themselves.
             let (mut ahead, is_far) = (f64::INFINITY, !self.far.is_empty());
+            let mut somebody_holds = false;
             for (vehicle, acceleration) in queue.iter_mut().zip(own) {
                 let (v, way) = advance(vehicle.v, *acceleration, dt);
                 let old = vehicle.s;
@@ -205,12 +210,14 @@ impl Part {
                     counters.forced_stops += 1;
                 }
                 ahead = vehicle.s - vehicle.length();
+                somebody_holds |= vehicle.holding != NONE;
                 let before = vehicle.stood;
                 vehicle.stood = if vehicle.v < STANDING { before + dt } else { 0.0 };
                 if before < LONG && vehicle.stood >= LONG {
                     counters.long_waits += 1;
                 }
             }
+            busy[local / 64] |= u64::from(somebody_holds) << (local % 64);
             if queue.first().is_some_and(|front| front.s >= end) {
                 passed.push(local as u32);
             }
@@ -259,7 +266,13 @@ impl Part {
             self.hand_over(scene, track, vehicle, path);
             return;
         }
-        self.slabs.push(tracks.layout.local(track), vehicle, path);
+        self.add(tracks.layout.local(track), vehicle, path);
+    }
+
+    /// Puts a vehicle that holds a way at the back of a track.
+    fn add(&mut self, local: usize, vehicle: Vehicle, path: Path) {
+        self.work.busy[local / 64] |= 1 << (local % 64);
+        self.slabs.push(local, vehicle, path);
     }
 
     /// From a way to the lane behind it, wherever that is kept.
@@ -277,38 +290,32 @@ impl Part {
             scene.junctions.clear_way(way, is_long);
         }
         let layout = self.layout(scene.tracks);
-        for local in self.slabs.occupied() {
-            if local >= layout.lanes {
-                for vehicle in self.slabs.queue(local) {
-                    scene.junctions.claim(scene.tracks, vehicle, vehicle.s);
-                }
-                continue;
-            }
-            let end = scene.tracks.length[layout.tracks[local] as usize];
-            for vehicle in self.slabs.queue(local) {
-                if vehicle.holding == vehicle.next && vehicle.next != NONE {
-                    scene.junctions.claim(scene.tracks, vehicle, vehicle.s - end);
-                } else if vehicle.next != EXIT {
-                    break; // nobody behind has leave either
+        for word in 0..self.work.busy.len() {
+            let mut bits = self.work.busy[word];
+            while bits != 0 {
+                let local = word * 64 + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                let queue = self.slabs.queue_mut(local);
+                if local < layout.lanes {
+                    claim_ahead(scene, queue, scene.tracks.length[layout.tracks[local] as usize]);
+                    release_cleared(scene, queue);
+                } else {
+                    queue.iter().for_each(|vehicle| scene.junctions.claim(scene.tracks, vehicle, vehicle.s));
                 }
             }
-        }
-        let mut from = 0;
-        while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
-            from = local + 1;
-            release_cleared(scene, self.slabs.queue_mut(local));
         }
     }
 
     fn receive(&mut self, scene: &Scene<'_>) {
         let mut weights = std::mem::take(&mut self.work.weights);
-        for transfer in scene.handed.iter().filter_map(|from| from.get(self.number as usize)).flatten() {
+        let number = self.number as usize;
+        for transfer in scene.handed.iter().filter_map(|from| from.get(number)).flatten() {
             let Transfer { lane, mut vehicle, mut path } = *transfer;
             scene.junctions.arrive(lane, &vehicle, scene.config);
             path.leg += 1;
             vehicle.next = scene.choose(&mut weights, &vehicle, &mut path, lane);
             scene.whereabouts.set(vehicle.id as usize, lane);
-            self.slabs.push(scene.tracks.layout.local(lane), vehicle, path);
+            self.add(scene.tracks.layout.local(lane), vehicle, path);
         }
         self.work.weights = weights;
     }
@@ -340,6 +347,17 @@ fn leave_behind(scene: &Scene<'_>, track: Track, vehicle: &mut Vehicle, path: &m
     let row = scene.config.vehicle_type(vehicle.row);
     path.free_time += length / row.free_speed(scene.config, vehicle.factor, speed);
     path.before = track;
+}
+
+/// Vehicles with leave to cross claim the crossings beyond the end of their lane.
+fn claim_ahead(scene: &Scene<'_>, queue: &[Vehicle], end: f64) {
+    for vehicle in queue {
+        if vehicle.holding == vehicle.next && vehicle.next != NONE {
+            scene.junctions.claim(scene.tracks, vehicle, vehicle.s - end);
+        } else if vehicle.next != EXIT {
+            break; // nobody behind has leave either
+        }
+    }
 }
 
 /// Vehicles at the beginning of a lane whose rear has left the junction give it free; until then they claim its crossings.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
-use simworld_core::net::{Connection, Lane, RoadNetwork, Turn, polyline};
+use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
 use super::layout::Layout;
@@ -57,6 +57,8 @@ pub(crate) struct Tracks {
     pub(crate) tight: Ragged<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
+    /// What each lane is for.
+    pub(super) kinds: Vec<LaneKind>,
     /// Whether each lane is the last of its leg before the kerb or the cycle lane.
     pub(crate) outermost: Vec<bool>,
     /// The ways from the end of each lane, with the leg to which each leads.
@@ -92,6 +94,7 @@ impl Tracks {
             tight: connections.clone().map(|index| tight(&network, index)).collect(),
             strips: connections.map(|index| strips(&network, index)).collect(),
             beside: lanes::beside(&network),
+            kinds: network.lanes.iter().map(|lane| lane.kind).collect(),
             outermost: lanes::outermost(&network),
             exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
             router: Router::new(&network),
