@@ -48,6 +48,7 @@ fn main() -> Outcome<()> {
     let mut report = Report::new(&arguments);
     rates(&arguments, &mut report)?;
     threads(&arguments, &mut report)?;
+    city(&arguments, &mut report)?;
     report.print();
     Ok(())
 }
@@ -156,7 +157,9 @@ fn rates(arguments: &Arguments, report: &mut Report) -> Outcome<()> {
         let relative = *reference.get_or_insert(rate) / rate;
         let measured = format!("{:.2} M updates/CPU s", rate / 1e6);
         report.add(&what, measured, "5 M, aim 10 M");
-        report.add("  cost of one against one of 10 k", format!("{relative:.2}"), "about 1");
+        report.add("  cost of one against the first row", format!("{relative:.2}"), "about 1");
+        let bytes = traffic.vehicle_bytes() as f64 / f64::from(vehicles);
+        report.add("  memory of a vehicle", format!("{bytes:.0} B"), "256 B");
     }
     Ok(())
 }
@@ -188,5 +191,29 @@ fn threads(arguments: &Arguments, report: &mut Report) -> Outcome<()> {
     report.add(&what, format!("{:.2} times as fast as one", times[0] / times[1]), "1.7");
     report.add("  eight threads", format!("{:.2} times as fast as one", times[0] / times[2]), "-");
     report.add("  the same bits on 1, 2 and 8 threads", if same { "yes" } else { "NO" }.to_owned(), "yes");
+    Ok(())
+}
+
+/// Vehicles and as many people in one city, on two threads against the clock: everybody near, and everybody far from
+/// interest.
+fn city(arguments: &Arguments, report: &mut Report) -> Outcome<()> {
+    let count = if arguments.whole { 1_000_000 } else { 10_000 };
+    let what = format!("{0} vehicles and {0} people, two threads", thousands(count));
+    if !report.wants(&what) {
+        return Ok(());
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build()?;
+    let mut traffic = grid(count, count)?;
+    traffic.set_workers(Box::new(AllThreads));
+    for (interest, name) in [(None, "everybody decides in each step"), (Some(Vec::new()), "all far")] {
+        traffic.set_interest(interest)?;
+        let seconds = (arguments.measured / 4).max(1);
+        let (_, time) = pool.install(|| {
+            run(&mut traffic, seconds, &what);
+            best(&mut traffic, seconds, &what)
+        });
+        let factor = format!("{:.2} times real time", f64::from(seconds) / time);
+        report.add(&format!("{what}, {name}"), factor, if name == "all far" { "1" } else { "-" });
+    }
     Ok(())
 }

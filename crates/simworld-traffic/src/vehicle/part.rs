@@ -300,7 +300,9 @@ impl Part {
                     claim_ahead(scene, queue, scene.tracks.length[layout.tracks[local] as usize]);
                     release_cleared(scene, queue);
                 } else {
-                    queue.iter().for_each(|vehicle| scene.junctions.claim(scene.tracks, vehicle, vehicle.s));
+                    for vehicle in queue.iter() {
+                        scene.junctions.claim(scene.tracks, vehicle, vehicle.s);
+                    }
                 }
             }
         }
