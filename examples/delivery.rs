@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release --example delivery
 //! cargo run --release --example delivery -- --replay out/delivery-1
+//! cargo run --release --example delivery -- --preset competition --seeds 20
 //! ```
 
 use std::path::PathBuf;
@@ -13,11 +14,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, replay};
+use simworld_examples::experiment::{Preset, Results, conduct, page};
 
 /// Couriers at work in a generated city: they bid for orders, walk or ride them through traffic, and tire.
 ///
 /// Prints the five metrics of the paper's delivery task, mean and standard deviation over the seeds, and writes the
-/// configuration, the event log, the trail of state hashes, a map and, where there is a graphics adapter, frames.
+/// configuration, the event log, the trail of state hashes, a map and, where there is a graphics adapter, frames. With
+/// --preset it runs an experiment of the paper instead and writes tables, charts, findings and a report to open.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -57,6 +60,12 @@ struct Arguments {
     /// Threads to use [default: one a core].
     #[arg(long)]
     threads: Option<usize>,
+    /// An experiment of the paper: main, competition, orders, money or persona.
+    #[arg(long, value_name = "NAME", conflicts_with = "replay")]
+    preset: Option<Preset>,
+    /// Goes on with the experiment of this folder; give the same settings.
+    #[arg(long, value_name = "DIR", requires = "preset", conflicts_with = "out")]
+    resume: Option<PathBuf>,
     /// Runs the logs of this folder again and confirms every hash; all other options are ignored.
     #[arg(long, value_name = "DIR")]
     replay: Option<PathBuf>,
@@ -91,6 +100,9 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
         return Ok(());
     }
     let config = configure(arguments)?;
+    if let Some(preset) = arguments.preset {
+        return experiment(preset, &config, arguments, &bars, stop);
+    }
     let folder = match &arguments.out {
         Some(path) => OutputFolder::create(path)?,
         None => OutputFolder::create_numbered("out/delivery")?,
@@ -99,6 +111,30 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
     bars.clear();
     println!("{report}");
     println!("written to {}", folder.path().display());
+    Ok(())
+}
+
+/// Runs an experiment, or what is left of it, and writes its results and its report.
+fn experiment(
+    preset: Preset,
+    config: &RunConfig,
+    arguments: &Arguments,
+    bars: &Bars,
+    stop: Arc<AtomicBool>,
+) -> Result<(), Fault> {
+    let folder = match (&arguments.resume, &arguments.out) {
+        (Some(path), _) => OutputFolder::open(path)?,
+        (None, Some(path)) => OutputFolder::create(path)?,
+        (None, None) => OutputFolder::create_numbered(&format!("out/{preset}"))?,
+    };
+    let arms = preset.arms(config);
+    let trials = conduct(&arms, &folder, &bars.watch(stop))?;
+    bars.clear();
+    let results = Results::of(preset, &trials);
+    results.write(&folder)?;
+    let path = folder.write("report.html", page(preset, &arms, &trials, &results))?;
+    println!("{results}");
+    println!("written to {}; open {}", folder.path().display(), path.display());
     Ok(())
 }
 

@@ -9,3 +9,4 @@
 pub mod beside_sumo;
 pub mod city;
 pub mod delivery;
+pub mod experiment;

@@ -7,6 +7,7 @@ pub mod camera;
 pub mod clock;
 pub mod command;
 pub mod environment;
+pub mod evaluation;
 pub mod event;
 pub mod geometry;
 pub mod hash;

@@ -52,6 +52,12 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// The complementary error function: twice the upper tail of the normal distribution at `x` times the square root of two.
+#[inline]
+pub fn erfc(x: f64) -> f64 {
+    libm::erfc(x)
+}
+
 /// Natural logarithm.
 #[inline]
 pub fn ln(x: f64) -> f64 {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use simworld_agents::delivery::{DeliveryConfig, DeliveryTask, Persona};
+use simworld_agents::delivery::{DeliveryConfig, DeliveryTask};
 use simworld_agents::episode::{Agent, Episode, EpisodeError};
 use simworld_agents::executor::RuleExecutor;
 use simworld_agents::language::GrammarPlanner;
@@ -22,6 +22,7 @@ use simworld_traffic::{TrafficConfig, TrafficDynamics, TrafficError};
 use thiserror::Error;
 
 use super::RunConfig;
+use super::players::{Player, players};
 
 /// Why the parts do not fit together.
 #[derive(Debug, Error)]
@@ -175,24 +176,12 @@ fn make_agents(
 ) -> Result<Vec<Agent<DeliveryTask>>, AssembleError> {
     let ways = Arc::new(WaypointGraph::walkable(&city.network, &WaypointConfig::default())?);
     let minds = seed.stream("minds");
-    let agent = |(index, id): (usize, &EntityId)| {
-        let kind = config.policies[index % config.policies.len()];
-        let stream = minds.indexed(index as u64);
-        let mut rng = stream.named("persona").rng();
-        let mut trait_value = || rng.normal_clamped(0.0, 0.4, -1.0, 1.0);
-        let persona = Persona {
-            openness: trait_value(),
-            conscientiousness: trait_value(),
-            extraversion: trait_value(),
-            agreeableness: trait_value(),
-            neuroticism: trait_value(),
-        };
-        Agent {
-            id: *id,
-            mind: kind.mind(persona, stream),
-            planner: Box::new(GrammarPlanner),
-            executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
-        }
+    let players = players(config, seed);
+    let agent = |(index, (id, player)): (usize, (&EntityId, &Player))| Agent {
+        id: *id,
+        mind: player.policy.mind(player.persona, minds.indexed(index as u64)),
+        planner: Box::new(GrammarPlanner),
+        executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
     };
-    Ok(couriers.iter().enumerate().map(agent).collect())
+    Ok(couriers.iter().zip(&players).enumerate().map(agent).collect())
 }

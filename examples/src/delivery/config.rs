@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use simworld_agents::delivery::{DeliveryConfig, PolicyKind};
+use simworld_agents::delivery::{DeliveryConfig, Persona, PolicyKind};
 use simworld_citygen::CityConfig;
 use simworld_physics::PhysicsConfig;
 use simworld_traffic::TrafficConfig;
@@ -33,6 +33,8 @@ pub struct RunConfig {
     pub digest_interval: u64,
     /// Who plays: the policies are dealt to the couriers in turn.
     pub policies: Vec<PolicyKind>,
+    /// What they are like: the personas are dealt in turn; without any each courier's is drawn.
+    pub personas: Vec<Persona>,
     /// A `roads.json` of the Python release to use instead of grown roads.
     pub roads: Option<PathBuf>,
     /// A saved city to use instead of a grown one; it comes before roads and settings of a city.
@@ -60,6 +62,7 @@ impl Default for RunConfig {
             frames: 3,
             digest_interval: 10,
             policies: PolicyKind::ALL.to_vec(),
+            personas: Vec::new(),
             roads: None,
             city_file: None,
             city: CityConfig::default(),
@@ -167,8 +170,12 @@ impl RunConfig {
             let message = "policies is empty: name at least one policy".to_owned();
             return Err(OutOfRange { key: "policies".to_owned(), message });
         }
+        if let Some(fault) = self.personas.iter().find_map(|persona| persona.validate().err()) {
+            return Err(OutOfRange { key: "personas".to_owned(), message: format!("personas: {fault}") });
+        }
         self.check_parts()
     }
+
     /// Checks the settings of the crates; their errors name a key below the part's.
     fn check_parts(&self) -> Result<(), OutOfRange> {
         part("city", self.city.validate())?;

@@ -4,24 +4,28 @@
 //! the log, [`replay`] plays the log again and confirms every hash.
 
 mod assemble;
+mod auctions;
 mod config;
 mod frames;
 mod locate;
 mod log;
 mod map;
 mod output;
+mod players;
 mod replay;
 mod report;
 mod run;
 mod watch;
 
 pub use assemble::{AssembleError, Assembly, assemble, make_city};
+pub use auctions::Auction;
 pub use config::{ConfigError, RunConfig};
 pub use frames::{FrameError, FrameTaker};
 pub use log::{LogError, LogRecord, LogWriter, ReadLog, read_log};
 pub use map::draw_map;
 pub use output::{OutputError, OutputFolder};
+pub use players::{Player, players};
 pub use replay::{ReplayError, ReplayReport, replay};
-pub use report::{FigureOfSeeds, RunReport, SeedReport};
+pub use report::{RunReport, SeedReport};
 pub use run::{RunError, SeedRun, play, run_seed};
 pub use watch::{Progress, Watch};

@@ -47,6 +47,17 @@ impl OutputFolder {
         Ok(Self { path: path.to_owned() })
     }
 
+    /// Goes on in a folder that is there.
+    ///
+    /// # Errors
+    /// It is not there, or cannot be written to.
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        let probe = path.join(".probe");
+        let fail = |source| OutputError::NotWritable { path: path.to_owned(), source };
+        std::fs::write(&probe, []).and_then(|()| std::fs::remove_file(&probe)).map_err(fail)?;
+        Ok(Self { path: path.to_owned() })
+    }
+
     /// Makes the first folder `stem-1`, `stem-2` ... that does not exist yet: what a run without `--out` uses.
     ///
     /// # Errors

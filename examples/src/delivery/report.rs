@@ -5,6 +5,7 @@ use std::fmt;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{Cell, CellAlignment, Table};
 use serde::{Deserialize, Serialize};
+use simworld_core::evaluation::Accumulator;
 use simworld_core::hash::StateDigest;
 use simworld_core::seam::Metric;
 use simworld_core::seed::Seed;
@@ -26,34 +27,6 @@ impl SeedReport {
     /// The value of a metric; `None` if the task has none of that name.
     pub fn metric(&self, name: &str) -> Option<f64> {
         self.metrics.iter().find(|metric| metric.name == name).map(|metric| metric.value)
-    }
-}
-
-/// Mean and standard deviation of a metric over seeds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FigureOfSeeds {
-    /// The mean.
-    pub mean: f64,
-    /// The sample standard deviation (n - 1); zero for a single seed.
-    pub deviation: f64,
-}
-
-impl FigureOfSeeds {
-    /// Of these values; `None` of no values.
-    ///
-    /// The values 1, 2, 3 have mean 2 and deviation 1.
-    pub fn of(values: &[f64]) -> Option<Self> {
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-        let deviation = if values.len() > 1 { (squares / (n - 1.0)).sqrt() } else { 0.0 };
-        (!values.is_empty()).then_some(Self { mean, deviation })
-    }
-}
-
-impl fmt::Display for FigureOfSeeds {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.2} ± {:.2}", self.mean, self.deviation)
     }
 }
 
@@ -90,9 +63,9 @@ pub struct RunReport {
 
 impl RunReport {
     /// A metric over the seeds; `None` if the task has none of that name.
-    pub fn figure(&self, name: &str) -> Option<FigureOfSeeds> {
-        let values: Option<Vec<f64>> = self.seeds.iter().map(|seed| seed.metric(name)).collect();
-        FigureOfSeeds::of(&values?)
+    pub fn figure(&self, name: &str) -> Option<Accumulator> {
+        let values: Option<Accumulator> = self.seeds.iter().map(|seed| seed.metric(name)).collect();
+        values.filter(|figure| figure.count() > 0)
     }
 
     /// The table of the five metrics, this run first, then the paper's rows.
@@ -149,17 +122,5 @@ impl fmt::Display for RunReport {
              its inverse stands below.\n"
         )?;
         writeln!(f, "{}", self.details())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn mean_and_deviation_are_those_of_a_sample() {
-        assert_eq!(FigureOfSeeds::of(&[1.0, 2.0, 3.0]), Some(FigureOfSeeds { mean: 2.0, deviation: 1.0 }));
-        assert_eq!(FigureOfSeeds::of(&[4.0]), Some(FigureOfSeeds { mean: 4.0, deviation: 0.0 }));
-        assert_eq!(FigureOfSeeds::of(&[]), None);
     }
 }

@@ -17,9 +17,11 @@ use simworld_core::seed::Seed;
 use thiserror::Error;
 
 use super::assemble::{AssembleError, Assembly, assemble, make_city};
+use super::auctions::{Auction, AuctionBook};
 use super::frames::{FrameError, FrameTaker};
 use super::log::{LogError, LogRecord, LogWriter};
 use super::output::{OutputError, OutputFolder};
+use super::players::{Player, players};
 use super::report::{RunReport, SeedReport};
 use super::{RunConfig, Watch, draw_map};
 
@@ -62,6 +64,10 @@ pub struct SeedRun {
     pub report: SeedReport,
     /// Its figures, courier by courier.
     pub couriers: Option<DeliveryReport>,
+    /// Who they were, in the same order.
+    pub players: Vec<Player>,
+    /// What they bid, order by order.
+    pub auctions: Vec<Auction>,
     /// Where each courier went, a point a second.
     pub trails: Vec<Vec<Point2>>,
 }
@@ -92,7 +98,7 @@ pub fn play(config: &RunConfig, folder: &OutputFolder, watch: &Watch) -> Result<
         })
         .collect::<Result<_, RunError>>()?;
     let report =
-        RunReport { players: players(config), seeds: runs.into_iter().map(|run| run.report).collect() };
+        RunReport { players: names(config), seeds: runs.into_iter().map(|run| run.report).collect() };
     folder.write("report.txt", report.to_string())?;
     folder.write("report.json", to_json(&report))?;
     Ok(report)
@@ -123,7 +129,7 @@ fn to_json(value: &impl serde::Serialize) -> String {
     serde_json::to_string_pretty(value).expect("reports are plain data with string keys")
 }
 
-fn players(config: &RunConfig) -> String {
+fn names(config: &RunConfig) -> String {
     match config.policies.as_slice() {
         [one] => one.as_str().to_owned(),
         several => format!("{} policies", several.len()),
@@ -146,7 +152,8 @@ pub fn run_seed(
     let mut log = folder.map(|folder| LogWriter::create(&folder.join("events.jsonl"), seed)).transpose()?;
     let progress = watch.begin(&format!("seed {}", seed.0), config.steps);
     let mut trails: Vec<Vec<Point2>> = vec![Vec::new(); assembly.couriers.len()];
-    let mut written = Written::default();
+    let (mut written, mut book) = (Written::default(), AuctionBook::default());
+    assembly.episode.events().iter().for_each(|event| book.take(event, &assembly.couriers));
     if let Some(log) = &mut log {
         Written::log_events(&assembly, log)?;
     }
@@ -156,6 +163,7 @@ pub fn run_seed(
             written.log_step(&assembly, log)?;
         }
         stepped?;
+        assembly.episode.events().iter().for_each(|event| book.take(event, &assembly.couriers));
         assembly.episode.task().audit()?;
         let tick = assembly.episode.simulation().world().clock().tick().0;
         if tick.is_multiple_of(TRAIL_STEP) {
@@ -179,6 +187,8 @@ pub fn run_seed(
     Ok(SeedRun {
         report: seed_report(&assembly, seed, end),
         couriers: assembly.episode.task().report(),
+        players: players(config, seed),
+        auctions: book.finish(),
         trails,
     })
 }

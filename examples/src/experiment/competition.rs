@@ -1,0 +1,184 @@
+//! Minds against minds: who bids what, who wins, and against whom.
+
+use std::collections::BTreeMap;
+
+use simworld_agents::delivery::PolicyKind;
+use simworld_core::evaluation::{Accumulator, Groups, rank_sum, signed_rank};
+
+use super::chart::{Dots, Scale, heat, violins};
+use super::findings::Finding;
+use super::results::{Chart, Results};
+use super::table::Table;
+use super::trial::Trial;
+
+/// Fewer bids than this say nothing of a policy.
+const FEW: u64 = 5;
+
+/// What the bids of a policy came to.
+#[derive(Clone, Debug, Default)]
+struct Bidding {
+    /// Bids as shares of the ceiling.
+    shares: Accumulator,
+    /// One for each bid that won, zero for the others.
+    wins: Accumulator,
+    /// The shares of those that won.
+    winning: Accumulator,
+    dots: Dots,
+}
+
+/// Tables, charts and findings of bidding.
+pub(super) fn results(trials: &[Trial]) -> Results {
+    let policies = policies(trials);
+    let bidding = bidding(trials);
+    let wins = wins(trials);
+    Results {
+        tables: vec![by_policy(trials, &policies, &bidding)],
+        charts: vec![violin_chart(&policies, &bidding), matrix(&policies, &wins)],
+        findings: findings(trials, &bidding),
+    }
+}
+
+/// The policies that play, in the order of declaration.
+fn policies(trials: &[Trial]) -> Vec<PolicyKind> {
+    let plays = |policy: &PolicyKind| trials.iter().any(|t| t.players.iter().any(|p| p.policy == *policy));
+    PolicyKind::ALL.into_iter().filter(plays).collect()
+}
+
+fn bidding(trials: &[Trial]) -> BTreeMap<PolicyKind, Bidding> {
+    let mut all: BTreeMap<PolicyKind, Bidding> = BTreeMap::new();
+    for trial in trials {
+        for (who, share, won) in trial.bids() {
+            let bidding = all.entry(trial.players[who].policy).or_default();
+            bidding.shares.push(share);
+            bidding.wins.push(f64::from(u8::from(won)));
+            bidding.winning.extend(won.then_some(share));
+            bidding.dots.push((share, won));
+        }
+    }
+    all
+}
+
+/// How often one policy won where another bid too.
+fn wins(trials: &[Trial]) -> BTreeMap<(PolicyKind, PolicyKind), u32> {
+    let mut wins = BTreeMap::new();
+    for trial in trials {
+        for auction in &trial.auctions {
+            let Some(winner) = auction.winner else { continue };
+            for (loser, _) in auction.bids.iter().filter(|bid| bid.0 != winner) {
+                let pair = (trial.players[winner].policy, trial.players[*loser].policy);
+                *wins.entry(pair).or_default() += u32::from(pair.0 != pair.1);
+            }
+        }
+    }
+    wins
+}
+
+fn by_policy(trials: &[Trial], policies: &[PolicyKind], bidding: &BTreeMap<PolicyKind, Bidding>) -> Table {
+    let mut profits: Groups<PolicyKind> = Groups::default();
+    let mut delivered: Groups<PolicyKind> = Groups::default();
+    for (player, row) in trials.iter().flat_map(Trial::couriers) {
+        profits.push(player.policy, row.profit.dollars());
+        delivered.push(player.policy, f64::from(row.delivered));
+    }
+    let header = ["policy", "bids", "bid / ceiling", "won", "win rate", "profit $", "delivered"];
+    let mut table = Table::new("Bids, wins and profit by policy", &header);
+    for policy in policies {
+        let Bidding { shares, wins, .. } = bidding.get(policy).cloned().unwrap_or_default();
+        let of = |groups: &Groups<PolicyKind>| groups.get(policy).map_or("-".to_owned(), ToString::to_string);
+        table.add(
+            policy.as_str(),
+            [
+                shares.count().to_string(),
+                shares.to_string(),
+                format!("{:.0}", wins.sum()),
+                format!("{:.2}", wins.mean()),
+                of(&profits),
+                of(&delivered),
+            ],
+        );
+    }
+    table
+}
+
+fn violin_chart(policies: &[PolicyKind], bidding: &BTreeMap<PolicyKind, Bidding>) -> Chart {
+    let groups: Vec<(String, Dots)> = policies
+        .iter()
+        .map(|policy| {
+            let dots = bidding.get(policy).map_or_else(Dots::default, |bidding| bidding.dots.clone());
+            (policy.as_str().to_owned(), dots)
+        })
+        .collect();
+    Chart {
+        title: "Bids by policy".to_owned(),
+        caption: "Bids as shares of the ceiling price; coloured dots are those that won.".to_owned(),
+        svg: violins(&groups, (0.0, 1.0), "bid / ceiling"),
+    }
+}
+
+fn matrix(policies: &[PolicyKind], wins: &BTreeMap<(PolicyKind, PolicyKind), u32>) -> Chart {
+    let names: Vec<String> = policies.iter().map(ToString::to_string).collect();
+    let count = |a: PolicyKind, b: PolicyKind| f64::from(wins.get(&(a, b)).copied().unwrap_or_default());
+    let share = |a: PolicyKind, b: PolicyKind| {
+        let both = count(a, b) + count(b, a);
+        (both > 0.0).then(|| count(a, b) / both)
+    };
+    let values: Vec<Vec<Option<f64>>> =
+        policies.iter().map(|a| policies.iter().map(|b| share(*a, *b)).collect()).collect();
+    Chart {
+        title: "Wins and losses".to_owned(),
+        caption: "How often the policy of a row won where both bid and one of them won.".to_owned(),
+        svg: heat(&names, &names, &values, Scale { middle: 0.5, reach: 0.5 }),
+    }
+}
+
+fn findings(trials: &[Trial], bidding: &BTreeMap<PolicyKind, Bidding>) -> Vec<Finding> {
+    let seen: Vec<&Bidding> = bidding.values().filter(|bidding| bidding.shares.count() >= FEW).collect();
+    let of =
+        |figure: fn(&Bidding) -> f64| -> Vec<f64> { seen.iter().map(|bidding| figure(bidding)).collect() };
+    let (means, rates) = (of(|b| b.shares.mean()), of(|b| b.wins.mean()));
+    let earners: Vec<&&Bidding> = seen.iter().filter(|bidding| bidding.winning.count() > 0).collect();
+    let asked: Vec<f64> = earners.iter().map(|b| b.shares.mean()).collect();
+    let paid: Vec<f64> = earners.iter().map(|b| b.winning.mean()).collect();
+    vec![
+        Finding::trend("Policies that bid high win less", -1.0, &means, &rates),
+        Finding::trend(
+            "Policies that bid in a narrow range win less",
+            1.0,
+            &of(|b| b.shares.deviation()),
+            &rates,
+        ),
+        Finding::signs("The lower bidder on average wins head to head", signed_rank(&head_to_head(trials))),
+        Finding::trend("Those who bid low earn a thin margin on what they win", 1.0, &asked, &paid),
+        inactive(trials),
+    ]
+}
+
+/// For each trial, by how much the share of wins of the policy that bids lower on average exceeds one half.
+fn head_to_head(trials: &[Trial]) -> Vec<f64> {
+    let excess = |trial: &Trial| {
+        let (bidding, wins) = (bidding(std::slice::from_ref(trial)), wins(std::slice::from_ref(trial)));
+        let mean = |policy: &PolicyKind| bidding.get(policy).map(|bidding| bidding.shares.mean());
+        let lower: Accumulator = wins
+            .iter()
+            .flat_map(|((winner, loser), count)| {
+                let is_lower = mean(winner) < mean(loser);
+                std::iter::repeat_n(f64::from(u8::from(is_lower)), *count as usize)
+            })
+            .collect();
+        if lower.count() > 0 { lower.mean() - 0.5 } else { 0.0 }
+    };
+    trials.iter().map(excess).collect()
+}
+
+/// Whether those who hardly act earn less than the others.
+pub(super) fn inactive(trials: &[Trial]) -> Finding {
+    let (idle, busy): (Vec<_>, Vec<_>) = trials
+        .iter()
+        .flat_map(Trial::couriers)
+        .partition(|(player, _)| player.policy == PolicyKind::NearlyInactive);
+    let earned = |rows: Vec<(_, &simworld_agents::delivery::CourierRow)>| -> Vec<f64> {
+        rows.into_iter().map(|(_, row): (_, _)| row.earned.dollars()).collect()
+    };
+    let test = rank_sum(&earned(idle), &earned(busy));
+    Finding::ranks("The inactive earn less than the others", -1.0, test)
+}

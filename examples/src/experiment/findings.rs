@@ -1,0 +1,111 @@
+//! Findings: what is claimed, and what the trials say of it.
+
+use std::fmt;
+
+use serde::Serialize;
+use simworld_core::evaluation::{RankSum, SignedRank, permutation, spearman};
+use simworld_core::seed::Seed;
+
+/// How likely chance alone may be where a finding holds.
+const SIGNIFICANT: f64 = 0.05;
+/// Shuffles of a permutation test.
+const SHUFFLES: u32 = 1999;
+
+/// What the trials say of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The sign is the claimed one, and chance is an unlikely reason.
+    Holds,
+    /// The sign is the other one, and chance is an unlikely reason.
+    Opposite,
+    /// Chance would do as well.
+    Undecided,
+}
+
+/// A claim of the paper, and what the trials say of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// The claim.
+    pub claim: String,
+    /// What the trials say.
+    pub verdict: Verdict,
+    /// By which figures.
+    pub evidence: String,
+}
+
+impl Finding {
+    /// Of a statistic whose sign is claimed, with the probability that chance reaches it.
+    fn judged(claim: &str, claimed: f64, effect: f64, p: f64, evidence: String) -> Self {
+        let verdict = match () {
+            () if p > SIGNIFICANT || effect == 0.0 => Verdict::Undecided,
+            () if effect * claimed > 0.0 => Verdict::Holds,
+            () => Verdict::Opposite,
+        };
+        Self { claim: claim.to_owned(), verdict, evidence }
+    }
+
+    /// That two figures rise together (`claimed` 1) or against each other (-1).
+    pub(super) fn trend(claim: &str, claimed: f64, x: &[f64], y: &[f64]) -> Self {
+        let stream = Seed(0).stream("findings").named(claim);
+        match (spearman(x, y), permutation(x, y, spearman, SHUFFLES, stream)) {
+            (Some(rank), Some(p)) => {
+                let evidence =
+                    format!("Spearman's rank correlation {rank:.2} of {} pairs, p = {p:.3}", x.len());
+                Self::judged(claim, claimed, rank, p, evidence)
+            }
+            _ => Self::silent(claim),
+        }
+    }
+
+    /// That values of one set are greater (`claimed` 1) or less (-1) than those of another.
+    pub(super) fn ranks(claim: &str, claimed: f64, test: Option<RankSum>) -> Self {
+        let Some(RankSum { superiority, p, .. }) = test else { return Self::silent(claim) };
+        let evidence = format!("greater in {:.0} % of pairs, rank-sum test, p = {p:.3}", superiority * 100.0);
+        Self::judged(claim, claimed, superiority - 0.5, p, evidence)
+    }
+
+    /// That differences are positive.
+    pub(super) fn signs(claim: &str, test: Option<SignedRank>) -> Self {
+        let Some(SignedRank { positive, negative, p }) = test else { return Self::silent(claim) };
+        let evidence = format!("signed ranks {positive:.1} for and {negative:.1} against it, p = {p:.3}");
+        Self::judged(claim, 1.0, positive - negative, p, evidence)
+    }
+
+    fn silent(claim: &str) -> Self {
+        let evidence = "the trials do not vary in it".to_owned();
+        Self { claim: claim.to_owned(), verdict: Verdict::Undecided, evidence }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Holds => "holds",
+            Self::Opposite => "opposite",
+            Self::Undecided => "undecided",
+        })
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:<9}  {}: {}", self.verdict, self.claim, self.evidence)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_claim_holds_only_by_its_sign_and_against_chance() {
+        let x: Vec<f64> = (0..12).map(f64::from).collect();
+        let up: Vec<f64> = x.iter().map(|x| x * x).collect();
+        assert_eq!(Finding::trend("more is more", 1.0, &x, &up).verdict, Verdict::Holds);
+        assert_eq!(Finding::trend("more is less", -1.0, &x, &up).verdict, Verdict::Opposite);
+        assert_eq!(Finding::trend("nothing", 1.0, &x, &[1.0; 12]).verdict, Verdict::Undecided);
+        let mixed = [3.0, 1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 1.0, 2.0];
+        assert_eq!(Finding::trend("chance", 1.0, &x, &mixed).verdict, Verdict::Undecided);
+    }
+}
