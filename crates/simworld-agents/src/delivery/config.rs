@@ -23,6 +23,9 @@ pub struct DeliveryConfig {
     /// What a courier owns at the start, cents, in [0, 10⁹]. Open in the paper, which sweeps it; $100 is what a
     /// scooter costs, so the sweep straddles the choice to buy one.
     pub initial_money: Cents,
+    /// How far ahead couriers plan, s, in [1, 10⁶]: nobody knows when an episode ends. Chosen: 500 s, the length of the
+    /// paper's main run.
+    pub horizon: f64,
     /// Who orders, how often, and what is offered.
     pub orders: OrderConfig,
     /// How orders find their courier.
@@ -45,6 +48,7 @@ impl Default for DeliveryConfig {
             steps: 5000,
             capacity: 3,
             initial_money: Cents(10_000),
+            horizon: 500.0,
             orders: OrderConfig::default(),
             auction: AuctionConfig::default(),
             energy: EnergyConfig::default(),
@@ -278,12 +282,13 @@ impl Default for ReachConfig {
 }
 
 impl DeliveryConfig {
-    /// The competition of the paper: 1000 steps, one order a courier, hunger 0.9, fixed prices.
+    /// The competition of the paper: 1000 steps, one order a courier, hunger 0.9, fixed prices. Orders are scarce at the
+    /// start, one for four couriers, so that bids meet.
     pub fn competition() -> Self {
         Self {
             steps: 1000,
             capacity: 1,
-            orders: OrderConfig { hunger_rate: 0.9, ..OrderConfig::default() },
+            orders: OrderConfig { hunger_rate: 0.9, initial: 6, ..OrderConfig::default() },
             prices: PriceConfig { drift: false, ..PriceConfig::default() },
             ..Self::default()
         }
@@ -297,6 +302,7 @@ impl DeliveryConfig {
         within("steps", self.steps, 1, 1_000_000_000)?;
         within("capacity", self.capacity, 1, 100)?;
         within("initial_money", self.initial_money.0, 0, 1_000_000_000)?;
+        within("horizon", self.horizon, 1.0, 1e6)?;
         self.orders.validate()?;
         within("auction.window", self.auction.window, 0.1, 1e5)?;
         if let AuctionRule::Softmin { temperature } = self.auction.rule {

@@ -101,11 +101,6 @@ impl<'a> CourierView<'a> {
         self.state.now()
     }
 
-    /// Time left, s.
-    pub fn time_left(&self) -> f64 {
-        self.config.steps.saturating_sub(self.state.tick) as f64 * self.state.dt
-    }
-
     /// A count that grows whenever something happened that this courier may want to act on.
     pub fn notices(&self) -> u64 {
         self.state.notices + self.courier().notices

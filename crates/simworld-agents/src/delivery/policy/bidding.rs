@@ -8,8 +8,9 @@ use super::PolicyKind;
 use super::pace::{backlog, pending, time_for, working_speed};
 use crate::delivery::{BidResult, Cents, CourierView, OpenOrder};
 
-/// What a second is worth to a courier, $: chosen so that cost-plus bids lie well under the usual ceiling.
-const WAGE: f64 = 0.014;
+/// What a second is worth to a courier, $: three quarters of what one earns who is paid the usual ceiling of $15 for the
+/// usual job, some 500 m that take 360 s on foot with all waits. Who has work to choose from asks for no less.
+const WAGE: f64 = 0.03;
 /// Share of the energy of a job that is made up for by drinks; the rest comes back while waiting.
 const DRUNK_SHARE: f64 = 0.5;
 /// Shares of the ceiling among which EXP3 learns.
@@ -92,11 +93,11 @@ pub(super) fn choose(
     view: &CourierView<'_>,
     rng: &mut StreamRng,
 ) -> Option<(OpenOrder, f64)> {
-    let (left, backlog) = (view.time_left(), backlog(view) + pending(view));
-    // What cannot be finished, or brings less than it costs, is left to others.
+    let (horizon, backlog) = (view.config().horizon, backlog(view) + pending(view));
+    // What cannot be finished within what it plans, or brings less than it costs, is left to others.
     let worth_it = |order: &OpenOrder| {
         let work = time_for(view, backlog + order.approach + order.route);
-        order.closes_in + work <= left && cost(view, order) < order.ceiling.dollars()
+        order.closes_in + work <= horizon && cost(view, order) < order.ceiling.dollars()
     };
     let open = view.open_orders().filter(|order| order.own_bid.is_none() && worth_it(order));
     let length = |order: &OpenOrder| order.approach + order.route;

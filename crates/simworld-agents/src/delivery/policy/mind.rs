@@ -76,14 +76,14 @@ impl CourierMind {
             .unwrap_or(CourierAction::DoNothing)
     }
 
-    /// A scooter pays if the orders that it lets one deliver in the time left bring more than it costs.
+    /// A scooter pays if the orders that it lets one deliver in the time that one plans bring more than it costs.
     fn invest(&self, view: &CourierView<'_>) -> Option<CourierAction> {
         if view.has_scooter() || view.purse() < view.scooter_price() {
             return None;
         }
         let riding = usual_time(view, view.config().speed.riding);
         let gained =
-            view.time_left() * (1.0 / riding - 1.0 / usual_time(view, brisk(view))) * usual_pay(view);
+            view.config().horizon * (1.0 / riding - 1.0 / usual_time(view, brisk(view))) * usual_pay(view);
         let pays = gained > view.scooter_price().dollars() * self.persona.caution();
         pays.then_some(CourierAction::PurchaseScooter)
     }
