@@ -5,10 +5,11 @@ use simworld_citygen::block::Border;
 use simworld_citygen::building::Building;
 use simworld_citygen::edit::{CityEdit, CityEditor, EditError, NewStreet};
 use simworld_citygen::element::Element;
+use simworld_citygen::terrain::{DECK, HEADROOM};
 use simworld_citygen::{City, CityConfig, Style};
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::id::{IntersectionId, RoadId};
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::{CAR_TURNING, LORRY_TURNING, RoadNetwork, StreetPlan, polyline};
 use simworld_core::scene::{EntityKind, Place, Shape};
 use simworld_core::seed::{Seed, StreamRng};
 use simworld_core::testing::numbered_in_order;
@@ -230,4 +231,90 @@ fn what_was_given_stays_as_long_as_it_has_room() {
         .any(|to| editor.apply(&CityEdit::AddStreet(NewStreet::local([from, to]))).is_ok());
     assert!(done, "there is room for a street");
     assert!(!stands(&editor), "a street runs through it");
+}
+
+/// The turning circles of a city, by radius.
+fn circles(city: &City) -> Vec<f64> {
+    let places = city.network.intersections.iter();
+    places.filter_map(|place| place.turning).map(|circle| circle.radius).collect()
+}
+
+#[test]
+fn a_street_end_gets_its_turning_circle_and_loses_it_to_a_street_beside() {
+    let plan = StreetPlan::grid(2, 2, 400.0);
+    let before = City::from_plan(plan, &CityConfig::default(), Seed(3)).expect("a square can be built");
+    assert!(circles(&before).is_empty());
+    let mut editor = CityEditor::new(before.clone());
+    let lane = |from: (f64, f64), to: (f64, f64)| {
+        let ends = [from, to].map(|(x, y)| Point2::new(x, y));
+        CityEdit::AddStreet(NewStreet::local(ends))
+    };
+    let mut undos = vec![editor.apply(&lane((200.0, 0.0), (200.0, 150.0))).expect("there is room")];
+    assert_eq!(circles(editor.city()), [LORRY_TURNING]);
+    assert_like_the_whole(editor.city(), "a dead end");
+    // A street close by leaves no room for lorries, and one right beside it none at all.
+    undos.push(editor.apply(&lane((220.0, 0.0), (220.0, 400.0))).expect("there is room"));
+    assert_eq!(circles(editor.city()), [CAR_TURNING]);
+    assert_like_the_whole(editor.city(), "a street beside a dead end");
+    undos.push(editor.apply(&lane((0.0, 165.0), (220.0, 165.0))).expect("there is room"));
+    assert!(circles(editor.city()).is_empty());
+    // An end that is none any more has no circle, and one that a removal leaves has one.
+    undos.push(editor.apply(&lane((200.0, 150.0), (200.0, 165.0))).expect("a street of 15 m can be built"));
+    assert_eq!(editor.city().network.check(), Ok(()));
+    let last = |editor: &CityEditor, at: (f64, f64)| {
+        let at = Point2::new(at.0, at.1);
+        let ends = |road: &simworld_core::net::Road| {
+            [road.centerline[0], road.centerline[road.centerline.len() - 1]]
+        };
+        editor
+            .city()
+            .network
+            .roads
+            .iter()
+            .position(|road| ends(road).iter().any(|end| (end - at).norm() < 0.1))
+    };
+    let road = last(&editor, (0.0, 400.0)).expect("the corner has streets");
+    undos.push(editor.apply(&CityEdit::RemoveStreet(RoadId::from_index(road))).expect("a street can go"));
+    assert_eq!(circles(editor.city()), [LORRY_TURNING], "the end of the street that is left");
+    assert_like_the_whole(editor.city(), "a street gone");
+    for undo in undos.into_iter().rev() {
+        editor.put(undo).expect("an undo fits");
+    }
+    assert!(editor.into_city() == before);
+}
+
+#[test]
+fn bridges_are_built_and_raised_over_what_comes_below_them() {
+    let before =
+        City::from_plan(StreetPlan::grid(3, 2, 300.0), &CityConfig::default(), Seed(3)).expect("it fits");
+    let mut editor = CityEditor::new(before.clone());
+    let street = |from: (f64, f64), to: (f64, f64), level: i8| {
+        let ends = [from, to].map(|(x, y)| Point2::new(x, y));
+        CityEdit::AddStreet(NewStreet { level, ..NewStreet::local(ends) })
+    };
+    // From one street to the other, over the one between.
+    let bridge = street((0.0, 150.0), (600.0, 150.0), 1);
+    let mut undos = vec![editor.apply(&bridge).expect("there is room to rise")];
+    let deck = |editor: &CityEditor| {
+        let (road, found) =
+            (0..).zip(&editor.city().network.roads).find(|(_, road)| road.level == 1).expect("it stands");
+        let at = |x: f64| {
+            let near = polyline::closest(&found.centerline, &Point2::new(x, 150.0)).expect("it has a course");
+            editor.city().network.height(RoadId(road), near.station)
+        };
+        [at(300.0), at(150.0), at(1.0)]
+    };
+    let [over, beside, end] = deck(&editor);
+    assert!(over >= HEADROOM + DECK - 1e-6 && beside < 1.0 && end < 0.2, "{over} {beside} {end}");
+    assert_eq!(editor.city().network.intersections.len(), before.network.intersections.len() + 2);
+    assert_like_the_whole(editor.city(), "a bridge");
+    // A street below it where it is still low: it rises there too.
+    undos.push(editor.apply(&street((150.0, 0.0), (150.0, 300.0), 0)).expect("the bridge can rise"));
+    let [over, beside, _] = deck(&editor);
+    assert!(over >= HEADROOM + DECK - 1e-6 && beside >= HEADROOM + DECK - 1e-6, "{over} {beside}");
+    assert_like_the_whole(editor.city(), "a street below a bridge");
+    for undo in undos.into_iter().rev() {
+        editor.put(undo).expect("an undo fits");
+    }
+    assert!(*editor.city() == before);
 }

@@ -50,7 +50,7 @@ fn every_place_can_be_walked_to() {
                 .map(|closest| closest.distance)
                 .fold(f64::INFINITY, f64::min);
             // Half the sidewalk, and what a straight front may leave a street that bends to and fro.
-            assert!(away < walk.width * 0.5 + 8.0, "seed {seed}: a front {away} m from its sidewalk");
+            assert!(away < walk.width * 0.5 + 5.0, "seed {seed}: a front {away} m from its sidewalk");
         }
     }
 }

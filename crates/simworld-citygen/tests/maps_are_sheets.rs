@@ -4,6 +4,7 @@ use roxmltree::Document;
 use simworld_citygen::map::MapDrawing;
 use simworld_citygen::{City, CityConfig};
 use simworld_core::geometry::Point2;
+use simworld_core::net::{Street, StreetPlan};
 use simworld_core::seed::Seed;
 
 fn city(roads: u32) -> City {
@@ -46,6 +47,25 @@ fn every_building_is_drawn_once() {
         .map(|node| node.attribute("d").unwrap().matches('z').count());
     let courts = city.buildings.iter().filter(|building| building.courtyard().is_some()).count();
     assert_eq!(shapes.sum::<usize>(), city.buildings.len() + courts);
+}
+
+#[test]
+fn tunnels_lie_below_the_streets_and_bridges_above() {
+    let mut plan = StreetPlan::grid(2, 2, 200.0);
+    let across = [(0.0, 100.0), (200.0, 100.0), (100.0, 0.0), (100.0, 200.0)];
+    plan.nodes.extend(across.map(|(x, y)| Point2::new(x, y)));
+    plan.streets.push(Street { level: -1, ..Street::simple(4, 5) });
+    plan.streets.push(Street { level: 1, ..Street::simple(6, 7) });
+    let city = City::from_plan(plan, &CityConfig::default(), Seed(1)).unwrap();
+    let svg = city.svg();
+    let document = Document::parse(&svg).unwrap();
+    let place = |id: &str| document.descendants().position(|node| node.attribute("id") == Some(id));
+    let order = ["tunnels-1", "sidewalks", "streets", "bridges-1"].map(|id| place(id).expect(id));
+    assert!(order.is_sorted(), "{order:?}");
+    let tunnel = document.descendants().find(|node| node.attribute("id") == Some("tunnels-1")).unwrap();
+    let lines: Vec<_> = tunnel.children().filter(roxmltree::Node::is_element).collect();
+    let dashed = lines.iter().filter(|line| line.attribute("stroke-dasharray").is_some()).count();
+    assert_eq!((lines.len(), dashed), (2, 1), "an edge and a carriageway");
 }
 
 #[test]

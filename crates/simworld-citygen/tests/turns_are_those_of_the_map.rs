@@ -132,3 +132,75 @@ fn signs_that_cannot_be_read_are_told() {
         assert!(warnings[0].what.contains(part) && warnings[0].element == Some(OsmId::Relation(9)));
     }
 }
+
+/// A carriageway each way along x, 14 m apart, and a street across both; `wide` m from the middle one to the other.
+fn dual_carriageway(wide: f64) -> Sketch {
+    let along = [("highway", "primary"), ("oneway", "yes"), ("lanes", "2"), ("name", "Ring")];
+    Sketch::default()
+        .node(1, (0.0, 0.0), &[])
+        .node(2, (0.0, wide), &[])
+        .node(3, (-200.0, 0.0), &[])
+        .node(4, (200.0, 0.0), &[])
+        .node(5, (-200.0, wide), &[])
+        .node(6, (200.0, wide), &[])
+        .node(7, (0.0, -150.0), &[])
+        .node(8, (0.0, wide + 150.0), &[])
+        .way(&[3, 1], &along)
+        .way(&[1, 4], &along)
+        .way(&[6, 2], &along)
+        .way(&[2, 5], &along)
+        .way(&[7, 1], &[("highway", "residential")])
+        .way(&[1, 2], &[("highway", "residential")])
+        .way(&[2, 8], &[("highway", "residential")])
+}
+
+#[test]
+fn a_turn_over_a_crossover_is_one_of_its_junction() {
+    // From the southern street over the crossover into the carriageway to the west: a left turn of the whole junction.
+    let members = [(1005, "from"), (1006, "via"), (1004, "to")];
+    let lefts = |sketch: &Sketch| {
+        let (plan, warnings) = sketch.place().plan(&StreetOptions::default());
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a sketch can be built");
+        let from = |way: &&simworld_core::net::Connection| {
+            let lane = &network.lanes[way.from.index()];
+            way.turn == Turn::Left && lane.path[0].y < -50.0 - 14.0 * 0.5
+        };
+        (network.connections.iter().filter(from).count(), warnings)
+    };
+    let (plain, warnings) = lefts(&dual_carriageway(14.0));
+    assert!(plain > 0 && warnings.is_empty(), "{plain} {warnings:?}");
+    let (left, warnings) = lefts(&sign(dual_carriageway(14.0), "no_left_turn", &members));
+    assert_eq!((left, warnings.len()), (0, 0), "{warnings:?}");
+    // Where the crossover is a street by itself a plan cannot say it.
+    let (_, warnings) = lefts(&sign(dual_carriageway(90.0), "no_left_turn", &members));
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(warnings[0].what.contains("goes over a way") && warnings[0].element == Some(OsmId::Relation(9)));
+}
+
+#[test]
+fn dead_ends_have_the_turning_circles_of_the_map() {
+    let street = [("highway", "residential")];
+    let sketch = |kind: &str| {
+        Sketch::default()
+            .node(1, (0.0, 0.0), &[])
+            .node(2, (-150.0, 0.0), &[("highway", kind)])
+            .node(3, (150.0, 0.0), &[])
+            .node(4, (0.0, 150.0), &[])
+            .way(&[2, 1, 3], &street)
+            .way(&[1, 4], &street)
+            .place()
+    };
+    for (kind, circles) in [("turning_circle", 1), ("turning_loop", 1), ("crossing", 0)] {
+        let (plan, _) = sketch(kind).plan(&StreetOptions::default());
+        let found = plan
+            .streets
+            .iter()
+            .flat_map(|street| [(street.from, street.turning[0]), (street.to, street.turning[1])]);
+        let found: Vec<(usize, f64)> = found.filter(|(_, radius)| *radius > 0.0).collect();
+        assert_eq!(found.len(), circles, "{kind}: {found:?}");
+        assert!(found.iter().all(|(node, _)| plan.nodes[*node].x < -100.0), "{kind}");
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a tee is built");
+        let built = network.intersections.iter().filter(|place| place.turning.is_some()).count();
+        assert_eq!(built, circles, "{kind}");
+    }
+}

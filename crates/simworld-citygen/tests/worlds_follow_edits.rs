@@ -4,16 +4,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_citygen::edit::{CityEdit, CityEditor, CityInWorld, NewStreet};
+use simworld_citygen::terrain::TerrainConfig;
 use simworld_citygen::{City, CityConfig, Style};
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::id::{EntityId, IntersectionId, RoadId};
 use simworld_core::scene::{EntityKind, Scene, World};
 use simworld_core::seed::Seed;
 
-/// Everything but the ground, by kind and place, with how often it is there.
+/// Everything, by kind and place, with how often it is there.
 fn content(world: &World) -> BTreeMap<(EntityKind, String), usize> {
     let mut content = BTreeMap::new();
-    for entity in world.iter().filter(|entity| entity.kind != EntityKind::Ground) {
+    for entity in world.iter() {
         let info = entity.info;
         let what = format!("{:?} {:?} {:?} {:?}", entity.pose, info.shape, info.name, info.attributes);
         *content.entry((entity.kind, what)).or_default() += 1;
@@ -29,8 +30,9 @@ fn populated(city: &City) -> World {
 
 #[test]
 fn a_world_follows_edits_and_their_undos() {
-    for style in [Style::Grid, Style::Organic] {
-        let config = CityConfig { roads: style.roads(60), ..CityConfig::default() };
+    for (style, relief) in [(Style::Grid, 0.0), (Style::Organic, 0.0), (Style::Mixed, 40.0)] {
+        let terrain = TerrainConfig { relief, ..TerrainConfig::default() };
+        let config = CityConfig { roads: style.roads(60), terrain, ..CityConfig::default() };
         let city = City::generate(&config, Seed(4)).expect("presets are valid");
         let mut world = World::new();
         let entities = city.populate(&mut world).expect("the world is empty");
@@ -42,6 +44,8 @@ fn a_world_follows_edits_and_their_undos() {
             let line = &city.network.roads[road].centerline;
             nalgebra::center(&line[0], &line[1])
         };
+        let nodes = city.network.intersections.iter().map(|place| place.center);
+        let outermost = nodes.max_by(|a, b| a.x.total_cmp(&b.x)).expect("it has junctions");
         let edits = [
             CityEdit::RemoveStreet(RoadId::from_index(city.network.roads.len() / 2)),
             CityEdit::MoveIntersection {
@@ -49,6 +53,8 @@ fn a_world_follows_edits_and_their_undos() {
                 to: Point2::new(at.x + 7.0, at.y - 4.0),
             },
             CityEdit::AddStreet(NewStreet::local([middle(3), middle(20)])),
+            // Beyond the outskirts: the ground grows with the city.
+            CityEdit::AddStreet(NewStreet::local([outermost, outermost + Vector2::new(90.0, 15.0)])),
             CityEdit::RemoveBuilding(5),
         ];
         let mut backs = Vec::new();

@@ -79,6 +79,30 @@ impl<T> ArrayPatch<T> {
 }
 
 impl<T: Clone> ArrayPatch<T> {
+    /// An entry of an array that changes once more after the change that this patch takes back: then the patch takes back
+    /// both. `None` if there is no such entry.
+    ///
+    /// ```
+    /// use simworld_core::patch::ArrayPatch;
+    /// let mut array = vec!['a', 'b', 'c'];
+    /// let mut back = ArrayPatch { len: 3, set: vec![(0, 'z')] }.put_on(&mut array, "letters")?;
+    /// *back.amend(&mut array, 2).expect("there are three") = 'y';
+    /// assert_eq!(array, ['z', 'b', 'y']);
+    /// back.put_on(&mut array, "letters")?;
+    /// assert_eq!(array, ['a', 'b', 'c']);
+    /// # Ok::<(), simworld_core::patch::Misfit>(())
+    /// ```
+    pub fn amend<'a>(&mut self, array: &'a mut [T], index: usize) -> Option<&'a mut T> {
+        let entry = array.get_mut(index)?;
+        let number = index as u32;
+        if let Err(rank) = self.set.binary_search_by_key(&number, |(known, _)| *known)
+            && number < self.len
+        {
+            self.set.insert(rank, (number, entry.clone()));
+        }
+        Some(entry)
+    }
+
     /// The patch that would bring an array to how it is now, after this one was put on it: what does again what this
     /// one takes back.
     #[must_use]

@@ -62,7 +62,7 @@ fn offset(boundary: &Boundary) -> Option<Ring> {
         if lines.len() < 3 {
             return None;
         }
-        let ring = join(&lines, |index| LONGEST_MITRE * offsets[index].max(0.5));
+        let ring = join(&lines, |index| Reach::evenly(LONGEST_MITRE * offsets[index].max(0.5)));
         let kept: Vec<bool> = ring.kept;
         if kept.iter().all(|kept| *kept) {
             return Some(ring.ring);
@@ -108,9 +108,29 @@ struct Joined {
     kept: Vec<bool>,
 }
 
+/// How far from the ends of two lines they may meet, m.
+#[derive(Clone, Copy)]
+struct Reach {
+    /// Before the end of the one and behind the beginning of the other.
+    short: f64,
+    /// Beyond them.
+    beyond: f64,
+}
+
+impl Reach {
+    const fn evenly(reach: f64) -> Self {
+        Self { short: reach, beyond: reach }
+    }
+
+    /// Whether a place so far along a line from its end, m, is within.
+    fn holds(self, along: f64) -> bool {
+        (-self.short..=self.beyond).contains(&along)
+    }
+}
+
 /// Joins lines into a ring: neighbours at the point where they meet, or by an edge of their own where they are nearly
 /// parallel or meet farther than `reach` from their ends.
-fn join(lines: &[Line], reach: impl Fn(usize) -> f64) -> Joined {
+fn join(lines: &[Line], reach: impl Fn(usize) -> Reach) -> Joined {
     let count = lines.len();
     let mut ring = Ring::default();
     let mut ends = vec![(Point2::origin(), Point2::origin()); count];
@@ -133,12 +153,14 @@ fn join(lines: &[Line], reach: impl Fn(usize) -> f64) -> Joined {
 }
 
 /// Where one line is left and the next entered.
-fn corner(line: &Line, next: &Line, reach: f64) -> (Point2, Point2) {
+fn corner(line: &Line, next: &Line, reach: Reach) -> (Point2, Point2) {
     let (u, v) = (line.along(), next.along());
     let sine = u.perp(&v) / (u.norm() * v.norm());
     if sine.abs() > STRAIGHT {
         let met = line.start + u * ((next.start - line.start).perp(&v) / u.perp(&v));
-        if (met - line.end).norm() <= reach && (met - next.start).norm() <= reach {
+        let beyond = (met - line.end).dot(&u) / u.norm();
+        let before = (next.start - met).dot(&v) / v.norm();
+        if reach.holds(beyond) && reach.holds(before) {
             return (met, met);
         }
     }
@@ -168,7 +190,8 @@ fn straighten(ring: &Ring) -> Ring {
             if deepest > 1e-6 { line.moved(deepest) } else { line }
         })
         .collect();
-    let joined = join(&lines, |_| 6.0 * TOLERANCE);
+    // A front that went on past its own run would leave a street that bends there.
+    let joined = join(&lines, |_| Reach { short: 6.0 * TOLERANCE, beyond: TOLERANCE });
     if joined.kept.iter().all(|kept| *kept) { joined.ring } else { ring.clone() }
 }
 

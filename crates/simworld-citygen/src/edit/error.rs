@@ -5,6 +5,7 @@ use simworld_core::patch::Misfit;
 use thiserror::Error;
 
 use crate::graph::GraphError;
+use crate::terrain::BridgeWarning;
 
 /// Why an edit is refused; the city is as it was.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -16,6 +17,9 @@ pub enum EditError {
     /// The roads cannot be derived.
     #[error(transparent)]
     Network(#[from] NetworkError),
+    /// A bridge would be too low.
+    #[error(transparent)]
+    Bridge(#[from] BridgeWarning),
     /// A patch that is for other roads.
     #[error(transparent)]
     Roads(#[from] PatchError),

@@ -63,7 +63,10 @@ impl<'a> Faces<'a> {
         let extent = Extent { streets: part.streets.len(), sides: flags.collect() };
         let seed = city.provenance.seed;
         let zoning = Zoning::new(&city.config.zoning, seed);
-        let taken = Occupancy::of_roads_where(&network, |road| network.roads[road.index()].level == 0);
+        // In a real place houses stand below bridges and above tunnels.
+        let is_place = city.provenance.origin.is_some();
+        let is_land = |road: RoadId| !is_place || network.roads[road.index()].level == 0;
+        let taken = Occupancy::of_roads_where(&network, is_land);
         let mut blocks = Block::of_network(&network);
         blocks.retain(|block| lies_within(block, &extent));
         let land = Land::of_blocks(blocks, &zoning, &city.config.lots, seed, &taken);

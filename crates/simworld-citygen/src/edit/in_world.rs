@@ -1,6 +1,6 @@
 //! Edits in a running world: the entities that an edit changed go and come by commands, all others stay.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use simworld_core::command::{Command, CommandError};
 use simworld_core::hash::StateHasher;
@@ -10,6 +10,7 @@ use simworld_core::scene::{EntityDesc, EntityKind, Scene, World};
 
 use super::index::now_at;
 use super::patch::CityPatch;
+use super::reach::{Reach, View};
 use super::{CityEditor, EditError};
 use crate::populate::{MARGIN, Parts, Scope, Touched};
 use crate::terrain::Ground;
@@ -99,8 +100,8 @@ impl CityInWorld {
     }
 
     /// Has a world follow the last edit of a city, or the last undo: `back` is what takes it back. Roads are patched, what
-    /// is gone is removed and what is new is spawned; everything else keeps its id. The ground stays as it is: where a city
-    /// lies in hills, plates of ground keep their heights.
+    /// is gone is removed and what is new is spawned; everything else keeps its id. The ground follows too: where a city
+    /// lies in hills, all that stands on ground that rose or sank with a street goes and comes at its new height.
     ///
     /// # Errors
     /// A patch of another edit, or a command that the world refuses: then the world is as it was.
@@ -111,12 +112,15 @@ impl CityInWorld {
         world: &mut World,
     ) -> Result<Followed, FollowError> {
         let roads = back.network.mirrored(&editor.city().network);
-        let now = touched_now(&back, editor.city());
-        let new = describe(editor.city(), &now, world)?;
-        let then = touched_then(&back);
+        let (mut now, mut then) = (touched_now(&back, editor.city()), touched_then(&back));
+        let view_now = View::of(editor.city(), &now);
         let forth = editor.put(back)?;
-        let old = describe(editor.city(), &then, world);
+        let reach = Reach::between(View::of(editor.city(), &then), view_now);
+        reach.widen(editor, &mut then);
+        let old = describe(editor.city(), &then, &reach, world);
         let back = editor.put(forth)?;
+        reach.widen(editor, &mut now);
+        let new = describe(editor.city(), &now, &reach, world)?;
         let (gone, come) = differences(old?, new);
         let mut commands = vec![Command::PatchRoads(Box::new(roads))];
         let mut removed = Vec::new();
@@ -150,10 +154,10 @@ impl CityInWorld {
 }
 
 /// Things of a city by their numbers.
-struct Things {
-    roads: Touched,
-    buildings: Vec<usize>,
-    elements: Vec<usize>,
+pub(super) struct Things {
+    pub(super) roads: Touched,
+    pub(super) buildings: BTreeSet<usize>,
+    pub(super) elements: BTreeSet<usize>,
 }
 
 fn touched_now(back: &CityPatch, city: &City) -> Things {
@@ -190,7 +194,12 @@ fn touched_then(back: &CityPatch) -> Things {
 }
 
 /// Some things of a city as recipes of entities.
-fn describe(city: &City, things: &Things, world: &mut World) -> Result<Vec<EntityDesc>, FollowError> {
+fn describe(
+    city: &City,
+    things: &Things,
+    reach: &Reach,
+    world: &mut World,
+) -> Result<Vec<EntityDesc>, FollowError> {
     let land = city.terrain();
     let heights = Ground::new(&city.network, &land);
     let buildings: Vec<_> = things.buildings.iter().map(|number| city.buildings[*number].clone()).collect();
@@ -201,7 +210,8 @@ fn describe(city: &City, things: &Things, world: &mut World) -> Result<Vec<Entit
         buildings: &buildings,
         elements: &elements,
         scope: Scope::Touched(&things.roads),
-        ground: None,
+        ground: city.network.bounds().filter(|_| reach.plates),
+        rows: reach.rows,
         margin: MARGIN,
     };
     Ok(parts.describe(world).map_err(CommandError::from)?)

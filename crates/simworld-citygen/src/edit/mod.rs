@@ -9,12 +9,14 @@
 //! Numbers of roads, intersections, buildings and elements stay as they are, but for the last ones, which take the numbers
 //! of what is gone. Every edit gives a [`CityPatch`] that takes it back to the bit.
 
+mod around;
 mod cells;
 mod error;
 mod faces;
 mod in_world;
 mod index;
 mod patch;
+mod reach;
 mod replace;
 mod streets;
 mod things;
@@ -54,6 +56,8 @@ pub struct NewStreet {
     pub name: Option<String>,
     /// Its speed limit, m/s; that of its class if there is none.
     pub speed_limit: Option<f64>,
+    /// 0 on the ground, above it for a bridge, which rises over what it crosses; see [`Street::level`].
+    pub level: i8,
 }
 
 impl NewStreet {
@@ -65,6 +69,7 @@ impl NewStreet {
             section: CrossSection::default(),
             name: None,
             speed_limit: None,
+            level: 0,
         }
     }
 }
@@ -196,6 +201,7 @@ impl CityEditor {
             name: new.name.as_ref().map(|_| part.names.len() as u32),
             speed_limit: new.speed_limit,
             turns: TurnLanes::default(),
+            level: new.level,
             ..Street::simple(0, 0)
         };
         let changed = self.change_streets(part, |graph| graph.add_street(&new.course, &like), Some(new))?;

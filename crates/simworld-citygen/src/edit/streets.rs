@@ -2,12 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use simworld_core::geometry::Point2;
 use simworld_core::net::{NetworkPatch, PlanChange, PlanPart, RoadNetwork, Street};
 use simworld_core::patch::Book;
 
+use super::around::Around;
+use super::cells::{Bounds, bounds};
 use super::patch::PlanPatch;
 use super::{CityEditor, EditError};
-use crate::graph::{Change, GraphError, StreetGraph, StreetId};
+use crate::graph::{Change, GraphError, HalfEdge, StreetGraph, StreetId};
 use crate::terrain::{HeightField, Terrain};
 
 /// A change of the streets that is done, and what takes it back.
@@ -32,17 +35,46 @@ impl CityEditor {
         let mut graph = StreetGraph::of(&part.plan)?;
         let change = work(&mut graph)?;
         let terrain = self.city.terrain();
+        let area = area_of(&graph, &part, &change);
         let carry = Carry::new(&mut self.city.plan, &self.city.network, &part);
-        let (plan, change) = carry.over(&graph, &change, &terrain);
+        let (mut plan, mut change, nodes) = carry.over(&graph, &change, &terrain);
+        let raised = match area {
+            Some(area) => {
+                let mut around = Around {
+                    plan: &mut self.city.plan,
+                    patch: &mut plan,
+                    change: &mut change,
+                    roads: &self.index.roads,
+                    nodes,
+                    area,
+                };
+                around.set_turning();
+                around.raise(&self.city.config.terrain)
+            }
+            None => Ok(()),
+        };
         let network = std::sync::Arc::make_mut(&mut self.city.network);
-        match network.repair(&self.city.plan, &self.city.config.network, &change) {
+        let done =
+            raised.and_then(|()| Ok(network.repair(&self.city.plan, &self.city.config.network, &change)?));
+        match done {
             Ok(network) => Ok(StreetsChanged { plan, network }),
             Err(error) => {
                 plan.put_on(&mut self.city.plan)?;
-                Err(error.into())
+                Err(error)
             }
         }
     }
+}
+
+/// The rectangle round all streets of a part that a change touches, as they were and as they are.
+fn area_of(graph: &StreetGraph, part: &PlanPart, change: &Change) -> Option<Bounds> {
+    let were = change.streets_removed.iter().chain(&change.streets_changed);
+    let were = were.filter_map(|street| part.plan.streets.get(street.index()));
+    let lines = were.map(|street| part.plan.centerline(street));
+    let are = change.streets_added.iter().chain(&change.streets_changed);
+    let points: Vec<Point2> =
+        lines.chain(are.map(|street| graph.course(HalfEdge::along(*street)))).flatten().collect();
+    bounds(&points)
 }
 
 /// Carries a change over from a part of a plan to the whole.
@@ -89,8 +121,13 @@ impl<'a> Carry<'a> {
         }
     }
 
-    /// Gives what takes the change back, and the change in the numbers of the whole.
-    fn over(mut self, graph: &StreetGraph, change: &Change, terrain: &Terrain) -> (PlanPatch, PlanChange) {
+    /// Gives what takes the change back, the change in the numbers of the whole, and all nodes that it touches.
+    fn over(
+        mut self,
+        graph: &StreetGraph,
+        change: &Change,
+        terrain: &Terrain,
+    ) -> (PlanPatch, PlanChange, BTreeSet<usize>) {
         change.streets_removed.iter().for_each(|street| self.remove_street(street.index()));
         change.nodes_removed.iter().for_each(|node| self.remove_node(node.index()));
         for node in &change.nodes_added {
@@ -130,7 +167,9 @@ impl<'a> Carry<'a> {
             names: self.names.close(),
             controls: self.old_controls.into_iter().map(|(node, old)| (node as u32, old)).collect(),
         };
-        (patch, self.change)
+        let touched = change.nodes_added.iter().chain(&change.nodes_changed);
+        let touched = touched.map(|node| self.node_of[node.index()]).collect();
+        (patch, self.change, touched)
     }
 
     fn remove_street(&mut self, local: usize) {

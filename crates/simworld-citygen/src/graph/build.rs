@@ -89,7 +89,12 @@ impl StreetGraph {
                 }
                 let present =
                     if other == number { Some(street) } else { self.streets[other as usize].as_ref() };
-                let touched = present.and_then(|present| piece.touches(&self.piece(other, present, part)));
+                let touched = present.and_then(|present| {
+                    let there = self.piece(other, present, part);
+                    // Streets of different levels pass over one another.
+                    let passes = present.level != street.level && !piece.has_common(&there);
+                    if passes { None } else { piece.touches(&there) }
+                });
                 found = touched.map(|at| (other, at)).or(found);
             });
             if let Some((other, at)) = found {

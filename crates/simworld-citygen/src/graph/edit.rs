@@ -36,7 +36,8 @@ impl StreetGraph {
     /// not looked at.
     ///
     /// The course joins what it meets: a node within 1 m of an end or of a crossing, or else the street there, which is
-    /// cut in two; the part from its beginning keeps its number. The course itself is cut at every crossing.
+    /// cut in two; the part from its beginning keeps its number. The course itself is cut at every crossing. Streets of
+    /// other levels are joined at nodes and at the ends of the course, and passed over or under elsewhere.
     ///
     /// # Errors
     /// A course that is no line, crosses itself or runs along a street; a part of a street shorter than can be built;

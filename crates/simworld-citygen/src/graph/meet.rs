@@ -29,8 +29,8 @@ struct Meeting {
 }
 
 impl StreetGraph {
-    /// What lies within [`JOIN`] of a point: the nearest node, or else the nearest street.
-    fn target_near(&self, point: Point2) -> (Target, Point2) {
+    /// What lies within [`JOIN`] of a point: the nearest node, or else the nearest of some streets.
+    fn target_near(&self, point: Point2, is_meant: impl Fn(&Street) -> bool) -> (Target, Point2) {
         let mut node: Option<(f64, u32)> = None;
         let mut street: Option<(f64, u32, f64, Point2)> = None;
         let mut consider = |number: u32| {
@@ -43,6 +43,7 @@ impl StreetGraph {
             }
             let course = self.course(super::HalfEdge(2 * number));
             if let Some(closest) = polyline::closest(&course, &point)
+                && is_meant(present)
                 && closest.distance <= JOIN
                 && street.is_none_or(|best| (closest.distance, number) < (best.0, best.1))
             {
@@ -63,22 +64,28 @@ impl StreetGraph {
         }
     }
 
-    /// All places where a course joins something, in its order, its two ends among them.
-    fn meetings(&self, course: &[Point2]) -> Vec<Meeting> {
+    /// All places where a course of a level joins something, in its order, its two ends among them.
+    fn meetings(&self, course: &[Point2], level: i8) -> Vec<Meeting> {
         let length = polyline::length(course);
+        let is_level = |street: &Street| street.level == level;
         let mut found = Vec::new();
         for (station, point) in [(0.0, course[0]), (length, course[course.len() - 1])] {
-            let (target, at) = self.target_near(point);
+            let (target, at) = match self.target_near(point, is_level) {
+                // An end comes down to whatever street there is.
+                (Target::Open, _) => self.target_near(point, |_| true),
+                found => found,
+            };
             found.push(Meeting { station, at, target });
         }
         let mut before = 0.0;
         for pair in course.windows(2) {
             let span = (pair[1] - pair[0]).norm();
             self.grid.visit(pair[0], pair[1], |number, part| {
-                let Some(present) = &self.streets[number as usize] else { return };
+                let present = self.streets[number as usize].as_ref();
+                let Some(present) = present.filter(|present| is_level(present)) else { return };
                 let [c, d] = self.piece(number, present, part).ends;
                 if let Some((share, _)) = polyline::crossing(pair[0], pair[1], c, d) {
-                    let (target, at) = self.target_near(pair[0] + (pair[1] - pair[0]) * share);
+                    let (target, at) = self.target_near(pair[0] + (pair[1] - pair[0]) * share, is_level);
                     found.push(Meeting { station: before + share * span, at, target });
                 }
             });
@@ -105,7 +112,7 @@ impl StreetGraph {
 impl Edit<'_> {
     /// Cuts the streets that a course meets and builds its parts between the meetings.
     pub(super) fn build_along(&mut self, course: &[Point2], like: &Street) -> Result<(), GraphError> {
-        let meetings = self.graph.meetings(course);
+        let meetings = self.graph.meetings(course, like.level);
         // The farthest cut of a street first: what is left of it keeps its number.
         let mut cuts: Vec<(u32, f64, usize)> = Vec::new();
         let mut nodes = vec![0; meetings.len()];

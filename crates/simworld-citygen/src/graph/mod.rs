@@ -3,7 +3,8 @@
 //! Half-edges in flat arrays: each side of a street knows the side that comes next around the face on its left, the
 //! one before, and that face (the doubly connected edge list of Muller and Preparata 1978). A bounded face is a block,
 //! walked counterclockwise; each connected part of the streets has one outer face besides, which is all that lies
-//! around it. Lengths in m, in the frame of the plan. Streets that touch without a node are refused; the test is exact.
+//! around it. Lengths in m, in the frame of the plan. Streets of one level that touch without a node are refused; the test
+//! is exact. Those of different levels pass over one another, and faces then are walks that may cross.
 
 mod build;
 mod change;

@@ -48,6 +48,11 @@ impl Piece {
         }
     }
 
+    /// Whether the two have an end in common.
+    pub(super) fn has_common(&self, other: &Self) -> bool {
+        self.joints.iter().any(|joint| other.joints.contains(joint))
+    }
+
     /// Whether their boxes are apart.
     fn apart(&self, other: &Self) -> bool {
         let ([a, b], [c, d]) = (self.ends, other.ends);

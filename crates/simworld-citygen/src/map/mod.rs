@@ -16,6 +16,7 @@ mod png;
 mod streets;
 mod strips;
 mod style;
+mod tunnels;
 
 use std::fmt;
 

@@ -9,7 +9,7 @@ use simworld_core::net::{Road, Sidewalk, polyline};
 use super::page::Page;
 use super::path::Pen;
 use super::style::{CASING, ROADS, RoadStyle, SIDEWALK};
-use super::{bridges, strips};
+use super::{bridges, strips, tunnels};
 use crate::City;
 
 /// Sidewalks narrower than this on paper are left out, mm.
@@ -18,6 +18,7 @@ const FINEST_SIDEWALK: f64 = 0.22;
 const CROSSINGS_FROM: f64 = 0.28;
 
 pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Result {
+    tunnels::draw(f, page, city)?;
     sidewalks(f, page, city)?;
     writeln!(f, r#"<g id="streets" fill="none" stroke-linejoin="round" stroke-linecap="round">"#)?;
     let layers: Vec<Layer> = ROADS.iter().map(|style| Layer::of(style, page, city)).collect();
@@ -28,7 +29,7 @@ pub(super) fn draw(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt:
         layer.fill(f)?;
     }
     writeln!(f, "</g>")?;
-    strips::draw(f, page, city, |road| road.level <= 0)?;
+    strips::draw(f, page, city, |road| road.level == 0)?;
     crossings(f, page, city)?;
     bridges::draw(f, page, city)
 }
@@ -44,7 +45,7 @@ struct Layer {
 impl Layer {
     fn of(style: &'static RoadStyle, page: &Page, city: &City) -> Self {
         let mut pens: BTreeMap<u32, Pen> = BTreeMap::new();
-        for road in city.network.roads.iter().filter(|road| road.class == style.class && road.level <= 0) {
+        for road in city.network.roads.iter().filter(|road| road.class == style.class && road.level == 0) {
             let width = ((road.width * page.scale).max(style.least) * 10.0).round() as u32;
             let pen = pens.entry(width).or_insert_with(|| Pen::at(page.middle));
             pen.line(&middle_of_carriageway(road, page));
@@ -117,7 +118,7 @@ fn sidewalks(f: &mut fmt::Formatter<'_>, page: &Page, city: &City) -> fmt::Resul
             pen.line(path);
         }
     };
-    let is_on_ground = |walk: &&Sidewalk| city.network.roads[walk.road.index()].level <= 0;
+    let is_on_ground = |walk: &&Sidewalk| city.network.roads[walk.road.index()].level == 0;
     for sidewalk in city.network.sidewalks.iter().filter(is_on_ground) {
         draw(&sidewalk.path, sidewalk.width);
     }

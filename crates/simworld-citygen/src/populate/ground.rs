@@ -26,6 +26,9 @@ impl Parts<'_> {
         let count = ((high - low) / PLATE).map(f64::ceil);
         for row in 0..count.y as u32 {
             let y = low.y + (f64::from(row) + 0.5) * PLATE;
+            if self.rows.is_some_and(|(from, to)| y + PLATE < from || y - PLATE > to) {
+                continue;
+            }
             self.row((low.x, y), count.x as u32, descs);
         }
     }

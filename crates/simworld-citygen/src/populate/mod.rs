@@ -64,6 +64,7 @@ impl City {
             elements: &self.elements,
             scope: Scope::All,
             ground: self.network.bounds(),
+            rows: None,
             margin: MARGIN,
         };
         parts.spawn(world)
@@ -97,6 +98,8 @@ pub(crate) struct Parts<'a> {
     /// The rectangle of the ground, least and greatest corner, and how far the ground goes on beyond it, m.
     pub(crate) ground: Option<(Point2, Point2)>,
     pub(crate) margin: f64,
+    /// From where to where northwards plates of hilly ground are meant, m; all of them if it is not said.
+    pub(crate) rows: Option<(f64, f64)>,
 }
 
 impl Parts<'_> {
@@ -127,7 +130,7 @@ impl Parts<'_> {
         Ok(entities)
     }
 
-    /// All of it as recipes of entities, but for the ground.
+    /// All of it as recipes of entities.
     pub(crate) fn describe(&self, world: &mut World) -> Result<Vec<EntityDesc>, WorldError> {
         let mut assets = Assets::new();
         let mut descs = self.surfaces();

@@ -7,7 +7,7 @@ use simworld_core::net::{Road, RoadNetwork};
 use super::HeightField;
 
 /// Streets farther than this do not shape the ground, m.
-const REACH: f64 = 60.0;
+pub(crate) const REACH: f64 = 60.0;
 /// Weight of the land beside that of the streets around.
 const LAND: f64 = 0.05;
 /// On the middle of a street nothing else counts, m.

@@ -13,6 +13,7 @@ mod raster;
 pub use bridges::{BridgeWarning, DECK, HEADROOM, raise_bridges};
 pub use grade::elevations;
 pub use ground::Ground;
+pub(crate) use ground::REACH;
 pub use raster::{Raster, RasterError};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;

@@ -89,6 +89,7 @@ impl Tile {
             elements: &self.elements,
             scope: Scope::Tile(&self.extent),
             ground: Some(self.square),
+            rows: None,
             margin: 0.0,
         };
         Ok(parts.spawn(world)?)

@@ -31,7 +31,7 @@ pub use repair::{NetworkPatch, PatchError, PlanChange};
 pub use section::{CrossSection, LANE_WIDTH, LaneDirection, LaneKind, LaneSpec, SIDEWALK_WIDTH};
 pub use signal::{Aspect, Phase, SignalGroup, SignalPlan};
 pub use turn_lanes::{TurnLanes, TurnSet};
-pub use turning::{CAR_TURNING, LORRY_TURNING};
+pub use turning::{CAR_TURNING, LORRY_TURNING, TurningRoom};
 #[cfg(feature = "hierarchy")]
 pub use waypoint::RouteHierarchy;
 pub use waypoint::{

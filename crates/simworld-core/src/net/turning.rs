@@ -46,7 +46,11 @@ impl StreetPlan {
                 let street = &self.streets[index];
                 let node = if at_end { street.to } else { street.from };
                 let is_asked = degrees[node] == 1 && street.level == 0;
-                is_asked.then(|| (index, at_end, self.turning_room(index, node, &lines, &cells)))
+                is_asked.then(|| {
+                    let others = near(&cells, self.nodes[node]).map(|other| (other, lines[other].as_slice()));
+                    let room = self.room_among(index, at_end, &lines[index], others);
+                    (index, at_end, room.widest())
+                })
             })
             .collect();
         for (index, at_end, radius) in circles {
@@ -54,28 +58,75 @@ impl StreetPlan {
         }
     }
 
-    /// The widest circle that has room at the dead end of a street.
-    fn turning_room(&self, street: usize, node: usize, lines: &[Vec<Point2>], cells: &Cells) -> f64 {
-        let section = self.section(&self.streets[street]);
+    /// The room for a turning circle at an end of a street, among some other streets: all that lie within 60 m of it.
+    ///
+    /// ```
+    /// use simworld_core::net::StreetPlan;
+    /// let plan = StreetPlan::crossroads(120.0);
+    /// let room = plan.turning_room(0, true, &[1, 2, 3]);
+    /// assert_eq!(room.widest(), 13.5);
+    /// assert!(room.has(9.1) && !room.has(50.0));
+    /// ```
+    pub fn turning_room(&self, street: usize, at_end: bool, others: &[usize]) -> TurningRoom {
+        let lines: Vec<Vec<Point2>> =
+            others.iter().map(|other| self.centerline(&self.streets[*other])).collect();
+        let line = self.centerline(&self.streets[street]);
+        let others = others.iter().copied().zip(lines.iter().map(Vec::as_slice));
+        self.room_among(street, at_end, &line, others)
+    }
+
+    fn room_among<'a>(
+        &self,
+        street: usize,
+        at_end: bool,
+        line: &[Point2],
+        others: impl Iterator<Item = (usize, &'a [Point2])>,
+    ) -> TurningRoom {
+        let own = &self.streets[street];
+        let section = self.section(own);
         let (left, right) = section.kerbs();
         let walk = (section.left_of_reference() - left).max(section.right_of_reference() - right);
-        let at = self.nodes[node];
+        let at = self.nodes[if at_end { own.to } else { own.from }];
         let mut gap = f64::INFINITY;
-        for other in near(cells, at).filter(|other| *other != street) {
+        for (other, line) in others.filter(|(other, _)| *other != street) {
             let section = self.section(&self.streets[other]);
             let reach = section.left_of_reference().max(section.right_of_reference());
-            let distance = polyline::closest(&lines[other], &at).map_or(f64::INFINITY, |near| near.distance);
+            let distance = polyline::closest(line, &at).map_or(f64::INFINITY, |near| near.distance);
             // Of two dead ends that look at each other either may take its half of the land between.
             let ends = [self.streets[other].from, self.streets[other].to];
             let shared = ends.iter().any(|end| (self.nodes[*end] - at).norm() <= distance + 1e-9);
             gap = gap.min(if shared { distance * 0.5 } else { distance - reach });
         }
-        let length = polyline::length(&lines[street]);
-        let fits = |(radius, land): &(f64, f64)| {
-            let is_wider = *radius > (left + right) * 0.5 + 1.5;
-            is_wider && radius + walk + land <= gap && radius + 3.0 <= length * SHARE
-        };
-        LAND.iter().find(|circle| fits(circle)).map_or(0.0, |(radius, _)| *radius)
+        TurningRoom { least: (left + right) * 0.5 + 1.5, most: polyline::length(line) * SHARE, walk, gap }
+    }
+}
+
+/// The room for a turning circle at an end of a street.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurningRoom {
+    /// A circle that is no wider is no wider than the street, m.
+    least: f64,
+    /// What the length of the street allows a circle with its flare, m.
+    most: f64,
+    /// Width of the walkway round the circle, m.
+    walk: f64,
+    /// Land between the end and the nearest street, m.
+    gap: f64,
+}
+
+impl TurningRoom {
+    /// Radius of the widest circle that is built there, m: one for lorries, or else one for cars; 0 for none.
+    pub fn widest(&self) -> f64 {
+        LAND.iter().find(|(radius, land)| self.fits(*radius, *land)).map_or(0.0, |(radius, _)| *radius)
+    }
+
+    /// Whether a circle of a radius, m, has room.
+    pub fn has(&self, radius: f64) -> bool {
+        self.fits(radius, 0.0)
+    }
+
+    fn fits(&self, radius: f64, land: f64) -> bool {
+        radius > self.least && radius + self.walk + land <= self.gap && radius + 3.0 <= self.most
     }
 }
 

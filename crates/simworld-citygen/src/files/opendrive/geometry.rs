@@ -19,6 +19,26 @@ pub(super) struct Piece {
     kind: Kind,
 }
 
+impl Piece {
+    /// Where it ends, and its heading there.
+    fn end(&self) -> (Point2, f64) {
+        let ahead = direction(self.heading);
+        let world = |x: f64, y: f64| self.start + ahead * x + Vector2::new(-ahead.y, ahead.x) * y;
+        match self.kind {
+            Kind::Line => (world(self.length, 0.0), self.heading),
+            Kind::Arc(curvature) => {
+                let (sin, cos) = ops::sin_cos(curvature * self.length);
+                let end = world(sin / curvature, (1.0 - cos) / curvature);
+                (end, wrap_angle(self.heading + curvature * self.length))
+            }
+            Kind::Cubic(u, v) => {
+                let ([x, dx], [y, dy]) = (at(u, 1.0), at(v, 1.0));
+                (world(x, y), wrap_angle(self.heading + ops::atan2(dy, dx)))
+            }
+        }
+    }
+}
+
 enum Kind {
     Line,
     /// Curvature, 1/m, positive to the left.
@@ -65,6 +85,21 @@ fn straight(pieces: &mut Vec<Piece>, from: Point2, to: Point2) {
     if length > 1e-6 {
         pieces.push(Piece { start: from, heading: heading(&step), length, kind: Kind::Line });
     }
+}
+
+/// A path with its ends moved to other places, and all between the more the nearer it is to that end.
+pub(super) fn moved(path: &[Point2], [start, end]: [Point2; 2]) -> Vec<Point2> {
+    let (Some(first), Some(last)) = (path.first(), path.last()) else { return Vec::new() };
+    let shifts = (start - first, end - last);
+    let length = polyline::length(path).max(1e-9);
+    let (mut station, mut before) = (0.0, *first);
+    let shifted = path.iter().map(|point| {
+        station += (point - before).norm();
+        before = *point;
+        let share = station / length;
+        point + shifts.0 * (1.0 - share) + shifts.1 * share
+    });
+    shifted.collect()
 }
 
 /// The most that one cubic turns, radians.
@@ -183,6 +218,12 @@ fn arc_length(u: [f64; 3], v: [f64; 3]) -> f64 {
     sum / (3.0 * f64::from(STEPS))
 }
 
+/// Where a reference line begins and where it ends, and its headings there, radians; `None` if it has no length.
+pub(super) fn ends(pieces: &[Piece]) -> Option<[(Point2, f64); 2]> {
+    let (first, last) = (pieces.first()?, pieces.last()?);
+    Some([(first.start, first.heading), last.end()])
+}
+
 /// Length of a reference line, m.
 pub(super) fn length(pieces: &[Piece]) -> f64 {
     pieces.iter().map(|piece| piece.length).sum()
@@ -227,6 +268,24 @@ mod tests {
         assert!((lengths[0] - 14.0).abs() < 1e-9 && (lengths[1] - 9.424_778).abs() < 1e-6);
         assert!(matches!(pieces[1].kind, Kind::Arc(curvature) if (curvature - 1.0 / 6.0).abs() < 1e-9));
         assert!((length(&pieces) - (28.0 + 9.424_778)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_reference_line_ends_where_its_last_piece_ends() {
+        let corner = [Point2::new(0.0, 0.0), Point2::new(20.0, 0.0), Point2::new(20.0, 20.0)];
+        let up = std::f64::consts::FRAC_PI_2;
+        let mut pieces = rounded(&corner);
+        assert_eq!(ends(&[]).map(|_| ()), None);
+        for (end, wanted) in [(ends(&pieces).unwrap()[1], Point2::new(20.0, 20.0)), {
+            pieces.pop();
+            (ends(&pieces).unwrap()[1], Point2::new(20.0, 6.0))
+        }] {
+            assert!((end.0 - wanted).norm() < 1e-9 && (end.1 - up).abs() < 1e-9, "{end:?}");
+        }
+        let turn = cubics(&[Point2::new(1.0, 2.0), Point2::new(8.0, 4.0), Point2::new(10.0, 9.0)], (0.0, up));
+        let [start, end] = ends(&turn).unwrap();
+        assert_eq!(start, (Point2::new(1.0, 2.0), 0.0));
+        assert!((end.0 - Point2::new(10.0, 9.0)).norm() < 1e-9 && (end.1 - up).abs() < 1e-9, "{end:?}");
     }
 
     #[test]

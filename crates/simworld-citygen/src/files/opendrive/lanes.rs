@@ -75,6 +75,20 @@ impl Layout {
         numbers.into_iter().find_map(|(lanes, numbers)| Some(numbers[rank(lanes)?])).unwrap_or(-1)
     }
 
+    /// How far the middle of a lane lies to the left of the reference line, m.
+    pub(super) fn lateral(&self, road: &Road, lane: LaneId) -> f64 {
+        let number = self.of_lane(road, lane);
+        let widths = |strips: &[LaneSpec]| strips.iter().map(|strip| strip.width).sum::<f64>();
+        let rank = number.unsigned_abs() as usize;
+        let (sign, index) = match number {
+            1.. => (1.0, self.left.saturating_sub(rank)),
+            _ => (-1.0, self.left + rank.saturating_sub(1)),
+        };
+        let between = if number > 0 { index + 1..self.left } else { self.left..index };
+        let half = self.strips.get(index).map_or(0.0, |strip| strip.width * 0.5);
+        self.offset + sign * (self.strips.get(between).map_or(0.0, widths) + half)
+    }
+
     /// How far the lanes reach to the right of the reference line, m.
     pub(super) fn right_edge(&self) -> f64 {
         self.strips[self.left..].iter().map(|strip| strip.width).sum::<f64>() - self.offset

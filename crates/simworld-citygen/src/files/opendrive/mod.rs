@@ -21,7 +21,7 @@ mod signals;
 use std::io::{self, Write};
 
 use lanes::Layout;
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::{Road, RoadNetwork, polyline};
 
 use super::xml::escaped;
 use crate::City;
@@ -35,6 +35,8 @@ struct Roads<'a> {
     layouts: Vec<Layout>,
     /// Where each road's reference line begins and ends along its centreline, m.
     stops: Vec<(f64, f64)>,
+    /// The reference lines of the roads.
+    lines: Vec<Vec<geometry::Piece>>,
 }
 
 impl City {
@@ -57,12 +59,14 @@ impl City {
         // Roads are indexed as the streets of the plan.
         let section = |index: usize| self.plan.section(&self.plan.streets[index]);
         let indexed = || network.roads.iter().enumerate();
-        let roads = Roads {
-            city: self,
-            network,
-            layouts: indexed().map(|(index, road)| Layout::of(section(index), network, road)).collect(),
-            stops: indexed().map(|(index, road)| roads::stops(section(index), network, road)).collect(),
+        let layouts = indexed().map(|(index, road)| Layout::of(section(index), network, road)).collect();
+        let stops: Vec<(f64, f64)> =
+            indexed().map(|(index, road)| roads::stops(section(index), network, road)).collect();
+        let between = |(road, stops): (&Road, &(f64, f64))| {
+            geometry::rounded(&polyline::slice(&road.centerline, stops.0, stops.1))
         };
+        let lines = network.roads.iter().zip(&stops).map(between).collect();
+        let roads = Roads { city: self, network, layouts, stops, lines };
         roads.write(writer)
     }
 }

@@ -2,8 +2,10 @@
 
 use std::io::{self, Write};
 
-use simworld_core::geometry::direction as direction_of;
+use simworld_core::geometry::{Point2, direction as direction_of};
+use simworld_core::id::LaneId;
 use simworld_core::net::{CrossSection, Lane, LaneDirection, Road, RoadClass, RoadNetwork, polyline};
+use simworld_core::ops::wrap_angle;
 
 use super::lanes::strip_of;
 use super::{Roads, elevation, geometry};
@@ -34,14 +36,13 @@ pub(super) fn stops(section: &CrossSection, network: &RoadNetwork, road: &Road) 
 impl Roads<'_> {
     pub(super) fn road(&self, index: usize, out: &mut impl Write) -> io::Result<()> {
         let (road, layout) = (&self.network.roads[index], &self.layouts[index]);
-        let (begin, end) = self.stops[index];
-        let line = geometry::rounded(&polyline::slice(&road.centerline, begin, end));
+        let line = &self.lines[index];
         let name = road.name.and_then(|name| self.network.names.get(name as usize));
         writeln!(
             out,
             r#"<road name="{}" length="{:.6}" id="{index}" junction="-1" rule="{}">"#,
             escaped(name.map_or("", String::as_str)),
-            geometry::length(&line),
+            geometry::length(line),
             layout.rule.as_str()
         )?;
         writeln!(out, "<link>")?;
@@ -56,11 +57,27 @@ impl Roads<'_> {
         let lanes = road.forward.iter().chain(&road.backward);
         let limit = lanes.map(|lane| self.network.lanes[lane.index()].speed_limit).fold(0.0, f64::max);
         writeln!(out, r#"<type s="0" type="{kind}"><speed max="{limit:.3}" unit="m/s"/></type>"#)?;
-        geometry::write(&line, out)?;
-        elevation::write(&elevation::along(self.network, index, (begin, end)), geometry::length(&line), out)?;
+        geometry::write(line, out)?;
+        let length = geometry::length(line);
+        elevation::write(&elevation::along(self.network, index, self.stops[index]), length, out)?;
         layout.write(out)?;
-        self.signals_of(index, geometry::length(&line), out)?;
+        self.signals_of(index, length, out)?;
         writeln!(out, "</road>")
+    }
+
+    /// Where a lane of the file begins or ends, and its heading there, radians. The file's lanes end square to the end of
+    /// their reference line; those of the network beside a bend close to a junction may end a little beside.
+    fn end_of_lane(&self, id: LaneId, is_end: bool) -> (Point2, f64) {
+        let lane = &self.network.lanes[id.index()];
+        let (index, road) = (lane.road.index(), &self.network.roads[lane.road.index()]);
+        let goes_along = road.from == lane.from;
+        let Some(ends) = geometry::ends(&self.lines[index]) else {
+            return polyline::at(&lane.path, if is_end { lane.length } else { 0.0 });
+        };
+        let (point, heading) = ends[usize::from(goes_along == is_end)];
+        let left = direction_of(heading + std::f64::consts::FRAC_PI_2);
+        let turned = if goes_along { 0.0 } else { std::f64::consts::PI };
+        (point + left * self.layouts[index].lateral(road, id), wrap_angle(heading + turned))
     }
 
     /// The path of one connection: a road of one lane about it.
@@ -69,9 +86,9 @@ impl Roads<'_> {
         let connection = &network.connections[index];
         let (from, to) = (&network.lanes[connection.from.index()], &network.lanes[connection.to.index()]);
         // It leaves as the one lane ends and arrives as the other begins.
-        let headings =
-            (polyline::at(&from.path, polyline::length(&from.path)).1, polyline::at(&to.path, 0.0).1);
-        let line = geometry::cubics(&connection.path, headings);
+        let (start, end) = (self.end_of_lane(connection.from, true), self.end_of_lane(connection.to, false));
+        let path = geometry::moved(&connection.path, [start.0, end.0]);
+        let line = geometry::cubics(&path, (start.1, end.1));
         let length = geometry::length(&line);
         let rule = self.layouts[from.road.index()].rule.as_str();
         writeln!(
@@ -81,7 +98,7 @@ impl Roads<'_> {
             self.junction_number(connection.intersection.index())
         )?;
         let contact = |along: bool| if along { ("end", "start") } else { ("start", "end") };
-        let goes_along = |lane: simworld_core::id::LaneId| {
+        let goes_along = |lane: LaneId| {
             let Lane { road, from, .. } = network.lanes[lane.index()];
             network.roads[road.index()].from == from
         };

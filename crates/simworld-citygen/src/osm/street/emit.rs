@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use simworld_core::net::{DrivingSide, SHORTEST_STREET, Street, StreetPlan, TurnLanes, polyline};
 
 use super::Planned;
+use super::circle;
 use super::collapse::warn;
 use super::control;
 use super::profile::Profile;
@@ -63,6 +64,7 @@ pub(super) fn plan(web: &Web, place: &Place, warnings: &mut Vec<Warning>) -> Pla
     let is_left_hand = web.living().next().is_some_and(|(_, edge)| edge.character.profile.is_left_hand);
     plan.driving_side = if is_left_hand { DrivingSide::Left } else { DrivingSide::Right };
     plan.controls = control::controls(&plan, place);
+    circle::set(&mut plan, place);
     Planned { plan, off_ground }
 }
 

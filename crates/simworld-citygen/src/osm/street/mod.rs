@@ -3,6 +3,7 @@
 //! Ways are split where they meet, lanes are read from tags, ways that cross without a node are cut, pieces too short
 //! for a street are merged away, and what is not connected with the rest is left out or kept as the options say.
 
+mod circle;
 mod collapse;
 mod control;
 mod cross;
@@ -10,6 +11,7 @@ mod emit;
 mod ends;
 mod kind;
 mod merge;
+mod over;
 mod pair;
 mod profile;
 mod room;
@@ -122,6 +124,7 @@ impl Place {
         }
         room::fit(&mut web, buildings);
         ends::straighten(&mut web);
+        over::settle(&mut web, warnings);
         emit::plan(&web, self, warnings)
     }
 }

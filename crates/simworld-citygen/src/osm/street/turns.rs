@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use simworld_core::net::{Turn, TurnSet};
 
+use super::over;
 use super::web::Web;
 use crate::osm::error::{OsmId, Warning};
 use crate::osm::place::Place;
@@ -32,7 +33,12 @@ pub(super) struct Turns {
     pub(super) arrows: Arrows,
     /// Turns that signs forbid; [`TurnSet::ANY`] for none.
     forbidden: TurnSet,
+    /// The signs over ways that begin here, and those that lead here.
+    over: [Marks; 2],
 }
+
+/// Numbers of signs over ways, from 1 on; 0 for none.
+pub(super) type Marks = [u16; 2];
 
 impl Arrows {
     /// Those of a value such as `left|through|through;right`.
@@ -85,9 +91,18 @@ pub(super) fn arrows(
     [ahead, back]
 }
 
+/// An end of the way that a sign over ways governs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Where one comes from.
+    Begins,
+    /// Where one goes.
+    Leads,
+}
+
 impl Turns {
     pub(super) const fn of(arrows: Arrows) -> Self {
-        Self { arrows, forbidden: TurnSet::ANY }
+        Self { arrows, forbidden: TurnSet::ANY, over: [[0; 2]; 2] }
     }
 
     fn forbids(&self, turn: Turn) -> bool {
@@ -95,7 +110,7 @@ impl Turns {
     }
 
     /// Forbids more.
-    fn forbid(&mut self, turns: &[Turn]) {
+    pub(super) fn forbid(&mut self, turns: &[Turn]) {
         let all: Vec<Turn> =
             ALL.into_iter().filter(|turn| self.forbids(*turn) || turns.contains(turn)).collect();
         self.forbidden = TurnSet::of(&all);
@@ -105,6 +120,24 @@ impl Turns {
     pub(super) fn forbid_as(&mut self, other: &Self) {
         let turns: Vec<Turn> = ALL.into_iter().filter(|turn| other.forbids(*turn)).collect();
         self.forbid(&turns);
+        for side in [Side::Begins, Side::Leads] {
+            other.marks(side).for_each(|sign| self.mark(side, sign));
+        }
+    }
+
+    /// The signs over ways that begin here, or lead here.
+    pub(super) fn marks(&self, side: Side) -> impl Iterator<Item = u16> + use<> {
+        self.over[side as usize].into_iter().filter(|sign| *sign > 0)
+    }
+
+    /// Marks an end as that where a sign over ways begins, or to which it leads; what has no room is dropped.
+    pub(super) fn mark(&mut self, side: Side, sign: u16) {
+        let marks = &mut self.over[side as usize];
+        if !marks.contains(&sign)
+            && let Some(free) = marks.iter_mut().find(|mark| **mark == 0)
+        {
+            *free = sign;
+        }
     }
 
     /// For a street of so many lanes: an arrow a lane, or none where nothing is said that fits.
@@ -189,7 +222,10 @@ fn put_sign(
     let members = place.raw.members_of(relation);
     let of_role = |role: Role| members.iter().filter(move |member| member.role == role);
     if of_role(Role::Over).next().is_some() {
-        return Err("goes over a way");
+        let numbers = |role: Role| of_role(role).map(|member| member.number).collect();
+        let [from, over, to] = [Role::From, Role::Over, Role::To].map(numbers);
+        let course = over::Course { from, over, to };
+        return over::put(web, &over::Extract { place, vertices }, relation.id, &course, turns);
     }
     let at = of_role(Role::At).next().ok_or("has no node")?;
     let node = place.raw.node(at.number).and_then(|node| vertices.get(&node));

@@ -3,6 +3,7 @@
 use simworld_core::geometry::Point2;
 use simworld_core::net::{RoadClass, polyline};
 
+use super::over::Over;
 use super::profile::Profile;
 use super::turns::Turns;
 use crate::simplify::simplified;
@@ -78,6 +79,8 @@ pub(super) struct Web {
     pub(super) nodes: Vec<Node>,
     pub(super) edges: Vec<Edge>,
     pub(super) names: Vec<String>,
+    /// Signs that forbid turns over ways.
+    pub(super) signs_over: Vec<Over>,
 }
 
 impl Web {
