@@ -69,7 +69,9 @@ impl Around<'_> {
         let mut degrees: BTreeMap<usize, u32> = BTreeMap::new();
         for street in &near {
             let Street { from, to, .. } = self.plan.streets[*street];
-            [from, to].into_iter().for_each(|node| *degrees.entry(node).or_default() += 1);
+            for node in [from, to] {
+                *degrees.entry(node).or_default() += 1;
+            }
         }
         let others: Vec<usize> = near.iter().copied().collect();
         for (index, at_end) in near.into_iter().flat_map(|street| [(street, false), (street, true)]) {

@@ -115,7 +115,7 @@ impl CityInWorld {
         let (mut now, mut then) = (touched_now(&back, editor.city()), touched_then(&back));
         let view_now = View::of(editor.city(), &now);
         let forth = editor.put(back)?;
-        let reach = Reach::between(View::of(editor.city(), &then), view_now);
+        let reach = Reach::between(&View::of(editor.city(), &then), &view_now);
         reach.widen(editor, &mut then);
         let old = describe(editor.city(), &then, &reach, world);
         let back = editor.put(forth)?;

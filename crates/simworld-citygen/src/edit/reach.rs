@@ -42,7 +42,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    pub(super) fn between(then: View, now: View) -> Self {
+    pub(super) fn between(then: &View, now: &View) -> Self {
         let corners: Vec<Point2> = then.area.iter().chain(&now.area).flat_map(|(a, b)| [*a, *b]).collect();
         let area = bounds(&corners).map(|area| inflated(area, REACH));
         if then.is_level != now.is_level {
