@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 use simworld_core::net::{LORRY_TURNING, PlanChange, Street, StreetPlan};
 
 use super::EditError;
-use super::cells::{Bounds, Cells, bounds, inflated};
+use super::cells::{Bounds, Cells, inflated};
 use super::patch::PlanPatch;
 use crate::terrain::{TerrainConfig, raise_bridges};
 

@@ -1,10 +1,10 @@
 //! How far an edit reaches in a running world: on hills the ground follows the streets, and what stands on it with it.
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 use simworld_core::net::RoadNetwork;
 
 use super::CityEditor;
-use super::cells::{Bounds, bounds, inflated};
+use super::cells::{Bounds, inflated};
 use super::in_world::Things;
 use crate::City;
 use crate::terrain::REACH;

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, bounds};
 use simworld_core::net::{NetworkPatch, PlanChange, PlanPart, RoadNetwork, Street};
 use simworld_core::patch::Book;
 
 use super::around::Around;
-use super::cells::{Bounds, bounds};
+use super::cells::Bounds;
 use super::patch::PlanPatch;
 use super::{CityEditor, EditError};
 use crate::graph::{Change, GraphError, HalfEdge, StreetGraph, StreetId};
