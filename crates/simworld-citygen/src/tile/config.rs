@@ -51,18 +51,19 @@ impl TileConfig {
     /// The settings of a style.
     pub fn of_style(style: Style) -> Self {
         let roads = style.roads(2);
-        // Within walls all that is left over is filled, so streets are longer and more of them end than in open growth.
+        // Within walls all that is left over is filled, so streets are longer and more of them end than in open growth. Main
+        // streets in shorter pieces than the streets between them are what makes few long streets beside many short ones.
         let (lattice, roads) = match style {
             Style::Grid => (
                 LatticeConfig {
                     jitter: 0.0,
                     bow: 0.0,
-                    gates: 88.0,
+                    gates: 70.0,
                     crossroads: 1.0,
                     ..LatticeConfig::default()
                 },
                 RoadConfig {
-                    length: 128.0,
+                    length: 140.0,
                     length_variation: 0.22,
                     branching: 0.97,
                     snap: 42.0,
@@ -71,8 +72,8 @@ impl TileConfig {
                 },
             ),
             Style::Mixed => (
-                LatticeConfig::default(),
-                RoadConfig { length: 109.0, dead_ends: 0.3, branching: 0.6, continuation: 0.86, ..roads },
+                LatticeConfig { gates: 60.0, ..LatticeConfig::default() },
+                RoadConfig { length: 120.0, dead_ends: 0.3, branching: 0.6, continuation: 0.86, ..roads },
             ),
             Style::Organic => (
                 LatticeConfig {
@@ -82,26 +83,26 @@ impl TileConfig {
                     crossroads: 0.1,
                     ..LatticeConfig::default()
                 },
-                RoadConfig { length: 82.0, dead_ends: 0.34, ..roads },
+                RoadConfig { length: 60.0, dead_ends: 0.34, ..roads },
             ),
             Style::Suburb => (
                 LatticeConfig {
                     jitter: 0.12,
                     bow: 0.08,
-                    gates: 128.0,
+                    gates: 118.0,
                     crossroads: 0.1,
                     ..LatticeConfig::default()
                 },
                 RoadConfig {
                     dead_ends: 0.55,
-                    length: 123.0,
+                    length: 120.0,
                     crossroads: 0.38,
                     heading_variation: 0.32,
                     length_variation: 0.6,
                     bow: 0.2,
                     bends: 1.0,
-                    branching: 0.2,
-                    continuation: 0.6,
+                    branching: 0.12,
+                    continuation: 0.5,
                     ..roads
                 },
             ),
