@@ -5,12 +5,8 @@ use simworld_citygen::{StreetStatistics, Style};
 use simworld_core::seed::Seed;
 
 /// What is known to lie outside, and how far at most: the middle value over windows of 4 km².
-const OUTSIDE: [(Style, &str, std::ops::RangeInclusive<f64>); 6] = [
+const OUTSIDE: [(Style, &str, std::ops::RangeInclusive<f64>); 2] = [
     (Style::Grid, "four-way", 0.32..=0.35),
-    (Style::Grid, "mean / median length", 1.12..=1.2),
-    (Style::Mixed, "mean / median length", 1.14..=1.2),
-    (Style::Organic, "mean / median length", 1.16..=1.2),
-    (Style::Suburb, "mean / median length", 1.16..=1.2),
     (Style::Suburb, "circuity", 1.055..=1.08),
 ];
 

@@ -89,8 +89,10 @@ fn outline(
         let x = center + sign * half * densities[step] / most;
         format!("{:.1},{:.1}", x, y(at(step)))
     };
-    let right = (0..=STEPS).map(|step| point(step, 1.0));
-    let left = (0..=STEPS).rev().map(|step| point(step, -1.0));
+    // Not where next to nothing lies.
+    let inside = |step: &usize| densities[*step] > most * 0.01;
+    let right = (0..=STEPS).filter(inside).map(|step| point(step, 1.0));
+    let left = (0..=STEPS).rev().filter(inside).map(|step| point(step, -1.0));
     let points: Vec<String> = right.chain(left).collect();
     Some(Path::new().set("d", format!("M{}Z", points.join("L"))))
 }
