@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 pub mod beside_sumo;
+pub mod bodies;
 pub mod city;
 pub mod delivery;
 pub mod experiment;

@@ -1,0 +1,143 @@
+//! Vehicles as real bodies: what each class does beside what vehicles of its kind are known to do.
+//!
+//! ```sh
+//! cargo run --release --example bodies -- --out out/bodies
+//! ```
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Parser;
+use comfy_table::{Table, presets::UTF8_FULL_CONDENSED};
+use indicatif::{ProgressBar, ProgressStyle};
+use simworld_core::geometry::Point3;
+use simworld_examples::bodies::{Curve, braking_chart};
+use simworld_physics::proving::{Figure, Fleet, ProvingError, braking_distance, measure};
+use simworld_physics::{RoadCondition, VehicleClass};
+
+/// Measures every class of vehicles on the proving ground and prints each figure beside its band.
+#[derive(Parser)]
+struct Arguments {
+    /// Directory for the picture of braking distances.
+    #[arg(long, default_value = "out/bodies")]
+    out: PathBuf,
+    /// Only this class: `small_car`, `sedan`, `suv`, `van`, `truck`, `bus` or `scooter`.
+    #[arg(long)]
+    class: Option<String>,
+    /// Cars in the measurement of speed; 0 leaves it out.
+    #[arg(long, default_value_t = 1000)]
+    cars: usize,
+    /// Succeed even if a figure is off its band.
+    #[arg(long)]
+    report_only: bool,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match job(&arguments) {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(off) => {
+            eprintln!("{off} figures are off their bands");
+            if arguments.report_only { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Returns how many figures are off.
+fn job(arguments: &Arguments) -> Result<usize, ProvingError> {
+    let classes: Vec<VehicleClass> = match &arguments.class {
+        Some(name) => vec![VehicleClass::from_name(name).ok_or_else(|| unknown(name))?],
+        None => VehicleClass::ALL.to_vec(),
+    };
+    let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {pos}/{len}")?;
+    let bar = ProgressBar::new(2 * classes.len() as u64).with_style(style);
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED);
+    table.set_header(["vehicle", "figure", "measured", "band", "", "source of the band"]);
+    let (mut off, mut curves) = (0, Vec::new());
+    for class in classes {
+        bar.set_message(format!("{class}: manoeuvres"));
+        for figure in measure(class)? {
+            off += usize::from(!figure.holds());
+            table.add_row(row(class, &figure));
+        }
+        bar.inc(1);
+        bar.set_message(format!("{class}: braking"));
+        curves.extend(braking_curves(class)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    println!("{table}");
+    std::fs::create_dir_all(&arguments.out)?;
+    let path = arguments.out.join("braking.svg");
+    std::fs::write(&path, braking_chart(&curves))?;
+    println!("braking distances: {}", path.display());
+    if arguments.cars > 0 {
+        speed(arguments.cars)?;
+    }
+    Ok(off)
+}
+
+fn unknown(name: &str) -> String {
+    let known: Vec<_> = VehicleClass::ALL.iter().map(|class| class.as_str()).collect();
+    format!("there is no class {name}: give one of {}", known.join(", "))
+}
+
+fn row(class: VehicleClass, figure: &Figure) -> [String; 6] {
+    let Figure { name, value, low, high, source } = figure;
+    let mark = if figure.holds() { "" } else { "off" };
+    let band = format!("{low} to {high}");
+    [class.to_string(), name.clone(), format!("{value:.2}"), band, mark.to_owned(), (*source).to_owned()]
+}
+
+/// Ways to rest from 10 km/h on, on every road.
+fn braking_curves(class: VehicleClass) -> Result<Vec<Curve>, ProvingError> {
+    let vehicle = class.parameters();
+    let top = (vehicle.powertrain.top_speed * 3.6).min(130.0);
+    let mut curves = Vec::new();
+    for road in [RoadCondition::Dry, RoadCondition::Wet, RoadCondition::Snow] {
+        let mut points = vec![(0.0, 0.0)];
+        let mut speed = 10.0;
+        while speed <= top {
+            if let Some(way) = braking_distance(&vehicle, road, speed / 3.6)? {
+                points.push((speed, way));
+            }
+            speed += 10.0;
+        }
+        curves.push(Curve { class, road, points });
+    }
+    Ok(curves)
+}
+
+/// How fast many cars are computed on one core.
+#[expect(clippy::disallowed_methods, reason = "measuring is what this is for")]
+fn speed(cars: usize) -> Result<(), ProvingError> {
+    for (name, interest) in [("on tyres", vec![]), ("as single tracks", vec![Point3::new(0.0, 0.0, 1e5)])] {
+        let mut fleet = Fleet::new(cars)?;
+        fleet.physics.set_interest(&interest);
+        for _ in 0..60 {
+            fleet.step()?;
+        }
+        let mut best = f64::INFINITY;
+        for _ in 0..3 {
+            let start = Instant::now();
+            for _ in 0..60 {
+                fleet.step()?;
+            }
+            best = best.min(start.elapsed().as_secs_f64());
+        }
+        println!(
+            "{cars} cars {name}, 60 steps a second: {:.2} ms a step on one core, {:.1} times real time; bar: 1 \
+             (mean speed {:.1} m/s)",
+            best / 60.0 * 1e3,
+            1.0 / best,
+            fleet.mean_speed()
+        );
+    }
+    Ok(())
+}
