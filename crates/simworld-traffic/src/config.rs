@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use crate::DrivingConditions;
 use crate::crowd::AnticipationVelocity;
+use crate::pedestrian::People;
 use crate::vehicle::{Mobil, VehicleKind, VehicleType, standard_types};
 
 /// How much traffic there is, and how it behaves.
@@ -33,6 +34,8 @@ pub struct TrafficConfig {
     pub walking_speed: f64,
     /// Its standard deviation, m/s, in [0, 1] (Weidmann 1993: 0.26).
     pub walking_deviation: f64,
+    /// Who walks, and what they do at the kerbs.
+    pub people: People,
     /// Weight of crossing a road against going on along the sidewalk, in [0, 10].
     pub crossing_weight: f64,
 }
@@ -50,6 +53,7 @@ impl Default for TrafficConfig {
             walking: AnticipationVelocity::default(),
             walking_speed: 1.34,
             walking_deviation: 0.26,
+            people: People::default(),
             crossing_weight: 0.6,
         }
     }
@@ -109,6 +113,12 @@ pub enum TrafficError {
         /// What is wrong with it.
         reason: &'static str,
     },
+    /// A walk that cannot be walked.
+    #[error("this walk is not possible: {reason}")]
+    Walk {
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// The world has no roads.
     #[error(
         "the world has no roads: call World::set_roads, or populate it from a city, before adding traffic"
@@ -139,7 +149,7 @@ impl TrafficConfig {
             ("walking_deviation", self.walking_deviation, 0.0, 1.0, "0 to 1 m/s"),
             ("crossing_weight", self.crossing_weight, 0.0, 10.0, "0 to 10"),
         ];
-        for (field, value, low, high, allowed) in checks.into_iter().chain(self.walking.ranges()) {
+        for (field, value, low, high, allowed) in checks.into_iter().chain(self.walking.ranges()).chain(self.people.ranges()) {
             if !(low..=high).contains(&value) {
                 return Err(TrafficError::Config { field, value, allowed });
             }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use simworld_core::environment::Weather;
-use simworld_core::geometry::{Point3, Twist, Vector3, direction, pose_facing};
+use simworld_core::geometry::{Point3, Twist, Vector2, Vector3, direction, pose_facing, yaw_of};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape, World};
@@ -12,7 +12,7 @@ use simworld_core::seed::{Seed, Stream, StreamRng};
 use simworld_core::value::Value;
 
 use crate::traffic::State;
-use crate::{Body, DrivingConditions, Foreign, Traffic, TrafficConfig, TrafficError};
+use crate::{Body, DrivingConditions, Foreign, Pedestrian, Sex, Traffic, TrafficConfig, TrafficError};
 
 /// Colours of cars, linear-light sRGB.
 const PAINTS: [[f32; 3]; 7] = [
@@ -78,11 +78,7 @@ impl TrafficDynamics {
         }
         let mut pedestrians = Vec::new();
         for walker in traffic.pedestrians() {
-            let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading);
-            let height = paint.normal_clamped(1.72, 0.09, 1.5, 2.0);
-            let coat = [0; 3].map(|_: i32| paint.uniform(0.02, 0.5) as f32);
-            let desc = EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.22, height });
-            pedestrians.push(world.spawn(desc.colored(coat))?);
+            pedestrians.push(world.spawn(portray(walker, &mut paint))?);
         }
         world.signals_mut().copy_from_slice(traffic.signals());
         Ok(Self {
@@ -148,8 +144,15 @@ impl TrafficDynamics {
         for id in &self.others {
             let is_here = |entity: &EntityRef<'_>| entity.attachment.is_none() && !is_parked(entity);
             if let Some(entity) = world.entity(*id).filter(is_here) {
-                let size = entity.info.shape.size();
-                self.foreign.push(Foreign { position: entity.planar(), radius: size.x.max(size.y) * 0.5 });
+                let size = entity.info.shape.size() * 0.5;
+                let linear = entity.twist.linear;
+                self.foreign.push(Foreign {
+                    position: entity.planar(),
+                    radius: size.x,
+                    half_width: size.y,
+                    direction: direction(yaw_of(&entity.pose)),
+                    velocity: Vector2::new(linear.x, linear.y),
+                });
             }
         }
     }
@@ -160,6 +163,27 @@ impl TrafficDynamics {
             let id = self.vehicles[trip.id as usize];
             if world.entity(id).is_some() {
                 world.remove(id)?;
+            }
+        }
+        for walk in self.traffic.walks().iter().filter(|walk| walk.left) {
+            let id = self.pedestrians.get(walk.id as usize).copied().unwrap_or_default();
+            if world.entity(id).is_some() {
+                world.remove(id)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes an entity for every walker who entered.
+    fn welcome_walkers(&mut self, world: &mut World) -> Result<(), DynamicsError> {
+        let count = self.traffic.pedestrians().len();
+        self.pedestrians.resize(count, EntityId::default());
+        for index in self.traffic.walkers_entered() {
+            let walker = &self.traffic.pedestrians()[*index as usize];
+            let entered = self.traffic.counters().walkers_entered;
+            let mut paint = self.paint.named("walkers").indexed(entered).indexed(u64::from(*index)).rng();
+            if walker.is_present() {
+                self.pedestrians[*index as usize] = world.spawn(portray(walker, &mut paint))?;
             }
         }
         Ok(())
@@ -187,12 +211,11 @@ impl TrafficDynamics {
             }
         }
         for (id, walker) in self.pedestrians.iter().zip(self.traffic.pedestrians()) {
-            if world.entity(*id).is_none() {
+            if !walker.is_present() || world.entity(*id).is_none() {
                 continue;
             }
-            let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading);
-            let ahead = direction(walker.heading) * walker.speed;
-            let linear = Vector3::new(ahead.x, ahead.y, 0.0);
+            let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading());
+            let linear = Vector3::new(walker.velocity().x, walker.velocity().y, 0.0);
             world.set_motion(*id, pose, Twist { linear, angular: Vector3::zeros() })?;
         }
         world.signals_mut().copy_from_slice(self.traffic.signals());
@@ -203,6 +226,16 @@ impl TrafficDynamics {
 fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.shape);
     desc.colored(PAINTS[paint.below(PAINTS.len())])
+}
+
+/// A person as tall as their age and sex say: grown up at 18, 1.78 m or 1.65 m tall on average (NCD-RisC 2016, Europe).
+fn portray(walker: &Pedestrian, paint: &mut StreamRng) -> EntityDesc {
+    let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading());
+    let grown = if walker.sex() == Sex::Male { 1.78 } else { 1.65 };
+    let growing = (18.0 - f64::from(walker.age())).max(0.0) * 0.05;
+    let height = paint.normal_clamped(grown - growing, 0.07, 1.0, 2.1);
+    let coat = [0; 3].map(|_: i32| paint.uniform(0.02, 0.5) as f32);
+    EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.22, height }).colored(coat)
 }
 
 /// Whether an entity is a parked vehicle: it keeps within its parking lane, where nobody drives.
@@ -226,8 +259,9 @@ impl Dynamics for TrafficDynamics {
         }
         self.mind_weather(world)?;
         self.look_around(world);
-        // Those who were taken out between two steps, and those who left in this one.
+        // Those who were taken out between two steps or came then, and those who left in this one.
         self.clear_away(world)?;
+        self.welcome_walkers(world)?;
         self.traffic.step_among(&self.foreign, dt);
         self.clear_away(world)?;
         self.welcome(world)?;
@@ -252,7 +286,7 @@ impl Dynamics for TrafficDynamics {
             postcard::from_bytes(bytes).map_err(|error| refused(&error.to_string()))?;
         let named = config == *self.traffic.config()
             && vehicles.len() >= state.numbers()
-            && pedestrians.len() == self.pedestrians.len();
+            && pedestrians.len() >= state.walkers();
         if !named || !self.traffic.set_state(state) {
             return Err(refused("it belongs to another network or configuration"));
         }

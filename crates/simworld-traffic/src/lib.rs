@@ -10,6 +10,7 @@ mod demand;
 mod dynamics;
 mod names;
 pub mod output;
+mod parts;
 mod pedestrian;
 mod route;
 pub mod signal;
@@ -26,7 +27,7 @@ pub use demand::{
 };
 pub use dynamics::TrafficDynamics;
 pub use names::NetworkNames;
-pub use pedestrian::Pedestrian;
+pub use pedestrian::{AtDestination, Pedestrian, People, Sex, Walk};
 pub use route::{Leg, Route, Router};
 #[cfg(feature = "hierarchy")]
 pub use route::{LegHierarchy, LegScratch};

@@ -2,19 +2,24 @@
 
 mod bodies;
 mod foreign;
+mod gap;
 mod interest;
+mod outline;
+mod walkers;
 
 use std::sync::Arc;
 
 pub use bodies::Body;
 use foreign::Finder;
 pub use foreign::Foreign;
+use gap::Gaps;
 pub use interest::Interest;
 use serde::{Deserialize, Serialize};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::net::{Alone, Aspect, RoadNetwork, SignalPlan, WaypointConfig, WaypointGraph, Workers};
 use simworld_core::seed::{Seed, Stream};
 
+use crate::crowd::Person;
 use crate::demand::{DemandManager, Flow, OF_FLOW, Trip, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
@@ -48,6 +53,16 @@ pub struct Counters {
     pub arrived: u64,
     /// Vehicles that were taken out.
     pub removed: u64,
+    /// Walkers that entered after the start.
+    pub walkers_entered: u64,
+    /// Walks that came to their destination.
+    pub walkers_arrived: u64,
+    /// Walkers that left there.
+    pub walkers_left: u64,
+    /// Walkers that were taken out.
+    pub walkers_removed: u64,
+    /// Times that a walker crossed at red.
+    pub jaywalks: u64,
 }
 
 /// How many found a place at the start, of those asked for.
@@ -89,6 +104,11 @@ pub struct Traffic {
     obstacles: Vec<(u32, f64)>,
     /// Who does the work.
     workers: Box<dyn Workers + Send + Sync>,
+    gaps: Gaps,
+    /// Bodies of others as people, those first that always stand.
+    bodies: Vec<Person>,
+    standing_bodies: usize,
+    threats: Vec<f64>,
 }
 
 /// Everything that changes, for snapshots.
@@ -147,6 +167,11 @@ impl State {
     pub(crate) fn numbers(&self) -> usize {
         self.vehicles.numbers()
     }
+
+    /// How many numbers walkers have.
+    pub(crate) fn walkers(&self) -> usize {
+        self.pedestrians.walkers.len()
+    }
 }
 
 impl Traffic {
@@ -171,6 +196,10 @@ impl Traffic {
             config: config.clone(),
             driving: config.conditions.applied(config),
             streams,
+            gaps: Gaps::new(&tracks),
+            bodies: Vec::new(),
+            standing_bodies: 0,
+            threats: Vec::new(),
             finder: Finder::new(&tracks),
             walkers: vec![0; crossings],
             signals,
@@ -324,14 +353,15 @@ impl Traffic {
         self.step_among(&[], dt);
     }
 
-    /// One step of `dt` s among bodies that are not the traffic's own: drivers stop for them.
+    /// One step of `dt` s among bodies that are not the traffic's own: drivers stop for them, walkers go round them, and
+    /// nobody steps on to a crossing before one that will not stop.
     pub fn step_among(&mut self, foreign: &[Foreign], dt: f64) {
         self.finder.find(&self.tracks, foreign, &mut self.walkers, &mut self.obstacles);
         for (count, own) in self.walkers.iter_mut().zip(&self.state.pedestrians.on_crossing) {
             *count += own;
         }
         self.update_vehicles(dt);
-        self.update_pedestrians(dt);
+        self.update_pedestrians(foreign, dt);
         self.state.steps += 1;
         // Counted, not accumulated, so that long runs keep their phase.
         self.state.seconds = self.state.steps as f64 * dt;
@@ -355,17 +385,34 @@ impl Traffic {
         vehicles.step(&self.tracks, &self.driving, streams, sight, at, counters, &*self.workers);
     }
 
-    fn update_pedestrians(&mut self, dt: f64) {
-        let State { vehicles, pedestrians, .. } = &mut self.state;
+    fn update_pedestrians(&mut self, foreign: &[Foreign], dt: f64) {
+        outline::threats(&self.tracks.network, &self.finder, foreign, &mut self.threats);
+        self.bodies.truncate(self.standing_bodies);
+        for body in foreign {
+            outline::outline(body, self.config.walking.radius, &mut self.bodies);
+        }
+        let State { vehicles, pedestrians, counters, steps, seconds, interest, .. } = &mut self.state;
         self.claims.clear();
         self.claims.extend(vehicles.claims().iter());
+        pedestrians.entered.clear();
+        pedestrians.ended.clear();
+        let (aspects, tracks, vehicles) = (&self.signals.aspects, &self.tracks, &*vehicles);
         let sight = pedestrian::Sight {
-            network: &self.tracks.network,
+            network: &tracks.network,
             ways: &self.ways,
-            aspects: &self.signals.aspects,
+            aspects,
             claims: &self.claims,
+            gap: &|crossing| self.gaps.time(tracks, vehicles, aspects, crossing),
+            threats: &self.threats,
         };
-        pedestrians.step(&sight, &self.driving, self.streams.named("pedestrians"), dt);
+        let around = pedestrian::Surroundings {
+            workers: &*self.workers,
+            config: &self.driving,
+            bodies: &self.bodies,
+            interest: interest.as_deref(),
+        };
+        let time = pedestrian::Time { steps: *steps, seconds: *seconds, dt };
+        pedestrians.step(&sight, &around, self.streams.named("pedestrians"), time, counters);
     }
 
     fn update_signals(&mut self, dt: f64) {
@@ -420,7 +467,7 @@ impl Traffic {
         self.state.vehicles.bytes()
     }
 
-    /// The walkers, by number.
+    /// The walkers, by number; some may have [left](Pedestrian::is_present).
     pub fn pedestrians(&self) -> &[Pedestrian] {
         &self.state.pedestrians.walkers
     }
@@ -437,7 +484,7 @@ impl Traffic {
         let fits = vehicles
             && state.demand.fits(&self.tracks, state.vehicles.route_count(), types)
             && state.conditions.validate().is_ok()
-            && people == self.placed.pedestrians as usize
+            && people >= self.placed.pedestrians as usize
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()
             && state.interest.iter().flatten().all(Interest::is_sound)

@@ -51,7 +51,7 @@ fn drive(traffic: &mut Traffic, steps: u32) {
         bodies.clear();
         bodies.extend(traffic.vehicles());
         assert_eq!(collisions(&mut bodies), 0, "vehicles touch at step {step}");
-        for walker in traffic.pedestrians().iter().filter(|walker| walker.crossing.is_some()) {
+        for walker in traffic.pedestrians().iter().filter(|walker| walker.crossing().is_some()) {
             let at = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), 0.0);
             let person = simworld_core::scene::Shape::Capsule { radius: 0.2, height: 1.8 }.obb(&at);
             let hit = bodies.iter().find(|body| {

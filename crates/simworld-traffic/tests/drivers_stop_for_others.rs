@@ -19,7 +19,7 @@ fn drivers_stop_behind_a_body_on_their_lane() {
         .expect("a lane whose second half is free");
     let station = network.lanes[lane].length - 25.0;
     let position = polyline::at(&network.lanes[lane].path, station).0;
-    let body = Foreign { position, radius: 0.3 };
+    let body = Foreign::standing(position, 0.3);
     let mut nearest = f64::INFINITY;
     for step in 0..3000 {
         traffic.step_among(&[body], 0.1);

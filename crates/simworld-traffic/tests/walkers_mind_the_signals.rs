@@ -20,7 +20,7 @@ fn walker_never_enters_closed_crosswalk() {
         let aspects = traffic.signals().to_vec();
         traffic.step(0.1);
         for (index, walker) in traffic.pedestrians().iter().enumerate() {
-            if let Some(crossing) = walker.crossing {
+            if let Some(crossing) = walker.crossing() {
                 let signal = network.crossings[crossing.index()].signal.expect("every crossing has a signal");
                 let aspect = aspects[signal.index()];
                 if was_on[index] != Some(crossing) {
@@ -33,7 +33,7 @@ fn walker_never_enters_closed_crosswalk() {
                 }
                 assert_ne!(aspect, Aspect::Red, "walker {index} is still on the road at step {step}");
             }
-            was_on[index] = walker.crossing;
+            was_on[index] = walker.crossing();
         }
     }
     assert!(begun > 500, "only {begun} crossings in ten minutes");
@@ -47,7 +47,7 @@ fn walkers_keep_off_the_lanes() {
     let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(3)).unwrap();
     for _ in 0..3000 {
         traffic.step(0.1);
-        for walker in traffic.pedestrians().iter().filter(|walker| walker.crossing.is_none()) {
+        for walker in traffic.pedestrians().iter().filter(|walker| walker.crossing().is_none()) {
             let road = network
                 .roads
                 .iter()

@@ -1,59 +1,83 @@
 //! Who is near whom: people sorted by cell, rebuilt every step without allocating.
 
+use std::ops::Range;
+
 use simworld_core::geometry::Point2;
 
 use super::Person;
 
-/// Cells beside one another in a row that lie together in memory: two to the power of this.
-const RUN: u32 = 3;
+/// Cells in a row of a tile, and rows of a tile: two to the power of this. The cells of a tile lie together in memory.
+const TILE: u32 = 3;
+/// Cells of a tile.
+const CELLS: usize = 1 << (2 * TILE);
+/// Cells within this many rows and columns are looked through: the width of a cell is this part of the reach. A window of
+/// `2 RINGS + 1` fits into a tile, so no two of its cells share a bucket even where tiles do.
+const RINGS: i64 = 1;
 
-/// Cells within this many rows and columns are looked through: the width of a cell is this part of the reach.
-const RINGS: i64 = 2;
-
-/// A person as the others see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A person as the others see it, but for its place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Seen {
-    pub(super) person: Person,
+    /// Where it walks, of length one.
+    pub(super) facing: [f32; 2],
+    /// m/s.
+    pub(super) speed: f32,
     pub(super) index: u32,
 }
 
-/// A hash grid in which the people of a cell are neighbours in memory, and so are the cells of a row.
+/// A cell: column and row.
+pub(super) type Cell = (i64, i64);
+
+/// A hash grid in which the people of a cell are neighbours in memory, and so are the cells of a tile.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Grid {
     /// The people of bucket i are `seen[starts[i]..starts[i + 1]]`.
     starts: Vec<u32>,
     seen: Vec<Seen>,
-    buckets: Vec<u32>,
+    /// Their places, m.
+    x: Vec<f64>,
+    y: Vec<f64>,
+    /// Where each of the first in number is found in `seen`.
+    ranks: Vec<u32>,
     per_metre: f64,
 }
 
 impl Grid {
-    /// Sorts the people; those of a bucket keep their order, so sums over them do too.
-    pub(super) fn rebuild(&mut self, people: impl Iterator<Item = Person> + Clone, reach: f64) {
+    /// Sorts `count` people by place; those of a bucket keep their order, so that sums over them do too. Where they are
+    /// found is kept for the first `ranked`.
+    pub(super) fn rebuild(&mut self, count: usize, person: impl Fn(usize) -> Person, ranked: usize, reach: f64) {
         self.per_metre = RINGS as f64 / reach;
-        let count = people.clone().count();
-        let size = (count * 2).next_power_of_two().max(1 << (RUN + 1));
+        let tiles = count.div_ceil(CELLS).next_power_of_two();
         self.starts.clear();
-        self.starts.resize(size + 1, 0);
-        self.buckets.clear();
-        for person in people.clone() {
-            let bucket = bucket(self.cell(person.position.x), self.cell(person.position.y), size);
+        self.starts.resize(tiles * CELLS + 1, 0);
+        self.seen.resize(count, Seen::default());
+        self.x.resize(count, 0.0);
+        self.y.resize(count, 0.0);
+        self.ranks.resize(ranked, 0);
+        for index in 0..count {
+            let bucket = bucket(self.cell(person(index).position), tiles);
             self.starts[bucket + 1] += 1;
-            self.buckets.push(bucket as u32);
         }
         for index in 1..self.starts.len() {
             self.starts[index] += self.starts[index - 1];
         }
-        let nobody = Person::default();
-        self.seen.clear();
-        self.seen.resize(count, Seen { person: nobody, index: 0 });
-        // Filling moves each start to the start of the next bucket; counting them down from the back puts them right.
-        for (index, person) in people.enumerate() {
-            let start = &mut self.starts[self.buckets[index] as usize];
-            self.seen[*start as usize] = Seen { person, index: index as u32 };
+        // Filling moves each start to the start of the next bucket; moving them up by one puts them right.
+        for index in 0..count {
+            let person = person(index);
+            let bucket = bucket(self.cell(person.position), tiles);
+            let start = &mut self.starts[bucket];
+            let rank = *start;
             *start += 1;
+            (self.x[rank as usize], self.y[rank as usize]) = (person.position.x, person.position.y);
+            self.seen[rank as usize] = Seen {
+                facing: [person.direction.x as f32, person.direction.y as f32],
+                speed: person.speed as f32,
+                index: index as u32,
+            };
+            if let Some(kept) = self.ranks.get_mut(index) {
+                *kept = rank;
+            }
         }
-        self.starts.copy_within(0..size, 1);
+        self.starts.copy_within(0..tiles * CELLS, 1);
         self.starts[0] = 0;
     }
 
@@ -62,32 +86,59 @@ impl Grid {
         &self.seen
     }
 
-    /// The people in the cells around a place, in slices; some may be farther than the reach.
-    pub(super) fn around(&self, at: Point2) -> impl Iterator<Item = &[Seen]> {
-        let (column, row) = (self.cell(at.x), self.cell(at.y));
-        let (first, last) = (column - RINGS, column + RINGS);
-        // Where the next run begins, if it does before the last column.
-        let next = ((first >> RUN) + 1) << RUN;
+    /// Where the one of this rank is, m.
+    pub(super) fn position(&self, rank: usize) -> Point2 {
+        Point2::new(self.x[rank], self.y[rank])
+    }
+
+    /// Where those of these ranks are, m.
+    pub(super) fn places(&self, ranks: Range<usize>) -> (&[f64], &[f64]) {
+        (&self.x[ranks.clone()], &self.y[ranks])
+    }
+
+    /// Where somebody is found among them.
+    pub(super) fn rank(&self, index: usize) -> usize {
+        self.ranks[index] as usize
+    }
+
+    /// The cells around one, as ranges of [`seen`](Self::seen); some of the people there may be out of reach.
+    pub(super) fn around(&self, cell: Cell) -> impl Iterator<Item = Range<usize>> {
+        let tiles = self.starts.len() / CELLS;
+        let (first, last) = (cell.0 - RINGS, cell.0 + RINGS);
+        // Where the next tile begins, if it does before the last column.
+        let next = ((first >> TILE) + 1) << TILE;
         let parts = [(first, last.min(next - 1)), (next, last)];
-        let size = self.starts.len() - 1;
-        (row - RINGS..=row + RINGS).flat_map(move |row| {
+        (cell.1 - RINGS..=cell.1 + RINGS).flat_map(move |row| {
             parts.into_iter().filter(|(first, last)| first <= last).map(move |(first, last)| {
-                let begin = bucket(first, row, size);
+                let begin = bucket((first, row), tiles);
                 let end = begin + (last - first) as usize + 1;
-                &self.seen[self.starts[begin] as usize..self.starts[end] as usize]
+                self.starts[begin] as usize..self.starts[end] as usize
             })
         })
     }
 
-    fn cell(&self, x: f64) -> i64 {
-        (x * self.per_metre).floor() as i64
+    /// The cell of a place.
+    pub(super) fn cell(&self, at: Point2) -> Cell {
+        (floor(at.x * self.per_metre), floor(at.y * self.per_metre))
+    }
+
+    /// The middle of a cell, m.
+    pub(super) fn middle(&self, cell: Cell) -> Point2 {
+        Point2::new(cell.0 as f64 + 0.5, cell.1 as f64 + 0.5) / self.per_metre
     }
 }
 
-/// Cells that share a bucket only cost time: distances are checked.
-fn bucket(column: i64, row: i64, size: usize) -> usize {
-    let mixed = ((column >> RUN) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
-        ^ (row as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
-    let run = (mixed >> 32) as usize & ((size >> RUN) - 1);
-    run << RUN | (column as usize & ((1 << RUN) - 1))
+/// `f64::floor` as an integer; without a call, which the processors of twenty years ago would need.
+fn floor(x: f64) -> i64 {
+    let whole = x as i64;
+    whole - i64::from((whole as f64) > x)
+}
+
+/// Tiles that share their buckets only cost time: distances are checked.
+fn bucket((column, row): Cell, tiles: usize) -> usize {
+    const MASK: i64 = (1 << TILE) - 1;
+    let mixed = ((column >> TILE) as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        ^ ((row >> TILE) as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
+    let tile = (mixed >> 32) as usize & (tiles - 1);
+    tile * CELLS + ((row & MASK) << TILE | column & MASK) as usize
 }

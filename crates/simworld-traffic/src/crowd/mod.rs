@@ -21,15 +21,23 @@
 //! assert!(people[0].position.x > 13.0 && people[1].position.x < 7.0);
 //! ```
 
+mod exp;
 mod grid;
+mod herd;
 mod model;
+mod nearby;
+mod step;
 mod walls;
 
-use grid::Grid;
-pub use model::AnticipationVelocity;
-use model::{Nearby, Rules};
+pub(crate) use herd::Herd;
+use herd::Slices;
+pub use model::{AnticipationVelocity, Steering};
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::{Alone, Workers};
+pub use step::Crowd;
 pub use walls::Walls;
+
+use crate::parts::in_parts;
 
 /// One looks this far, m: as far as one walks towards another in a second.
 const REACH: f64 = 3.0;
@@ -77,29 +85,14 @@ pub struct Wall {
 }
 
 /// What stands around people and does not move.
-pub trait Surroundings {
+pub trait Surroundings: Sync {
     /// Adds the walls near the person of this number, who is here.
     fn near(&self, index: usize, at: Point2, found: &mut Vec<Wall>);
 }
 
-impl<F: Fn(usize, Point2, &mut Vec<Wall>)> Surroundings for F {
+impl<F: Fn(usize, Point2, &mut Vec<Wall>) + Sync> Surroundings for F {
     fn near(&self, index: usize, at: Point2, found: &mut Vec<Wall>) {
         self(index, at, found);
-    }
-}
-
-/// Moves people; keeps nothing from step to step but memory.
-#[derive(Clone, Debug, Default)]
-pub struct Crowd {
-    grid: Grid,
-    near: Nearby,
-    walls: Vec<Wall>,
-}
-
-/// All crowds are equal: they keep no state.
-impl PartialEq for Crowd {
-    fn eq(&self, _: &Self) -> bool {
-        true
     }
 }
 
@@ -117,31 +110,32 @@ impl Crowd {
         around: &impl Surroundings,
         dt: f64,
     ) {
-        let rules = Rules::new(model, dt);
-        self.grid.rebuild(people.iter().chain(others).copied(), REACH);
-        for seen in self.grid.seen() {
-            let index = seen.index as usize;
-            let (Some(person), Some(wish)) = (people.get_mut(index), wishes.get(index)) else { continue };
-            if wish.speed <= 0.0 {
-                person.speed = 0.0;
-                continue;
-            }
-            self.near.clear();
-            self.walls.clear();
-            let mut change = Vector2::zeros();
-            for other in self.grid.around(person.position).flatten() {
-                let offset = other.person.position - person.position;
-                if offset.norm_squared() <= REACH * REACH && other.index != seen.index {
-                    change += rules.notice(person, wish, &other.person, offset, &mut self.near);
+        self.step_on(&Alone, model, people, wishes, others, around, dt);
+    }
+
+    /// As [`step`](Self::step), on the threads that are lent; what comes of it does not depend on them.
+    #[expect(clippy::too_many_arguments, reason = "those of `step`, and who works")]
+    pub fn step_on(
+        &mut self,
+        workers: &dyn Workers,
+        model: &AnticipationVelocity,
+        people: &mut [Person],
+        wishes: &[Wish],
+        others: &[Person],
+        around: &impl Surroundings,
+        dt: f64,
+    ) {
+        let herd = Slices { people, wishes, others, around, dt };
+        let movers = herd.people.len();
+        self.decide(workers, (model, Steering::default()), &herd, movers);
+        in_parts(workers, people, &|_, first, people| {
+            for (person, index) in people.iter_mut().zip(first..) {
+                if let Some(decision) = self.decision(index) {
+                    person.position += decision.velocity * dt;
+                    person.speed = decision.velocity.norm();
+                    person.direction = decision.direction();
                 }
             }
-            around.near(index, person.position, &mut self.walls);
-            let direction = rules.direction(person, wish, change, &self.walls);
-            let speed = rules.speed(direction, wish.speed, &self.near);
-            let velocity = rules.safe(direction * speed, &self.near, &self.walls);
-            person.position += velocity * dt;
-            person.speed = velocity.norm();
-            person.direction = direction;
-        }
+        });
     }
 }

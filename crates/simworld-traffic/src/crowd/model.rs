@@ -4,14 +4,13 @@ use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Vector2;
 use simworld_core::ops;
 
-use super::{Person, Wall, Wish};
+use super::nearby::{Me, Nearby};
+use super::{REACH, Wall};
 
 /// Repulsion below this share of the wish is left out.
 const FAINT: f64 = 5e-3;
 /// Who walks more slowly than this stands, m/s.
 const STANDING: f64 = 0.1;
-/// Distance over which the wish to step back falls to 1/e, m.
-const TOUCH: f64 = 0.05;
 
 /// The anticipation velocity model of Xu, Chraibi and Seyfried (Transportation Research Part C 133, 2021), a collision-free
 /// speed model (Tordeux, Chraibi and Seyfried 2016) whose people look a second ahead.
@@ -64,6 +63,18 @@ impl Default for AnticipationVelocity {
     }
 }
 
+/// How people find their way among one another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Steering {
+    /// The validated model: see [`AnticipationVelocity`].
+    #[default]
+    AnticipationVelocity,
+    /// The simple one: everybody turns to their goal, and walks at the speed they want as long as there is room. Bodies
+    /// never overlap, but nobody makes way for anybody, and streams that meet stand.
+    OrientationToGoal,
+}
+
 impl AnticipationVelocity {
     /// The fields, their values and the ranges they are in, for errors.
     pub(crate) fn ranges(&self) -> [(&'static str, f64, f64, f64, &'static str); 9] {
@@ -81,146 +92,105 @@ impl AnticipationVelocity {
     }
 }
 
-/// The model with what follows from it, for steps of one length.
-#[derive(Clone, Copy)]
+/// The model with what follows from it, for decisions that hold for a time.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Rules {
-    model: AnticipationVelocity,
+    pub(super) model: AnticipationVelocity,
+    /// Who is farther away is not seen, m.
+    pub(super) reach: f64,
+    /// Whether one heeds nobody but those one would touch.
+    heedless: bool,
     /// Least distance between the middles of two bodies, m.
-    contact: f64,
+    pub(super) contact: f64,
     /// Repulsion over a wider gap is faint, m.
-    wide: f64,
-    dt: f64,
+    pub(super) wide: f64,
+    /// Repulsion from walls over a wider gap is faint, m.
+    wall_wide: f64,
+    /// How long a decision holds, s.
+    hold: f64,
 }
 
-/// Somebody within reach.
+/// Somebody or something that one could run into.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Near {
-    /// The unit vector towards them.
-    toward: Vector2,
-    /// Between the middles, m.
-    distance: f64,
-}
-
-/// Those within reach who matter.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Nearby {
-    in_view: Vec<Near>,
-    /// Those who could be run into in one step, wherever they are.
-    close: Vec<Near>,
-}
-
-impl Nearby {
-    pub(super) fn clear(&mut self) {
-        self.in_view.clear();
-        self.close.clear();
-    }
+pub(super) struct Bound {
+    /// The unit vector towards it.
+    pub(super) toward: Vector2,
+    /// How far one may come nearer until the next decision, m.
+    pub(super) room: f64,
 }
 
 impl Rules {
-    pub(super) fn new(model: &AnticipationVelocity, dt: f64) -> Self {
-        let wide = model.range * ops::ln((2.0 * model.strength / FAINT).max(1.0));
-        Self { model: *model, contact: 2.0 * model.radius, wide, dt }
+    /// The rules of a model, for decisions that hold for no time yet.
+    pub(super) fn new(model: &AnticipationVelocity, steering: Steering) -> Self {
+        let heedless = steering == Steering::OrientationToGoal;
+        let wide = |range: f64, strength: f64| range * ops::ln((strength / FAINT).max(1.0));
+        Self {
+            model: *model,
+            reach: if heedless { 0.0 } else { REACH },
+            heedless,
+            contact: 2.0 * model.radius,
+            wide: wide(model.range, 2.0 * model.strength),
+            wall_wide: wide(model.wall_range, model.wall_strength),
+            hold: 0.0,
+        }
     }
 
-    /// Takes note of somebody at an offset, and returns by how much they change one's wish.
-    pub(super) fn notice(
-        &self,
-        me: &Person,
-        wish: &Wish,
-        other: &Person,
-        offset: Vector2,
-        near: &mut Nearby,
-    ) -> Vector2 {
-        let behind = wish.direction.dot(&offset) < 0.0 && me.direction.dot(&offset) < 0.0;
-        let close = self.contact + 2.0 * wish.speed * self.dt;
-        let square = offset.norm_squared();
-        if behind && square > close * close {
-            return Vector2::zeros();
-        }
-        let distance = square.sqrt();
-        // Two in the same place, by error, part along their wishes.
-        let toward = if distance > 0.0 { offset / distance } else { -wish.direction };
-        if distance <= close {
-            near.close.push(Near { toward, distance });
-        }
-        if behind {
-            return Vector2::zeros();
-        }
-        near.in_view.push(Near { toward, distance });
-        let aside = self.aside(me, wish, other, offset, toward);
-        if me.speed >= STANDING {
-            return aside;
-        }
-        let touching = -(distance - self.contact).max(0.0) / TOUCH;
-        aside - toward * (self.model.giving_way * ops::exp(touching))
+    /// The same for decisions that hold for a time, s.
+    pub(super) fn holding(self, hold: f64) -> Self {
+        Self { hold, ..self }
     }
 
-    /// How somebody in view turns one aside.
-    fn aside(&self, me: &Person, wish: &Wish, other: &Person, offset: Vector2, toward: Vector2) -> Vector2 {
-        let along = wish.direction.dot(&other.direction);
-        let own = if along > 0.0 { wish.direction * wish.speed } else { me.direction * me.speed };
-        let theirs = other.direction * other.speed;
-        let closing = (own - theirs).dot(&toward) * self.model.anticipation;
-        let gap = (offset.dot(&toward) - self.contact - closing).max(0.0);
-        if gap > self.wide {
-            return Vector2::zeros();
+    /// Who is nearer than this could be run into by who wants to walk at a speed, m.
+    pub(super) fn close(&self, speed: f64) -> f64 {
+        // A little more, for what rounding takes away.
+        self.contact + 2.0 * speed * self.hold + 1e-3
+    }
+
+    /// The velocity in which one walks until the next decision, and the direction in which one looks.
+    pub(super) fn decide(&self, me: &Me, near: &mut Nearby, walls: &[Wall]) -> (Vector2, Vector2) {
+        if self.heedless {
+            let direction = self.direction(me, Vector2::zeros(), walls);
+            return (direction * me.wish.speed, direction);
         }
-        let share = if gap > 0.0 { ops::exp(-gap / self.model.range) } else { 1.0 };
-        let strength = self.model.strength * (1.0 + 0.5 * (1.0 - along)) * share;
-        // Away from where they will be; to the right of those who come straight on.
-        let then = offset + theirs * self.model.anticipation;
-        let right = wish.direction.perp(&then) >= 0.0;
-        left_of(wish.direction) * if right { -strength } else { strength }
+        let mut change = left_of(me.wish.direction) * near.aside(self, me);
+        if me.person.speed < STANDING {
+            change += near.giving_way(self);
+        }
+        let direction = self.direction(me, change, walls);
+        let gap = (f64::from(near.ahead(self, direction)) - self.contact).max(0.0);
+        (direction * me.wish.speed.min(gap / self.model.time_gap), direction)
     }
 
     /// The direction to walk in, of length one.
-    pub(super) fn direction(&self, me: &Person, wish: &Wish, change: Vector2, walls: &[Wall]) -> Vector2 {
-        let mut wanted = wish.direction + change;
+    fn direction(&self, me: &Me, change: Vector2, walls: &[Wall]) -> Vector2 {
+        let mut wanted = me.wish.direction + change;
         for wall in walls {
             let gap = (wall.distance - self.model.radius).max(0.0);
-            wanted -= wall.toward * (self.model.wall_strength * ops::exp(-gap / self.model.wall_range));
+            if gap < self.wall_wide {
+                wanted -= wall.toward * (self.model.wall_strength * ops::exp(-gap / self.model.wall_range));
+            }
         }
-        let wanted = wanted.try_normalize(1e-9).unwrap_or(me.direction);
-        let share = (self.dt / self.model.reaction).min(1.0);
-        let direction = me.direction + (wanted - me.direction) * share;
+        let before = me.person.direction;
+        let wanted = wanted.try_normalize(1e-9).unwrap_or(before);
+        let share = (self.hold / self.model.reaction).min(1.0);
+        let direction = before + (wanted - before) * share;
         // Half a turn has no side: to the right.
-        direction.try_normalize(1e-6).unwrap_or(-left_of(me.direction))
+        direction.try_normalize(1e-6).unwrap_or(-left_of(before))
     }
+}
 
-    /// How fast the gap ahead in a direction lets one walk, m/s.
-    pub(super) fn speed(&self, direction: Vector2, free: f64, near: &Nearby) -> f64 {
-        let in_the_way = |other: &&Near| {
-            direction.dot(&other.toward) > 0.0
-                && direction.perp(&other.toward).abs() * other.distance <= self.contact
-        };
-        let gap =
-            near.in_view.iter().filter(in_the_way).map(|other| other.distance).fold(f64::INFINITY, f64::min)
-                - self.contact;
-        free.min(gap.max(0.0) / self.model.time_gap)
+/// The velocity nearest to the wanted one with which nothing that bounds one is run into within `hold` s.
+pub(super) fn safe(mut velocity: Vector2, bounds: &[Bound], hold: f64) -> Vector2 {
+    // Along walls and bodies rather than to a stand.
+    for bound in bounds {
+        velocity -= bound.toward * (velocity.dot(&bound.toward) - bound.room / hold).max(0.0);
     }
-
-    /// The velocity nearest to the wanted one with which nobody and nothing is run into in this step: each of two may use up
-    /// half of the gap between them.
-    pub(super) fn safe(&self, mut velocity: Vector2, near: &Nearby, walls: &[Wall]) -> Vector2 {
-        let people = || {
-            near.close
-                .iter()
-                .map(|other| (other.toward, (other.distance - self.contact).max(0.0) / (2.0 * self.dt)))
-        };
-        let walls =
-            || walls.iter().map(|wall| (wall.toward, (wall.distance - self.model.radius).max(0.0) / self.dt));
-        // Along walls and bodies rather than to a stand.
-        for (toward, most) in walls().chain(people()) {
-            velocity -= toward * (velocity.dot(&toward) - most).max(0.0);
-        }
-        // What is left of the way into one of several is a matter of how fast.
-        let share = |(toward, most): (Vector2, f64)| {
-            let into = velocity.dot(&toward);
-            if into > most { most / into } else { 1.0 }
-        };
-        let share = walls().chain(people()).map(share).fold(1.0, f64::min);
-        velocity * share
-    }
+    // What is left of the way into one of several is a matter of how fast.
+    let share = |bound: &Bound| {
+        let (into, most) = (velocity.dot(&bound.toward), bound.room / hold);
+        if into > most { most / into } else { 1.0 }
+    };
+    velocity * bounds.iter().map(share).fold(1.0, f64::min)
 }
 
 fn left_of(direction: Vector2) -> Vector2 {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::polyline;
 
 use crate::vehicle::Tracks;
@@ -17,8 +17,21 @@ const SWEPT: f64 = 1.3;
 pub struct Foreign {
     /// Where it stands, m.
     pub position: Point2,
-    /// How far it reaches to all sides, m.
+    /// How far it reaches before and behind, m.
     pub radius: f64,
+    /// How far it reaches to its sides, m.
+    pub half_width: f64,
+    /// Where its front is, of length one.
+    pub direction: Vector2,
+    /// m/s.
+    pub velocity: Vector2,
+}
+
+impl Foreign {
+    /// A round body that stands: how far it reaches to all sides, m.
+    pub fn standing(position: Point2, radius: f64) -> Self {
+        Self { position, radius, half_width: radius, direction: Vector2::x(), velocity: Vector2::zeros() }
+    }
 }
 
 /// Finds the tracks and crossings at a place.
@@ -68,6 +81,13 @@ impl Finder {
         finder
     }
 
+    /// Calls with each crossing that may lie along a straight way.
+    pub(super) fn crossings_along(&self, from: Point2, to: Point2, each: &mut impl FnMut(u32)) {
+        for cell in cells(&[from, to], CELL * 0.5) {
+            self.crossings.get(&cell).into_iter().flatten().for_each(|index| each(*index));
+        }
+    }
+
     /// Counts foreign bodies on each crossing, and lists those on tracks by track and station, sorted.
     pub(super) fn find(
         &self,
@@ -79,13 +99,14 @@ impl Finder {
         on_crossing.fill(0);
         obstacles.clear();
         for body in foreign {
+            let reach = body.radius.max(body.half_width);
             let here = (cell(body.position.x), cell(body.position.y));
             let mut crosses = false;
             for index in self.crossings.get(&here).into_iter().flatten() {
                 let crossing = &tracks.network.crossings[*index as usize];
                 let strip = [crossing.start, crossing.end];
                 let near = polyline::closest(&strip, &body.position);
-                if near.is_some_and(|near| near.distance <= crossing.width * 0.5 + body.radius) {
+                if near.is_some_and(|near| near.distance <= crossing.width * 0.5 + reach) {
                     on_crossing[*index as usize] += 1;
                     crosses = true;
                 }
@@ -95,8 +116,8 @@ impl Finder {
             }
             for track in self.tracks.get(&here).into_iter().flatten() {
                 let near = polyline::closest(tracks.path(*track), &body.position);
-                if let Some(near) = near.filter(|near| near.distance < SWEPT + body.radius) {
-                    obstacles.push((*track, near.station - body.radius));
+                if let Some(near) = near.filter(|near| near.distance < SWEPT + reach) {
+                    obstacles.push((*track, near.station - reach));
                 }
             }
         }

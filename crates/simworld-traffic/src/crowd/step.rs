@@ -1,0 +1,136 @@
+//! One step of a crowd: everybody decides from the state at its start.
+
+use std::sync::{Mutex, PoisonError};
+
+use simworld_core::geometry::Vector2;
+use simworld_core::net::Workers;
+
+use super::grid::Grid;
+use super::model::{Bound, Rules, safe};
+use super::nearby::{Around, Me, Nearby};
+use super::{AnticipationVelocity, Herd, REACH, Steering, Wall};
+use crate::parts::{PARTS, in_parts};
+
+/// What somebody decided.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Decision {
+    /// m/s.
+    pub(crate) velocity: Vector2,
+    /// Where one looks; zero for who did not decide.
+    pub(crate) facing: [f32; 2],
+}
+
+impl Decision {
+    /// Where one looks, of length one.
+    pub(crate) fn direction(&self) -> Vector2 {
+        let [x, y] = self.facing.map(f64::from);
+        Vector2::new(x, y)
+    }
+}
+
+/// What a thread needs for the people of a part.
+#[derive(Debug, Default)]
+struct Scratch {
+    around: Around,
+    near: Nearby,
+    walls: Vec<Wall>,
+    bounds: Vec<Bound>,
+}
+
+/// Moves people; keeps nothing from step to step but memory.
+#[derive(Debug, Default)]
+pub struct Crowd {
+    grid: Grid,
+    /// In the order of the grid.
+    decisions: Vec<Decision>,
+    scratch: Vec<Mutex<Scratch>>,
+}
+
+/// Memory is not worth a copy.
+impl Clone for Crowd {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// All crowds are equal: they keep no state.
+impl PartialEq for Crowd {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Crowd {
+    /// Lets everybody decide who does so now, of the first `movers` of a herd.
+    pub(crate) fn decide(
+        &mut self,
+        workers: &dyn Workers,
+        (model, steering): (&AnticipationVelocity, Steering),
+        herd: &impl Herd,
+        movers: usize,
+    ) {
+        let Self { grid, decisions, scratch } = self;
+        grid.rebuild(herd.count(), |index| herd.person(index), movers, REACH);
+        scratch.resize_with(PARTS, Mutex::default);
+        decisions.resize(herd.count(), Decision::default());
+        let rules = Rules::new(model, steering);
+        in_parts(workers, decisions, &|part, first, decisions| {
+            let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
+            scratch.around.forget();
+            for (decision, rank) in decisions.iter_mut().zip(first..) {
+                *decision = scratch.decide(&rules, grid, herd, rank);
+            }
+        });
+    }
+
+    /// What the last call of [`decide`](Self::decide) made of somebody, if they decided.
+    pub(crate) fn decision(&self, index: usize) -> Option<&Decision> {
+        Some(&self.decisions[self.grid.rank(index)]).filter(|decision| decision.facing != [0.0; 2])
+    }
+}
+
+impl Scratch {
+    fn decide(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, rank: usize) -> Decision {
+        let index = grid.seen()[rank].index as usize;
+        let Some(wish) = herd.wish(index) else { return Decision::default() };
+        let person = herd.person(index);
+        let facing = |direction: Vector2| [direction.x as f32, direction.y as f32];
+        if wish.speed <= 0.0 {
+            return Decision { velocity: Vector2::zeros(), facing: facing(person.direction) };
+        }
+        let hold = herd.hold(index);
+        let rules = rules.holding(hold);
+        let me = Me { rank, person, wish };
+        self.around.look(grid, grid.cell(person.position));
+        self.near.find(&rules, grid, &self.around, &me);
+        self.walls.clear();
+        herd.near(index, person.position, &mut self.walls);
+        let (wanted, direction) = rules.decide(&me, &mut self.near, &self.walls);
+        self.bind(&rules, grid, herd, &me, hold);
+        Decision { velocity: safe(wanted, &self.bounds, hold), facing: facing(direction) }
+    }
+
+    /// What one could run into: walls up to their face; of the gap to who decides now each may use half, and of that to who
+    /// does not what they leave.
+    fn bind(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, me: &Me, hold: f64) {
+        self.bounds.clear();
+        let wall = |wall: &Wall| Bound {
+            toward: wall.toward,
+            room: (wall.distance - rules.model.radius).max(0.0),
+        };
+        self.bounds.extend(self.walls.iter().map(wall));
+        for rank in &self.near.close {
+            let seen = &grid.seen()[*rank as usize];
+            let offset = grid.position(*rank as usize) - me.person.position;
+            let distance = offset.norm();
+            // Two in the same place, by error, part along their wishes.
+            let toward = if distance > 0.0 { offset / distance } else { -me.wish.direction };
+            let gap = (distance - rules.contact).max(0.0);
+            let room = match herd.committed(seen.index as usize, hold) {
+                None => gap * 0.5,
+                Some(way) => (gap - (-way.dot(&toward)).max(0.0)).max(0.0),
+            };
+            self.bounds.push(Bound { toward, room });
+        }
+    }
+}

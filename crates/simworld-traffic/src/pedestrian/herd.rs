@@ -1,0 +1,111 @@
+//! The walkers of a city as a crowd.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::WaypointGraph;
+
+use super::decide::CROSSING_SPEED;
+use super::walkway::Walkway;
+use super::{Pedestrian, Range, Stage, party};
+use crate::crowd::{Herd, Person, Wall, Wish};
+
+/// Where those stand who have left, m: nobody is there.
+const NOWHERE: f64 = 1e9;
+
+/// The walkers of a city as a crowd.
+pub(super) struct Streets<'a> {
+    pub(super) walkers: &'a [Pedestrian],
+    /// The numbers of those who matter now; all if there are none.
+    pub(super) subset: &'a [u32],
+    /// Bodies of others.
+    pub(super) bodies: &'a [Person],
+    pub(super) ways: &'a WaypointGraph,
+    /// Whether those decide too who do so now and then.
+    pub(super) turn: bool,
+    /// Time until those decide again, s.
+    pub(super) until_turn: f64,
+    pub(super) dt: f64,
+}
+
+impl Streets<'_> {
+    /// How many walkers matter now.
+    pub(super) fn movers(&self) -> usize {
+        if self.subset.is_empty() { self.walkers.len() } else { self.subset.len() }
+    }
+
+    fn walker(&self, index: usize) -> Option<&Pedestrian> {
+        if self.subset.is_empty() {
+            return self.walkers.get(index);
+        }
+        self.walkers.get(*self.subset.get(index)? as usize)
+    }
+
+    fn body(&self, index: usize) -> Person {
+        index.checked_sub(self.movers()).and_then(|other| self.bodies.get(other)).copied().unwrap_or_default()
+    }
+}
+
+impl Pedestrian {
+    /// Whether it decides in a step.
+    pub(super) fn decides(&self, turn: bool) -> bool {
+        turn || self.range == Range::Near
+    }
+
+    fn wish(&self, walkers: &[Pedestrian], walkway: &Walkway, hold: Option<f64>) -> Wish {
+        let way = walkway.target - self.position;
+        let distance = way.norm();
+        let direction = if distance > 1e-9 { way / distance } else { self.direction() };
+        let pace = if self.companions > 0 { party::pace(self, walkers, direction) } else { 1.0 };
+        let speed = match self.stage {
+            Stage::Walking => self.free_speed() * pace,
+            Stage::Crossing => (self.free_speed() * pace).max(CROSSING_SPEED),
+            Stage::Waiting | Stage::Gone => 0.0,
+        };
+        // Who does not decide before then does not go beyond the waypoint.
+        let most = hold.map_or(f64::INFINITY, |hold| distance / hold);
+        Wish { direction, speed: speed.min(most) }
+    }
+}
+
+impl Herd for Streets<'_> {
+    fn count(&self) -> usize {
+        self.movers() + self.bodies.len()
+    }
+
+    fn person(&self, index: usize) -> Person {
+        match self.walker(index) {
+            Some(walker) if walker.is_present() => walker.person(),
+            Some(_) => Person::standing(Point2::new(NOWHERE, NOWHERE), Vector2::x()),
+            None => self.body(index),
+        }
+    }
+
+    fn wish(&self, index: usize) -> Option<Wish> {
+        let walker = self.walker(index).filter(|walker| walker.is_present() && walker.decides(self.turn))?;
+        let hold = (walker.range != Range::Near).then_some(self.until_turn);
+        Some(walker.wish(self.walkers, &Walkway::of(walker, self.ways), hold))
+    }
+
+    fn hold(&self, index: usize) -> f64 {
+        match self.walker(index) {
+            Some(walker) if walker.range != Range::Near => self.until_turn,
+            _ => self.dt,
+        }
+    }
+
+    fn committed(&self, index: usize, time: f64) -> Option<Vector2> {
+        match self.walker(index) {
+            Some(walker) if walker.decides(self.turn) => None,
+            Some(walker) => Some(walker.velocity * self.until_turn),
+            None => {
+                let body = self.body(index);
+                Some(body.direction * (body.speed * time))
+            }
+        }
+    }
+
+    fn near(&self, index: usize, at: Point2, found: &mut Vec<Wall>) {
+        if let Some(walker) = self.walker(index) {
+            Walkway::of(walker, self.ways).edges(at, found);
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! All walkers: what they decide, and how they move.
+
+use std::sync::{Mutex, PoisonError};
+
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::Point2;
+use simworld_core::hash::StateHasher;
+use simworld_core::id::CrossingId;
+use simworld_core::net::{RoadNetwork, WaypointGraph, Workers};
+use simworld_core::seed::Stream;
+
+use super::decide::{Deciding, Event, Sight};
+use super::herd::Streets;
+use super::journey::Journeys;
+use super::walkway::Walkway;
+use super::{Pedestrian, Range, Stage, Walk};
+use crate::crowd::{Crowd, Person};
+use crate::parts::{PARTS, in_parts};
+use crate::{Counters, Interest, TrafficConfig};
+
+/// Those within this distance of who decides in every step may be seen by them, m.
+const FRINGE: f64 = 8.0;
+
+/// All walkers.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(crate) struct PedestrianManager {
+    pub(crate) walkers: Vec<Pedestrian>,
+    /// People on each crossing; foreign ones are added by the traffic.
+    pub(crate) on_crossing: Vec<u32>,
+    /// People at each kerb.
+    at_kerb: Vec<u32>,
+    /// Those of them who may walk as far as the signal says.
+    pub(crate) waiting: Vec<u32>,
+    pub(super) journeys: Journeys,
+    /// Numbers that nobody has any more.
+    pub(super) free: Vec<u32>,
+    /// Numbers of those who entered since the last step, and walks that ended in it and since.
+    #[serde(skip)]
+    pub(crate) entered: Vec<u32>,
+    #[serde(skip)]
+    pub(crate) ended: Vec<Walk>,
+    #[serde(skip)]
+    crowd: Crowd,
+    /// Those who matter between the turns of those far away; none while all do.
+    #[serde(skip)]
+    subset: Option<Vec<u32>>,
+    #[serde(skip)]
+    scratch: Vec<Mutex<Scratch>>,
+}
+
+/// What a thread needs for the walkers of a part.
+#[derive(Debug, Default)]
+struct Scratch {
+    weights: Vec<f64>,
+    events: Vec<Event>,
+}
+
+/// Memory is not state.
+impl Clone for PedestrianManager {
+    fn clone(&self) -> Self {
+        Self {
+            walkers: self.walkers.clone(),
+            on_crossing: self.on_crossing.clone(),
+            at_kerb: self.at_kerb.clone(),
+            waiting: self.waiting.clone(),
+            journeys: self.journeys.clone(),
+            free: self.free.clone(),
+            ..Self::default()
+        }
+    }
+}
+
+impl PartialEq for PedestrianManager {
+    fn eq(&self, other: &Self) -> bool {
+        self.walkers == other.walkers && self.journeys == other.journeys && self.free == other.free
+    }
+}
+
+/// The time of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Time {
+    /// Steps before this one.
+    pub(crate) steps: u64,
+    pub(crate) seconds: f64,
+    pub(crate) dt: f64,
+}
+
+/// Who works, on what, and what else is there.
+pub(crate) struct Surroundings<'a> {
+    pub(crate) workers: &'a dyn Workers,
+    pub(crate) config: &'a TrafficConfig,
+    /// Bodies of others, as people.
+    pub(crate) bodies: &'a [Person],
+    /// Places of interest; everywhere if nobody says.
+    pub(crate) interest: Option<&'a [Interest]>,
+}
+
+impl PedestrianManager {
+    pub(crate) fn new(network: &RoadNetwork) -> Self {
+        let none = vec![0; network.crossings.len()];
+        Self { on_crossing: none.clone(), at_kerb: none.clone(), waiting: none, ..Self::default() }
+    }
+
+    pub(crate) fn step(
+        &mut self,
+        sight: &Sight<'_>,
+        around: &Surroundings<'_>,
+        streams: Stream,
+        time: Time,
+        counters: &mut Counters,
+    ) {
+        let rounds = (around.config.people.far_interval / time.dt).round().max(1.0) as u64;
+        let turn = around.interest.is_none() || time.steps.is_multiple_of(rounds);
+        let until_turn = (rounds - time.steps % rounds) as f64 * time.dt;
+        self.scratch.resize_with(PARTS, Mutex::default);
+        self.decide(sight, around, streams, turn);
+        self.tell(time, counters);
+        self.choose_subset(turn);
+        self.walk(sight, around, turn, until_turn, time.dt);
+        for (index, (waiting, at_kerb)) in self.waiting.iter_mut().zip(&self.at_kerb).enumerate() {
+            *waiting = if sight.shows_walk(CrossingId::from_index(index)) { *at_kerb } else { 0 };
+        }
+    }
+
+    /// Where to go on, and whether to cross.
+    fn decide(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, streams: Stream, turn: bool) {
+        let Self { walkers, journeys, scratch, .. } = self;
+        in_parts(around.workers, walkers, &|part, first, walkers| {
+            let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
+            let Scratch { weights, events } = &mut *scratch;
+            for (walker, index) in walkers.iter_mut().zip(first as u32..) {
+                if !walker.is_present() {
+                    continue;
+                }
+                if turn {
+                    walker.range = range(walker.position, around.interest);
+                }
+                if !walker.decides(turn) {
+                    continue;
+                }
+                let is_due =
+                    walker.stage == Stage::Waiting || Walkway::of(walker, sight.ways).is_walked(walker.position);
+                if is_due {
+                    let by = Deciding { index, sight, config: around.config, streams, journeys };
+                    walker.decide(&by, weights, events);
+                }
+            }
+        });
+    }
+
+    /// Takes note of what changed, in the order of the walkers.
+    fn tell(&mut self, time: Time, counters: &mut Counters) {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        for part in &mut scratch {
+            let part = part.get_mut().unwrap_or_else(PoisonError::into_inner);
+            for event in part.events.drain(..) {
+                match event {
+                    Event::Waits(crossing) => self.at_kerb[crossing.index()] += 1,
+                    Event::Crosses(crossing, dares) => {
+                        self.at_kerb[crossing.index()] -= 1;
+                        self.on_crossing[crossing.index()] += 1;
+                        counters.jaywalks += u64::from(dares);
+                    }
+                    Event::Leaves(crossing) => self.on_crossing[crossing.index()] -= 1,
+                    Event::Arrives(index) => self.arrive(index, time.seconds, counters),
+                }
+            }
+        }
+        self.scratch = scratch;
+    }
+
+    /// Nobody is on or before a crossing any more who was.
+    pub(super) fn take_from_crossing(&mut self, index: u32) {
+        let walker = &self.walkers[index as usize];
+        match walker.stage {
+            Stage::Waiting => self.at_kerb[walker.crossing.index()] -= 1,
+            Stage::Crossing => self.on_crossing[walker.crossing.index()] -= 1,
+            Stage::Walking | Stage::Gone => {}
+        }
+    }
+
+    /// Who came or left may have been among those who matter.
+    pub(super) fn forget_subset(&mut self) {
+        self.subset = None;
+    }
+
+    /// Between turns, those who decide and those whom they may see.
+    fn choose_subset(&mut self, turn: bool) {
+        if turn {
+            self.subset = None;
+        } else if self.subset.is_none() {
+            let matters = |(_, walker): &(u32, &Pedestrian)| walker.range != Range::Far && walker.is_present();
+            self.subset =
+                Some((0..).zip(&self.walkers).filter(matters).map(|(index, _)| index).collect());
+        }
+    }
+
+    fn walk(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, turn: bool, until_turn: f64, dt: f64) {
+        let Self { walkers, crowd, subset, .. } = self;
+        let some = subset.as_deref().unwrap_or_default();
+        let idle = subset.is_some() && some.is_empty();
+        if !idle {
+            let Surroundings { workers, config, bodies, .. } = around;
+            let herd = Streets { walkers, subset: some, bodies, ways: sight.ways, turn, until_turn, dt };
+            let movers = herd.movers();
+            crowd.decide(*workers, (&config.walking, config.people.steering), &herd, movers);
+        }
+        for (rank, index) in some.iter().enumerate() {
+            walkers[*index as usize].take_up(crowd, rank);
+        }
+        in_parts(around.workers, walkers, &|_, first, walkers| {
+            for (walker, index) in walkers.iter_mut().zip(first..) {
+                if turn {
+                    walker.take_up(crowd, index);
+                }
+                walker.position += walker.velocity * dt;
+            }
+        });
+    }
+
+    /// Whether a saved state is one of this network.
+    pub(crate) fn fits(&self, ways: &WaypointGraph, crossings: usize) -> bool {
+        let (count, walkers) = (ways.waypoints().len(), self.walkers.len());
+        let fits = |walker: &Pedestrian| {
+            walker.from.index().max(walker.to.index()) < count
+                && (walker.party as usize) < walkers
+                && (matches!(walker.stage, Stage::Walking | Stage::Gone) || walker.crossing.index() < crossings)
+        };
+        [&self.on_crossing, &self.at_kerb, &self.waiting].into_iter().all(|counts| counts.len() == crossings)
+            && self.walkers.iter().all(fits)
+            && self.free.iter().all(|index| (*index as usize) < walkers)
+            && self.journeys.fit(walkers, count)
+    }
+
+    pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
+        for walker in &self.walkers {
+            hasher.f64(walker.position.x).f64(walker.position.y).f64(walker.velocity.x).f64(walker.velocity.y);
+            let [x, y] = walker.facing.map(f32::to_bits).map(u64::from);
+            hasher.u64(x << 32 | y).u64(u64::from(walker.from.0) << 32 | u64::from(walker.to.0));
+            hasher.u64(u64::from(walker.decisions) << 8 | walker.stage as u64);
+        }
+    }
+}
+
+impl Pedestrian {
+    fn take_up(&mut self, crowd: &Crowd, rank: usize) {
+        if let Some(decision) = crowd.decision(rank) {
+            self.velocity = decision.velocity;
+            self.facing = decision.facing;
+        }
+    }
+}
+
+/// How closely somebody is looked at.
+fn range(at: Point2, interest: Option<&[Interest]>) -> Range {
+    let Some(interest) = interest else { return Range::Near };
+    let beyond = |place: &Interest| (at - place.center).norm() - place.radius;
+    let nearest = interest.iter().map(beyond).fold(f64::INFINITY, f64::min);
+    match nearest {
+        beyond if beyond <= 0.0 => Range::Near,
+        beyond if beyond <= FRINGE => Range::Fringe,
+        _ => Range::Far,
+    }
+}

@@ -1,0 +1,49 @@
+//! The way from one waypoint to the next, for one walker.
+
+use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::WaypointGraph;
+
+use super::Pedestrian;
+use crate::crowd::Wall;
+
+/// A waypoint counts as reached within this distance, or beside it, m.
+const REACHED: f64 = 0.5;
+/// Room that one keeps to the edge of a walkway where there is so much, m.
+pub(super) const MARGIN: f64 = 0.3;
+
+/// The way from one waypoint to the next, for one walker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Walkway {
+    from: Point2,
+    pub(super) along: Vector2,
+    /// Half the width, m.
+    pub(super) half: f64,
+    /// The next waypoint, a little to the right of it.
+    pub(super) target: Point2,
+}
+
+impl Walkway {
+    pub(super) fn of(walker: &Pedestrian, ways: &WaypointGraph) -> Self {
+        let (from, to) = (ways.waypoint(walker.from).position, ways.waypoint(walker.to).position);
+        let half = ways.edge(walker.from, walker.to).map_or(0.0, |edge| f64::from(edge.width) * 0.5);
+        let along = (to - from).try_normalize(1e-9).unwrap_or_else(Vector2::x);
+        let right = f64::from(walker.keep_right).min((half - MARGIN).max(0.0));
+        Self { from, along, half, target: to + Vector2::new(along.y, -along.x) * right }
+    }
+
+    /// Whether its end is reached, or where one would wait beside others who stand there.
+    pub(super) fn is_walked(&self, at: Point2) -> bool {
+        let offset = self.target - at;
+        let aside = self.along.perp(&offset).abs();
+        let beside = self.along.dot(&offset) < REACHED && aside < self.half.max(REACHED);
+        beside || offset.norm_squared() < REACHED * REACHED
+    }
+
+    /// Its edges, which one does not cross outwards.
+    pub(super) fn edges(&self, at: Point2, walls: &mut Vec<Wall>) {
+        let left = Vector2::new(-self.along.y, self.along.x);
+        let aside = left.dot(&(at - self.from));
+        walls.push(Wall { toward: left, distance: self.half - aside });
+        walls.push(Wall { toward: -left, distance: self.half + aside });
+    }
+}
