@@ -125,6 +125,7 @@ impl PedestrianManager {
     /// Where to go on, and whether to cross.
     fn decide(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, streams: Stream, turn: bool) {
         let Self { walkers, journeys, scratch, .. } = self;
+        let (config, interest) = (around.config, around.interest);
         in_parts(around.workers, walkers, &|part, first, walkers| {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
             let Scratch { weights, events } = &mut *scratch;
@@ -133,7 +134,7 @@ impl PedestrianManager {
                     continue;
                 }
                 if turn {
-                    walker.range = range(walker.position, around.interest);
+                    walker.range = range(walker.position, interest);
                 }
                 if !walker.decides(turn) {
                     continue;
@@ -141,7 +142,7 @@ impl PedestrianManager {
                 let is_due =
                     walker.stage == Stage::Waiting || Walkway::of(walker, sight.ways).is_walked(walker.position);
                 if is_due {
-                    let by = Deciding { index, sight, config: around.config, streams, journeys };
+                    let by = Deciding { index, sight, config, streams, journeys };
                     walker.decide(&by, weights, events);
                 }
             }
