@@ -149,7 +149,9 @@ impl TrafficConfig {
             ("walking_deviation", self.walking_deviation, 0.0, 1.0, "0 to 1 m/s"),
             ("crossing_weight", self.crossing_weight, 0.0, 10.0, "0 to 10"),
         ];
-        for (field, value, low, high, allowed) in checks.into_iter().chain(self.walking.ranges()).chain(self.people.ranges()) {
+        for (field, value, low, high, allowed) in
+            checks.into_iter().chain(self.walking.ranges()).chain(self.people.ranges())
+        {
             if !(low..=high).contains(&value) {
                 return Err(TrafficError::Config { field, value, allowed });
             }

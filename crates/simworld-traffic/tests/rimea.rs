@@ -147,8 +147,9 @@ fn case_6_round_a_corner_and_through_no_wall() {
     };
     while hall.seconds < 60.0 && hall.step(&goal) > 0 {
         for person in &hall.people {
-            let Point2 { x, y } = { person.position };
-            let inside = (y > 0.149 && y < 1.851 && x < 10.0) || (x < 11.851 && y > 0.149 && (x > 10.149 || y < 2.0));
+            let (x, y) = (person.position.x, person.position.y);
+            let inside =
+                (y > 0.149 && y < 1.851 && x < 10.0) || (x < 11.851 && y > 0.149 && (x > 10.149 || y < 2.0));
             assert!(inside, "somebody is in a wall at {x}, {y}");
         }
     }
@@ -214,9 +215,8 @@ fn case_12_people_jam_before_the_corridor_and_not_behind_it() {
         hall.step(&goal);
         if step >= 200 {
             let count = |low: f64, high: f64, half: f64| {
-                let inside = |p: &&Person| {
-                    (low..high).contains(&p.position.x) && (p.position.y - 5.0).abs() < half
-                };
+                let inside =
+                    |p: &&Person| (low..high).contains(&p.position.x) && (p.position.y - 5.0).abs() < half;
                 hall.people.iter().filter(inside).count() as f64
             };
             before += count(8.0, 10.0, 2.0) / (8.0 * 300.0);
@@ -262,7 +262,9 @@ fn case_16_in_single_file_speed_falls_with_density() {
     let speed = |count: u32| {
         let length = 26.0;
         let mut people: Vec<Person> = (0..count)
-            .map(|index| Person::standing(at(f64::from(index) * length / f64::from(count), 0.0), Vector2::x()))
+            .map(|index| {
+                Person::standing(at(f64::from(index) * length / f64::from(count), 0.0), Vector2::x())
+            })
             .collect();
         let mut rng = Seed(16).stream("file").rng();
         let wishes: Vec<Wish> = (0..count)

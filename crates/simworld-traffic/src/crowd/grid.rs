@@ -44,7 +44,13 @@ pub(super) struct Grid {
 impl Grid {
     /// Sorts `count` people by place; those of a bucket keep their order, so that sums over them do too. Where they are
     /// found is kept for the first `ranked`.
-    pub(super) fn rebuild(&mut self, count: usize, person: impl Fn(usize) -> Person, ranked: usize, reach: f64) {
+    pub(super) fn rebuild(
+        &mut self,
+        count: usize,
+        person: impl Fn(usize) -> Person,
+        ranked: usize,
+        reach: f64,
+    ) {
         self.per_metre = RINGS as f64 / reach;
         let tiles = count.div_ceil(CELLS).next_power_of_two();
         self.starts.clear();

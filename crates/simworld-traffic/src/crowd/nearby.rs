@@ -207,7 +207,8 @@ impl Nearby {
         let [ahead_x, ahead_y] = single(direction);
         let contact = rules.contact as f32;
         let mut nearest = [f32::INFINITY; 4];
-        let mut blocks = self.x.chunks_exact(4).zip(self.y.chunks_exact(4)).zip(self.distance.chunks_exact(4));
+        let mut blocks =
+            self.x.chunks_exact(4).zip(self.y.chunks_exact(4)).zip(self.distance.chunks_exact(4));
         let nearer = |least: f32, x: f32, y: f32, distance: f32| {
             let in_the_way =
                 (ahead_x * x + ahead_y * y > 0.0) & ((ahead_x * y - ahead_y * x).abs() <= contact);

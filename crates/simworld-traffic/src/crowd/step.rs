@@ -114,10 +114,8 @@ impl Scratch {
     /// does not what they leave.
     fn bind(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, me: &Me, hold: f64) {
         self.bounds.clear();
-        let wall = |wall: &Wall| Bound {
-            toward: wall.toward,
-            room: (wall.distance - rules.model.radius).max(0.0),
-        };
+        let wall =
+            |wall: &Wall| Bound { toward: wall.toward, room: (wall.distance - rules.model.radius).max(0.0) };
         self.bounds.extend(self.walls.iter().map(wall));
         for rank in &self.near.close {
             let seen = &grid.seen()[*rank as usize];

@@ -44,8 +44,14 @@ type Range = (&'static str, f64, f64, f64, &'static str);
 impl People {
     /// The fields and their ranges, for errors.
     pub(crate) fn ranges(&self) -> impl Iterator<Item = Range> + use<> {
-        let names =
-            ["people.ages[0]", "people.ages[1]", "people.ages[2]", "people.ages[3]", "people.ages[4]", "people.ages[5]"];
+        let names = [
+            "people.ages[0]",
+            "people.ages[1]",
+            "people.ages[2]",
+            "people.ages[3]",
+            "people.ages[4]",
+            "people.ages[5]",
+        ];
         let each = |(name, weight)| (name, weight, 0.0, 1000.0, "0 to 1000");
         let sum = self.ages.iter().sum();
         let others = [

@@ -139,8 +139,8 @@ impl PedestrianManager {
                 if !walker.decides(turn) {
                     continue;
                 }
-                let is_due =
-                    walker.stage == Stage::Waiting || Walkway::of(walker, sight.ways).is_walked(walker.position);
+                let is_due = walker.stage == Stage::Waiting
+                    || Walkway::of(walker, sight.ways).is_walked(walker.position);
                 if is_due {
                     let by = Deciding { index, sight, config, streams, journeys };
                     walker.decide(&by, weights, events);
@@ -190,9 +190,9 @@ impl PedestrianManager {
         if turn {
             self.subset = None;
         } else if self.subset.is_none() {
-            let matters = |(_, walker): &(u32, &Pedestrian)| walker.range != Range::Far && walker.is_present();
-            self.subset =
-                Some((0..).zip(&self.walkers).filter(matters).map(|(index, _)| index).collect());
+            let matters =
+                |(_, walker): &(u32, &Pedestrian)| walker.range != Range::Far && walker.is_present();
+            self.subset = Some((0..).zip(&self.walkers).filter(matters).map(|(index, _)| index).collect());
         }
     }
 
@@ -225,7 +225,8 @@ impl PedestrianManager {
         let fits = |walker: &Pedestrian| {
             walker.from.index().max(walker.to.index()) < count
                 && (walker.party as usize) < walkers
-                && (matches!(walker.stage, Stage::Walking | Stage::Gone) || walker.crossing.index() < crossings)
+                && (matches!(walker.stage, Stage::Walking | Stage::Gone)
+                    || walker.crossing.index() < crossings)
         };
         [&self.on_crossing, &self.at_kerb, &self.waiting].into_iter().all(|counts| counts.len() == crossings)
             && self.walkers.iter().all(fits)
@@ -235,7 +236,11 @@ impl PedestrianManager {
 
     pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
         for walker in &self.walkers {
-            hasher.f64(walker.position.x).f64(walker.position.y).f64(walker.velocity.x).f64(walker.velocity.y);
+            hasher
+                .f64(walker.position.x)
+                .f64(walker.position.y)
+                .f64(walker.velocity.x)
+                .f64(walker.velocity.y);
             let [x, y] = walker.facing.map(f32::to_bits).map(u64::from);
             hasher.u64(x << 32 | y).u64(u64::from(walker.from.0) << 32 | u64::from(walker.to.0));
             hasher.u64(u64::from(walker.decisions) << 8 | walker.stage as u64);

@@ -135,12 +135,14 @@ mod tests {
         let of_ages = |low, high| mean(&mut drawn.iter().filter(|p| (low..high).contains(&p.age)));
         // Relative to all, as the curve is relative to its mean, within the 5 % that the clamping takes.
         for (low, high) in [(10, 11), (20, 25), (30, 35), (45, 50), (60, 65), (72, 76)] {
-            let expected = (low..high).map(|age| speed_at(f64::from(age) + 0.5)).sum::<f64>() / f64::from(high - low);
+            let expected =
+                (low..high).map(|age| speed_at(f64::from(age) + 0.5)).sum::<f64>() / f64::from(high - low);
             let share = 1.0 + profiles.kept * (expected / profiles.of_all - 1.0);
             let off = of_ages(low, high) / (all * share) - 1.0;
             assert!(off.abs() < 0.05, "ages {low} to {high}: {off}");
         }
-        let [women, men] = [Sex::Female, Sex::Male].map(|sex| mean(&mut drawn.iter().filter(|p| p.sex == sex)));
+        let [women, men] =
+            [Sex::Female, Sex::Male].map(|sex| mean(&mut drawn.iter().filter(|p| p.sex == sex)));
         let expected = 1.0 + profiles.kept * (1.41 / 1.27 - 1.0);
         assert!((men / women / expected - 1.0).abs() < 0.02, "{women} and {men} m/s");
     }

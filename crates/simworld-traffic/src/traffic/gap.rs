@@ -19,8 +19,8 @@ pub(super) struct Gaps(Vec<Vec<(u32, f64)>>);
 impl Gaps {
     pub(super) fn new(tracks: &Tracks) -> Self {
         let mut ways = vec![Vec::new(); tracks.network.crossings.len()];
-        for (way, strips) in tracks.strips.iter().enumerate() {
-            for strip in strips {
+        for way in 0..tracks.network.connections.len() {
+            for strip in &tracks.strips[way] {
                 ways[strip.crossing as usize].push((way as u32, strip.stop));
             }
         }

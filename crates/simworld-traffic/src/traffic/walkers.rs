@@ -47,7 +47,9 @@ impl Traffic {
             Some(path) => path.get(1).copied().unwrap_or(from),
             None => {
                 let sidewalk = self.ways.edges(from).iter().find(|edge| edge.crossing.is_none());
-                sidewalk.ok_or(refused("no way leads on from its beginning: give a place near a sidewalk"))?.to
+                sidewalk
+                    .ok_or(refused("no way leads on from its beginning: give a place near a sidewalk"))?
+                    .to
             }
         };
         let position = self.ways.waypoint(from).position;
@@ -109,7 +111,9 @@ impl Traffic {
         let to = to.ok_or(refused("nobody walks near its end: give a place near a sidewalk"))?;
         let (mut scratch, mut route) = (RouteScratch::default(), Route::default());
         if !self.ways.route(from, to, &mut scratch, &mut route) {
-            return Err(refused("no way leads to its end: choose one on the same side of what has no crossing"));
+            return Err(refused(
+                "no way leads to its end: choose one on the same side of what has no crossing",
+            ));
         }
         Ok(route.waypoints)
     }

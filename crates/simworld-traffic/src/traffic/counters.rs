@@ -1,0 +1,84 @@
+//! What is counted.
+
+use serde::{Deserialize, Serialize};
+
+/// What was counted since the start; the first two say how much was done, the others what went less than well.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Vehicle updates.
+    pub updates: u64,
+    /// Leaves to cross an intersection.
+    pub crossings: u64,
+    /// Steps in which a vehicle went on at red because it could no longer stop.
+    pub dilemmas: u64,
+    /// Times that a vehicle was held at a stop line, or far from all interest behind another, by more than its brakes.
+    pub forced_stops: u64,
+    /// Times that a vehicle had stood for three minutes.
+    pub long_waits: u64,
+    /// Lane changes.
+    pub lane_changes: u64,
+    /// Vehicles that took another route because they could not get into the lane of theirs, or to undo a lock.
+    pub rerouted: u64,
+    /// Rings of full lanes, each waiting for the next, that were found and undone.
+    pub locks: u64,
+    /// Vehicles that entered a junction without room behind it to undo a lock.
+    pub passes: u64,
+    /// Vehicles that entered after the start.
+    pub entered: u64,
+    /// Vehicles that came to the end of their route.
+    pub arrived: u64,
+    /// Vehicles that were taken out.
+    pub removed: u64,
+    /// Walkers that entered after the start.
+    pub walkers_entered: u64,
+    /// Walks that came to their destination.
+    pub walkers_arrived: u64,
+    /// Walkers that left there.
+    pub walkers_left: u64,
+    /// Walkers that were taken out.
+    pub walkers_removed: u64,
+    /// Times that a walker crossed at red.
+    pub jaywalks: u64,
+}
+
+impl Counters {
+    /// Adds what was counted elsewhere.
+    pub(crate) fn absorb(&mut self, other: &Self) {
+        let Self {
+            updates,
+            crossings,
+            dilemmas,
+            forced_stops,
+            long_waits,
+            lane_changes,
+            rerouted,
+            locks,
+            passes,
+            entered,
+            arrived,
+            removed,
+            walkers_entered,
+            walkers_arrived,
+            walkers_left,
+            walkers_removed,
+            jaywalks,
+        } = other;
+        self.updates += updates;
+        self.crossings += crossings;
+        self.dilemmas += dilemmas;
+        self.forced_stops += forced_stops;
+        self.long_waits += long_waits;
+        self.lane_changes += lane_changes;
+        self.rerouted += rerouted;
+        self.locks += locks;
+        self.passes += passes;
+        self.entered += entered;
+        self.arrived += arrived;
+        self.removed += removed;
+        self.walkers_entered += walkers_entered;
+        self.walkers_arrived += walkers_arrived;
+        self.walkers_left += walkers_left;
+        self.walkers_removed += walkers_removed;
+        self.jaywalks += jaywalks;
+    }
+}
