@@ -150,7 +150,7 @@ impl TrafficDynamics {
                     position: entity.planar(),
                     radius: size.x,
                     half_width: size.y,
-                    direction: direction(yaw_of(&entity.pose)),
+                    direction: direction(yaw_of(entity.pose)),
                     velocity: Vector2::new(linear.x, linear.y),
                 });
             }

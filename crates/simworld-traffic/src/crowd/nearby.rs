@@ -4,6 +4,11 @@
 //! crowd is. Sums are taken in double precision, in which sums of so few single numbers are exact: who is counted first
 //! does not matter. Whether bodies touch is worked out in double precision elsewhere.
 
+#![expect(
+    clippy::needless_bitwise_bool,
+    reason = "a branch less: such tests are made for several people at once"
+)]
+
 use std::f32::consts::LOG2_E;
 
 use simworld_core::geometry::Vector2;

@@ -4,7 +4,7 @@ use simworld_core::id::CrossingId;
 use simworld_core::net::{Aspect, RoadNetwork, WaypointGraph};
 use simworld_core::seed::Stream;
 
-use super::journey::Journeys;
+use super::journey::{Journeys, Next};
 use super::{Habit, Pedestrian, Stage};
 use crate::TrafficConfig;
 
@@ -68,14 +68,14 @@ impl Pedestrian {
             let edges = by.sight.ways.edges(here);
             self.decisions += 1;
             let edge = match by.journeys.next(by.index, self.decisions) {
-                Some(Some(next)) => edges.iter().find(|edge| edge.to == next),
-                Some(None) => {
+                Next::To(next) => edges.iter().find(|edge| edge.to == next),
+                Next::Arrived => {
                     // Until the others are told it stays where it is.
                     self.decisions -= 1;
                     events.push(Event::Arrives(by.index));
                     return;
                 }
-                None => edges.get(self.choose(by, weights)),
+                Next::Anywhere => edges.get(self.choose(by, weights)),
             };
             let Some(edge) = edge else { return };
             self.from = here;

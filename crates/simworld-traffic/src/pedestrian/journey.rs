@@ -46,15 +46,26 @@ pub(super) struct Journey {
     pub(super) began: f64,
 }
 
+/// Where somebody goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Next {
+    /// Wherever the way leads: they have no journey.
+    Anywhere,
+    /// To the next waypoint of their journey.
+    To(WaypointId),
+    /// Nowhere: their journey ends here.
+    Arrived,
+}
+
 /// The ways of those who have one, by the number of the walker.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Journeys(pub(super) BTreeMap<u32, Journey>);
 
 impl Journeys {
-    /// For a walker with a journey, the waypoint it heads for after so many decisions, if it is not at the end.
-    pub(super) fn next(&self, index: u32, decisions: u32) -> Option<Option<WaypointId>> {
-        let journey = self.0.get(&index)?;
-        Some(journey.path.get(decisions as usize).copied())
+    /// Where a walker heads after so many decisions.
+    pub(super) fn next(&self, index: u32, decisions: u32) -> Next {
+        let Some(journey) = self.0.get(&index) else { return Next::Anywhere };
+        journey.path.get(decisions as usize).map_or(Next::Arrived, |next| Next::To(*next))
     }
 
     pub(super) fn fit(&self, walkers: usize, waypoints: usize) -> bool {

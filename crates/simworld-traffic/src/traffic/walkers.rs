@@ -43,14 +43,11 @@ impl Traffic {
         let from = self.ways.nearest(at).filter(|_| at.x.is_finite() && at.y.is_finite());
         let from = from.ok_or(refused("nobody walks near its beginning: give a place near a sidewalk"))?;
         let path = to.map(|to| self.walking_path(from, to)).transpose()?;
-        let next = match &path {
-            Some(path) => path.get(1).copied().unwrap_or(from),
-            None => {
-                let sidewalk = self.ways.edges(from).iter().find(|edge| edge.crossing.is_none());
-                sidewalk
-                    .ok_or(refused("no way leads on from its beginning: give a place near a sidewalk"))?
-                    .to
-            }
+        let next = if let Some(path) = &path {
+            path.get(1).copied().unwrap_or(from)
+        } else {
+            let sidewalk = self.ways.edges(from).iter().find(|edge| edge.crossing.is_none());
+            sidewalk.ok_or(refused("no way leads on from its beginning: give a place near a sidewalk"))?.to
         };
         let position = self.ways.waypoint(from).position;
         let entry = Entry { position, from, to: next };
