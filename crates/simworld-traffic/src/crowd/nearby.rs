@@ -103,6 +103,14 @@ fn single(vector: Vector2) -> Pair {
 }
 
 impl Nearby {
+    /// With room for so many who matter, half of them close.
+    pub(super) fn roomy(count: usize) -> Self {
+        let room = || Vec::with_capacity(count);
+        let (x, y, distance, speed, aside) = (room(), room(), room(), room(), room());
+        let facing = [room(), room()];
+        Self { x, y, distance, facing, speed, aside, close: Vec::with_capacity(count / 2), ..Self::default() }
+    }
+
     /// Finds who matters to somebody: who is within reach and in view, or so close that one could run into them.
     pub(super) fn find(&mut self, rules: &Rules, grid: &Grid, around: &Around, me: &Me) {
         let middle = around.cell.map_or(me.person.position, |cell| grid.middle(cell));

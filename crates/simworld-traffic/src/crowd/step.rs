@@ -71,7 +71,7 @@ impl Crowd {
     ) {
         let Self { grid, decisions, scratch } = self;
         grid.rebuild(herd.count(), |index| herd.person(index), movers, REACH);
-        scratch.resize_with(PARTS, Mutex::default);
+        scratch.resize_with(PARTS, || Mutex::new(Scratch::roomy()));
         decisions.resize(herd.count(), Decision::default());
         let rules = Rules::new(model, steering);
         in_parts(workers, decisions, &|part, first, decisions| {
@@ -90,6 +90,12 @@ impl Crowd {
 }
 
 impl Scratch {
+    /// With room for as many as are seldom so close at once, so that it need not grow.
+    fn roomy() -> Self {
+        let near = Nearby::roomy(64);
+        Self { near, walls: Vec::with_capacity(16), bounds: Vec::with_capacity(48), ..Self::default() }
+    }
+
     fn decide(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, rank: usize) -> Decision {
         let index = grid.seen()[rank].index as usize;
         let Some(wish) = herd.wish(index) else { return Decision::default() };
