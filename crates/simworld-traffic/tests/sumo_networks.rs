@@ -200,7 +200,7 @@ fn people_and_vehicles_move_on_it() {
     let mut crossed = 0;
     for _ in 0..3000 {
         traffic.step(0.1);
-        crossed += traffic.pedestrians().iter().filter(|walker| walker.crossing.is_some()).count();
+        crossed += traffic.pedestrians().iter().filter(|walker| walker.crossing().is_some()).count();
     }
     assert_eq!(traffic.vehicles().count(), 60);
     assert!(traffic.counters().crossings > 300, "{:?}", traffic.counters());
