@@ -1,5 +1,5 @@
 //! Where the crates meet: the delivery run, assembled from citygen, traffic, physics, render and agents; and what the
-//! city example and the comparison with SUMO do behind their command lines.
+//! city and traffic examples and the comparison with SUMO do behind their command lines.
 //!
 //! The crates know only simworld-core; this package is unpublished and exists so that the examples and the
 //! workspace's tests put the parts together in the same way.
@@ -11,3 +11,4 @@ pub mod bodies;
 pub mod city;
 pub mod delivery;
 pub mod experiment;
+pub mod traffic;

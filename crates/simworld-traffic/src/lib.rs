@@ -8,6 +8,8 @@ pub mod control;
 pub mod crowd;
 mod demand;
 mod dynamics;
+pub mod learn;
+pub mod look;
 mod names;
 pub mod output;
 mod parts;
@@ -17,6 +19,8 @@ pub mod signal;
 #[cfg(feature = "sumo")]
 pub mod sumo;
 mod traffic;
+#[cfg(feature = "validation")]
+pub mod validation;
 pub mod vehicle;
 
 pub use conditions::DrivingConditions;

@@ -24,7 +24,7 @@ use simworld_core::seed::{Seed, Stream};
 use crate::crowd::Person;
 use crate::demand::{DemandManager, Flow, OF_FLOW, Trip, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
-use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy};
+use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
 use crate::{DrivingConditions, Route, TrafficConfig, TrafficError};
 
@@ -258,6 +258,17 @@ impl Traffic {
         self.signals.plans()
     }
 
+    /// The stages of a plan; none of one that does not exist or has no green.
+    pub fn stages(&self, plan: usize) -> &[Stage] {
+        self.signals.stages(plan)
+    }
+
+    /// The stage that the signals of a plan are in; `None` if it has none.
+    pub fn stage(&self, plan: usize) -> Option<StageShown> {
+        let controller = self.state.controllers.get(plan)?;
+        (!self.stages(plan).is_empty()).then(|| controller.shown())
+    }
+
     /// Gives the signals other plans, for the same groups; they begin at once, where their clocks stand now.
     ///
     /// # Errors
@@ -349,7 +360,7 @@ impl Traffic {
     fn update_signals(&mut self, dt: f64) {
         let State { vehicles, pedestrians, controllers, detectors, seconds, .. } = &mut self.state;
         if self.signals.watches() {
-            detectors.look(&self.tracks, vehicles, &pedestrians.waiting, &self.tracks.network, dt);
+            detectors.look(&self.tracks, vehicles, &pedestrians.waiting, &self.signals.aspects, dt);
         } else if !detectors.is_ready() {
             detectors.rest();
         }
@@ -419,7 +430,7 @@ impl Traffic {
             && state.aspects.len() == self.signals.aspects.len()
             && state.shown.len() == state.aspects.len()
             && state.interest.iter().flatten().all(Interest::is_sound)
-            && state.detectors.gap.len() == state.aspects.len()
+            && state.detectors.fits(state.aspects.len())
             && self.signals.fits(&state.controllers)
             && state.pedestrians.fits(&self.ways, self.walkers.len());
         if fits {
@@ -443,8 +454,6 @@ impl StateHash for Traffic {
         for controller in &self.state.controllers {
             controller.state_hash(hasher);
         }
-        for gap in &self.state.detectors.gap {
-            hasher.f64(*gap);
-        }
+        self.state.detectors.state_hash(hasher);
     }
 }

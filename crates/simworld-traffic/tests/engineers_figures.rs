@@ -1,15 +1,73 @@
-//! Traffic against the figures that engineers trust: saturation flow, lost time, delay at a fixed signal, green waves,
-//! turning shares. Tolerances that no manual gives are ours.
+//! Traffic against the figures that engineers trust: the measures of `simworld_traffic::validation`, which hold their own bands and
+//! sources, and the delay of whole trips. `--example validate` prints them all.
 
 use std::sync::Arc;
 
-use simworld_core::geometry::Point2;
-use simworld_core::id::{IntersectionId, RoadId};
-use simworld_core::net::{Aspect, LaneDirection, NetworkConfig, RoadNetwork, Street, StreetPlan, Turn};
+use simworld_core::id::RoadId;
+use simworld_core::net::{LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
-use simworld_traffic::signal::green_wave;
+use simworld_traffic::validation::{Effort, Figure, MEASURES};
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{Arrivals, Flow, Leg, Route, Traffic, TrafficConfig};
+
+/// All figures of a measure; all settings with `SIMWORLD_SOAK=1`.
+fn figures(name: &str) -> Vec<Figure> {
+    let measure = MEASURES.iter().find(|measure| measure.name == name).expect("the measure is listed");
+    let effort = if std::env::var("SIMWORLD_SOAK").is_ok() { Effort::Whole } else { Effort::Short };
+    let figures = (measure.run)(effort).expect("its set-up is sound");
+    assert!(!figures.is_empty(), "{name} has figures");
+    figures
+}
+
+/// Every figure of a measure is in its band.
+fn holds(name: &str) {
+    let figures = figures(name);
+    for figure in &figures {
+        println!("{figure}");
+    }
+    let off: Vec<&Figure> = figures.iter().filter(|figure| !figure.is_ok()).collect();
+    assert!(off.is_empty(), "off: {off:#?}");
+}
+
+#[test]
+fn a_queue_discharges_as_the_manual_says() {
+    holds("queue discharge");
+}
+
+#[test]
+fn flow_on_a_ring_is_that_of_the_model() {
+    holds("ring");
+}
+
+#[test]
+fn followers_keep_the_equilibrium_gap() {
+    holds("equilibrium gap");
+}
+
+#[test]
+fn platoons_are_as_stable_as_the_theory_says() {
+    holds("platoon");
+}
+
+#[test]
+fn a_green_wave_carries_a_platoon() {
+    holds("green wave");
+}
+
+#[test]
+fn actuated_greens_end_as_they_should() {
+    holds("actuated signal");
+}
+
+#[test]
+fn policies_that_look_do_better_under_uneven_demand() {
+    holds("uneven demand");
+}
+
+#[test]
+fn turning_shares_are_the_weights() {
+    holds("turning shares");
+}
 
 const DT: f64 = 0.1;
 
@@ -65,52 +123,6 @@ fn signalised(arm: f64, red: f64, green: f64) -> (Traffic, f64) {
     (traffic, yellow)
 }
 
-/// Times at which vehicles pass the stop line of the first arm.
-fn passes(traffic: &mut Traffic, steps: usize) -> (f64, Vec<f64>) {
-    let lane = traffic.network().roads[0].backward[0].0;
-    let lanes = traffic.network().lanes.len() as u32;
-    let mut waiting: Vec<u32> = Vec::new();
-    let (mut passed, mut green_at) = (Vec::new(), f64::NAN);
-    for _ in 0..steps {
-        traffic.step(DT);
-        let group = traffic.network().lanes[lane as usize].outgoing[0];
-        let signal = traffic.network().connections[group.index()].signal.expect("it has signals");
-        if green_at.is_nan() && traffic.signals()[signal.index()] == Aspect::Green {
-            green_at = traffic.seconds();
-        }
-        let now: Vec<(u32, u32)> = traffic.stations().map(|(id, track, _, _)| (id, track)).collect();
-        for (id, track) in now {
-            let before = waiting.iter().position(|other| *other == id);
-            if track == lane && before.is_none() {
-                waiting.push(id);
-            } else if let (true, Some(index)) = (track >= lanes, before) {
-                waiting.remove(index);
-                passed.push(traffic.seconds());
-            }
-        }
-    }
-    (green_at, passed)
-}
-
-/// Highway Capacity Manual: 1900 vehicles an hour and lane, and two seconds lost at the start.
-#[test]
-fn a_queue_discharges_as_the_manual_says() {
-    let (mut traffic, _) = signalised(320.0, 150.0, 90.0);
-    for _ in 0..22 {
-        traffic.insert(across(), VehicleKind::Car).expect("the route is sound");
-    }
-    let (green, passed) = passes(&mut traffic, 2300);
-    assert!(passed.len() >= 22, "{} of 22 passed", passed.len());
-    let saturation = (passed[21] - passed[9]) / 12.0;
-    let flow = 3600.0 / saturation;
-    assert!((flow / 1900.0 - 1.0).abs() < 0.05, "saturation flow {flow:.0} veh/h");
-    let lost = passed[3] - green - 4.0 * saturation;
-    assert!((lost - 2.0).abs() < 0.6, "start-up lost time {lost:.2} s");
-    println!("saturation flow {flow:.0} veh/h, start-up lost time {lost:.2} s");
-    let headway = |n: usize| passed[n] - passed[n - 1];
-    assert!(headway(1) > headway(4) - 0.2 && headway(4) > headway(12) - 0.2, "headways fall and settle");
-}
-
 /// Uniform delay d1 = 0.5 C (1 - λ)² / (1 - x λ) (Webster 1958; Highway Capacity Manual).
 #[test]
 fn delay_at_a_fixed_signal_is_websters() {
@@ -145,93 +157,4 @@ fn delay_at_a_fixed_signal_is_websters() {
             "cycle {cycle} s, load {load:.2}: {found:.1} s instead of {expected:.1} s"
         );
     }
-}
-
-#[test]
-fn a_green_wave_carries_a_platoon() {
-    // A street with three crossings, 260 m apart.
-    let nodes = (0..5).map(|i| Point2::new(f64::from(i) * 260.0, 0.0)).collect();
-    let mut plan = StreetPlan { nodes, ..StreetPlan::default() };
-    for i in 0..4 {
-        plan.streets.push(Street::simple(i, i + 1));
-    }
-    for i in 1..4 {
-        for y in [-120.0, 120.0] {
-            plan.nodes.push(Point2::new(i as f64 * 260.0, y));
-            plan.streets.push(Street::simple(i, plan.nodes.len() - 1));
-        }
-    }
-    let network =
-        Arc::new(RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a street is a network"));
-    let route = Route((0..4).map(|road| Leg::new(RoadId(road), LaneDirection::Forward)).collect());
-    let way: Vec<IntersectionId> = (0..4).map(IntersectionId).collect();
-    let stops = |shift: f64| {
-        let mut traffic = Traffic::new(Arc::clone(&network), &empty(), Seed(2)).expect("in range");
-        let mut plans = traffic.plans().to_vec();
-        assert_eq!(green_wave(&network, &way, 11.5, &mut plans), 3);
-        let cycle = plans[0].cycle();
-        for (rank, plan) in plans.iter_mut().enumerate() {
-            plan.offset += shift * rank as f64 * cycle;
-        }
-        traffic.set_plans(plans).expect("the plans are for the same groups");
-        let mut standing = std::collections::BTreeSet::new();
-        let mut sent = 0;
-        for step in 0..6000_u32 {
-            // Five at the beginning of every cycle, as the first green sends them on.
-            if (f64::from(step) * DT).rem_euclid(cycle) < DT {
-                for _ in 0..5 {
-                    traffic.insert(route.clone(), VehicleKind::Car).expect("the route is sound");
-                    sent += 1;
-                }
-            }
-            traffic.step(DT);
-            for (id, track, _, v) in traffic.stations() {
-                // Beyond the first crossing, which meters them.
-                let lane = network.lanes.get(track as usize);
-                if v < 0.1 && lane.is_some_and(|lane| lane.road.0 == 1 || lane.road.0 == 2) {
-                    standing.insert((id, step / 600));
-                }
-            }
-        }
-        standing.len() as f64 / f64::from(sent)
-    };
-    let (tuned, against) = (stops(0.0), stops(0.5));
-    println!("in the wave {tuned:.2} of the platoon stop, in anti-phase {against:.2}");
-    assert!(tuned < 0.1, "{tuned:.2} of the platoon stops in the wave");
-    assert!(against > 0.8, "in anti-phase {against:.2} stop");
-}
-
-/// Turns are drawn by their weights: a chi-square test with two degrees of freedom, 13.8 at the 0.1 % level.
-#[test]
-fn turning_shares_are_the_weights() {
-    let config =
-        TrafficConfig { vehicles: 40, pedestrians: 0, turns: [0.5, 0.3, 0.2], ..TrafficConfig::default() };
-    let network = crossroads(150.0);
-    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(6)).expect("in range");
-    let lanes = network.lanes.len();
-    let mut before = vec![u32::MAX; 64];
-    let mut turns = [0.0_f64; 3];
-    for _ in 0..60_000 {
-        traffic.step(DT);
-        for (id, track, _, _) in traffic.stations() {
-            let old = std::mem::replace(&mut before[id as usize], track);
-            if old == track || (track as usize) < lanes {
-                continue;
-            }
-            match network.connections[track as usize - lanes].turn {
-                Turn::Straight => turns[0] += 1.0,
-                Turn::Right => turns[1] += 1.0,
-                Turn::Left => turns[2] += 1.0,
-                Turn::UTurn => {}
-            }
-        }
-    }
-    let total: f64 = turns.iter().sum();
-    assert!(total > 2000.0, "{total} turns");
-    let chi: f64 = turns
-        .iter()
-        .zip([0.5, 0.3, 0.2])
-        .map(|(count, share)| (count - total * share) * (count - total * share) / (total * share))
-        .sum();
-    assert!(chi < 13.8, "chi-square {chi:.1} of {turns:?}");
 }

@@ -1,6 +1,7 @@
 //! Conformance checks: what every implementor of a seam must hold to. Each panics with a sentence that says what
 //! does not hold; call them from a test of your own.
 
+mod gym;
 mod network;
 
 use std::collections::BTreeSet;
@@ -19,6 +20,7 @@ use crate::seam::{
 };
 use crate::seed::Seed;
 
+pub use gym::check_parallel_env;
 pub use network::numbered_in_order;
 
 /// Everything, in the plane.

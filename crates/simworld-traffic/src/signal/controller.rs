@@ -23,6 +23,17 @@ pub(crate) struct Controller {
     elapsed: f64,
 }
 
+/// The stage that a signal is in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageShown {
+    /// Its index among the stages of the plan.
+    pub stage: usize,
+    /// Whether it comes to an end: clearance, yellow or all-red.
+    pub is_ending: bool,
+    /// How long it has shown green, or the interval of its ending, s.
+    pub elapsed: f64,
+}
+
 /// All controllers, one a plan.
 pub(crate) type Controllers = Vec<Controller>;
 
@@ -48,6 +59,10 @@ impl IntersectionManager {
 
     pub(crate) fn plans(&self) -> &[SignalPlan] {
         &self.plans
+    }
+
+    pub(crate) fn stages(&self, plan: usize) -> &[Stage] {
+        self.stages.get(plan).map_or(&[], Vec::as_slice)
     }
 
     pub(crate) fn set_plans(&mut self, plans: Vec<SignalPlan>) {
@@ -136,6 +151,10 @@ impl IntersectionManager {
 }
 
 impl Controller {
+    pub(crate) fn shown(&self) -> StageShown {
+        StageShown { stage: self.stage as usize, is_ending: self.ending > 0, elapsed: self.elapsed }
+    }
+
     pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
         hasher.u64(u64::from(self.stage)).u64(u64::from(self.next)).u64(u64::from(self.ending));
         hasher.f64(self.elapsed);

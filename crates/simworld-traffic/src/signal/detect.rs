@@ -1,8 +1,9 @@
 //! Detectors: what is seen before every stop line with a signal, once a step.
 
 use serde::{Deserialize, Serialize};
+use simworld_core::hash::StateHasher;
 use simworld_core::id::CrossingId;
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::Aspect;
 
 use super::Demand;
 use crate::vehicle::{NONE, STANDING, Tracks, Vehicle, VehicleManager, Way};
@@ -16,6 +17,9 @@ const ADVANCE: f64 = 2.0;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Detectors {
     pub(crate) gap: Vec<f64>,
+    /// Vehicle-seconds and pedestrian-seconds before each group since it last showed green.
+    pub(crate) waited: Vec<f64>,
+    pub(crate) kerb: Vec<f64>,
     #[serde(skip)]
     approaching: Vec<u32>,
     #[serde(skip)]
@@ -38,7 +42,12 @@ pub(crate) struct Detectors {
 
 impl Detectors {
     pub(crate) fn new(groups: usize) -> Self {
-        Self { gap: vec![f64::INFINITY; groups], ..Self::default() }
+        Self {
+            gap: vec![f64::INFINITY; groups],
+            waited: vec![0.0; groups],
+            kerb: vec![0.0; groups],
+            ..Self::default()
+        }
     }
 
     pub(crate) fn demand(&self) -> Demand<'_> {
@@ -48,6 +57,8 @@ impl Detectors {
             gap: &self.gap,
             pressure: &self.pressure,
             waiting: &self.waiting,
+            waited: &self.waited,
+            kerb: &self.kerb,
         }
     }
 
@@ -57,7 +68,7 @@ impl Detectors {
         tracks: &Tracks,
         vehicles: &VehicleManager,
         waiting: &[u32],
-        network: &RoadNetwork,
+        aspects: &[Aspect],
         dt: f64,
     ) {
         self.rest();
@@ -70,9 +81,31 @@ impl Detectors {
         }
         self.press(tracks);
         for (index, count) in waiting.iter().enumerate() {
-            if let Some(group) = network.crossings[CrossingId::from_index(index).index()].signal {
+            if let Some(group) = tracks.network.crossings[CrossingId::from_index(index).index()].signal {
                 self.waiting[group.index()] += count;
             }
+        }
+        self.sum_up(aspects, dt);
+    }
+
+    /// Adds up who waits before a red.
+    fn sum_up(&mut self, aspects: &[Aspect], dt: f64) {
+        for (group, aspect) in aspects.iter().enumerate() {
+            let is_green = *aspect == Aspect::Green;
+            let add = |sum: f64, count: u32| if is_green { 0.0 } else { sum + f64::from(count) * dt };
+            self.waited[group] = add(self.waited[group], self.approaching[group]);
+            self.kerb[group] = add(self.kerb[group], self.waiting[group]);
+        }
+    }
+
+    /// Whether a saved state is one of so many groups.
+    pub(crate) fn fits(&self, groups: usize) -> bool {
+        [&self.gap, &self.waited, &self.kerb].iter().all(|of_group| of_group.len() == groups)
+    }
+
+    pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
+        for number in self.gap.iter().chain(&self.waited).chain(&self.kerb) {
+            hasher.f64(*number);
         }
     }
 

@@ -8,13 +8,16 @@ mod controller;
 mod detect;
 mod fixed;
 mod max_pressure;
+mod self_organizing;
 mod stage;
 
 pub use actuated::Actuated;
+pub use controller::StageShown;
 pub(crate) use controller::{Controllers, IntersectionManager};
 pub(crate) use detect::Detectors;
 pub use fixed::{FixedTime, Webster, green_wave};
 pub use max_pressure::MaxPressure;
+pub use self_organizing::SelfOrganizing;
 use simworld_core::net::SignalPlan;
 pub use stage::Stage;
 
@@ -31,6 +34,10 @@ pub struct Demand<'a> {
     pub pressure: &'a [f64],
     /// Pedestrians at the kerbs that the group governs.
     pub waiting: &'a [u32],
+    /// Time that vehicles have approached or stood since the group last showed green, summed over them, s.
+    pub waited: &'a [f64],
+    /// Time that pedestrians have stood at its kerbs since then, summed over them, s.
+    pub kerb: &'a [f64],
 }
 
 /// One signalised intersection at the moment of a decision.

@@ -50,6 +50,19 @@ impl Traffic {
         vehicles.map(|(track, vehicle, _)| (vehicle.id, track, vehicle.s, vehicle.v))
     }
 
+    /// The speed on an empty lane or connection, m/s: what the limit, the curve, the weather and the driver of the first type
+    /// allow. Numbered as in [`stations`](Self::stations).
+    pub fn free_speed(&self, track: u32) -> f64 {
+        let allowed = self.tracks.speed.get(track as usize).copied().unwrap_or(f64::INFINITY);
+        // Tables of types are never empty; of one that was, nobody drives.
+        self.driving.types.first().map_or(allowed, |car| car.free_speed(&self.driving, 1.0, allowed))
+    }
+
+    /// The lengths of the vehicles, m, in the order of [`stations`](Self::stations).
+    pub(crate) fn lengths(&self) -> impl Iterator<Item = f64> {
+        self.state.vehicles.iter(&self.tracks).map(|(_, vehicle, _)| vehicle.length())
+    }
+
     fn body(&self, track: u32, vehicle: &Vehicle, path: &Path) -> Body {
         let length = vehicle.length();
         let row = self.driving.vehicle_type(vehicle.row);

@@ -184,8 +184,7 @@ impl Part {
         let queue = self.slabs.queue(local);
         for (rank, vehicle) in queue.iter().enumerate() {
             let distance = end - vehicle.s;
-            let horizon = 8.0 + vehicle.v * 1.5 + vehicle.v * vehicle.v / 4.0;
-            if distance > horizon || vehicle.next == NONE {
+            if distance > horizon(vehicle.v) || vehicle.next == NONE {
                 break;
             }
             if vehicle.next == EXIT {
@@ -228,6 +227,13 @@ impl Part {
     }
 }
 
+/// Drivers ask for leave within this distance of the stop line, m: enough to stop at 2 m/s² after a second and a half. Before
+/// that they do not mind the line.
+#[inline]
+pub(super) fn horizon(v: f64) -> f64 {
+    8.0 + v * 1.5 + v * v / 4.0
+}
+
 fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> bool {
     let Scene { tracks, sight, junctions, .. } = scene;
     let way = vehicle.next as usize;
@@ -242,8 +248,13 @@ fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> 
         && tracks.strips[way].iter().all(|strip| {
             sight.walkers[strip.crossing as usize] == 0 && sight.waiting[strip.crossing as usize] == 0
         })
-        && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
+        && (keeps_nobody_out(scene, way) || has_room(scene, way, vehicle) || may_pass(scene, vehicle))
         && !tracks.yields_to[way].iter().any(|other| is_hindered(part, scene, *other, way, vehicle, distance))
+}
+
+/// Whether nobody else ever passes where one would stand on the way: a bend, where one follows on without room behind it.
+fn keeps_nobody_out(scene: &Scene<'_>, way: usize) -> bool {
+    scene.tracks.conflicts[way].is_empty() && scene.tracks.strips[way].is_empty()
 }
 
 fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {

@@ -1,6 +1,7 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
 use super::Idm;
+use super::junction::horizon;
 use super::lane_change::{CHANGE_ROOM, Ghost, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::part::Part;
@@ -78,7 +79,11 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
         Some(way) => view.across(lane, way, to_end, vehicle.s, leader.is_none()),
         None if vehicle.next == EXIT => {}
         None if vehicle.next == NONE => view.stop_in(view.before_change(lane, to_end), idm.gap),
-        None if vehicle.holding != vehicle.next => view.stop_in(to_end, idm.gap),
+        None if vehicle.holding != vehicle.next => {
+            if to_end <= horizon(vehicle.v) {
+                view.stop_in(to_end, idm.gap);
+            }
+        }
         None => view.enter_junction(lane, vehicle.next as usize, to_end, leader.is_none()),
     }
     if !lane.ghosts.is_empty()

@@ -18,6 +18,8 @@ mod threads;
 mod tracks;
 mod types;
 
+#[cfg(feature = "validation")]
+pub(crate) use idm::advance;
 pub use idm::{HARDEST_BRAKING, Idm};
 pub use lane_change::Mobil;
 pub(crate) use manager::{Moment, NONE, Path, STANDING, Sight, Vehicle, VehicleManager};
