@@ -98,7 +98,7 @@ impl Film {
                     &mut self.people,
                     index,
                     frame,
-                    (walker.position, walker.heading),
+                    (walker.position, walker.heading()),
                     (0.6, 0.6),
                     "#7b4b94",
                 );

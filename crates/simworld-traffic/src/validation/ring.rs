@@ -53,7 +53,7 @@ pub(super) fn measure(effort: Effort) -> Figures {
     let config = empty();
     let mut figures = Vec::new();
     let all = [5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 75.0, 90.0, 105.0];
-    for per_km in effort.pick(&all[1..8], &all[..]) {
+    for per_km in effort.pick(&all[1..7], &all[..]) {
         let vehicles = (per_km * length / 1000.0) as u32;
         let mut traffic =
             Traffic::new(Arc::clone(&network), &TrafficConfig { vehicles, ..config.clone() }, Seed(3))?;
