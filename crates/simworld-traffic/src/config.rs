@@ -5,10 +5,10 @@ use simworld_core::net::NetworkError;
 use simworld_core::scene::WorldError;
 use thiserror::Error;
 
-use crate::DrivingConditions;
 use crate::crowd::AnticipationVelocity;
 use crate::pedestrian::People;
 use crate::vehicle::{Mobil, VehicleKind, VehicleType, standard_types};
+use crate::{DrivingConditions, NoWay};
 
 /// How much traffic there is, and how it behaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,6 +24,8 @@ pub struct TrafficConfig {
     pub mobil: Mobil,
     /// Road and weather at the start.
     pub conditions: DrivingConditions,
+    /// What drivers do whose way is closed and who find no other.
+    pub no_way: NoWay,
     /// Lateral acceleration at which drivers take turns, m/s², in [0.5, 6].
     pub lateral_acceleration: f64,
     /// Weights of going straight, right and left at an intersection, each in [0, 1000], one of them positive.
@@ -48,6 +50,7 @@ impl Default for TrafficConfig {
             types: standard_types(),
             mobil: Mobil::default(),
             conditions: DrivingConditions::default(),
+            no_way: NoWay::default(),
             lateral_acceleration: 2.5,
             turns: [0.6, 0.2, 0.2],
             walking: AnticipationVelocity::default(),
@@ -116,6 +119,20 @@ pub enum TrafficError {
     /// A walk that cannot be walked.
     #[error("this walk is not possible: {reason}")]
     Walk {
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A stop that a flow cannot make.
+    #[error("stop {stop}: {reason}")]
+    Stop {
+        /// Its index.
+        stop: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A closure of what is not there, or at no time.
+    #[error("nothing can be closed so: {reason}")]
+    Closure {
         /// What is wrong with it.
         reason: &'static str,
     },

@@ -12,7 +12,8 @@ pub use schedule::{Departing, Schedule};
 use serde::{Deserialize, Serialize};
 use simworld_core::seed::{Stream, StreamRng};
 
-use crate::vehicle::{Tracks, TypeIndex, VehicleKind, VehicleManager, draw_type};
+use crate::line::{self, Stop};
+use crate::vehicle::{Halt, Order, Then, Tracks, TypeIndex, VehicleKind, VehicleManager, draw_type};
 use crate::{Counters, Leg, Route, TrafficConfig, TrafficError};
 
 /// How the vehicles of a flow come.
@@ -38,6 +39,8 @@ pub struct Flow {
     pub arrivals: Arrivals,
     /// Their kind, and their type among those of that kind by the shares of the configuration; drawn from all if there is none.
     pub kind: Option<VehicleKind>,
+    /// Where they stop on their way.
+    pub stops: Vec<Stop>,
     /// When the first may come, s after the start.
     pub from: f64,
     /// When no more come, s after the start.
@@ -47,7 +50,15 @@ pub struct Flow {
 impl Flow {
     /// So many vehicles an hour on a route, at random, for ever.
     pub fn new(route: Route, per_hour: f64) -> Self {
-        Self { route, per_hour, arrivals: Arrivals::Poisson, kind: None, from: 0.0, until: f64::MAX }
+        Self {
+            route,
+            per_hour,
+            arrivals: Arrivals::Poisson,
+            kind: None,
+            stops: Vec::new(),
+            from: 0.0,
+            until: f64::MAX,
+        }
     }
 
     /// Checks its rate and its times.
@@ -74,6 +85,10 @@ pub enum TripEnd {
     Arrived,
     /// Somebody took it out.
     Removed,
+    /// What was left of its way was closed, and there was no other.
+    NoWay,
+    /// It was parked at the kerb.
+    Parked,
 }
 
 /// A trip that has ended.
@@ -114,6 +129,8 @@ pub(crate) struct Departure {
     pub(crate) row: TypeIndex,
     /// The speed that its driver chooses, as a share of the limit.
     pub(crate) factor: f32,
+    /// The flow that it is of, for its stops.
+    pub(crate) source: Option<u32>,
     pub(crate) scheduled: f64,
     /// Its number among those who were sent one by one; [`OF_FLOW`] if a flow sent it.
     pub(crate) number: u64,
@@ -167,7 +184,14 @@ impl Departure {
             Some(VehicleChoice::Kind(kind)) => draw_type(&config.types, |row| row.kind == kind, rng),
             None => draw_type(&config.types, |_| true, rng),
         };
-        Self { route, row, factor: config.vehicle_type(row).draw_factor(rng), scheduled, number: OF_FLOW }
+        Self {
+            route,
+            row,
+            factor: config.vehicle_type(row).draw_factor(rng),
+            source: None,
+            scheduled,
+            number: OF_FLOW,
+        }
     }
 }
 
@@ -203,6 +227,7 @@ impl DemandManager {
     ) -> Result<(), TrafficError> {
         flow.route.validate(&tracks.network)?;
         flow.validate()?;
+        line::validate(&flow.stops, &flow.route, &tracks.network)?;
         let route = vehicles.add_route(flow.route.clone());
         let mut source = Source { next: flow.from, flow, route, drawn: 0 };
         if source.flow.arrivals == Arrivals::Poisson {
@@ -254,6 +279,14 @@ impl DemandManager {
                     break;
                 }
                 self.admitted.push(departure.number);
+                let stops = departure.source.and_then(|source| self.sources.get(source as usize));
+                if let Some(stops) = stops.map(|source| &source.flow.stops).filter(|stops| !stops.is_empty())
+                    && let Some(id) = vehicles.entered.last().copied()
+                {
+                    let scheduled = departure.scheduled;
+                    let halts = stops.iter().map(|stop| Halt::at(stop, scheduled, Then::GoOn));
+                    vehicles.order(tracks, config, id, halts, Order::Last);
+                }
                 queue.pop_front();
                 counters.entered += 1;
             }
@@ -265,7 +298,8 @@ impl DemandManager {
         while source.next <= now && source.next < source.flow.until {
             let mut rng = source.stream(streams, index);
             let kind = source.flow.kind.map(VehicleChoice::Kind);
-            let departure = Departure::draw(config, kind, source.route, source.next, &mut rng);
+            let mut departure = Departure::draw(config, kind, source.route, source.next, &mut rng);
+            departure.source = Some(index as u32);
             let entry = source.flow.route.0.first().copied();
             source.drawn += 1;
             source.next += source.wait(&mut rng);
@@ -285,6 +319,7 @@ impl DemandManager {
                 && source.next.is_finite()
                 && source.flow.per_hour > 0.0
                 && source.flow.route.validate(&tracks.network).is_ok()
+                && line::validate(&source.flow.stops, &source.flow.route, &tracks.network).is_ok()
         }) && self.outside.iter().all(|(leg, queue)| {
             !leg.lanes(&tracks.network).is_empty()
                 && queue.iter().all(|departure| known(departure.route) && is_type(departure))

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod assignment;
+mod closure;
 mod conditions;
 mod config;
 pub mod control;
@@ -9,6 +10,7 @@ pub mod crowd;
 mod demand;
 mod dynamics;
 pub mod learn;
+mod line;
 pub mod look;
 mod names;
 pub mod output;
@@ -23,6 +25,7 @@ mod traffic;
 pub mod validation;
 pub mod vehicle;
 
+pub use closure::{Closed, Closure, NoWay};
 pub use conditions::DrivingConditions;
 pub use config::{TrafficConfig, TrafficError};
 pub use demand::{
@@ -30,6 +33,7 @@ pub use demand::{
     Trip, TripEnd, VehicleChoice, Zone, commuters,
 };
 pub use dynamics::TrafficDynamics;
+pub use line::{Line, Stop};
 pub use names::NetworkNames;
 pub use pedestrian::{AtDestination, Pedestrian, People, Sex, Walk};
 pub use route::{Leg, Route, Router};

@@ -4,6 +4,7 @@ mod bodies;
 mod counters;
 mod foreign;
 mod gap;
+mod incidents;
 mod interest;
 mod outline;
 mod walkers;
@@ -22,7 +23,7 @@ use simworld_core::net::{Alone, Aspect, RoadNetwork, SignalPlan, WaypointConfig,
 use simworld_core::seed::{Seed, Stream};
 
 use crate::crowd::Person;
-use crate::demand::{DemandManager, Flow, OF_FLOW, Trip, VehicleChoice};
+use crate::demand::{DemandManager, Flow, OF_FLOW, Trip, TripEnd, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
@@ -221,7 +222,7 @@ impl Traffic {
     /// Takes a vehicle out, wherever it is; false if there is none of that number.
     pub fn remove(&mut self, id: u32) -> bool {
         let State { vehicles, counters, seconds, .. } = &mut self.state;
-        let removed = vehicles.remove(&self.tracks, &self.driving, id, *seconds);
+        let removed = vehicles.remove(&self.tracks, &self.driving, id, TripEnd::Removed, *seconds);
         counters.removed += u64::from(removed);
         removed
     }
@@ -314,6 +315,8 @@ impl Traffic {
         let State { vehicles, demand, pedestrians, counters, shown, seconds, steps, .. } = &mut self.state;
         vehicles.entered.clear();
         vehicles.ended.clear();
+        let streams = self.streams.named("vehicles");
+        vehicles.mind_closures(&self.tracks, &self.driving, streams, *seconds, counters);
         demand.step(vehicles, &self.tracks, &self.driving, self.streams, *seconds, counters);
         let sight = vehicle::Sight {
             aspects: &self.signals.aspects,
@@ -322,7 +325,6 @@ impl Traffic {
             waiting: &pedestrians.waiting,
             obstacles: &self.obstacles,
         };
-        let streams = self.streams.named("vehicles");
         let at = vehicle::Moment { now: *seconds, dt, step: *steps };
         vehicles.step(&self.tracks, &self.driving, streams, sight, at, counters, &*self.workers);
     }

@@ -93,7 +93,7 @@ impl Film {
             }
         }
         for (index, walker) in traffic.pedestrians().iter().enumerate() {
-            if is_near(&walker.position) {
+            if walker.is_present() && is_near(&walker.position) {
                 take(
                     &mut self.people,
                     index,

@@ -132,6 +132,11 @@ impl Router {
 
     /// The quickest route from one leg to another, both included; `None` if there is none.
     pub fn quickest(&self, from: Leg, to: Leg) -> Option<Route> {
+        self.quickest_open(from, to, |_| true)
+    }
+
+    /// The quickest route on legs that are open, the first apart, on which one is already; `None` if there is none.
+    pub fn quickest_open(&self, from: Leg, to: Leg, is_open: impl Fn(Leg) -> bool) -> Option<Route> {
         let count = self.graph.node_count() as u32;
         if from.0 >= count || to.0 >= count {
             return None;
@@ -141,9 +146,12 @@ impl Router {
             &self.graph,
             NodeIndex::new(from.0 as usize),
             |node| node == target,
-            |edge| *edge.weight(),
+            |edge| if is_open(Leg(edge.target().index() as u32)) { *edge.weight() } else { f64::INFINITY },
             |_| 0.0,
         )?;
+        if found.0.is_infinite() {
+            return None; // it leads over what is closed
+        }
         Some(Route(found.1.into_iter().map(|node| Leg(node.index() as u32)).collect()))
     }
 

@@ -23,11 +23,15 @@ pub struct Counters {
     pub locks: u64,
     /// Vehicles that entered a junction without room behind it to undo a lock.
     pub passes: u64,
+    /// Halts that were made: at stops, and where somebody was told to halt.
+    pub halts: u64,
+    /// Stops that were given up because the way no longer led by, or because they came too soon.
+    pub missed_stops: u64,
     /// Vehicles that entered after the start.
     pub entered: u64,
     /// Vehicles that came to the end of their route.
     pub arrived: u64,
-    /// Vehicles that were taken out.
+    /// Vehicles that were taken out, gave up without a way, or parked: [`Trip::end`](crate::Trip::end) says which.
     pub removed: u64,
     /// Walkers that entered after the start.
     pub walkers_entered: u64,
@@ -54,6 +58,8 @@ impl Counters {
             rerouted,
             locks,
             passes,
+            halts,
+            missed_stops,
             entered,
             arrived,
             removed,
@@ -72,6 +78,8 @@ impl Counters {
         self.rerouted += rerouted;
         self.locks += locks;
         self.passes += passes;
+        self.halts += halts;
+        self.missed_stops += missed_stops;
         self.entered += entered;
         self.arrived += arrived;
         self.removed += removed;

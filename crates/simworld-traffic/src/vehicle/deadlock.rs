@@ -78,7 +78,7 @@ impl VehicleManager {
 
     /// The lane for room on which the first of a lane has long waited.
     fn waits_for(&self, tracks: &Tracks, config: &TrafficConfig, first: &Vehicle) -> Option<Track> {
-        if first.next >= EXIT || first.holding != NONE {
+        if first.next >= EXIT || first.holding != NONE || first.halt.is_finite() {
             return None;
         }
         let signal = tracks.ways[first.next as usize].signal;
@@ -134,7 +134,9 @@ impl VehicleManager {
         let ways = tracks.network.lanes[lane as usize].outgoing.iter().map(|way| way.0);
         let open = ways.filter(|way| *way != first.next && weight(*way)).find(|way| {
             let other = Vehicle { next: *way, ..first };
-            tracks.may_use(tracks.lane_after(*way as usize), kind)
+            let after = tracks.lane_after(*way as usize);
+            tracks.may_use(after, kind)
+                && !self.closures.has(after)
                 && self.has_room(tracks, config, *way, &other)
                 && self.leads_home(tracks, lane, *way)
         });
@@ -145,7 +147,7 @@ impl VehicleManager {
     /// Whether the first of a lane may come to the end of its route by a way; without a route, always.
     fn leads_home(&self, tracks: &Tracks, lane: Track, way: u32) -> bool {
         let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
-        self.goal(tracks, lane, 0).is_none_or(|goal| tracks.router.quickest(after, goal).is_some())
+        self.goal(tracks, lane, 0).is_none_or(|goal| self.closures.quickest(tracks, after, goal).is_some())
     }
 }
 

@@ -1,6 +1,7 @@
 //! How vehicles enter the network, follow their routes and leave it.
 
 use super::VehicleKind;
+use super::closures::Closures;
 use super::manager::{EXIT, NONE, Path, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
 use crate::demand::Departure;
@@ -27,10 +28,13 @@ impl VehicleManager {
         departure: &Departure,
         now: f64,
     ) -> bool {
+        let Some(departure) = &self.open_departure(tracks, departure) else { return false };
         let next = self.routes.get(departure.route as usize).and_then(|route| route.0.get(1)).copied();
         let row = config.vehicle_type(departure.row);
         let (length, idm) = (row.length, &row.driver);
-        let leads_on = |lane: &Track| next.is_none_or(|next| tracks.way_to(*lane, next, row.kind).is_some());
+        let leads_on = |lane: &Track| {
+            next.is_none_or(|next| tracks.way_to(&self.closures, *lane, next, row.kind).is_some())
+        };
         let room = |lane: Track| {
             let last = self.queue(tracks, lane).last();
             last.map_or(f64::INFINITY, |last| last.s - last.length() - length)
@@ -39,7 +43,7 @@ impl VehicleManager {
             .lanes_of(leg, row.kind)
             .filter(leads_on)
             .filter(|lane| self.junctions.inbound(*lane) <= 0.0 && tracks.length[*lane as usize] > length)
-            .filter(|lane| room(*lane) > idm.gap)
+            .filter(|lane| room(*lane) > idm.gap && !self.closures.has(*lane))
             .max_by(|a, b| {
                 let suits = |lane: Track| tracks.suits(lane, row.kind);
                 suits(*a).cmp(&suits(*b)).then(room(*a).total_cmp(&room(*b))).then(b.cmp(a))
@@ -53,6 +57,25 @@ impl VehicleManager {
         });
         self.put(tracks, config, departure, lane, speed, now);
         true
+    }
+
+    /// A departure on a route around what is closed; none if there is no such route now.
+    fn open_departure(&mut self, tracks: &Tracks, departure: &Departure) -> Option<Departure> {
+        if self.closures.is_empty() {
+            return Some(*departure);
+        }
+        let legs = &self.routes.get(departure.route as usize)?.0;
+        let (first, last) = (*legs.first()?, *legs.last()?);
+        if self.closures.has_leg(tracks, first) {
+            return None;
+        }
+        if !legs.iter().any(|leg| self.closures.has_leg(tracks, *leg)) {
+            return Some(*departure);
+        }
+        let route = self.closures.quickest(tracks, first, last)?;
+        let known = self.routes.iter().rposition(|known| *known == route);
+        let route = known.map_or_else(|| self.add_route(route), |index| index as u32);
+        Some(Departure { route, ..*departure })
     }
 
     fn put(
@@ -78,14 +101,22 @@ impl VehicleManager {
             (self.whereabouts.len() - 1) as u32
         };
         let route = self.routes.get(departure.route as usize);
-        let next = route.map_or(NONE, |route| route_way(tracks, route, &path, lane, row.kind));
+        let next =
+            route.map_or(NONE, |route| route_way(tracks, &self.closures, route, &path, lane, row.kind));
         let vehicle = Vehicle::new(row, departure.row, departure.factor, id, s);
         self.push(tracks, lane, Vehicle { v, next, ..vehicle }, path);
         self.entered.push(id);
     }
 
     /// Takes a vehicle out, wherever it is; false if there is none of that number.
-    pub(crate) fn remove(&mut self, tracks: &Tracks, config: &TrafficConfig, id: u32, now: f64) -> bool {
+    pub(crate) fn remove(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        id: u32,
+        end: TripEnd,
+        now: f64,
+    ) -> bool {
         if id as usize >= self.numbers() || self.whereabouts.get(id as usize) == NONE {
             return false;
         }
@@ -105,8 +136,9 @@ impl VehicleManager {
             self.junctions.arrive(tracks.lane_after(vehicle.holding as usize), &vehicle, config);
         }
         self.whereabouts.set(id as usize, NONE);
+        self.halts.remove(id);
         self.free.push(id);
-        self.ended.push(trip(tracks, config, track, (&vehicle, &path), TripEnd::Removed, now));
+        self.ended.push(trip(tracks, config, track, (&vehicle, &path), end, now));
         true
     }
 }
@@ -138,10 +170,17 @@ pub(super) fn trip(
 }
 
 /// The way from a lane to the next leg of a route; out of the network at its end.
-pub(super) fn route_way(tracks: &Tracks, route: &Route, path: &Path, lane: Track, kind: VehicleKind) -> u32 {
+pub(super) fn route_way(
+    tracks: &Tracks,
+    closures: &Closures,
+    route: &Route,
+    path: &Path,
+    lane: Track,
+    kind: VehicleKind,
+) -> u32 {
     match route.0.get(path.leg as usize + 1) {
         None => EXIT,
         // A lane that does not lead on is one to leave.
-        Some(next) => tracks.way_to(lane, *next, kind).unwrap_or(NONE),
+        Some(next) => tracks.way_to(closures, lane, *next, kind).unwrap_or(NONE),
     }
 }

@@ -184,7 +184,7 @@ impl Part {
         let queue = self.slabs.queue(local);
         for (rank, vehicle) in queue.iter().enumerate() {
             let distance = end - vehicle.s;
-            if distance > horizon(vehicle.v) || vehicle.next == NONE {
+            if distance > horizon(vehicle.v) || vehicle.next == NONE || vehicle.halt.is_finite() {
                 break;
             }
             if vehicle.next == EXIT {

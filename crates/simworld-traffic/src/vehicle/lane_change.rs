@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use simworld_core::id::LaneId;
 
 use super::VehicleKind;
-use super::manager::{EXIT, NONE, Scene, Vehicle, VehicleManager};
+use super::closures::Closures;
+use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle, VehicleManager};
 use super::part::Part;
 use super::tracks::{Track, Tracks};
 use crate::{Counters, Leg, TrafficConfig};
@@ -46,6 +47,8 @@ const CLEAR: f64 = 12.0;
 pub(super) const CHANGE_ROOM: f64 = 4.0 / STEEPNESS + 1.0;
 /// One begins no change for speed that would not be done this long before the stop line, s.
 const BEFORE_LINE: f64 = 5.0;
+/// From so far one sees that one's lane is blocked, m.
+const BLOCK_SEEN: f64 = 80.0;
 /// What a lane of one's own is worth, m/s²: buses keep to bus lanes, riders to cycle lanes and else to the right.
 const OWN_LANE: f64 = 2.0;
 /// Who stands in a lane that does not lead on for so long looks for another way, s.
@@ -60,6 +63,8 @@ pub(crate) struct Ghost {
     rear: f64,
     length: f64,
     v: f64,
+    /// Whether it stays: a blocked stretch.
+    is_fixed: bool,
 }
 
 /// Who is before and behind a place in a lane.
@@ -75,6 +80,7 @@ impl Part {
         let mut shifting = std::mem::take(&mut self.shifting);
         self.work.ghosts.clear();
         let layout = self.layout(scene.tracks);
+        self.show_blocks(scene);
         shifting.retain(|(local, id)| {
             let lane = layout.tracks[*local as usize];
             let queue = self.slabs.queue_mut(*local as usize);
@@ -121,7 +127,13 @@ impl Part {
         let tracks = scene.tracks;
         let local = tracks.layout.local(lane);
         let vehicle = self.slabs.queue(local)[rank];
-        let must = vehicle.next == NONE;
+        // Who is before a blocked stretch leaves the lane as well, but where he goes is as it was.
+        let lost = vehicle.next == NONE;
+        let block = self.block_ahead(local, rank);
+        if block.is_some_and(|gap| gap < CHANGE_ROOM - 4.0) || stays_at_kerb(tracks, lane, &vehicle) {
+            return false; // too near to get round it, or where it is to stand
+        }
+        let must = lost || block.is_some();
         let to_end = tracks.length[lane as usize] - vehicle.s;
         if !must && to_end < BEFORE_LINE * vehicle.v + 10.0 {
             return false;
@@ -132,12 +144,19 @@ impl Part {
         let mut best: Option<(f64, Track, u32, usize)> = None;
         let sides = tracks.beside[lane as usize].into_iter();
         for target in sides.filter(|target| *target != NONE && tracks.may_use(*target, kind)) {
+            let blocked = first_block(self.ghosts(tracks.layout.local(target)), vehicle.s);
+            if scene.closures.has(target) || blocked.is_some_and(|gap| gap < BLOCK_SEEN) {
+                continue;
+            }
             // A lane on the way to one that leads on is a step towards it.
-            let towards = |leg| (must && leads_towards(tracks, lane, target, leg, kind)).then_some(NONE);
+            let towards = |leg| {
+                (lost && leads_towards(tracks, scene.closures, lane, target, leg, kind)).then_some(NONE)
+            };
             let way = if vehicle.next == EXIT {
                 Some(EXIT)
             } else {
-                wanted.and_then(|leg| tracks.way_to(target, leg, kind).or_else(|| towards(leg)))
+                wanted
+                    .and_then(|leg| tracks.way_to(scene.closures, target, leg, kind).or_else(|| towards(leg)))
             };
             let Some(way) = way else { continue };
             if let Some((gain, place)) = self.gain(scene, lane, rank, target, must)
@@ -204,7 +223,11 @@ impl Part {
             return Some((1e3 + mine, there.rank));
         }
         let (now, left_behind) = staying(config, tracks, queue, rank, lane);
-        let own = f64::from(tracks.suits(target, row.kind) - tracks.suits(lane, row.kind)) * OWN_LANE;
+        let suits = |lane: Track| {
+            let stops_there = vehicle.halt.is_finite() && tracks.outermost[lane as usize];
+            tracks.suits(lane, row.kind) + 2 * i8::from(stops_there)
+        };
+        let own = f64::from(suits(target) - suits(lane)) * OWN_LANE;
         let loss = follower.map_or(0.0, |(before, after)| before - after);
         let gain = mine - now + own + mobil.politeness * (left_behind - loss);
         (gain > mobil.threshold).then_some((gain, there.rank))
@@ -240,6 +263,7 @@ impl Part {
         let Some((mut vehicle, mut path)) = self.slabs.remove(from, rank) else { return };
         let station = vehicle.s;
         vehicle.s *= stretch(tracks, lane, target);
+        vehicle.halt *= stretch(tracks, lane, target) as f32;
         vehicle.next = way;
         let to_left = tracks.beside[lane as usize][0] == target;
         let apart = tracks.apart(lane, target) as f32;
@@ -254,7 +278,27 @@ impl Part {
         self.work.counters.lane_changes += 1;
     }
 
-    /// Bodies that have not quite left a lane, from back to front.
+    /// Lists the blocked stretches of its lanes among the bodies that stand in two lanes.
+    fn show_blocks(&mut self, scene: &Scene<'_>) {
+        for (lane, from, to) in &scene.closures.blocks {
+            if self.layout(scene.tracks).tracks.get(scene.tracks.layout.local(*lane)) == Some(lane) {
+                let (lane, length) = (scene.tracks.layout.local(*lane) as u32, to - from);
+                self.work.ghosts.push(Ghost { lane, rear: *from, length, v: 0.0, is_fixed: true });
+            }
+        }
+    }
+
+    /// The gap to what blocks the lane of a vehicle: a blocked stretch, or somebody who halts.
+    fn block_ahead(&self, local: usize, rank: usize) -> Option<f64> {
+        let queue = self.slabs.queue(local);
+        let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
+        let halts = leader.filter(|leader| leader.halt.is_finite() && leader.v < STANDING);
+        let halts = halts.map(|leader| leader.s - leader.length() - queue[rank].s);
+        let block = first_block(self.ghosts(local), queue[rank].s).filter(|gap| *gap < BLOCK_SEEN);
+        block.into_iter().chain(halts).min_by(f64::total_cmp)
+    }
+
+    /// Bodies that have not quite left a lane, and what blocks it, from back to front.
     fn ghosts(&self, lane: usize) -> &[Ghost] {
         let ghosts = &self.work.ghosts;
         let from = ghosts.partition_point(|ghost| (ghost.lane as usize) < lane);
@@ -306,10 +350,13 @@ impl VehicleManager {
 
     /// Lets a vehicle of a lane take a way from it, and its route anew from there; false if its end cannot be reached so.
     pub(super) fn take_way(&mut self, tracks: &Tracks, lane: Track, rank: usize, way: u32) -> bool {
+        if self.closures.has(tracks.lane_after(way as usize)) {
+            return false;
+        }
         let mut route = None;
         if let Some(goal) = self.goal(tracks, lane, rank) {
             let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
-            let Some(mut rest) = tracks.router.quickest(after, goal) else { return false };
+            let Some(mut rest) = self.closures.quickest(tracks, after, goal) else { return false };
             rest.0.insert(0, Leg::of(&tracks.network, LaneId(lane)));
             route = Some(self.add_route(rest));
         }
@@ -325,7 +372,7 @@ impl VehicleManager {
 impl Vehicle {
     /// Whether, first in its lane, it has waited long enough for a gap to a lane that leads on.
     pub(super) fn is_stuck(&self) -> bool {
-        self.next == NONE && self.stood >= PATIENCE && self.shift == 0.0
+        self.next == NONE && self.stood >= PATIENCE && self.shift == 0.0 && self.halt.is_infinite()
     }
 }
 
@@ -375,16 +422,35 @@ fn old_lane(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> Option<Track> {
 }
 
 /// Whether a lane that leads to a leg lies beyond `target`, seen from `lane`.
-fn leads_towards(tracks: &Tracks, lane: Track, target: Track, leg: Leg, kind: VehicleKind) -> bool {
+fn leads_towards(
+    tracks: &Tracks,
+    closures: &Closures,
+    lane: Track,
+    target: Track,
+    leg: Leg,
+    kind: VehicleKind,
+) -> bool {
     let side = usize::from(tracks.beside[lane as usize][1] == target);
     let mut next = tracks.beside[target as usize][side];
     while next != NONE {
-        if tracks.way_to(next, leg, kind).is_some() {
+        if tracks.way_to(closures, next, leg, kind).is_some() {
             return true;
         }
         next = tracks.beside[next as usize][side];
     }
     false
+}
+
+/// Whether a vehicle is where it is to halt, or there in a moment.
+fn stays_at_kerb(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
+    let is_near = f64::from(vehicle.halt) - vehicle.s < CHANGE_ROOM;
+    vehicle.halt.is_finite() && (tracks.outermost[lane as usize] || is_near)
+}
+
+/// The gap to the first blocked stretch ahead.
+pub(super) fn first_block(ghosts: &[Ghost], s: f64) -> Option<f64> {
+    let start = ghosts.partition_point(|ghost| ghost.rear < s);
+    ghosts[start..].iter().find(|ghost| ghost.is_fixed).map(|ghost| ghost.rear - s)
 }
 
 /// The gap to the first body ahead that is leaving a lane, and its speed.
@@ -397,7 +463,7 @@ pub(super) fn first_ghost(ghosts: &[Ghost], s: f64) -> Option<(f64, f64)> {
 impl Ghost {
     fn of(vehicle: &Vehicle, lane: u32, station: f64) -> Self {
         let length = vehicle.length();
-        Self { lane, rear: station - length, length, v: vehicle.v }
+        Self { lane, rear: station - length, length, v: vehicle.v, is_fixed: false }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Idm;
 use super::junction::horizon;
-use super::lane_change::{CHANGE_ROOM, Ghost, first_ghost};
+use super::lane_change::{CHANGE_ROOM, Ghost, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::part::Part;
 use super::tracks::{Track, Tracks};
@@ -38,7 +38,13 @@ impl<'a> Lane<'a> {
         let to_end = self.end - vehicle.s;
         let reaches_line = vehicle.v > STANDING && to_end < vehicle.v + 2.0;
         let pulls_away = vehicle.v < STANDING && leader.is_some_and(|leader| leader.v > STANDING);
-        self.way.is_some() || vehicle.shift != 0.0 || vehicle.holding != NONE || reaches_line || pulls_away
+        let halts = vehicle.halt.is_finite() || leader.is_some_and(|leader| leader.halt.is_finite());
+        halts
+            || self.way.is_some()
+            || vehicle.shift != 0.0
+            || vehicle.holding != NONE
+            || reaches_line
+            || pulls_away
     }
 }
 
@@ -72,7 +78,15 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
         free: kind.free_speed(config, vehicle.factor, lane.limit),
     };
     if let Some(leader) = leader {
-        view.follow(leader.s - leader.length() - vehicle.s, leader.v);
+        let gap = leader.s - leader.length() - vehicle.s;
+        view.follow(gap, leader.v);
+        if leader.halt.is_finite() && leader.v < STANDING {
+            // Far enough behind that one can pass it on the lane beside.
+            view.stop_in(view.before_change(lane, gap - idm.gap), idm.gap);
+        }
+    }
+    if vehicle.halt.is_finite() {
+        view.stop_in(f64::from(vehicle.halt) - vehicle.s, idm.gap);
     }
     let to_end = lane.end - vehicle.s;
     match lane.way {
@@ -90,6 +104,10 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
         && let Some((gap, speed)) = first_ghost(lane.ghosts, vehicle.s)
     {
         view.follow(gap, speed);
+        if let Some(gap) = first_block(lane.ghosts, vehicle.s) {
+            // Early enough that one can still pass on the lane beside.
+            view.stop_in(view.before_change(lane, gap - idm.gap), idm.gap);
+        }
     }
     if vehicle.shift != 0.0
         && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene.tracks, lane.track, vehicle)
@@ -136,8 +154,10 @@ impl View<'_> {
     /// still stop there.
     fn before_change(&self, lane: &Lane<'_>, to_end: f64) -> f64 {
         let early = to_end - CHANGE_ROOM - 1.0;
-        let stopping = self.v * self.v / (2.0 * self.idm.deceleration);
-        let has_neighbour = lane.scene.tracks.beside[lane.track as usize] != [NONE; 2];
+        // Harder than comfortably, so that who has begun to brake for it does not think better of it half way.
+        let stopping = self.v * self.v / self.idm.emergency_deceleration;
+        let beside = lane.scene.tracks.beside.get(lane.track as usize);
+        let has_neighbour = beside.is_some_and(|beside| *beside != [NONE; 2]);
         if has_neighbour && early > stopping { early } else { to_end }
     }
 

@@ -16,8 +16,10 @@ use simworld_core::id::IntersectionId;
 use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
+use super::closures::Closures;
 use super::deadlock::Waits;
 use super::entry::route_way;
+use super::halts::Halts;
 use super::junction::Junctions;
 use super::part::{Part, Tail, Transfer};
 use super::slabs::Slabs;
@@ -54,6 +56,8 @@ pub(crate) struct Vehicle {
     pub(crate) length: f32,
     /// The speed that its driver chooses, as a share of the limit.
     pub(crate) factor: f32,
+    /// The station on its lane at which it is to halt, m; infinite if it is not.
+    pub(crate) halt: f32,
     /// How far its body is to the left of its lane while it changes, m.
     pub(crate) shift: f32,
     /// Its acceleration in the last step, m/s²: kept between decisions by those who decide less often.
@@ -64,7 +68,7 @@ impl Vehicle {
     /// One at rest at a station, with no way on yet.
     pub(super) fn new(kind: &VehicleType, row: TypeIndex, factor: f32, id: u32, s: f64) -> Self {
         let length = kind.length as f32;
-        Self { s, id, next: NONE, holding: NONE, row, length, factor, ..Self::default() }
+        Self { s, id, next: NONE, holding: NONE, row, length, factor, halt: f32::INFINITY, ..Self::default() }
     }
 
     /// Length, m.
@@ -155,6 +159,9 @@ pub(crate) struct Scene<'a> {
     pub(crate) tails: &'a [Vec<Tail>],
     /// Those in a lock who may enter their junction without room behind it, ascending.
     pub(crate) passes: &'a [u32],
+    /// What is closed, and where vehicles are to halt.
+    pub(crate) closures: &'a Closures,
+    pub(crate) halts: &'a Halts,
     /// Who was handed over, by the part that they left and the part that they enter.
     pub(crate) handed: &'a [Vec<Vec<Transfer>>],
 }
@@ -177,14 +184,18 @@ impl Scene<'_> {
     ) -> u32 {
         let kind = self.config.vehicle_type(vehicle.row).kind;
         if let Some(route) = self.routes.get(path.route as usize) {
-            return route_way(self.tracks, route, path, lane, kind);
+            return route_way(self.tracks, self.closures, route, path, lane, kind);
         }
         path.decisions += 1;
         let mut rng = self.streams.indexed(u64::from(vehicle.id)).indexed(u64::from(path.decisions)).rng();
         let ways = self.tracks.weighted_ways(lane, kind, &self.config.turns, weights);
-        // If every way has weight zero, the first is as good as any.
-        let index = rng.weighted(weights).unwrap_or(0);
-        ways.get(index).map_or(NONE, |way| way.0)
+        let after = |way: usize| self.tracks.lane_after(ways[way].index());
+        for (way, weight) in weights.iter_mut().enumerate().filter(|_| !self.closures.is_empty()) {
+            *weight *= f64::from(u8::from(!self.closures.has(after(way))));
+        }
+        // If every way has weight zero, the first that is open is as good as any.
+        let open = || (0..ways.len()).find(|way| !self.closures.has(after(*way)));
+        rng.weighted(weights).or_else(open).map_or(NONE, |way| ways[way].0)
     }
 }
 
@@ -198,6 +209,10 @@ pub(crate) struct VehicleManager {
     pub(super) routes: Vec<Route>,
     /// Those in a lock who may enter their junction without room behind it, ascending.
     pub(super) passes: Vec<u32>,
+    /// What is closed.
+    pub(crate) closures: Closures,
+    /// Where vehicles are to halt.
+    pub(super) halts: Halts,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
     /// Numbers of those who entered in the last step, and the trips that ended in it.
@@ -261,6 +276,8 @@ impl VehicleManager {
             whereabouts: &self.whereabouts,
             tails: &self.tails,
             passes: &self.passes,
+            closures: &self.closures,
+            halts: &self.halts,
             handed: &self.handed,
         }
     }
@@ -352,6 +369,7 @@ impl VehicleManager {
         }
         self.parts = parts;
         self.sum_up(tracks, counters);
+        self.serve_halts(tracks, config, at.now + at.dt, counters);
     }
 
     /// Takes together what the parts counted, whose trips ended, and who lost patience.
@@ -370,6 +388,7 @@ impl VehicleManager {
         // By number: parts are no matter of those who watch.
         self.ended[begin..].sort_by_key(|trip| trip.id);
         for trip in &self.ended[begin..] {
+            self.halts.remove(trip.id);
             self.free.push(trip.id);
         }
     }
@@ -424,12 +443,15 @@ impl VehicleManager {
             && self.whereabouts.iter().all(|track| track == NONE || (track as usize) < tracks.count())
             && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
             && self.passes.is_sorted()
+            && self.closures.fits(tracks)
+            && self.halts.fits(tracks, count)
             && self.free.iter().all(|id| (*id as usize) < count)
             && self.iter(tracks).all(|(track, v, path)| {
                 (v.id as usize) < count
                     && usize::from(v.row) < types
                     && v.length > 0.0
                     && v.factor > 0.0
+                    && !v.halt.is_nan()
                     && self.whereabouts.get(v.id as usize) == track
                     && is_way(v.next)
                     && is_way(v.holding)

@@ -1,7 +1,9 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
+mod closures;
 mod deadlock;
 mod entry;
+mod halts;
 mod idm;
 mod junction;
 mod lane_change;
@@ -20,6 +22,7 @@ mod types;
 
 #[cfg(feature = "validation")]
 pub(crate) use idm::advance;
+pub(crate) use halts::{Halt, Order, Then};
 pub use idm::{HARDEST_BRAKING, Idm};
 pub use lane_change::Mobil;
 pub(crate) use manager::{Moment, NONE, Path, STANDING, Sight, Vehicle, VehicleManager};

@@ -316,6 +316,7 @@ impl Part {
             scene.junctions.arrive(lane, &vehicle, scene.config);
             path.leg += 1;
             vehicle.next = scene.choose(&mut weights, &vehicle, &mut path, lane);
+            vehicle.halt = scene.halts.on(scene.tracks, scene.config, &vehicle, lane);
             scene.whereabouts.set(vehicle.id as usize, lane);
             self.add(scene.tracks.layout.local(lane), vehicle, path);
         }

@@ -7,6 +7,7 @@ use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
+use super::closures::Closures;
 use super::layout::Layout;
 use super::manager::NONE;
 use super::ragged::Ragged;
@@ -124,9 +125,17 @@ impl Tracks {
         (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
     }
 
-    /// The way from a lane to a leg, if one leads there; best to a lane on which the kind may drive.
-    pub(crate) fn way_to(&self, lane: Track, leg: Leg, kind: VehicleKind) -> Option<u32> {
-        let ways = self.exits[lane as usize].iter().filter(|exit| exit.1 == leg).map(|exit| exit.0);
+    /// The way from a lane to an open lane of a leg, if one leads there; best to one on which the kind may drive.
+    pub(crate) fn way_to(
+        &self,
+        closures: &Closures,
+        lane: Track,
+        leg: Leg,
+        kind: VehicleKind,
+    ) -> Option<u32> {
+        let leads_there =
+            |exit: &&(u32, Leg)| exit.1 == leg && !closures.has(self.lane_after(exit.0 as usize));
+        let ways = self.exits[lane as usize].iter().filter(leads_there).map(|exit| exit.0);
         let first = ways.clone().next()?;
         Some(ways.clone().find(|way| self.may_use(self.ways[*way as usize].to, kind)).unwrap_or(first))
     }

@@ -58,7 +58,8 @@ impl SumoDemand {
                 warnings.push(SumoWarning::new("flow", &flow.id, reason));
             }
             let arrivals = flow.arrivals;
-            let flow_here = Flow { route, per_hour, arrivals, kind: None, from: flow.begin, until: flow.end };
+            let flow_here =
+                Flow { arrivals, from: flow.begin, until: flow.end, ..Flow::new(route, per_hour) };
             if let Err(error) = schedule.add_flow_of(&flow.id, flow_here, choice, flow.number) {
                 warnings.push(SumoWarning::new("flow", &flow.id, error.to_string()));
             }
