@@ -177,6 +177,23 @@ actions! {
         /// With whom.
         with: EntityId,
     },
+    /// Closes a door.
+    CloseDoor {
+        /// The door.
+        door: EntityId,
+    },
+    /// Hands over what the hand holds.
+    Give {
+        /// To whom.
+        to: EntityId,
+    },
+    /// Buys something, which comes into the hand; what it costs is the task's business.
+    Buy {
+        /// What, as the place's attribute `sells` calls it.
+        goods: String,
+        /// Where.
+        from: EntityId,
+    },
 }
 
 impl fmt::Display for ActionKind {

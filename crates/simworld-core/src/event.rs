@@ -75,6 +75,24 @@ pub enum EventKind {
         /// The words.
         words: String,
     },
+    /// Somebody waved, pointed, argued or took a photo.
+    Gesture {
+        /// Who.
+        who: EntityId,
+        /// What it did.
+        gesture: ActionKind,
+        /// At whom, if at anybody.
+        to: Option<EntityId>,
+    },
+    /// Somebody bought something.
+    Bought {
+        /// Who.
+        who: EntityId,
+        /// From whom.
+        from: EntityId,
+        /// What came into its hand.
+        item: EntityId,
+    },
     /// Something that only a task gives a meaning to.
     Task {
         /// What, as a verb in the past: `order_posted`.

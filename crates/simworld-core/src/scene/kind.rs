@@ -101,15 +101,23 @@ named_kinds! {
         Dog = "dog",
         /// Any other robot.
         Robot = "robot",
+        /// A door in a wall.
+        Door = "door",
     }
 }
 
 impl EntityKind {
-    /// Whether bodies collide with it; surfaces are flat and parcels are carried.
+    /// Whether bodies collide with it; surfaces are flat, parcels are carried, and it is the wall that stops one.
     pub const fn is_solid(self) -> bool {
         !matches!(
             self,
-            Self::Ground | Self::Road | Self::Sidewalk | Self::Crosswalk | Self::Shrub | Self::Parcel
+            Self::Ground
+                | Self::Road
+                | Self::Sidewalk
+                | Self::Crosswalk
+                | Self::Shrub
+                | Self::Parcel
+                | Self::Door
         )
     }
 

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, Role};
-pub use interaction::{ARM_REACH, InteractionError};
+pub use interaction::{ARM_REACH, EARSHOT, InteractionError, LOCKED, OPEN, SELLS, check_action};
 pub use kind::{EntityKind, Place};
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};

@@ -18,6 +18,7 @@ mod embodiment;
 mod executor;
 mod gym;
 mod observer;
+mod plan;
 mod planner;
 mod task;
 
@@ -28,5 +29,6 @@ pub use gym::{
     Autoreset, Env, EnvError, ParallelEnv, ParallelStep, Space, SpaceError, SpaceValue, Transition,
 };
 pub use observer::{ObserveError, Observer};
-pub use planner::{Goal, Plan, PlanError, PlanStep, Planner};
+pub use plan::{Condition, Goal, Plan, PlanStep, Which};
+pub use planner::{PlanError, Planner};
 pub use task::{Metric, Outcome, Task, TaskContext, TaskError, TaskOutput};

@@ -1,68 +1,12 @@
 //! Intent to plan.
 
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::action::Action;
-use crate::geometry::Point3;
+use super::Plan;
+use crate::action::ActionKind;
 use crate::id::EntityId;
 use crate::intent::Intent;
-use crate::scene::Scene;
-
-/// Where a navigation ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Goal {
-    /// At a point, world frame.
-    Point(Point3),
-    /// At the access point of an entity, wherever it is by then.
-    Entity(EntityId),
-}
-
-/// One step of a plan: an action of the level above primitives.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum PlanStep {
-    /// Goes somewhere.
-    Navigate {
-        /// Where to.
-        to: Goal,
-        /// Distance in the plane at which one has arrived, m.
-        within: f64,
-        /// Speed wanted, m/s; `None` leaves it to the body.
-        speed: Option<f64>,
-    },
-    /// Does one primitive action.
-    Act(Action),
-    /// Stands and waits.
-    Wait {
-        /// How long, s.
-        seconds: f64,
-    },
-}
-
-/// What is to be done, in order.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Plan {
-    /// The steps.
-    pub steps: Vec<PlanStep>,
-}
-
-impl Plan {
-    /// A plan of one navigation.
-    pub fn navigate(to: Goal, within: f64) -> Self {
-        Self { steps: vec![PlanStep::Navigate { to, within, speed: None }] }
-    }
-
-    /// With another action at the end.
-    #[must_use]
-    pub fn then(mut self, action: Action) -> Self {
-        self.steps.push(PlanStep::Act(action));
-        self
-    }
-}
+use crate::scene::{EntityKind, Scene};
 
 /// Why no plan was made. Whoever asked gets this, never a silent "do nothing".
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -86,6 +30,24 @@ pub enum PlanError {
         /// What is near instead.
         near: String,
     },
+    /// The words fit several things, and nothing says which is meant.
+    #[error("which {wanted}? it could be {}: say which", listed(candidates))]
+    Ambiguous {
+        /// What was asked for.
+        wanted: String,
+        /// What it could be, the likeliest first, each with how it is described.
+        candidates: Vec<(EntityId, String)>,
+    },
+    /// A body of this kind never does that.
+    #[error("a {kind} cannot {action}: {hint}")]
+    Unable {
+        /// What the agent is.
+        kind: EntityKind,
+        /// What was asked of it.
+        action: ActionKind,
+        /// What it can do.
+        hint: String,
+    },
     /// The call is unknown or its arguments are wrong.
     #[error("{call}: {reason}")]
     Call {
@@ -103,6 +65,12 @@ pub enum PlanError {
     /// The mind behind the planner failed.
     #[error("{0}")]
     Backend(String),
+}
+
+/// "chair #1 at 3 m or chair #2 at 5 m".
+fn listed(candidates: &[(EntityId, String)]) -> String {
+    let one = |(id, label): &(EntityId, String)| format!("{label} {id}");
+    candidates.iter().map(one).collect::<Vec<_>>().join(" or ")
 }
 
 /// Turns what somebody wants into what is to be done.

@@ -183,6 +183,9 @@ pub fn sample_action(kind: ActionKind, someone: EntityId) -> Action {
         ActionKind::PointDirection => Action::PointDirection { heading: 0.5 },
         ActionKind::WaveHand => Action::WaveHand { to: someone },
         ActionKind::Argue => Action::Argue { with: someone },
+        ActionKind::CloseDoor => Action::CloseDoor { door: someone },
+        ActionKind::Give => Action::Give { to: someone },
+        ActionKind::Buy => Action::Buy { goods: "tea".to_owned(), from: someone },
     }
 }
 

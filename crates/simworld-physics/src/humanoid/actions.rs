@@ -44,7 +44,10 @@ impl Humanoid {
             | Action::DropOff
             | Action::CarryHeavy { .. }
             | Action::PutDownHeavy
-            | Action::OpenDoor { .. } => self.halt(),
+            | Action::OpenDoor { .. }
+            | Action::CloseDoor { .. }
+            | Action::Give { .. }
+            | Action::Buy { .. } => self.halt(),
             Action::SitDown { .. } => self.assume(Posture::Seated),
             Action::EnterCar { .. } => self.assume(Posture::Aboard),
             Action::RideScooter { .. } => self.assume(Posture::Riding),

@@ -1,0 +1,127 @@
+//! Cities as data.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::scene::{EntityDesc, EntityKind, Place, Shape, World};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Thing {
+    kind: String,
+    at: [f64; 2],
+    /// Degrees from east.
+    #[serde(default)]
+    facing: f64,
+    size: Option<[f64; 3]>,
+    name: Option<String>,
+    place: Option<String>,
+    access: Option<[f64; 2]>,
+    color: Option<String>,
+    sells: Option<String>,
+    #[serde(default)]
+    locked: bool,
+    #[serde(default)]
+    open: bool,
+    signal_group: Option<i64>,
+}
+
+/// A city and what its things are called in the tables.
+pub(crate) struct City {
+    pub(crate) world: World,
+    pub(crate) me: EntityId,
+    pub(crate) ids: BTreeMap<String, EntityId>,
+}
+
+impl City {
+    pub(crate) fn read(name: &str) -> Self {
+        let path = format!("{}/tests/sentences/{name}.city.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let things: BTreeMap<String, Thing> =
+            toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let mut world = World::new();
+        // A crossroads far away lends its signals, all of them red at first.
+        let mut plan = StreetPlan::crossroads(100.0);
+        for node in &mut plan.nodes {
+            node.x += 3000.0;
+        }
+        let roads =
+            RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("crossroads are sound");
+        world.set_roads(std::sync::Arc::new(roads));
+        let mut ids = BTreeMap::new();
+        for (key, thing) in things {
+            let id = world.spawn(describe(&thing)).unwrap_or_else(|error| panic!("{key}: {error}"));
+            ids.insert(key, id);
+        }
+        Self { world, me: ids["me"], ids }
+    }
+
+    /// What the thing is called in the tables; its label, if it came later.
+    pub(crate) fn key(&self, id: EntityId) -> String {
+        self.ids.iter().find(|(_, known)| **known == id).map_or_else(|| id.to_string(), |(key, _)| key.clone())
+    }
+}
+
+fn describe(thing: &Thing) -> EntityDesc {
+    let kind = EntityKind::from_name(&thing.kind).unwrap_or_else(|| panic!("no kind {}", thing.kind));
+    let pose = pose_facing(Point3::new(thing.at[0], thing.at[1], 0.0), thing.facing.to_radians());
+    let [x, y, z] = thing.size.unwrap_or_else(|| usual_size(kind));
+    let shape = match kind {
+        EntityKind::Person => Shape::Capsule { radius: 0.25, height: 1.8 },
+        _ => Shape::cuboid(x, y, z),
+    };
+    let mut desc = EntityDesc::new(kind, pose, shape);
+    desc.info.name.clone_from(&thing.name);
+    desc.info.place =
+        thing.place.as_deref().map(|place| Place::from_name(place).unwrap_or_else(|| panic!("no {place}")));
+    desc.info.access = thing.access.map(|[x, y]| Point3::new(x, y, 0.0));
+    desc.info.color = thing.color.as_deref().map(paint);
+    if let Some(sells) = &thing.sells {
+        desc = desc.with("sells", sells.as_str());
+    }
+    for (key, set) in [("locked", thing.locked), ("open", thing.open)] {
+        if set {
+            desc = desc.with(key, true);
+        }
+    }
+    if let Some(group) = thing.signal_group {
+        desc = desc.with("signal_group", group);
+    }
+    desc
+}
+
+fn usual_size(kind: EntityKind) -> [f64; 3] {
+    match kind {
+        EntityKind::Building => [10.0, 10.0, 8.0],
+        EntityKind::Bench => [0.6, 1.8, 0.8],
+        EntityKind::Car => [4.5, 1.8, 1.5],
+        EntityKind::Truck => [6.0, 2.2, 2.8],
+        EntityKind::Bus => [12.0, 2.5, 3.1],
+        EntityKind::BusStop => [1.4, 4.0, 2.5],
+        EntityKind::Scooter => [1.1, 0.45, 1.1],
+        EntityKind::Motorcycle | EntityKind::Bicycle => [1.9, 0.6, 1.1],
+        EntityKind::Parcel => [0.3, 0.3, 0.3],
+        EntityKind::Door => [0.1, 1.0, 2.1],
+        EntityKind::StreetLamp | EntityKind::TrafficSignal => [0.2, 0.2, 4.0],
+        EntityKind::Table => [0.8, 0.8, 0.75],
+        _ => [0.5, 0.5, 0.9],
+    }
+}
+
+/// Paint, linear-light sRGB, as cars and furniture wear it.
+fn paint(name: &str) -> [f32; 3] {
+    match name {
+        "red" => [0.55, 0.03, 0.02],
+        "blue" => [0.03, 0.08, 0.45],
+        "green" => [0.05, 0.35, 0.06],
+        "yellow" => [0.8, 0.6, 0.03],
+        "orange" => [0.8, 0.2, 0.02],
+        "brown" => [0.2, 0.08, 0.03],
+        "white" => [0.8, 0.8, 0.8],
+        "black" => [0.01, 0.01, 0.012],
+        other => panic!("no paint {other}"),
+    }
+}

@@ -1,0 +1,102 @@
+//! The three cities of `tests/sentences`, the notation of plans, and the score of what people say in them.
+#![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests; each file uses its own part")]
+
+pub(crate) mod city;
+pub(crate) mod notation;
+pub(crate) mod outcome;
+
+use std::collections::BTreeMap;
+
+use city::City;
+use simworld_agents::language::GrammarPlanner;
+use simworld_core::intent::Intent;
+use simworld_core::seam::{Plan, PlanError, Planner};
+use simworld_core::value::Value;
+
+/// The cities in which people speak.
+pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
+
+/// One thing that is said, and what it means.
+pub(crate) struct Said {
+    pub(crate) family: String,
+    pub(crate) words: String,
+    /// A plan, `! kind ~ part` for an answer, or `? a | b` for a question back.
+    pub(crate) meaning: String,
+    /// What the world shows afterwards, where that is stated.
+    pub(crate) outcome: Option<String>,
+}
+
+/// Everything that is said in a city.
+pub(crate) fn said_in(city: &str) -> Vec<Said> {
+    let path = format!("{}/tests/sentences/{city}.sentences.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let families: BTreeMap<String, BTreeMap<String, String>> =
+        toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let one = |family: &str, words: String, line: String| {
+        let (meaning, outcome) = match line.split_once(" -> ") {
+            Some((meaning, outcome)) => (meaning.to_owned(), Some(outcome.to_owned())),
+            None => (line, None),
+        };
+        Said { family: family.to_owned(), words, meaning, outcome }
+    };
+    families
+        .into_iter()
+        .flat_map(|(family, lines)| {
+            lines.into_iter().map(move |(words, line)| one(&family, words, line)).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// What is made of one sentence.
+pub(crate) fn understand(
+    planner: &mut GrammarPlanner,
+    city: &City,
+    said: &Said,
+) -> Result<Plan, PlanError> {
+    let intent =
+        if said.family == "call" { call(&said.words) } else { Intent::Words(said.words.clone()) };
+    planner.plan(&intent, &city.world, city.me)
+}
+
+/// `name(key = "text", key = 1.5)`.
+fn call(text: &str) -> Intent {
+    let (name, rest) = text.split_once('(').expect("a call has brackets");
+    let args = rest.strip_suffix(')').expect("a call has brackets");
+    let mut intent = Intent::call(name);
+    for argument in args.split(", ").filter(|argument| !argument.is_empty()) {
+        let (key, value) = argument.split_once(" = ").expect("an argument has a value");
+        let value = match value.strip_prefix('"') {
+            Some(text) => Value::Text(text.trim_end_matches('"').to_owned()),
+            None => Value::Number(value.parse().expect("a value is a text or a number")),
+        };
+        intent = intent.arg(key, value);
+    }
+    intent
+}
+
+/// How an answer compares with what was expected of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Verdict {
+    Right,
+    /// Another plan than the one expected, or a plan where an answer was expected: the body would do something wrong.
+    WrongAction(String),
+    /// An answer where a plan was expected, or an answer that misses the point.
+    WrongAnswer(String),
+}
+
+pub(crate) fn judge(city: &City, said: &Said, got: &Result<Plan, PlanError>) -> Verdict {
+    match (said.meaning.strip_prefix("! "), got) {
+        (None, Ok(plan)) => {
+            let shown = notation::show(plan, city);
+            if shown == said.meaning { Verdict::Right } else { Verdict::WrongAction(shown) }
+        }
+        (Some(expected), Err(error)) => {
+            let (kind, part) = expected.split_once(" ~ ").unwrap_or((expected, ""));
+            let answer = error.to_string();
+            let right = notation::kind_of(error) == kind && answer.to_lowercase().contains(&part.to_lowercase());
+            if right { Verdict::Right } else { Verdict::WrongAnswer(answer) }
+        }
+        (Some(_), Ok(plan)) => Verdict::WrongAction(notation::show(plan, city)),
+        (None, Err(error)) => Verdict::WrongAnswer(error.to_string()),
+    }
+}

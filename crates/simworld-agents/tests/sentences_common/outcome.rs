@@ -1,0 +1,1 @@
+//! What the world shows after a plan.
