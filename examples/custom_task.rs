@@ -112,7 +112,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let agent = Agent {
         id: tourist,
         mind: Box::new(Guide { sights, next_decision: 0 }) as Box<dyn Mind<Tour>>,
-        planner: Box::new(GrammarPlanner),
+        planner: Box::new(GrammarPlanner::default()),
         executor: Box::new(RuleExecutor::new(ways)),
     };
     let mut episode = Episode::new(simulation, Tour::default(), vec![agent], Seed(1))?;

@@ -98,7 +98,7 @@ fn a_failing_executor_ends_the_episode() {
     let tired = Agent {
         id: ids[0],
         mind: Box::new(Speaker::default()),
-        planner: Box::new(GrammarPlanner),
+        planner: Box::new(GrammarPlanner::default()),
         executor: Box::new(Tired(9)),
     };
     let agents = vec![tired, agent(ids[1], Speaker::default())];

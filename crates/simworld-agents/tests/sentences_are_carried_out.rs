@@ -38,7 +38,7 @@ fn square() -> (World, EntityId) {
 
 fn plan(words: &str) -> Result<Plan, PlanError> {
     let (world, me) = square();
-    GrammarPlanner.plan(&Intent::Words(words.to_owned()), &world, me)
+    GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &world, me)
 }
 
 fn goals(words: &str) -> Vec<u64> {
@@ -76,7 +76,7 @@ fn failures_say_what_and_what_instead() {
     let error = plan("juggle fire").unwrap_err().to_string();
     assert!(error.contains("juggle fire") && error.contains("sit down"), "{error}");
     let (world, me) = square();
-    let error = GrammarPlanner.plan(&Intent::call("fly"), &world, me).unwrap_err().to_string();
+    let error = GrammarPlanner::default().plan(&Intent::call("fly"), &world, me).unwrap_err().to_string();
     assert!(error.contains("fly") && error.contains("navigate"), "{error}");
 }
 
@@ -84,7 +84,7 @@ fn failures_say_what_and_what_instead() {
 fn the_seams_are_kept() {
     let (world, me) = square();
     let understood = [Intent::Words("go to the nearest chair and sit down".into()), Intent::call("stop")];
-    testing::check_planner(|| Box::new(GrammarPlanner), &world, me, &understood);
+    testing::check_planner(|| Box::new(GrammarPlanner::default()), &world, me, &understood);
     let wait = Plan { steps: vec![PlanStep::Wait { seconds: 1.0 }, PlanStep::Act(Action::Stop)] };
     testing::check_executor(|| Box::new(RuleExecutor::straight()), &world, me, &wait, 20);
     testing::check_observer(|| Box::new(GpsObserver::new(1.0, 0.1, Seed(1))), &world, me, GpsFix::default);
@@ -109,7 +109,7 @@ fn a_prompt_keeps_its_budget() {
 fn a_body_goes_to_the_nearest_chair_and_sits_down() {
     let (world, me) = square();
     let words = Intent::Words("go to the nearest chair and sit down".into());
-    let plan = GrammarPlanner.plan(&words, &world, me).unwrap();
+    let plan = GrammarPlanner::default().plan(&words, &world, me).unwrap();
     let mut bodies = KinematicDynamics::new();
     bodies.insert(me, Box::new(KinematicBody::walker(at(0.0, 0.0))));
     let mut simulation = Simulation::new(world);

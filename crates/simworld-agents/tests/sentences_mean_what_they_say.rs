@@ -70,7 +70,7 @@ fn show(plan: &Plan) -> String {
 
 fn plan(words: &str) -> Result<Plan, PlanError> {
     let (world, me) = town();
-    GrammarPlanner.plan(&Intent::Words(words.to_owned()), &world, me)
+    GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &world, me)
 }
 
 fn check(table: &[(&str, &str)]) {
@@ -194,7 +194,7 @@ fn taken_seats_and_parcels_are_left_alone() {
     let bond = |parent, role| Some(Attachment { parent, role, parent_from_body: Pose::identity() });
     world.attach(neighbour, bond(EntityId::new(2, 0), Role::Seated)).unwrap();
     world.attach(EntityId::new(4, 0), bond(neighbour, Role::Held)).unwrap();
-    let plan = |words: &str| GrammarPlanner.plan(&Intent::Words(words.to_owned()), &world, me);
+    let plan = |words: &str| GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &world, me);
     assert_eq!(show(&plan("sit down").unwrap()), "go #1, sit #1");
     let error = plan("pick up the parcel").unwrap_err().to_string();
     assert!(error.contains("free") && error.contains("in use"), "{error}");
@@ -207,7 +207,7 @@ fn what_is_in_hand_is_put_down() {
     world.attach(EntityId::new(4, 0), bond(Role::Held)).unwrap();
     world.attach(EntityId::new(1, 0), bond(Role::Carried)).unwrap();
     let plan =
-        |words: &str| show(&GrammarPlanner.plan(&Intent::Words(words.to_owned()), &world, me).unwrap());
+        |words: &str| show(&GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &world, me).unwrap());
     assert_eq!(plan("put it down").as_str(), "put down heavy");
     assert_eq!(plan("drop off the parcel at the museum"), "go #5, drop off");
     assert_eq!(plan("put down the chair and drop the parcel"), "put down heavy, drop off");
@@ -217,7 +217,7 @@ fn what_is_in_hand_is_put_down() {
 fn calls_mean_the_same_as_words() {
     let (world, me) = town();
     let chair = EntityId::new(1, 0);
-    let call = |call: Intent| GrammarPlanner.plan(&call, &world, me).map(|plan| show(&plan));
+    let call = |call: Intent| GrammarPlanner::default().plan(&call, &world, me).map(|plan| show(&plan));
     let table = [
         (Intent::call("navigate").arg("to", chair), "go #1"),
         (Intent::call("navigate").arg("to", "the nearest chair"), "go #2"),
@@ -256,7 +256,7 @@ fn the_planner_seam_is_kept() {
     let mut understood =
         vec![Intent::Words("go to the nearest chair and sit down".to_owned()), Intent::call("stop")];
     understood.push(Intent::call("navigate").arg("to", Value::Entity(EntityId::new(3, 0))));
-    check_planner(|| Box::new(GrammarPlanner), &world, me, &understood);
+    check_planner(|| Box::new(GrammarPlanner::default()), &world, me, &understood);
 }
 
 /// A plan that comes out is one an executor can take: finite numbers and living entities.

@@ -180,7 +180,7 @@ fn make_agents(
     let agent = |(index, (id, player)): (usize, (&EntityId, &Player))| Agent {
         id: *id,
         mind: player.policy.mind(player.persona, minds.indexed(index as u64)),
-        planner: Box::new(GrammarPlanner),
+        planner: Box::new(GrammarPlanner::default()),
         executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
     };
     Ok(couriers.iter().zip(&players).enumerate().map(agent).collect())

@@ -1,9 +1,12 @@
 //! Single actions and waiting.
 
 use simworld_core::action::Action;
+use simworld_core::geometry::{Point2, heading, yaw_of};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Role, Scene};
-use simworld_core::seam::Progress;
+use simworld_core::ops::wrap_angle;
+use simworld_core::scene::{EntityRef, OPEN, Role, Scene, check_action};
+use simworld_core::seam::{Goal, Progress};
+use simworld_core::value::Value;
 
 use super::{RuleExecutor, Stage};
 
@@ -22,8 +25,13 @@ impl RuleExecutor {
                 Some(reason) => self.fail(reason, out),
             };
         }
-        if matches!(action, Action::Stop) {
-            self.state.told_speed = Some(0.0);
+        if let Err(reason) = check_action(scene, who, &action) {
+            return self.fail(reason.to_string(), out);
+        }
+        match &action {
+            Action::Stop => self.state.told_speed = Some(0.0),
+            Action::MoveForward { speed } => self.state.told_speed = Some(*speed),
+            _ => {}
         }
         let visible = is_visible(&action);
         out.push(action);
@@ -33,6 +41,46 @@ impl RuleExecutor {
         } else {
             self.next_step()
         }
+    }
+
+    /// Turns towards a goal until it is before the agent, or the body will not turn any further.
+    pub(super) fn face(
+        &mut self,
+        scene: &dyn Scene,
+        me: &EntityRef<'_>,
+        to: Goal,
+        out: &mut Vec<Action>,
+    ) -> Progress {
+        /// Heading errors below this are left alone, radians.
+        const FACED: f64 = 0.05;
+        let Some(place) = place_of(scene, to) else { return self.fail(format!("{to:?} is gone"), out) };
+        self.tell_speed(0.0, out);
+        let way = place - me.planar();
+        let error = if way.norm() < 1e-6 { 0.0 } else { wrap_angle(heading(&way) - yaw_of(me.pose)) };
+        let left = match self.state.stage {
+            Stage::Waiting(left) => left,
+            _ => scene.clock().ticks_in(self.config.patience),
+        };
+        if error.abs() <= FACED || left == 0 {
+            return self.next_step();
+        }
+        self.state.stage = Stage::Waiting(left - 1);
+        out.push(Action::Rotate { angle: error });
+        Progress::Running
+    }
+
+    pub(super) fn point(
+        &mut self,
+        scene: &dyn Scene,
+        me: &EntityRef<'_>,
+        at: Goal,
+        out: &mut Vec<Action>,
+    ) -> Progress {
+        let Some(place) = place_of(scene, at) else { return self.fail(format!("{at:?} is gone"), out) };
+        let way = place - me.planar();
+        let towards = if way.norm() < 1e-6 { yaw_of(me.pose) } else { heading(&way) };
+        out.push(Action::PointDirection { heading: towards });
+        self.next_step()
     }
 
     pub(super) fn wait(&mut self, scene: &dyn Scene, seconds: f64, out: &mut Vec<Action>) -> Progress {
@@ -63,6 +111,10 @@ fn is_visible(action: &Action) -> bool {
             | Action::GetOffScooter
             | Action::EnterCar { .. }
             | Action::ExitCar
+            | Action::OpenDoor { .. }
+            | Action::CloseDoor { .. }
+            | Action::Give { .. }
+            | Action::Buy { .. }
     )
 }
 
@@ -84,7 +136,24 @@ fn missing_effect(scene: &dyn Scene, who: EntityId, action: &Action) -> Option<S
         Action::EnterCar { car } => i_hang_on(Some(*car), Role::Aboard),
         Action::StandUp => !i_hang_on(None, Role::Seated),
         Action::ExitCar => !i_hang_on(None, Role::Aboard),
+        Action::Give { .. } => scene.attached(who, Role::Held).is_none(),
+        Action::Buy { .. } => scene.attached(who, Role::Held).is_some(),
+        Action::OpenDoor { door } => is_open(scene, *door),
+        Action::CloseDoor { door } => !is_open(scene, *door),
         _ => true,
     };
     (!done).then(|| format!("{} had no effect: see the event that says why", action.kind()))
+}
+
+fn is_open(scene: &dyn Scene, door: EntityId) -> bool {
+    scene.entity(door).is_some_and(|door| door.info.attributes.get(OPEN) == Some(&Value::Bool(true)))
+}
+
+/// Where a goal is by now, in the middle of a thing; `None` if it is gone.
+fn place_of(scene: &dyn Scene, goal: Goal) -> Option<Point2> {
+    match goal {
+        Goal::Point(point) => Some(point.xy()),
+        Goal::Entity(id) => scene.entity(id).map(|entity| entity.planar()),
+        _ => None,
+    }
 }

@@ -2,16 +2,22 @@
 //!
 //! Navigation takes the shortest way over sidewalks and crossings, starts to cross only on walk, passes people on the
 //! right, and looks for another way when it gets stuck. An action on an object counts as done when the world shows its
-//! effect.
+//! effect. Conditions, repetitions and guards are looked at in every step.
 
 mod act;
 mod avoid;
+mod blocks;
+mod condition;
 mod crossing;
 mod navigate;
+mod sight;
 
 use std::sync::Arc;
 
+use blocks::{Entered, Place};
 use navigate::{Arrival, Navigation};
+use sight::sees;
+pub(crate) use sight::{crosses, eyes, hides, looked_at};
 use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
 use simworld_core::hash::StateHasher;
@@ -93,8 +99,8 @@ pub struct RuleExecutor {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct State {
     plan: Plan,
-    /// The step under way.
-    step: usize,
+    /// Where it is in the plan, a place for each block that it is in, the outermost first.
+    place: Vec<Place>,
     stage: Stage,
     /// The speed the body was told last, m/s; unknown after anybody else may have told it something.
     told_speed: Option<f64>,
@@ -112,6 +118,8 @@ enum Stage {
     Acted,
     /// Waiting, with the number of steps left.
     Waiting(u64),
+    /// Waiting for a condition, since so many steps of the list that it stands in.
+    Guarding(u64),
 }
 
 impl RuleExecutor {
@@ -149,12 +157,13 @@ impl RuleExecutor {
 
     /// Whether it has nothing to do.
     pub fn is_idle(&self) -> bool {
-        self.state.step >= self.state.plan.steps.len()
+        self.state.place.is_empty()
     }
 
+    /// Goes on to what comes next.
     fn next_step(&mut self) -> Progress {
-        self.state.step += 1;
         self.state.stage = Stage::Fresh;
+        self.move_on();
         if self.is_idle() { Progress::Done } else { Progress::Running }
     }
 
@@ -177,10 +186,11 @@ impl Executor for RuleExecutor {
         if scene.entity(who).is_none() {
             return Err(ExecutorError::Missing { id: who });
         }
-        if let Some(step) = plan.steps.iter().find(|step| !can_be_done(step)) {
+        if let Some(step) = plan.steps.iter().find(|step| !blocks::can_be_done(step, 0)) {
             return Err(ExecutorError::Unsupported { step: format!("{step:?}") });
         }
-        self.state = State { plan, ..State::default() };
+        let place = if plan.steps.is_empty() { Vec::new() } else { vec![Place::default()] };
+        self.state = State { plan, place, ..State::default() };
         Ok(())
     }
 
@@ -194,7 +204,12 @@ impl Executor for RuleExecutor {
             return Ok(Progress::Idle);
         }
         let me = scene.entity(who).ok_or(ExecutorError::Missing { id: who })?;
-        Ok(match self.state.plan.steps[self.state.step].clone() {
+        let step = match self.enter(scene, &me, out) {
+            Entered::Step(step) => step,
+            Entered::Waiting => return Ok(Progress::Running),
+            Entered::End => return Ok(Progress::Done),
+        };
+        Ok(match step {
             PlanStep::Navigate { to, within, speed } => {
                 let wanted = speed.unwrap_or(self.config.speed);
                 match self.navigate(scene, &me, to, within, wanted, out) {
@@ -206,6 +221,20 @@ impl Executor for RuleExecutor {
                     Arrival::Lost(reason) => self.fail(reason, out),
                 }
             }
+            PlanStep::Follow { whom, gap, speed } => {
+                let wanted = speed.unwrap_or(self.config.speed);
+                match self.navigate(scene, &me, Goal::Entity(whom), gap, wanted, out) {
+                    Arrival::Underway => Progress::Running,
+                    Arrival::There => {
+                        self.state.stage = Stage::Fresh;
+                        self.tell_speed(0.0, out);
+                        Progress::Running
+                    }
+                    Arrival::Lost(reason) => self.fail(reason, out),
+                }
+            }
+            PlanStep::Face { to } => self.face(scene, &me, to, out),
+            PlanStep::Point { at } => self.point(scene, &me, at, out),
             PlanStep::Act(action) => self.act(scene, who, action, out),
             PlanStep::Wait { seconds } => self.wait(scene, seconds, out),
             other => self.fail(format!("cannot carry out {other:?}"), out),
@@ -235,25 +264,5 @@ impl Executor for RuleExecutor {
     fn state_hash(&self, hasher: &mut StateHasher) {
         // The saved bytes are the whole state; what else the executor holds is memory of searches.
         hasher.bytes(&self.save());
-    }
-}
-
-/// Whether the step is of a known kind, and its numbers are ones that an execution can come to the end of.
-fn can_be_done(step: &PlanStep) -> bool {
-    match step {
-        PlanStep::Navigate { to, within, speed } => {
-            let place = match to {
-                Goal::Point(point) => point.iter().all(|number| number.is_finite()),
-                Goal::Entity(_) => true,
-                _ => false,
-            };
-            place
-                && within.is_finite()
-                && *within >= 0.0
-                && speed.is_none_or(|speed| speed.is_finite() && speed > 0.0)
-        }
-        PlanStep::Act(_) => true,
-        PlanStep::Wait { seconds } => seconds.is_finite() && *seconds >= 0.0,
-        _ => false,
     }
 }

@@ -7,18 +7,23 @@ use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 use simworld_core::value::Value;
 
-use super::clause::{Choice, Clause, Manner, Pace, Reference, Target, Vehicle};
-use super::lexer::lex;
+use super::clause::{Clause, Manner, Pace, Reference, Target, Vehicle};
+use super::lexer::lex_speech;
 use super::names::Names;
 use super::parser::{Parser, shortened};
 use super::resolve::View;
+use super::spelling::correct;
 
 /// Every call with its arguments; a question mark follows those that may be left out.
 pub(super) const CALLS: &[(&str, &[&str])] = &[
     ("navigate", &["to?", "x?", "y?", "z?", "speed?", "within?"]),
+    ("follow", &["whom"]),
+    ("face", &["what"]),
     ("pick_up", &["item"]),
     ("drop_off", &[]),
     ("put_down", &[]),
+    ("give", &["to", "item?"]),
+    ("buy", &["goods", "at?"]),
     ("sit_down", &["seat?"]),
     ("stand_up", &[]),
     ("stop", &[]),
@@ -27,17 +32,23 @@ pub(super) const CALLS: &[(&str, &[&str])] = &[
     ("get_off_scooter", &[]),
     ("enter_car", &["car"]),
     ("exit_car", &[]),
+    ("open_door", &["door?"]),
+    ("close_door", &["door?"]),
     ("step", &["direction?", "distance?"]),
     ("turn", &["angle"]),
+    ("change_speed", &["speed"]),
+    ("say", &["to", "words"]),
+    ("argue", &["with"]),
     ("wave", &["to"]),
-    ("take_photo", &[]),
+    ("point", &["at"]),
+    ("take_photo", &["of?"]),
 ];
 
 /// Arguments being read.
 struct Call<'a> {
     name: &'a str,
     args: &'a BTreeMap<String, Value>,
-    names: &'a Names,
+    names: &'a Names<'a>,
     view: &'a View<'a>,
 }
 
@@ -45,7 +56,7 @@ struct Call<'a> {
 pub(super) fn read(
     name: &str,
     args: &BTreeMap<String, Value>,
-    names: &Names,
+    names: &Names<'_>,
     view: &View<'_>,
 ) -> Result<Clause, PlanError> {
     let call = Call { name, args, names, view };
@@ -56,26 +67,25 @@ pub(super) fn read(
         return Err(call.refuse(format!("there is no such call: use {}", known.join(", "))));
     };
     call.check_arguments(allowed)?;
+    if let Some(clause) = call.about_things(name)? {
+        return Ok(clause);
+    }
     match name {
         "navigate" => call.navigate(),
-        "pick_up" => Ok(Clause::Take { what: call.thing("item")?, to: None }),
         "drop_off" => Ok(Clause::Drop { what: None, at: None, manner: Manner::DropOff }),
         "put_down" => Ok(Clause::Drop { what: None, at: None, manner: Manner::PutDown }),
-        "sit_down" if args.contains_key("seat") => Ok(Clause::Sit { on: Some(call.thing("seat")?) }),
-        "sit_down" => Ok(Clause::Sit { on: None }),
+        "sit_down" => Ok(Clause::Sit { on: call.optional_thing("seat")? }),
         "stand_up" => Ok(Clause::StandUp),
         "stop" => Ok(Clause::Stop),
         "wait" => Ok(Clause::Wait { seconds: call.number("seconds", 0.001, 86_400.0)? }),
-        "ride_scooter" => Ok(Clause::Board { what: call.thing("scooter")?, to: None }),
         "get_off_scooter" => Ok(Clause::Alight { from: Vehicle::Scooter }),
-        "enter_car" => Ok(Clause::Board { what: call.thing("car")?, to: None }),
         "exit_car" => Ok(Clause::Alight { from: Vehicle::Car }),
         "step" => call.step(),
         "turn" => {
             Ok(Clause::Turn { angle: call.number("angle", -std::f64::consts::TAU, std::f64::consts::TAU)? })
         }
-        "wave" => Ok(Clause::Wave { to: call.thing("to")? }),
-        _ => Ok(Clause::Photo),
+        "change_speed" => Ok(Clause::Speed { speed: call.number("speed", 0.1, 50.0)? }),
+        _ => Ok(Clause::Photo { of: call.optional_thing("of")?, times: 1 }),
     }
 }
 
@@ -96,6 +106,35 @@ impl Call<'_> {
             Some(missing) => Err(self.refuse(format!("the argument {missing} is missing"))),
             None => Ok(()),
         }
+    }
+
+    /// Calls whose arguments name things.
+    fn about_things(&self, name: &str) -> Result<Option<Clause>, PlanError> {
+        Ok(Some(match name {
+            "follow" => Clause::Follow { whom: self.thing("whom")?, pace: Pace::Usual },
+            "face" => Clause::Face { what: self.thing("what")? },
+            "pick_up" => Clause::Take { what: self.thing("item")?, to: None },
+            "give" => Clause::Give { what: self.optional_thing("item")?, to: self.thing("to")? },
+            "buy" => Clause::Buy { goods: self.text("goods")?, times: 1, at: self.optional_thing("at")? },
+            "ride_scooter" => Clause::Board { what: self.thing("scooter")?, to: None },
+            "enter_car" => Clause::Board { what: self.thing("car")?, to: None },
+            "open_door" => Clause::Door { what: self.optional_thing("door")?, open: true },
+            "close_door" => Clause::Door { what: self.optional_thing("door")?, open: false },
+            "say" => Clause::Say { to: self.thing("to")?, words: self.text("words")? },
+            "argue" => Clause::Argue { with: self.thing("with")? },
+            "wave" => Clause::Wave { to: self.thing("to")? },
+            "point" => Clause::Point { at: self.thing("at")? },
+            _ => return Ok(None),
+        }))
+    }
+
+    fn text(&self, key: &str) -> Result<String, PlanError> {
+        let text = self.args.get(key).and_then(Value::as_str).map(str::trim).filter(|text| !text.is_empty());
+        text.map(str::to_owned).ok_or_else(|| self.refuse(format!("{key} must be words")))
+    }
+
+    fn optional_thing(&self, key: &str) -> Result<Option<Reference>, PlanError> {
+        if self.args.contains_key(key) { self.thing(key).map(Some) } else { Ok(None) }
     }
 
     fn navigate(&self) -> Result<Clause, PlanError> {
@@ -145,7 +184,8 @@ impl Call<'_> {
                 Ok(reference(Target::Id(id), id.to_string()))
             }
             Some(Value::Text(words)) => {
-                let lexemes = lex(words);
+                let mut lexemes = lex_speech(words);
+                correct(&mut lexemes, &|| self.names.words());
                 let mut parser = Parser::new(words, &lexemes, self.names, self.view);
                 let thing = parser.reference(0).map_err(|error| self.refuse(format!("{key}: {error}")))?;
                 if parser.at < lexemes.len() {
@@ -161,5 +201,5 @@ impl Call<'_> {
 }
 
 fn reference(target: Target, text: String) -> Reference {
-    Reference { target, choice: Choice::Open, relation: None, text }
+    Reference::to(target, text)
 }

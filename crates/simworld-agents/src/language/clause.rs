@@ -2,19 +2,31 @@
 
 use simworld_core::action::StepDirection;
 use simworld_core::id::EntityId;
+use simworld_core::net::Aspect;
 use simworld_core::scene::Relation;
 
 use super::lexicon::Category;
+use super::paint::Paint;
 
-/// One order.
+/// One order, or a block of them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Clause {
     /// Goes somewhere; `side` is where beside it.
     Go { to: Reference, side: Option<Relation>, pace: Pace, within: Option<f64> },
+    /// Crosses the nearest road.
+    Cross,
+    /// Walks on and does not stop by itself.
+    Forward,
+    /// Goes after somebody.
+    Follow { whom: Reference, pace: Pace },
     /// Takes something up and, if `to` is given, brings it there.
     Take { what: Reference, to: Option<Reference> },
     /// Lets go of what is in hand, at a place if one is given.
     Drop { what: Option<Reference>, at: Option<Reference>, manner: Manner },
+    /// Hands something over.
+    Give { what: Option<Reference>, to: Reference },
+    /// Buys something, where it is sold or at a place.
+    Buy { goods: String, times: u32, at: Option<Reference> },
     /// Sits down, on the nearest free seat if none is named.
     Sit { on: Option<Reference> },
     /// Gets up.
@@ -23,18 +35,61 @@ pub(super) enum Clause {
     Stop,
     /// Waits.
     Wait { seconds: f64 },
-    /// Gets on a scooter or into a car, and goes somewhere on the scooter; to enter a building is to go to its door.
+    /// Gets on a scooter or into a car, and goes somewhere in or on it; to enter a building is to go to its door.
     Board { what: Reference, to: Option<Reference> },
+    /// Goes somewhere by car.
+    Drive { to: Reference },
     /// Gets off or out.
     Alight { from: Vehicle },
     /// Takes a step.
     Step { direction: StepDirection, distance: f64 },
     /// Turns by an angle, radians, positive to the left.
     Turn { angle: f64 },
+    /// Turns towards something.
+    Face { what: Reference },
+    /// Raises (or, below zero, lowers) the gaze, radians.
+    LookUp { angle: f64 },
+    /// Points at something.
+    Point { at: Reference },
     /// Waves at somebody.
     Wave { to: Reference },
-    /// Takes a photo.
-    Photo,
+    /// Says something to somebody.
+    Say { to: Reference, words: String },
+    /// Argues with somebody.
+    Argue { with: Reference },
+    /// Opens or closes a door.
+    Door { what: Option<Reference>, open: bool },
+    /// Takes photos, of something if it is named.
+    Photo { of: Option<Reference>, times: u32 },
+    /// Changes speed, m/s.
+    Speed { speed: f64 },
+    /// Does one thing or another.
+    If { test: Test, then: Vec<Self>, otherwise: Vec<Self> },
+    /// Does it over and over until something holds; with nothing to do, waits for it.
+    Until { test: Test, body: Vec<Self> },
+    /// Does it several times.
+    Repeat { times: u32, body: Vec<Self> },
+}
+
+/// A condition that refers to things.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Test {
+    Light { light: Option<Reference>, shows: Aspect },
+    Sees(Reference),
+    Near { what: Reference, within: f64 },
+    /// There is one near, free or not.
+    There { what: Reference, free: bool },
+    InUse(Reference),
+    Open(Reference),
+    Holds(Option<Reference>),
+    Seated,
+    Raining,
+    Snowing,
+    Dark,
+    Elapsed(f64),
+    Not(Box<Self>),
+    Both(Box<Self>, Box<Self>),
+    Either(Box<Self>, Box<Self>),
 }
 
 /// How fast one goes.
@@ -44,6 +99,8 @@ pub(super) enum Pace {
     Usual,
     /// Running.
     Run,
+    /// Strolling.
+    Slow,
     /// At a speed, m/s.
     At(f64),
 }
@@ -75,10 +132,48 @@ pub(super) enum Vehicle {
 pub(super) struct Reference {
     pub(super) target: Target,
     pub(super) choice: Choice,
+    pub(super) count: Count,
+    pub(super) traits: Traits,
     /// How it stands to something else.
-    pub(super) relation: Option<(Relation, Box<Reference>)>,
+    pub(super) relation: Option<Stands>,
+    /// Whether any of the class will do ("a bench") and not a certain one ("the bench").
+    pub(super) indefinite: bool,
     /// The words themselves, for answers.
     pub(super) text: String,
+}
+
+/// How a thing stands to others.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Stands {
+    /// In a relation to one thing.
+    To(Relation, Box<Reference>),
+    /// As a part of it or right at it: the door of the library.
+    Of(Box<Reference>),
+    /// Between two things.
+    Between(Box<Reference>, Box<Reference>),
+    /// Nearest to a thing or, with `false`, farthest from it.
+    NearestTo(Box<Reference>, bool),
+    /// On a side of the agent.
+    Side(Side),
+}
+
+/// A side of the agent, as it will be turned by then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Left,
+    Right,
+    Ahead,
+    Behind,
+}
+
+/// What is said of the thing itself.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Traits {
+    pub(super) paint: Option<Paint>,
+    pub(super) free: bool,
+    pub(super) parked: bool,
+    /// Not the one spoken of last.
+    pub(super) other: bool,
 }
 
 /// What a phrase names.
@@ -86,9 +181,11 @@ pub(super) struct Reference {
 pub(super) enum Target {
     /// What was spoken of last.
     It,
+    /// Who was spoken of last.
+    Them,
     /// Where one went last.
     There,
-    /// Where one is.
+    /// Where one was when the sentence was said.
     Here,
     /// An entity by its id.
     Id(EntityId),
@@ -103,18 +200,87 @@ pub(super) enum Target {
 /// Which of several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
-    /// Not said: the nearest, or the one that stands closest to what it is described by.
+    /// Not said.
     Open,
     /// The nearest.
     Nearest,
     /// The farthest.
     Farthest,
+    /// The nth, counted from the nearest, from 1.
+    Nth(u32),
+    /// The one with the most or, with `false`, the least of a measure.
+    Most(Measure, bool),
+}
+
+/// What can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measure {
+    Height,
+    Volume,
+    Mass,
+}
+
+/// How many are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Count {
+    One,
+    Exactly(u32),
+    All,
 }
 
 impl Reference {
-    /// "The nearest seat".
-    pub(super) fn to_any_seat() -> Self {
-        let target = Target::Any(Category::seat());
-        Self { target, choice: Choice::Nearest, relation: None, text: "seat".to_owned() }
+    pub(super) fn to(target: Target, text: String) -> Self {
+        Self {
+            target,
+            choice: Choice::Open,
+            count: Count::One,
+            traits: Traits::default(),
+            relation: None,
+            indefinite: false,
+            text,
+        }
+    }
+
+    /// "The nearest" of a class.
+    pub(super) fn nearest(category: &'static Category) -> Self {
+        let text = category.words[0].to_owned();
+        Self { choice: Choice::Nearest, ..Self::to(Target::Any(category), text) }
+    }
+}
+
+impl Clause {
+    /// The phrase that says how many times the order is to be done: to both chairs, at two people.
+    pub(super) fn plural(&mut self) -> Option<&mut Reference> {
+        let reference = match self {
+            Self::Go { to, .. } | Self::Wave { to } | Self::Say { to, .. } => to,
+            Self::Take { what, .. }
+            | Self::Face { what }
+            | Self::Point { at: what }
+            | Self::Argue { with: what }
+            | Self::Follow { whom: what, .. } => what,
+            Self::Drop { what: Some(what), .. }
+            | Self::Give { what: Some(what), .. }
+            | Self::Door { what: Some(what), .. }
+            | Self::Sit { on: Some(what) }
+            | Self::Photo { of: Some(what), .. } => what,
+            _ => return None,
+        };
+        (reference.count != Count::One).then_some(reference)
+    }
+
+    /// Whether doing it twice in a row is doing something twice: waving is, sitting down is not.
+    pub(super) const fn is_repeatable(&self) -> bool {
+        matches!(
+            self,
+            Self::Wave { .. }
+                | Self::Turn { .. }
+                | Self::Step { .. }
+                | Self::Photo { .. }
+                | Self::Say { .. }
+                | Self::Argue { .. }
+                | Self::Point { .. }
+                | Self::Buy { .. }
+                | Self::LookUp { .. }
+        )
     }
 }

@@ -1,43 +1,62 @@
 //! Orders to a plan: each is worked out from where the earlier ones leave the agent.
 
-use simworld_core::action::Action;
-use simworld_core::geometry::{Point2, Point3};
+use simworld_core::action::{Action, ActionKind, ActionSet};
+use simworld_core::geometry::{Point2, Point3, heading};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Relation, Role};
-use simworld_core::seam::{Goal, Plan, PlanError, PlanStep};
+use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep};
 
-use super::clause::{Clause, Manner, Pace, Reference, Target, Vehicle};
+use super::clause::{Clause, Pace, Reference, Target, Test, Vehicle};
+use super::lexicon::{class, is_animate};
 use super::resolve::{Purpose, View};
 
 /// How near one comes to a thing, or to its door, m: well within reach of an arm.
 const AT_THING: f64 = 1.0;
+/// How near one comes to somebody, m: the near end of "social distance" (Hall 1966), within reach of two arms.
+const AT_PERSON: f64 = 1.2;
 /// How near one comes to a point, m.
 const AT_POINT: f64 = 0.5;
+/// The gap one keeps from somebody whom one follows, m.
+const FOLLOWING: f64 = 2.0;
 /// Room for a body between itself and what it stands before, m.
 const ROOM: f64 = 0.6;
 /// What "run" means, m/s: a slow jog, the most that walkers of the engine can do.
 const RUNNING: f64 = 2.5;
+/// What "slowly" means, m/s: half of a usual walk.
+pub(super) const STROLLING: f64 = 0.7;
+/// The speed of walking on, m/s.
+const WALKING: f64 = 1.4;
 
 /// How the agent's body will be at this point of the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Posture {
+pub(super) enum Posture {
     Standing,
     Seated,
     Aboard,
     Riding,
 }
 
+/// What a hand holds by then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Load {
+    Thing(EntityId),
+    /// Something that is bought on the way, and has no id yet.
+    Bought,
+}
+
 /// A plan in the making.
 pub(super) struct Draft<'a> {
-    view: View<'a>,
+    pub(super) view: View<'a>,
     level: f64,
+    kind: EntityKind,
+    supports: ActionSet,
     plan: Plan,
-    posture: Posture,
-    held: Option<EntityId>,
-    carried: Option<EntityId>,
+    pub(super) posture: Posture,
+    pub(super) held: Option<Load>,
+    pub(super) carried: Option<EntityId>,
     /// What one will stand beside, and where one went last.
-    beside: Option<EntityId>,
+    pub(super) beside: Option<EntityId>,
     there: Option<(Goal, f64)>,
 }
 
@@ -50,15 +69,22 @@ impl<'a> Draft<'a> {
             _ if scene.attached(me.id, Role::Ridden).is_some() => Posture::Riding,
             _ => Posture::Standing,
         };
+        let supports = match me.kind {
+            EntityKind::Dog => ActionSet::dog(),
+            kind if kind.is_vehicle() => ActionSet::vehicle(),
+            _ => ActionSet::humanoid(),
+        };
         Self {
-            view,
             level: me.position().z,
+            kind: me.kind,
+            supports,
             plan: Plan::default(),
             posture,
-            held: scene.attached(me.id, Role::Held),
+            held: scene.attached(me.id, Role::Held).map(Load::Thing),
             carried: scene.attached(me.id, Role::Carried),
             beside: None,
             there: None,
+            view,
         }
     }
 
@@ -66,62 +92,171 @@ impl<'a> Draft<'a> {
         self.plan
     }
 
-    /// Adds the steps of one order.
-    pub(super) fn add(&mut self, clause: &Clause) -> Result<(), PlanError> {
-        match clause {
-            Clause::Go { to, side, pace, within } => self.go(to, *side, *pace, *within)?,
-            Clause::Take { what, to } => {
-                self.take(what)?;
-                if let Some(to) = to {
-                    self.go(to, None, Pace::Usual, None)?;
-                    self.let_go(Manner::PutDown)?;
-                }
+    pub(super) fn add_all(&mut self, clauses: &[Clause]) -> Result<(), PlanError> {
+        clauses.iter().try_for_each(|clause| self.add(clause))
+    }
+
+    /// Adds the steps of one order, once for each thing that it is about.
+    fn add(&mut self, clause: &Clause) -> Result<(), PlanError> {
+        let mut each = clause.clone();
+        let Some(reference) = each.plural() else { return self.add_one(clause) };
+        for id in self.view.find_all(reference, Purpose::Any)? {
+            let mut one = clause.clone();
+            if let Some(reference) = one.plural() {
+                *reference = Reference::to(Target::Id(id), reference.text.clone());
             }
-            Clause::Drop { what, at, manner } => self.drop(what.as_ref(), at.as_ref(), *manner)?,
-            Clause::Sit { on } => self.sit(on.as_ref())?,
-            Clause::StandUp => {
-                self.posture = Posture::Standing;
-                self.act(Action::StandUp);
-            }
-            Clause::Stop => self.act(Action::Stop),
-            Clause::Wait { seconds } => self.plan.steps.push(PlanStep::Wait { seconds: *seconds }),
-            Clause::Board { what, to } => {
-                self.board(what)?;
-                if let Some(to) = to {
-                    self.go(to, None, Pace::Usual, None)?;
-                }
-            }
-            Clause::Alight { from } => self.alight(*from),
-            Clause::Step { direction, distance } => {
-                self.get_up();
-                self.act(Action::Step { direction: *direction, distance: *distance });
-            }
-            Clause::Turn { angle } => {
-                self.get_up();
-                self.act(Action::Rotate { angle: wrap_angle(*angle) });
-            }
-            Clause::Wave { to } => {
-                let to = self.find(to, Purpose::Any)?.id;
-                self.act(Action::WaveHand { to });
-            }
-            Clause::Photo => self.act(Action::TakePhoto),
+            self.add_one(&one)?;
         }
         Ok(())
     }
 
-    fn act(&mut self, action: Action) {
-        self.plan.steps.push(PlanStep::Act(action));
+    fn add_one(&mut self, clause: &Clause) -> Result<(), PlanError> {
+        match clause {
+            Clause::Go { to, side, pace, within } => self.go(to, *side, *pace, *within),
+            Clause::Cross => self.cross(),
+            Clause::Forward => self.act(Action::MoveForward { speed: WALKING }),
+            Clause::Follow { whom, pace } => self.follow(whom, *pace),
+            Clause::Take { what, to } => self.take_to(what, to.as_ref()),
+            Clause::Drop { what, at, manner } => self.drop(what.as_ref(), at.as_ref(), *manner),
+            Clause::Give { what, to } => self.give(what.as_ref(), to),
+            Clause::Buy { goods, times, at } => self.buy(goods, *times, at.as_ref()),
+            Clause::Sit { on } => self.sit(on.as_ref()),
+            Clause::StandUp => {
+                self.posture = Posture::Standing;
+                self.act(Action::StandUp)
+            }
+            Clause::Stop => self.act(Action::Stop),
+            Clause::Wait { seconds } => {
+                self.push(PlanStep::Wait { seconds: *seconds });
+                Ok(())
+            }
+            Clause::Board { what, to } => self.board(what).and_then(|()| self.go_on_to(to.as_ref())),
+            Clause::Drive { to } => self.drive(to),
+            Clause::Alight { from } => self.alight(*from),
+            Clause::Step { direction, distance } => {
+                self.get_up()?;
+                self.act(Action::Step { direction: *direction, distance: *distance })
+            }
+            Clause::Turn { angle } => {
+                self.get_up()?;
+                self.view.heading += angle;
+                self.act(Action::Rotate { angle: wrap_angle(*angle) })
+            }
+            Clause::Face { what } => self.face(what),
+            Clause::LookUp { angle } if *angle > 0.0 => self.act(Action::LookUp { angle: *angle }),
+            Clause::LookUp { angle } => self.act(Action::LookDown { angle: -angle }),
+            Clause::Point { at } => {
+                self.can(ActionKind::PointDirection)?;
+                let at = self.goal(at)?;
+                self.push(PlanStep::Point { at });
+                Ok(())
+            }
+            Clause::Wave { to } => {
+                let to = self.find(to, Purpose::Any)?.id;
+                self.act(Action::WaveHand { to })
+            }
+            Clause::Say { to, words } => {
+                let with = self.go_to_somebody(to, "talk to")?;
+                self.act(Action::Converse { with, words: words.clone() })
+            }
+            Clause::Argue { with } => {
+                let with = self.go_to_somebody(with, "argue with")?;
+                self.act(Action::Argue { with })
+            }
+            Clause::Door { what, open } => self.door(what.as_ref(), *open),
+            Clause::Photo { of, times } => self.photo(of.as_ref(), *times),
+            Clause::Speed { speed } => self.act(Action::ChangeSpeed { speed: *speed }),
+            Clause::If { test, then, otherwise } => self.either(test, then, otherwise),
+            Clause::Until { test, body } => {
+                let condition = self.condition(test)?;
+                let steps = self.block(body)?;
+                self.push(PlanStep::Until { condition, steps });
+                Ok(())
+            }
+            Clause::Repeat { times, body } => {
+                let steps = self.block(body)?;
+                self.push(PlanStep::Repeat { times: *times, steps });
+                Ok(())
+            }
+        }
     }
 
-    fn find(&mut self, reference: &Reference, purpose: Purpose) -> Result<EntityRef<'a>, PlanError> {
+    fn either(&mut self, test: &Test, then: &[Clause], otherwise: &[Clause]) -> Result<(), PlanError> {
+        let condition = self.condition(test)?;
+        let (held, carried, posture, beside, there) = (self.held, self.carried, self.posture, self.beside, self.there);
+        let (from, heading) = (self.view.from, self.view.heading);
+        if let Condition::Holds(Some(item)) = &condition {
+            self.held.get_or_insert(Load::Thing(*item));
+        }
+        let then = self.block(then)?;
+        let it = self.view.it;
+        // What else is done starts from where the first would have.
+        (self.held, self.carried, self.posture, self.beside, self.there) = (held, carried, posture, beside, there);
+        (self.view.from, self.view.heading) = (from, heading);
+        let otherwise = self.block(otherwise)?;
+        self.beside = None;
+        self.view.it = it;
+        self.push(PlanStep::If { condition, then, otherwise });
+        Ok(())
+    }
+
+    /// The steps of orders that are done as one.
+    fn block(&mut self, clauses: &[Clause]) -> Result<Vec<PlanStep>, PlanError> {
+        let outer = std::mem::take(&mut self.plan.steps);
+        let result = self.add_all(clauses);
+        let inner = std::mem::replace(&mut self.plan.steps, outer);
+        result.map(|()| inner)
+    }
+
+    pub(super) fn steps_so_far(&self) -> usize {
+        self.plan.steps.len()
+    }
+
+    /// Takes the steps from there on out again.
+    pub(super) fn take_back(&mut self, from: usize) -> Vec<PlanStep> {
+        self.plan.steps.split_off(from)
+    }
+
+    pub(super) fn push(&mut self, step: PlanStep) {
+        self.plan.steps.push(step);
+    }
+
+    pub(super) fn act(&mut self, action: Action) -> Result<(), PlanError> {
+        self.can(action.kind())?;
+        self.push(PlanStep::Act(action));
+        Ok(())
+    }
+
+    /// Whether a body of the agent's kind ever does that.
+    pub(super) fn can(&self, action: ActionKind) -> Result<(), PlanError> {
+        if self.supports.contains(action) {
+            return Ok(());
+        }
+        let names: Vec<String> = self.supports.iter().map(|kind| kind.to_string()).collect();
+        Err(PlanError::Unable { kind: self.kind, action, hint: format!("it can {}", names.join(", ")) })
+    }
+
+    pub(super) fn find(&mut self, reference: &Reference, purpose: Purpose) -> Result<EntityRef<'a>, PlanError> {
         let found = self.view.find(reference, purpose)?;
-        self.view.it = Some(found.id);
+        self.mention(&found);
         Ok(found)
+    }
+
+    /// Remembers what was spoken of.
+    pub(super) fn mention(&mut self, entity: &EntityRef<'_>) {
+        self.view.it = Some(entity.id);
+        if is_animate(entity.kind) {
+            self.view.them = Some(entity.id);
+        }
     }
 
     // ---- going somewhere ----
 
-    fn go(
+    pub(super) fn go_on_to(&mut self, to: Option<&Reference>) -> Result<(), PlanError> {
+        to.map_or(Ok(()), |to| self.go(to, None, Pace::Usual, None))
+    }
+
+    pub(super) fn go(
         &mut self,
         to: &Reference,
         side: Option<Relation>,
@@ -133,7 +268,7 @@ impl<'a> Draft<'a> {
                 wanted: "place that \"there\" could stand for".to_owned(),
                 near: "name it first, in the same sentence".to_owned(),
             })?,
-            (Target::Here, _) => (Goal::Point(self.on_level(self.view.from)), AT_POINT),
+            (Target::Here, _) => (Goal::Point(self.on_level(self.view.origin)), AT_POINT),
             (Target::Point { x, y, z }, _) => {
                 (Goal::Point(Point3::new(*x, *y, z.unwrap_or(self.level))), AT_POINT)
             }
@@ -144,178 +279,152 @@ impl<'a> Draft<'a> {
                     (Goal::Point(spot), AT_POINT)
                 } else {
                     self.beside = Some(entity.id);
-                    (Goal::Entity(entity.id), AT_THING)
+                    (Goal::Entity(entity.id), reach_of(&entity))
                 }
             }
         };
-        let speed = match pace {
-            Pace::Usual => None,
-            Pace::Run => Some(RUNNING),
-            Pace::At(speed) => Some(speed),
-        };
-        self.navigate(goal, within.unwrap_or(usual), speed);
-        Ok(())
+        self.navigate(goal, within.unwrap_or(usual), speed_of(pace))
     }
 
     /// Goes to where an entity is within reach, unless one is there by then.
-    fn go_beside(&mut self, entity: &EntityRef<'_>) {
+    pub(super) fn go_beside(&mut self, entity: &EntityRef<'_>) -> Result<(), PlanError> {
         if self.beside != Some(entity.id) {
-            self.navigate(Goal::Entity(entity.id), AT_THING, None);
+            self.navigate(Goal::Entity(entity.id), reach_of(entity), None)?;
             self.beside = Some(entity.id);
         }
+        Ok(())
     }
 
-    fn navigate(&mut self, to: Goal, within: f64, speed: Option<f64>) {
-        self.get_up();
+    fn navigate(&mut self, to: Goal, within: f64, speed: Option<f64>) -> Result<(), PlanError> {
+        if self.posture != Posture::Aboard {
+            self.get_up()?;
+        }
         self.there = Some((to, within));
-        self.view.from = match to {
+        let before = self.view.from;
+        self.view.from = self.place_of(to);
+        let way = self.view.from - before;
+        if way.norm() > within {
+            self.view.heading = heading(&way);
+        }
+        self.push(PlanStep::Navigate { to, within, speed });
+        Ok(())
+    }
+
+    fn place_of(&self, goal: Goal) -> Point2 {
+        match goal {
             Goal::Point(point) => point.xy(),
             Goal::Entity(id) => {
                 self.view.scene.entity(id).map_or(self.view.from, |entity| entity.access().xy())
             }
             _ => self.view.from,
-        };
-        self.plan.steps.push(PlanStep::Navigate { to, within, speed });
+        }
     }
 
-    /// Nobody walks while sitting or aboard.
-    fn get_up(&mut self) {
-        match self.posture {
-            Posture::Seated => self.act(Action::StandUp),
-            Posture::Aboard => self.act(Action::ExitCar),
-            Posture::Standing | Posture::Riding => return,
-        }
-        self.posture = Posture::Standing;
+    fn goal(&mut self, reference: &Reference) -> Result<Goal, PlanError> {
+        Ok(match (&reference.target, self.there) {
+            (Target::Point { x, y, z }, _) => Goal::Point(Point3::new(*x, *y, z.unwrap_or(self.level))),
+            (Target::There, Some((goal, _))) => goal,
+            (Target::Here, _) => Goal::Point(self.on_level(self.view.origin)),
+            _ => Goal::Entity(self.find(reference, Purpose::Any)?.id),
+        })
     }
 
-    fn on_level(&self, point: Point2) -> Point3 {
-        Point3::new(point.x, point.y, self.level)
-    }
-
-    // ---- using things ----
-
-    fn take(&mut self, what: &Reference) -> Result<(), PlanError> {
-        let item = self.find(what, Purpose::Item)?;
-        if self.held == Some(item.id) || self.carried == Some(item.id) {
-            return Ok(());
+    fn face(&mut self, what: &Reference) -> Result<(), PlanError> {
+        self.can(ActionKind::Rotate)?;
+        let to = self.goal(what)?;
+        let way = self.place_of(to) - self.view.from;
+        if way.norm() > 1e-6 {
+            self.view.heading = heading(&way);
         }
-        let id = item.id;
-        let action = match item.kind {
-            EntityKind::Parcel => Action::PickUp { item: id },
-            EntityKind::Chair | EntityKind::Cone | EntityKind::Prop => Action::CarryHeavy { item: id },
-            other => {
-                let near = format!("a {other} cannot be taken; parcels, chairs, cones and props can");
-                return Err(PlanError::NotFound { wanted: format!("{:?} to take", what.text), near });
-            }
-        };
-        self.go_beside(&item);
-        match action {
-            Action::PickUp { .. } => self.held = Some(id),
-            _ => self.carried = Some(id),
-        }
-        self.act(action);
-        self.beside = None; // it comes along
+        self.push(PlanStep::Face { to });
         Ok(())
     }
 
-    fn drop(
-        &mut self,
-        what: Option<&Reference>,
-        at: Option<&Reference>,
-        manner: Manner,
-    ) -> Result<(), PlanError> {
-        // What one has in hand is what "it" is about here, whatever was spoken of since.
-        let in_hand = self.held.or(self.carried).is_some();
-        if let Some(what) = what.filter(|what| !(in_hand && what.target == Target::It)) {
-            let item = self.find(what, Purpose::Item)?;
-            let in_hand = [self.held, self.carried].contains(&Some(item.id));
-            if !in_hand && manner == Manner::Deliver {
-                self.take(what)?;
-            } else if !in_hand {
-                return Err(self.nothing_in_hand(&what.text));
-            }
+    fn photo(&mut self, of: Option<&Reference>, times: u32) -> Result<(), PlanError> {
+        if let Some(of) = of {
+            self.face(of)?;
         }
-        if let Some(at) = at {
-            let it = self.view.it;
-            self.go(at, None, Pace::Usual, None)?;
-            self.view.it = it.or(self.view.it);
+        if times == 1 {
+            return self.act(Action::TakePhoto);
         }
-        self.let_go(if manner == Manner::Deliver { Manner::PutDown } else { manner })
-    }
-
-    fn let_go(&mut self, manner: Manner) -> Result<(), PlanError> {
-        let heavy = manner == Manner::PutDown && self.carried.is_some();
-        let item = if heavy { self.carried.take() } else { self.held.take() };
-        let item = item.ok_or_else(|| self.nothing_in_hand("thing"))?;
-        self.view.it = Some(item);
-        self.act(if heavy { Action::PutDownHeavy } else { Action::DropOff });
+        self.can(ActionKind::TakePhoto)?;
+        self.push(PlanStep::Repeat { times, steps: vec![PlanStep::Act(Action::TakePhoto)] });
         Ok(())
     }
 
-    fn nothing_in_hand(&self, wanted: &str) -> PlanError {
-        let near = match self.held.or(self.carried).and_then(|id| self.view.scene.entity(id)) {
-            Some(item) => format!("you hold {} {}", item.label(), item.id),
-            None => "your hands are empty".to_owned(),
-        };
-        PlanError::NotFound { wanted: format!("{wanted} in hand"), near }
-    }
-
-    fn sit(&mut self, on: Option<&Reference>) -> Result<(), PlanError> {
-        let seat = match on {
-            Some(reference) => self.find(reference, Purpose::Seat)?,
-            None => self.any_seat()?,
-        };
-        if !seat.kind.is_seat() {
-            let near = format!("{} {} is no seat: {}", seat.label(), seat.id, self.view.surroundings());
-            return Err(PlanError::NotFound { wanted: "seat of that description".to_owned(), near });
+    fn follow(&mut self, whom: &Reference, pace: Pace) -> Result<(), PlanError> {
+        let target = self.find(whom, Purpose::Any)?;
+        if !target.kind.is_mobile() {
+            let near = format!("a {} stays where it is: follow people, animals, robots or vehicles", target.kind);
+            return Err(PlanError::NotFound { wanted: format!("{:?} to follow", whom.text), near });
         }
-        self.view.it = Some(seat.id);
-        self.go_beside(&seat);
-        self.posture = Posture::Seated;
-        self.act(Action::SitDown { seat: seat.id });
+        self.get_up()?;
+        self.beside = None;
+        self.push(PlanStep::Follow { whom: target.id, gap: FOLLOWING, speed: speed_of(pace) });
         Ok(())
     }
 
-    /// The seat that was spoken of, or else the nearest free one.
-    fn any_seat(&self) -> Result<EntityRef<'a>, PlanError> {
-        let spoken_of = self.view.it.and_then(|id| self.view.scene.entity(id));
-        if let Some(seat) = spoken_of.filter(|entity| entity.kind.is_seat()) {
-            return Ok(seat);
+    fn go_to_somebody(&mut self, to: &Reference, verb: &str) -> Result<EntityId, PlanError> {
+        let somebody = self.find(to, Purpose::Any)?;
+        if !is_animate(somebody.kind) {
+            let near = format!("a {} does not answer: {}", somebody.kind, self.view.surroundings());
+            return Err(PlanError::NotFound { wanted: format!("{:?} to {verb}", to.text), near });
         }
-        self.view.find(&Reference::to_any_seat(), Purpose::Seat)
+        self.go_beside(&somebody)?;
+        Ok(somebody.id)
     }
 
-    fn board(&mut self, what: &Reference) -> Result<(), PlanError> {
-        let vehicle = self.find(what, Purpose::Any)?;
-        let action = match vehicle.kind {
-            EntityKind::Scooter => Action::RideScooter { scooter: vehicle.id },
-            EntityKind::Car | EntityKind::Truck | EntityKind::Bus => Action::EnterCar { car: vehicle.id },
-            EntityKind::Building => {
-                self.go_beside(&vehicle);
-                return Ok(());
-            }
-            other => {
-                let near = format!("a {other} cannot be; scooters, cars, trucks and buses can");
-                return Err(PlanError::NotFound {
-                    wanted: format!("{:?} to get on or into", what.text),
-                    near,
-                });
-            }
+    /// To the other side of the nearest crossing, along its longer side.
+    fn cross(&mut self) -> Result<(), PlanError> {
+        let crossing = self.view.find(&Reference { indefinite: true, ..Reference::nearest(class("crossing")) }, Purpose::Any)?;
+        let half = crossing.info.shape.size() * 0.5;
+        let along = if half.x >= half.y {
+            Point3::new(half.x + AT_POINT, 0.0, 0.0)
+        } else {
+            Point3::new(0.0, half.y + AT_POINT, 0.0)
         };
-        self.go_beside(&vehicle);
-        self.posture = if vehicle.kind == EntityKind::Scooter { Posture::Riding } else { Posture::Aboard };
-        self.act(action);
-        Ok(())
+        let ends = [crossing.pose * along, crossing.pose * Point3::from(-along.coords)];
+        let distance = |end: &Point3| (end.xy() - self.view.from).norm();
+        let far = if distance(&ends[0]) >= distance(&ends[1]) { ends[0] } else { ends[1] };
+        self.navigate(Goal::Point(far), AT_POINT, None)
     }
 
-    fn alight(&mut self, from: Vehicle) {
+    fn alight(&mut self, from: Vehicle) -> Result<(), PlanError> {
         let scooter = match from {
             Vehicle::Scooter => true,
             Vehicle::Car => false,
             Vehicle::Any => self.posture != Posture::Aboard,
         };
         self.posture = Posture::Standing;
-        self.act(if scooter { Action::GetOffScooter } else { Action::ExitCar });
+        self.act(if scooter { Action::GetOffScooter } else { Action::ExitCar })
+    }
+
+    /// Nobody walks while sitting or aboard.
+    pub(super) fn get_up(&mut self) -> Result<(), PlanError> {
+        let action = match self.posture {
+            Posture::Seated => Action::StandUp,
+            Posture::Aboard => Action::ExitCar,
+            Posture::Standing | Posture::Riding => return Ok(()),
+        };
+        self.posture = Posture::Standing;
+        self.act(action)
+    }
+
+    fn on_level(&self, point: Point2) -> Point3 {
+        Point3::new(point.x, point.y, self.level)
+    }
+}
+
+fn reach_of(entity: &EntityRef<'_>) -> f64 {
+    if entity.kind == EntityKind::Person { AT_PERSON } else { AT_THING }
+}
+
+const fn speed_of(pace: Pace) -> Option<f64> {
+    match pace {
+        Pace::Usual => None,
+        Pace::Run => Some(RUNNING),
+        Pace::Slow => Some(STROLLING),
+        Pace::At(speed) => Some(speed),
     }
 }
 

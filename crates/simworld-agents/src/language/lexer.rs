@@ -2,6 +2,8 @@
 
 use simworld_core::id::EntityId;
 
+use super::verbs::{HESITATIONS, base_form};
+
 /// The smallest piece of a sentence.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Token {
@@ -25,8 +27,28 @@ pub(super) enum Token {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Lexeme {
     pub(super) token: Token,
+    /// The base form, if the token is an inflected verb: "sit" for "sitting".
+    pub(super) lemma: Option<String>,
     pub(super) start: usize,
     pub(super) end: usize,
+}
+
+/// As [`lex`], without the sounds that people make while they think, and the commas after them.
+pub(super) fn lex_speech(text: &str) -> Vec<Lexeme> {
+    let mut lexemes = lex(text);
+    let is_sound = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if HESITATIONS.contains(&word.as_str()));
+    while let Some(at) = lexemes.iter().position(is_sound) {
+        lexemes.remove(at);
+        let is_comma = |at: usize| matches!(lexemes.get(at), Some(Lexeme { token: Token::Comma, .. }));
+        let (before, after) = (at.checked_sub(1).is_some_and(is_comma), is_comma(at));
+        if after {
+            lexemes.remove(at);
+        }
+        if before {
+            lexemes.remove(at - 1);
+        }
+    }
+    lexemes
 }
 
 /// Reads the tokens of a text, in order.
@@ -46,7 +68,8 @@ pub(super) fn lex(text: &str) -> Vec<Lexeme> {
             (symbol(first), first.len_utf8())
         };
         if let Some(token) = token {
-            lexemes.push(Lexeme { token, start: at, end: at + length });
+            let lemma = if let Token::Word(word) = &token { base_form(word) } else { None };
+            lexemes.push(Lexeme { token, lemma, start: at, end: at + length });
         }
         at += length;
     }

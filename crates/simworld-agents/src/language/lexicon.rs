@@ -1,8 +1,12 @@
 //! The words of the grammar: what things are called, what one can be told to do, and the words around them.
 
 use simworld_core::scene::{EntityKind, EntityRef, Place, Relation};
+use simworld_core::seam::Which;
 
+use super::clause::{Measure, Side};
 use super::lexer::{Lexeme, Token};
+#[cfg(test)]
+use super::verbs::VERBS;
 
 /// A class of things that people have words for.
 #[derive(Debug, PartialEq)]
@@ -19,6 +23,16 @@ impl Category {
         &CATEGORIES[0]
     }
 
+    /// Whether all of it are people, animals or robots: who is spoken of as him, her or them.
+    pub(super) fn is_animate(&self) -> bool {
+        !self.kinds.is_empty() && self.kinds.iter().all(|kind| is_animate(*kind))
+    }
+
+    /// The class as data.
+    pub(super) fn to_which(&self) -> Which {
+        Which::Any { kinds: self.kinds.to_vec(), place: self.place }
+    }
+
     /// Whether an entity is of this class.
     pub(super) fn holds(&self, entity: &EntityRef<'_>) -> bool {
         self.kinds.contains(&entity.kind) || self.place.is_some_and(|place| entity.info.place == Some(place))
@@ -33,32 +47,43 @@ const fn places(words: &'static [&'static str], place: Place) -> Category {
     Category { words, kinds: &[], place: Some(place) }
 }
 
+/// The class with that word; it is one of the table's own words.
+pub(super) fn class(word: &str) -> &'static Category {
+    let has = |category: &&Category| category.words.contains(&word);
+    CATEGORIES.iter().find(has).unwrap_or(Category::seat())
+}
+
+/// Whether it is spoken of as him, her or them.
+pub(super) const fn is_animate(kind: EntityKind) -> bool {
+    matches!(kind, EntityKind::Person | EntityKind::Dog | EntityKind::Robot)
+}
+
 /// Every class. Plurals follow from the singular.
 pub(super) const CATEGORIES: &[Category] = &[
     things(&["seat"], &[EntityKind::Chair, EntityKind::Bench]),
-    things(&["chair", "armchair", "stool"], &[EntityKind::Chair]),
+    things(&["chair", "armchair", "stool", "deck chair"], &[EntityKind::Chair]),
     things(&["bench", "park bench"], &[EntityKind::Bench]),
     things(&["table", "desk"], &[EntityKind::Table]),
-    things(&["parcel", "package", "packet", "box", "order"], &[EntityKind::Parcel]),
+    things(&["parcel", "package", "packet", "box", "order", "delivery"], &[EntityKind::Parcel]),
     things(&["tree"], &[EntityKind::Tree]),
     things(&["shrub", "bush", "hedge", "flower bed"], &[EntityKind::Shrub]),
     things(
-        &["street lamp", "street light", "streetlight", "lamp post", "lamppost", "lamp"],
+        &["street lamp", "street light", "streetlight", "lamp post", "lamppost", "lamp", "lantern"],
         &[EntityKind::StreetLamp],
     ),
-    things(&["traffic light", "traffic signal", "stoplight"], &[EntityKind::TrafficSignal]),
+    things(&["traffic light", "traffic signal", "stoplight", "light", "lights", "signal"], &[EntityKind::TrafficSignal]),
     things(&["sign", "street sign", "traffic sign"], &[EntityKind::Sign]),
     things(
-        &["trash bin", "bin", "trash can", "garbage can", "litter bin", "dustbin", "waste bin"],
+        &["trash bin", "bin", "trash can", "garbage can", "litter bin", "dustbin", "waste bin", "rubbish bin", "trashcan", "garbage bin"],
         &[EntityKind::TrashBin],
     ),
     things(
-        &["mailbox", "letterbox", "letter box", "postbox", "post box", "mail box"],
+        &["mailbox", "letterbox", "letter box", "postbox", "post box", "mail box", "pillar box"],
         &[EntityKind::Mailbox],
     ),
     things(&["hydrant", "fire hydrant"], &[EntityKind::Hydrant]),
     things(&["cone", "traffic cone"], &[EntityKind::Cone]),
-    things(&["bus stop", "bus shelter"], &[EntityKind::BusStop]),
+    things(&["bus stop", "bus shelter", "bus station"], &[EntityKind::BusStop]),
     things(&["prop", "object"], &[EntityKind::Prop]),
     things(
         &["vehicle"],
@@ -71,137 +96,76 @@ pub(super) const CATEGORIES: &[Category] = &[
             EntityKind::Scooter,
         ],
     ),
-    things(&["car", "automobile", "taxi"], &[EntityKind::Car]),
+    things(&["car", "automobile", "taxi", "cab"], &[EntityKind::Car]),
     things(&["truck", "lorry", "van"], &[EntityKind::Truck]),
     things(&["bus"], &[EntityKind::Bus]),
     things(&["motorcycle", "motorbike"], &[EntityKind::Motorcycle]),
     things(&["bicycle", "bike"], &[EntityKind::Bicycle]),
     things(&["scooter", "kick scooter", "e scooter", "electric scooter"], &[EntityKind::Scooter]),
     things(
-        &["person", "people", "human", "pedestrian", "man", "woman", "passer by", "somebody", "someone"],
+        &[
+            "person", "people", "human", "pedestrian", "man", "men", "woman", "women", "passer by", "passerby",
+            "somebody", "someone", "anybody", "anyone", "everybody", "everyone", "whoever", "citizen", "guy", "lady",
+        ],
         &[EntityKind::Person],
     ),
-    things(&["dog", "robot dog"], &[EntityKind::Dog]),
+    things(&["dog", "robot dog", "hound", "puppy"], &[EntityKind::Dog]),
     things(&["robot"], &[EntityKind::Robot]),
-    things(&["building"], &[EntityKind::Building]),
+    things(&["building", "tower block", "skyscraper"], &[EntityKind::Building]),
+    things(&["door", "doorway", "gate", "entrance"], &[EntityKind::Door]),
     things(&["road", "street"], &[EntityKind::Road]),
     things(&["sidewalk", "pavement", "walkway"], &[EntityKind::Sidewalk]),
     things(&["crosswalk", "crossing", "zebra crossing"], &[EntityKind::Crosswalk]),
-    places(&["home", "house", "apartment", "flat", "residence"], Place::Home),
+    places(&["home", "house", "apartment", "flat", "residence", "cottage"], Place::Home),
     places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery"], Place::Restaurant),
     places(&["store", "shop", "supermarket", "grocery", "grocery store", "market"], Place::Store),
     places(&["hospital", "clinic"], Place::Hospital),
     places(&["museum", "gallery"], Place::Museum),
     places(&["school", "academy"], Place::School),
-    places(&["office", "office building"], Place::Office),
+    places(&["office", "office building", "workplace"], Place::Office),
     places(&["factory", "warehouse"], Place::Factory),
     places(&["charging station", "charging point", "charger"], Place::ChargingStation),
-    places(&["rest area", "rest stop", "resting place", "pavilion"], Place::RestArea),
-];
-
-/// What one can be told to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verb {
-    Go,
-    Run,
-    Take,
-    Deliver,
-    Drop,
-    PutDown,
-    Sit,
-    StandUp,
-    Stop,
-    Wait,
-    Board,
-    Alight,
-    Step,
-    Turn,
-    Wave,
-    Photo,
-}
-
-/// Verbs with their words; the longest that fits is taken.
-pub(super) const VERBS: &[(&[&str], Verb)] = &[
-    (
-        &[
-            "go",
-            "walk",
-            "head",
-            "navigate",
-            "move",
-            "come",
-            "travel",
-            "proceed",
-            "get to",
-            "make your way",
-            "go back",
-            "return",
-        ],
-        Verb::Go,
-    ),
-    (&["run", "hurry", "rush", "sprint", "jog"], Verb::Run),
-    (&["pick up", "pick", "take", "grab", "fetch", "collect", "get", "lift", "carry"], Verb::Take),
-    (&["deliver", "bring"], Verb::Deliver),
-    (&["drop off", "drop", "leave", "release", "hand over"], Verb::Drop),
-    (&["put down", "set down", "put", "place", "lay down"], Verb::PutDown),
-    (&["sit down", "sit", "take a seat", "have a seat", "be seated"], Verb::Sit),
-    (&["stand up", "stand", "get up", "rise"], Verb::StandUp),
-    (&["stop", "halt", "freeze", "stand still", "stay", "stay here", "stay there", "stop there"], Verb::Stop),
-    (&["wait", "pause", "rest"], Verb::Wait),
-    (&["ride", "get on", "get onto", "get in", "get into", "enter", "board", "mount", "hop on"], Verb::Board),
-    (&["get off", "get out", "get out of", "exit", "dismount", "alight", "hop off"], Verb::Alight),
-    (&["step"], Verb::Step),
-    (&["turn", "rotate"], Verb::Turn),
-    (&["wave", "wave at", "wave to"], Verb::Wave),
-    (&["take a photo", "take a picture", "take photo", "photograph"], Verb::Photo),
-];
-
-/// Ways to join two orders.
-pub(super) const JOINTS: &[&str] =
-    &["and", "then", "next", "after that", "afterwards", "finally", "also", "first", "lastly"];
-
-/// Politeness around an order.
-pub(super) const FILLERS: &[&str] = &[
-    "please",
-    "kindly",
-    "could you",
-    "can you",
-    "would you",
-    "will you",
-    "i want you to",
-    "i would like you to",
-    "id like you to",
-    "you should",
-    "you must",
-    "try to",
-    "lets",
-    "just",
-    "now",
-    "hey",
-    "hi",
-    "hello",
-    "ok",
-    "okay",
-    "thanks",
-    "thank you",
-    "for me",
-    "so",
+    places(&["rest area", "rest stop", "resting place", "pavilion", "rest place"], Place::RestArea),
 ];
 
 /// Words before a noun that say nothing about which.
 pub(super) const DETERMINERS: &[&str] =
-    &["the", "a", "an", "that", "this", "some", "any", "my", "your", "one of", "one"];
+    &["the", "a", "an", "that", "this", "these", "those", "some", "any", "my", "your", "our", "one of the", "one of", "one"];
 
 /// Words that say which of several.
 pub(super) const NEAREST: &[&str] = &["nearest", "closest", "nearby", "near by"];
 /// The contrary.
-pub(super) const FARTHEST: &[&str] = &["farthest", "furthest", "most distant"];
+pub(super) const FARTHEST: &[&str] = &["farthest", "furthest", "most distant", "last", "final"];
+/// Words that compare.
+pub(super) const MOSTS: &[(&[&str], (Measure, bool))] = &[
+    (&["tallest", "highest"], (Measure::Height, true)),
+    (&["shortest", "lowest"], (Measure::Height, false)),
+    (&["biggest", "largest", "big", "large"], (Measure::Volume, true)),
+    (&["smallest", "tiniest", "small", "little", "tiny"], (Measure::Volume, false)),
+    (&["heaviest"], (Measure::Mass, true)),
+    (&["lightest"], (Measure::Mass, false)),
+];
+/// Sides of the agent.
+pub(super) const SIDES: &[(&[&str], Side)] = &[
+    (
+        &["on the left", "on your left", "to the left", "to your left", "on the left side", "on your left side",
+          "on the left hand side", "on your left hand side", "at the left"],
+        Side::Left,
+    ),
+    (
+        &["on the right", "on your right", "to the right", "to your right", "on the right side",
+          "on your right side", "on the right hand side", "on your right hand side", "at the right"],
+        Side::Right,
+    ),
+    (&["ahead", "ahead of you", "in front of you", "straight ahead", "in front"], Side::Ahead),
+    (&["behind you", "at your back", "in back of you"], Side::Behind),
+];
 
 /// How two things may stand to each other; the longest phrase that fits is taken.
 pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
-    (&["next to", "beside", "by", "right next to", "adjacent to", "at the side of"], Relation::NextTo),
-    (&["near", "near to", "close to", "not far from"], Relation::Near),
-    (&["in front of", "outside", "outside of"], Relation::InFrontOf),
+    (&["next to", "beside", "by", "right next to", "right by", "just by", "adjacent to", "at the side of", "alongside"], Relation::NextTo),
+    (&["near", "near to", "close to", "not far from", "in the vicinity of", "close by"], Relation::Near),
+    (&["in front of", "outside", "outside of", "opposite", "opposite to", "across from"], Relation::InFrontOf),
     (&["behind", "at the back of", "in back of"], Relation::Behind),
     (&["left of", "to the left of", "on the left of"], Relation::LeftOf),
     (&["right of", "to the right of", "on the right of"], Relation::RightOf),
@@ -211,27 +175,7 @@ pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
 
 /// Words between a noun and how it stands to another.
 pub(super) const COPULAS: &[&str] =
-    &["that is", "thats", "which is", "that stands", "which stands", "standing", "located", "placed"];
-
-/// Numbers in words.
-pub(super) const NUMERALS: &[(&str, f64)] = &[
-    ("a", 1.0),
-    ("an", 1.0),
-    ("one", 1.0),
-    ("two", 2.0),
-    ("three", 3.0),
-    ("four", 4.0),
-    ("five", 5.0),
-    ("six", 6.0),
-    ("seven", 7.0),
-    ("eight", 8.0),
-    ("nine", 9.0),
-    ("ten", 10.0),
-    ("fifteen", 15.0),
-    ("twenty", 20.0),
-    ("thirty", 30.0),
-    ("sixty", 60.0),
-];
+    &["that is", "thats", "which is", "that stands", "which stands", "standing", "located", "placed", "who is", "whos", "who stands", "sitting", "is", "parked", "that are", "which are", "right"];
 
 /// How many tokens at the start of `lexemes` are the words of the phrase; `None` if they are others.
 pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {

@@ -12,15 +12,26 @@ mod clause;
 mod draft;
 mod lexer;
 mod lexicon;
+mod motion;
 mod names;
+mod numbers;
+mod orders;
+mod paint;
 mod parser;
 mod reference;
+mod relate;
 mod resolve;
+mod speech;
+mod spelling;
+mod tests_of;
+mod things;
+mod verbs;
 
 use draft::Draft;
 use names::Names;
 use parser::{Parser, shortened};
 use resolve::View;
+use simworld_core::geometry::yaw_of;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
@@ -49,16 +60,35 @@ const RANGE: f64 = 5000.0;
 /// let chair = world.spawn(EntityDesc::new(EntityKind::Chair, at(9.0), Shape::cuboid(0.5, 0.5, 0.9)))?;
 ///
 /// let words = Intent::Words("go to the nearest chair and sit down".into());
-/// let plan = GrammarPlanner.plan(&words, &world, me)?;
+/// let plan = GrammarPlanner::default().plan(&words, &world, me)?;
 /// let [PlanStep::Navigate { to, .. }, PlanStep::Act(action)] = &plan.steps[..] else { panic!("two steps") };
 /// assert_eq!(*to, Goal::Entity(chair));
 /// assert_eq!(*action, Action::SitDown { seat: chair });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
-pub struct GrammarPlanner;
+pub struct GrammarPlanner {
+    policy: AmbiguityPolicy,
+}
+
+/// What to do when several things fit a description: "the bench" where there are two.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AmbiguityPolicy {
+    /// Takes the one with the lowest id, wherever the agent stands.
+    First,
+    /// Takes the nearest.
+    #[default]
+    Nearest,
+    /// Asks back: [`PlanError::Ambiguous`] lists what could be meant.
+    Ask,
+}
 
 impl GrammarPlanner {
+    /// A planner that treats what is ambiguous so.
+    pub const fn with_policy(policy: AmbiguityPolicy) -> Self {
+        Self { policy }
+    }
+
     /// The calls that are understood, each with its arguments; a question mark follows those that may be left out.
     pub const fn calls() -> &'static [(&'static str, &'static [&'static str])] {
         call::CALLS
@@ -68,8 +98,19 @@ impl GrammarPlanner {
 impl Planner for GrammarPlanner {
     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
-        let view = View { scene, who, from: me.planar(), range: RANGE, it: None };
-        let names = Names::read(scene, me.planar(), RANGE);
+        let from = me.planar();
+        let view = View {
+            scene,
+            who,
+            from,
+            origin: from,
+            heading: yaw_of(me.pose),
+            range: RANGE,
+            it: None,
+            them: None,
+            policy: self.policy,
+        };
+        let names = Names::new(scene, from, RANGE);
         let clauses = match intent {
             Intent::Words(words) if words.chars().count() > LONGEST_SENTENCE => {
                 let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
@@ -79,13 +120,15 @@ impl Planner for GrammarPlanner {
                     hint,
                 });
             }
-            Intent::Words(words) => Parser::new(words, &lexer::lex(words), &names, &view).sentence()?,
+            Intent::Words(words) => {
+                let mut lexemes = lexer::lex_speech(words);
+                spelling::correct(&mut lexemes, &|| names.words());
+                Parser::new(words, &lexemes, &names, &view).sentence()?
+            }
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
         };
         let mut draft = Draft::new(view, &me);
-        for clause in &clauses {
-            draft.add(clause)?;
-        }
+        draft.add_all(&clauses)?;
         Ok(draft.finish())
     }
 }

@@ -1,17 +1,29 @@
-//! What things are called by their own names, and what to make of a misspelt one.
+//! What things are called by their own names, what places sell, and what to make of a misspelt name.
 
+use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::id::EntityId;
-use simworld_core::scene::Scene;
+use simworld_core::scene::{SELLS, Scene};
+use simworld_core::value::Value;
 
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{CATEGORIES, Category};
 
-/// The names within range, read once a plan.
-pub(super) struct Names {
+/// The names within range, read when the first is looked for.
+pub(super) struct Names<'a> {
+    scene: &'a dyn Scene,
+    around: Point2,
+    range: f64,
+    index: OnceCell<Index>,
+}
+
+#[derive(Default)]
+struct Index {
     entries: Vec<Name>,
+    /// What is sold somewhere, in alphabetical order.
+    goods: Vec<(String, Vec<Token>)>,
 }
 
 struct Name {
@@ -33,25 +45,72 @@ pub(super) enum Guess {
     Nothing(Option<String>),
 }
 
-impl Names {
-    /// Reads the names of everything within `range` m of a point.
-    pub(super) fn read(scene: &dyn Scene, around: Point2, range: f64) -> Self {
-        let mut entries = Vec::new();
-        let _ = scene.visit(&Aabb::column_around(around, range), &mut |entity| {
-            if let Some(name) = &entity.info.name {
-                let tokens = name_tokens(name);
-                if !tokens.is_empty() {
-                    entries.push(Name { id: entity.id, label: name.clone(), tokens });
+impl<'a> Names<'a> {
+    /// The names of everything within `range` m of a point.
+    pub(super) fn new(scene: &'a dyn Scene, around: Point2, range: f64) -> Self {
+        Self { scene, around, range, index: OnceCell::new() }
+    }
+
+    fn index(&self) -> &Index {
+        self.index.get_or_init(|| {
+            let mut index = Index::default();
+            let _ = self.scene.visit(&Aabb::column_around(self.around, self.range), &mut |entity| {
+                if let Some(name) = &entity.info.name {
+                    let tokens = name_tokens(name);
+                    if !tokens.is_empty() {
+                        index.entries.push(Name { id: entity.id, label: name.clone(), tokens });
+                    }
                 }
-            }
-            ControlFlow::Continue(())
-        });
-        Self { entries }
+                if let Some(Value::Text(sells)) = entity.info.attributes.get(SELLS) {
+                    let goods = sells.split(',').map(|goods| (goods.trim().to_owned(), name_tokens(goods)));
+                    index.goods.extend(goods.filter(|(_, tokens)| !tokens.is_empty()));
+                }
+                ControlFlow::Continue(())
+            });
+            index.goods.sort_by(|a, b| a.0.cmp(&b.0));
+            index.goods.dedup_by(|a, b| a.0 == b.0);
+            index
+        })
+    }
+
+    /// Every word of a name or of what is sold.
+    pub(super) fn words(&self) -> Vec<String> {
+        let index = self.index();
+        let tokens = index.entries.iter().flat_map(|name| &name.tokens);
+        let tokens = tokens.chain(index.goods.iter().flat_map(|(_, tokens)| tokens));
+        let word = |token: &Token| if let Token::Word(word) = token { Some(word.clone()) } else { None };
+        let mut words: Vec<String> = tokens.filter_map(word).collect();
+        words.sort_unstable();
+        words.dedup();
+        words
+    }
+
+    /// What is sold somewhere and named at the start of the phrase, in the singular or the plural.
+    pub(super) fn goods(&self, lexemes: &[Lexeme]) -> Option<(String, usize)> {
+        let fits = |tokens: &[Token]| {
+            let said = lexemes.get(..tokens.len())?;
+            let same = said.iter().zip(tokens).all(|(lexeme, token)| match (&lexeme.token, token) {
+                (Token::Word(said), Token::Word(word)) => {
+                    said == word || said.strip_prefix(word.as_str()).is_some_and(|end| end == "s" || end == "es")
+                }
+                (said, token) => said == token,
+            });
+            same.then_some(tokens.len())
+        };
+        let hits = self.index().goods.iter().filter_map(|(goods, tokens)| Some((fits(tokens)?, goods)));
+        hits.max_by_key(|(count, _)| *count).map(|(count, goods)| (goods.clone(), count))
+    }
+
+    /// What is sold here, for answers.
+    pub(super) fn sold(&self) -> String {
+        let goods: Vec<&str> = self.index().goods.iter().map(|(goods, _)| goods.as_str()).collect();
+        if goods.is_empty() { "nothing is sold here".to_owned() } else { format!("sold are {}", goods.join(", ")) }
     }
 
     /// The entities whose name begins the phrase; of several names the longest. With the number of tokens it takes.
     pub(super) fn exact(&self, lexemes: &[Lexeme]) -> Option<(Vec<EntityId>, usize)> {
         let hits: Vec<(EntityId, usize)> = self
+            .index()
             .entries
             .iter()
             .filter_map(|name| Some((name.id, begins_with(lexemes, &name.tokens)?)))
@@ -65,7 +124,7 @@ impl Names {
     pub(super) fn guess(&self, phrase: &[Lexeme]) -> Guess {
         let said: Vec<&Token> = phrase.iter().map(|lexeme| &lexeme.token).collect();
         let part_of = |name: &&Name| name.tokens.windows(said.len()).any(|part| part.iter().eq(said.clone()));
-        let parts: Vec<&Name> = self.entries.iter().filter(part_of).collect();
+        let parts: Vec<&Name> = self.index().entries.iter().filter(part_of).collect();
         if !parts.is_empty() {
             return one_name(&parts);
         }
@@ -91,7 +150,7 @@ impl Names {
         let classes = CATEGORIES
             .iter()
             .flat_map(|category| category.words.iter().map(move |word| Candidate::Class(category, word)));
-        self.entries.iter().map(Candidate::Name).chain(classes)
+        self.index().entries.iter().map(Candidate::Name).chain(classes)
     }
 }
 

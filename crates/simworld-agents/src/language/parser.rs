@@ -1,277 +1,294 @@
-//! Tokens to orders.
+//! Tokens to orders: how the orders of a sentence hang together.
 //!
 //! ```text
-//! sentence  = clause { joint clause }
+//! sentence  = statement { joint statement }
 //! joint     = "," | "." | ";" | "and" | "then" | "next" | "after that" | ...
-//! clause    = go place | run place | take thing ["to" place] | drop [thing] ["at" place] | sit ["on" thing]
-//!           | stand up | stop | wait number [unit] | ride thing ["to" place] | get off | step [direction] [number]
-//!           | turn direction [number] | wave "at" thing | take a photo
-//! thing     = ["the"] ["nearest" | "farthest"] noun [relation thing] | "it" | id
-//! place     = thing | relation thing | "(" number "," number ["," number] ")" | "there" | "here"
-//! noun      = a class of things | the name of one
-//! relation  = "next to" | "near" | "in front of" | "behind" | "left of" | "right of" | "on top of" | "inside"
+//! statement = "if" test group ["otherwise" group] | "when" test order | "until" test group | "keep" order
+//!           | "repeat" number "times" group | "before" order "," order | order { tail }
+//! group     = statement { "and" statement }
+//! tail      = number "times" | "until" test | "while" test | "for" time | "if" test | "unless" test | "when" test
+//!           | "before" order | "after" order
+//! order     = a verb with its objects (see `orders`); without a verb, that of the order before ("then to the museum")
 //! ```
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
 use simworld_core::action::StepDirection;
-use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Clause, Manner, Pace, Reference, Vehicle};
+use super::clause::{Clause, Test};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{FILLERS, JOINTS, NUMERALS, RELATIONS, VERBS, Verb, fits, longest, longest_phrase};
+use super::lexicon::{Category, fits, longest, longest_phrase};
 use super::names::Names;
+use super::numbers;
 use super::resolve::View;
+use super::verbs::{FILLERS, JOINTS, NEGATIONS, VERBS, Verb};
 
 /// What is understood, in one line, for answers.
-pub(super) const UNDERSTOOD: &str = "say go to, pick up, drop off, put down, sit down, stand up, stop, wait n seconds, ride, \
-     get off, step, turn or wave at, joined by \"and\" or \"then\"";
-/// The longest wait, s.
-const LONGEST_WAIT: f64 = 86_400.0;
-/// The longest single step, m.
-const LONGEST_STEP: f64 = 10.0;
+pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop off, put down, give, buy, sit down, stand up, \
+     stop, wait, ride, drive to, get off, open, step, turn, wave at, point at, talk to, argue with or take a photo, joined by \
+     \"and\" or \"then\"";
+/// How deep conditions and repetitions may nest.
+const DEEPEST: u32 = 4;
 
 /// Reads a sentence from left to right.
 pub(super) struct Parser<'a> {
     pub(super) words: &'a str,
     pub(super) lexemes: &'a [Lexeme],
-    pub(super) names: &'a Names,
+    pub(super) names: &'a Names<'a>,
     pub(super) view: &'a View<'a>,
     pub(super) at: usize,
+    /// The class that was named last: what "the red one" is one of.
+    pub(super) class: Option<&'static Category>,
+    /// The verb of the order before, for those that leave it out.
+    pub(super) verb: Option<Verb>,
+    depth: u32,
+}
+
+/// How the orders of a list hang together.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    /// To the end of the words.
+    Sentence,
+    /// As far as "and" reaches.
+    Group,
 }
 
 impl<'a> Parser<'a> {
-    pub(super) fn new(words: &'a str, lexemes: &'a [Lexeme], names: &'a Names, view: &'a View<'a>) -> Self {
-        Self { words, lexemes, names, view, at: 0 }
+    pub(super) fn new(
+        words: &'a str,
+        lexemes: &'a [Lexeme],
+        names: &'a Names<'a>,
+        view: &'a View<'a>,
+    ) -> Self {
+        Self { words, lexemes, names, view, at: 0, class: None, verb: None, depth: 0 }
     }
 
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let mut clauses = Vec::new();
         self.skip_joints();
-        while self.at < self.lexemes.len() {
-            clauses.push(self.clause()?);
-            self.skip_fillers();
-            let joined = self.skip_joints();
-            let goes_on = longest(self.rest(), VERBS).is_some();
-            if self.at < self.lexemes.len() && !joined && !goes_on {
-                return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
-            }
-        }
+        let clauses = self.orders(Extent::Sentence)?;
         if clauses.is_empty() { Err(self.not_understood(UNDERSTOOD)) } else { Ok(clauses) }
     }
 
-    fn clause(&mut self) -> Result<Clause, PlanError> {
-        let Some((verb, count)) = longest(self.rest(), VERBS) else {
-            return Err(self.not_understood(UNDERSTOOD));
-        };
-        self.at += count;
-        match verb {
-            Verb::Go if self.begins_step() => self.step(),
-            Verb::Take if self.counts_steps() => self.step(),
-            Verb::Go => self.go(Pace::Usual),
-            Verb::Run => self.go(Pace::Run),
-            Verb::Take => self.take(),
-            Verb::Deliver => self.drop(Manner::Deliver),
-            Verb::Drop => self.drop(Manner::DropOff),
-            Verb::PutDown => self.drop(Manner::PutDown),
-            Verb::Sit => self.sit(),
-            Verb::StandUp => {
-                self.tail(&["from"])?; // from which seat is no choice
-                self.eat_any(&["again"]);
-                Ok(Clause::StandUp)
+    fn orders(&mut self, extent: Extent) -> Result<Vec<Clause>, PlanError> {
+        let mut clauses: Vec<Clause> = Vec::new();
+        let mut group = 0;
+        while self.at < self.lexemes.len() {
+            let statement = self.statement()?;
+            clauses.extend(statement);
+            self.tails(&mut clauses, group)?;
+            if extent == Extent::Group && !self.goes_on_with_and() {
+                return Ok(clauses);
             }
-            Verb::Stop if self.peeks("for") || self.peek_number().is_some() => self.wait(),
-            Verb::Stop => {
-                self.eat_any(&["moving", "walking", "there", "here"]);
-                Ok(Clause::Stop)
+            let start = self.at;
+            self.skip_fillers();
+            let joined = self.skip_joints();
+            let goes_on = longest(self.rest(), VERBS).is_some() || self.begins_block();
+            if self.at < self.lexemes.len() && !joined && !goes_on {
+                return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
             }
-            Verb::Wait => self.wait(),
-            Verb::Board => {
-                Ok(Clause::Board { what: self.reference(0)?, to: self.tail(&["to", "over to", "back to"])? })
+            if !self.is_and(start) {
+                group = clauses.len();
             }
-            Verb::Alight => Ok(self.alight()),
-            Verb::Step => self.step(),
-            Verb::Turn => self.turn(),
-            Verb::Wave => {
-                self.eat_any(&["at", "to", "your hand at", "your hand to", "hand to", "hands to"]);
-                Ok(Clause::Wave { to: self.reference(0)? })
-            }
-            Verb::Photo => Ok(Clause::Photo),
         }
+        Ok(clauses)
     }
 
-    fn go(&mut self, pace: Pace) -> Result<Clause, PlanError> {
-        self.eat_any(&["straight", "directly", "over", "back", "up", "down", "quickly", "slowly", "away"]);
-        self.eat_any(&[
-            "to", "towards", "toward", "up to", "over to", "into", "in", "onto", "on", "at", "for",
-        ]);
-        let side = self.side();
-        Ok(Clause::Go { to: self.reference(0)?, side, pace, within: None })
-    }
-
-    /// "next to", "behind" and so on before a place.
-    fn side(&mut self) -> Option<Relation> {
-        let (relation, count) = longest(self.rest(), RELATIONS)?;
-        self.at += count;
-        Some(relation)
-    }
-
-    fn take(&mut self) -> Result<Clause, PlanError> {
-        let what = self.reference(0)?;
-        self.eat_any(&["up", "along", "with you"]);
-        Ok(Clause::Take { what, to: self.tail(&["to", "over to", "back to", "into"])? })
-    }
-
-    fn drop(&mut self, manner: Manner) -> Result<Clause, PlanError> {
-        let places = ["at", "to", "in", "on", "into", "over to", "back to"];
-        let what = if self.ends_clause() || longest_phrase(self.rest(), &places).is_some() {
-            None
-        } else {
-            Some(self.reference(0)?)
-        };
-        self.eat_any(&["down", "off", "up"]);
-        let at = self.tail(&places)?;
-        if manner == Manner::Deliver && at.is_none() {
-            return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
-        }
-        Ok(Clause::Drop { what, at, manner })
-    }
-
-    /// A place after one of these words.
-    fn tail(&mut self, words: &[&str]) -> Result<Option<Reference>, PlanError> {
-        let side = longest(self.rest(), RELATIONS).map(|(_, count)| count);
-        match longest_phrase(self.rest(), words).max(side) {
-            Some(count) => {
-                self.at += count;
-                self.reference(0).map(Some)
-            }
-            None => Ok(None),
-        }
-    }
-
-    fn sit(&mut self) -> Result<Clause, PlanError> {
-        self.eat_any(&["there", "here"]);
+    /// Whether "and", and no comma nor "then", joins what follows.
+    fn goes_on_with_and(&mut self) -> bool {
         let start = self.at;
-        if let Some(relation) = self.relation(0)? {
-            // "Sit by the tree" asks for any seat there.
-            let text = format!("seat {}", self.text_from(start));
-            let (choice, relation) = (Choice::Open, Some(relation));
-            return Ok(Clause::Sit {
-                on: Some(Reference { choice, relation, text, ..Reference::to_any_seat() }),
-            });
+        self.skip_fillers();
+        let goes_on = fits(self.rest(), "and").is_some();
+        if !goes_on {
+            self.at = start;
         }
-        Ok(Clause::Sit { on: self.tail(&["on", "in", "at", "onto", "upon"])? })
+        goes_on
     }
 
-    fn alight(&mut self) -> Clause {
-        self.eat_any(&["the", "of the", "of"]);
-        let from =
-            match (self.peeks("scooter"), self.peeks("car") || self.peeks("bus") || self.peeks("truck")) {
-                (true, _) => Vehicle::Scooter,
-                (_, true) => Vehicle::Car,
-                _ => Vehicle::Any,
-            };
-        self.at += usize::from(from != Vehicle::Any);
-        self.eat_any(&["it", "again"]);
-        Clause::Alight { from }
+    /// Whether the words from a place to here are "and" alone.
+    fn is_and(&self, start: usize) -> bool {
+        let joint = &self.lexemes[start..self.at];
+        joint.iter().any(|lexeme| lexeme.token == Token::Word("and".to_owned()))
+            && !joint.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "then"))
+            && !joint.iter().any(|lexeme| lexeme.token == Token::Break)
     }
 
-    fn wait(&mut self) -> Result<Clause, PlanError> {
-        self.eat_any(&["here", "there"]);
-        self.eat_any(&["for", "about"]);
-        let Some((number, count)) = self.peek_number() else {
-            return Err(self.not_understood("say how long, as in \"wait 5 seconds\""));
-        };
-        let number_at = self.at;
-        self.at += count;
-        let seconds = number * self.time_unit();
-        if !(seconds > 0.0 && seconds <= LONGEST_WAIT) {
-            self.at = number_at;
-            return Err(self.not_understood("wait for more than 0 and at most 86400 seconds"));
+    fn begins_block(&self) -> bool {
+        const BLOCKS: &[&str] = &["if", "unless", "when", "until", "keep", "repeat", "before", "after", "while"];
+        longest_phrase(self.rest(), BLOCKS).is_some()
+    }
+
+    /// One order or block, without what follows it.
+    fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.skip_fillers();
+        if longest_phrase(self.rest(), NEGATIONS).is_some() && longest(self.rest(), VERBS).is_none() {
+            return Err(self.not_understood("that says what not to do: say what to do"));
         }
-        Ok(Clause::Wait { seconds })
+        if self.depth >= DEEPEST {
+            return Err(self.not_understood("put at most four conditions and repetitions into one another"));
+        }
+        self.depth += 1;
+        let block = self.block();
+        self.depth -= 1;
+        match block? {
+            Some(clauses) => Ok(clauses),
+            None => self.order(),
+        }
     }
 
-    /// The length of the unit that follows, s; a second if none does.
-    fn time_unit(&mut self) -> f64 {
-        const UNITS: &[(&[&str], u32)] = &[
-            (&["seconds", "second", "secs", "sec", "s"], 1),
-            (&["minutes", "minute", "mins", "min"], 60),
-            (&["hours", "hour", "h"], 3600),
-        ];
-        let (unit, count) = longest(self.rest(), UNITS).unwrap_or((1, 0));
-        self.at += count;
-        f64::from(unit)
-    }
-
-    /// Whether a direction or a length follows: "go forward", "walk 3 m".
-    fn begins_step(&self) -> bool {
-        let in_digits = matches!(self.rest().first(), Some(Lexeme { token: Token::Number(_), .. }));
-        in_digits || self.counts_steps() || longest(self.rest(), DIRECTIONS).is_some()
-    }
-
-    /// Whether a number of metres or steps follows: "take two steps".
-    fn counts_steps(&self) -> bool {
-        self.peek_number().is_some_and(|(_, count)| longest_phrase(&self.rest()[count..], LENGTHS).is_some())
-    }
-
-    fn step(&mut self) -> Result<Clause, PlanError> {
-        let mut direction = self.direction();
-        let mut distance = 0.5;
-        let number_at = self.at;
-        if let Some((number, count)) = self.peek_number() {
+    fn block(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        if self.eat_any(&["if", "in case", "provided that", "provided"]) {
+            return self.either(false).map(Some);
+        }
+        if self.eat_any(&["unless", "if not"]) {
+            return self.either(true).map(Some);
+        }
+        if self.eat_any(&["until", "till"]) {
+            let test = self.test()?;
+            self.skip_joints();
+            return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
+        }
+        if self.eat_any(&["while", "as long as"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            self.skip_joints();
+            return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
+        }
+        if self.eat_any(&["when", "whenever", "once", "as soon as", "after"]) {
+            return self.afterwards().map(Some);
+        }
+        if self.eat_any(&["before"]) {
+            let later = self.statement()?;
+            self.skip_joints();
+            let mut clauses = self.statement()?;
+            clauses.extend(later);
+            return Ok(Some(clauses));
+        }
+        if self.eat_any(&["keep", "keep on", "continue", "continue to", "go on", "carry on", "dont stop"])
+            && !self.ends_clause()
+        {
+            return self.keep().map(Some);
+        }
+        let start = self.at;
+        self.eat_any(&["repeat", "repeat this", "do this", "do the following", "repeat the following"]);
+        if let Some((times, count)) = numbers::times(self.rest()) {
             self.at += count;
-            self.eat_any(LENGTHS);
-            distance = number;
+            self.skip_joints();
+            return Ok(Some(vec![Clause::Repeat { times, body: self.orders(Extent::Group)? }]));
         }
-        direction = direction.or_else(|| self.direction());
-        if !(distance > 0.0 && distance <= LONGEST_STEP) {
-            self.at = number_at;
-            return Err(self.not_understood("step more than 0 and at most 10 metres"));
-        }
-        Ok(Clause::Step { direction: direction.unwrap_or(StepDirection::Forward), distance })
+        self.at = start;
+        Ok(None)
     }
 
-    fn direction(&mut self) -> Option<StepDirection> {
-        if self.eat_any(&["back"]) {
-            return Some(StepDirection::Backward);
+    /// After "if": the test, what to do, and what else.
+    fn either(&mut self, negated: bool) -> Result<Vec<Clause>, PlanError> {
+        let test = self.test()?;
+        let test = if negated { Test::Not(Box::new(test)) } else { test };
+        self.skip_joints();
+        let then = self.orders(Extent::Group)?;
+        let end = self.at;
+        self.skip_joints();
+        let mut otherwise = Vec::new();
+        if self.eat_any(&["otherwise", "else", "or else", "if not", "or"]) {
+            self.skip_joints();
+            otherwise = self.orders(Extent::Group)?;
+        } else {
+            self.at = end;
         }
-        let (direction, count) = longest(self.rest(), DIRECTIONS)?;
-        self.at += count;
-        Some(direction)
+        Ok(vec![Clause::If { test, then, otherwise }])
     }
 
-    fn turn(&mut self) -> Result<Clause, PlanError> {
-        const SIDES: &[(&[&str], Side)] = &[
-            (&["left", "to the left", "to your left"], Side::Left),
-            (&["right", "to the right", "to your right"], Side::Right),
-            (&["around", "round", "back"], Side::Around),
-        ];
-        let Some((side, count)) = longest(self.rest(), SIDES) else {
-            return Err(self.not_understood("say left, right or around"));
-        };
-        self.at += count;
-        self.eat_any(&["by"]);
-        let number_at = self.at;
-        let mut angle = FRAC_PI_2;
-        if let Some((number, count)) = self.peek_number() {
+    /// After "when": a test to wait for, or an order that comes first.
+    fn afterwards(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        if let Ok(test) = self.test() {
+            self.skip_joints();
+            let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
+            if self.at < self.lexemes.len() {
+                clauses.extend(self.statement()?);
+            }
+            return Ok(clauses);
+        }
+        self.at = start;
+        self.eat_any(&["you", "you have", "youve", "you are", "you had", "having"]);
+        self.statement()
+    }
+
+    /// After "keep": an order that goes on.
+    fn keep(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let mut body = self.order()?;
+        if let [Clause::Step { direction: StepDirection::Forward, .. }] = body[..] {
+            body = vec![Clause::Forward];
+        }
+        Ok(body)
+    }
+
+    /// What follows an order and says how often, how long or when.
+    fn tails(&mut self, clauses: &mut Vec<Clause>, group: usize) -> Result<(), PlanError> {
+        loop {
+            let start = self.at;
+            self.skip_fillers();
+            self.eat_any(&["again and again", "over and over", "over and over again", "repeatedly"]);
+            let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+            if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
+                self.at += usize::from(comma) + count;
+                repeat(clauses, group, times, comma);
+            } else if comma && longest_phrase(&self.rest()[1..], &["until", "till", "unless"]).is_none() {
+                self.at = start;
+                return Ok(());
+            } else if !self.tail(clauses, comma)? {
+                self.at = start;
+                return Ok(());
+            }
+        }
+    }
+
+    fn tail(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {
+        self.at += usize::from(comma);
+        let Some(last) = clauses.last() else { return Ok(false) };
+        if self.eat_any(&["until", "till"]) {
+            let test = self.test()?;
+            let body = body_of(clauses.pop());
+            clauses.push(Clause::Until { test, body });
+        } else if self.eat_any(&["while", "as long as"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            let body = body_of(clauses.pop());
+            clauses.push(Clause::Until { test, body });
+        } else if self.eat_any(&["if", "provided that", "in case", "provided"]) {
+            let test = self.test()?;
+            let then = clauses.pop().into_iter().collect();
+            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
+        } else if self.eat_any(&["unless"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            let then = clauses.pop().into_iter().collect();
+            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
+        } else if self.eat_any(&["when", "once", "as soon as"]) {
+            let test = self.test()?;
+            clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
+        } else if self.eat_any(&["before"]) {
+            clauses.extend(self.order()?);
+        } else if self.eat_any(&["after"]) {
+            let earlier = self.order()?;
+            let at = clauses.len() - 1;
+            clauses.splice(at..at, earlier);
+        } else if let Some((seconds, count)) = self.peek_for() {
+            let rests = matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
             self.at += count;
-            let in_radians = self.eat_any(&["radians", "radian", "rad"]);
-            self.eat_any(&["degrees", "degree", "deg", "°"]);
-            angle = if in_radians { number } else { number.to_radians() };
+            if rests {
+                clauses.push(Clause::Wait { seconds });
+            } else {
+                let body = body_of(clauses.pop());
+                clauses.push(Clause::Until { test: Test::Elapsed(seconds), body });
+            }
+        } else {
+            return Ok(false);
         }
-        if !(angle > 0.0 && angle <= 2.0 * PI) {
-            self.at = number_at;
-            return Err(self.not_understood("turn by more than 0 and at most 360 degrees"));
-        }
-        let angle = match side {
-            Side::Left => angle,
-            Side::Right => -angle,
-            Side::Around => PI,
-        };
-        Ok(Clause::Turn { angle })
+        Ok(true)
+    }
+
+    /// "For ten seconds".
+    fn peek_for(&self) -> Option<(f64, usize)> {
+        let words = longest_phrase(self.rest(), &["for", "for about", "during", "for at least"])?;
+        let (seconds, count) = numbers::duration(&self.rest()[words..])?;
+        (seconds > 0.0 && seconds <= super::orders::LONGEST_WAIT).then_some((seconds, words + count))
     }
 
     // ---- the cursor ----
@@ -280,7 +297,7 @@ impl<'a> Parser<'a> {
         &self.lexemes[self.at..]
     }
 
-    fn peeks(&self, word: &str) -> bool {
+    pub(super) fn peeks(&self, word: &str) -> bool {
         fits(self.rest(), word).is_some()
     }
 
@@ -291,25 +308,15 @@ impl<'a> Parser<'a> {
         count.is_some()
     }
 
-    /// A number in digits or words, with how many tokens it takes.
-    fn peek_number(&self) -> Option<(f64, usize)> {
-        match &self.rest().first()?.token {
-            Token::Number(number) => Some((*number, 1)),
-            Token::Word(word) => {
-                NUMERALS.iter().find(|(numeral, _)| numeral == word).map(|(_, number)| (*number, 1))
-            }
-            _ => None,
-        }
-    }
-
-    fn ends_clause(&self) -> bool {
+    pub(super) fn ends_clause(&self) -> bool {
+        const TAILS: &[&str] = &["until", "till", "if", "unless", "when", "while", "before", "after", "as soon as", "for"];
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
-            || longest_phrase(self.rest(), JOINTS).is_some()
-            || longest_phrase(self.rest(), FILLERS).is_some()
+            || [JOINTS, FILLERS, TAILS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
+            || numbers::times(self.rest()).is_some()
     }
 
     /// Passes what joins orders, with the politeness around it; whether there was any.
-    fn skip_joints(&mut self) -> bool {
+    pub(super) fn skip_joints(&mut self) -> bool {
         let start = self.at;
         loop {
             self.skip_fillers();
@@ -323,8 +330,14 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn skip_fillers(&mut self) {
-        while self.eat_any(FILLERS) {}
+    /// Passes politeness, unless the words begin an order.
+    pub(super) fn skip_fillers(&mut self) {
+        while let Some(count) = longest_phrase(self.rest(), FILLERS) {
+            if longest(self.rest(), VERBS).is_some_and(|(_, words)| words >= count) {
+                return;
+            }
+            self.at += count;
+        }
     }
 
     /// The answer when the words from here on make no sense.
@@ -338,22 +351,25 @@ impl<'a> Parser<'a> {
     }
 }
 
-#[derive(Clone, Copy)]
-enum Side {
-    Left,
-    Right,
-    Around,
+/// The last order, or all of the group if the last one is not a thing that one does twice in a row.
+fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
+    let last_alone = !all && clauses.last().is_some_and(Clause::is_repeatable);
+    let from = if last_alone { clauses.len() - 1 } else { group.min(clauses.len()) };
+    let body: Vec<Clause> = clauses.drain(from..).collect();
+    match &body[..] {
+        [Clause::Photo { of, times: 1 }] => clauses.push(Clause::Photo { of: of.clone(), times }),
+        _ => clauses.push(Clause::Repeat { times, body }),
+    }
 }
 
-/// Units of length; a step is taken for a metre.
-const LENGTHS: &[&str] = &["metres", "metre", "meters", "meter", "m", "steps", "step"];
-
-const DIRECTIONS: &[(&[&str], StepDirection)] = &[
-    (&["forward", "forwards", "ahead", "straight ahead"], StepDirection::Forward),
-    (&["backward", "backwards"], StepDirection::Backward),
-    (&["left", "to the left", "to your left"], StepDirection::Left),
-    (&["right", "to the right", "to your right"], StepDirection::Right),
-];
+/// What goes on until something happens: waiting needs no order, and a step forward is the first of many.
+fn body_of(clause: Option<Clause>) -> Vec<Clause> {
+    match clause {
+        None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
+        Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],
+        Some(clause) => vec![clause],
+    }
+}
 
 /// A text cut to a length that fits into an answer.
 pub(super) fn shortened(text: &str) -> String {

@@ -1,50 +1,194 @@
 //! Noun phrases: what an order is about.
 
-use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Reference, Target};
+use super::clause::{Choice, Count, Reference, Side, Stands, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{
-    COPULAS, DETERMINERS, FARTHEST, FILLERS, JOINTS, NEAREST, RELATIONS, category, longest, longest_phrase,
+    COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES, category, fits, longest, longest_phrase,
 };
 use super::names::Guess;
+use super::numbers;
 use super::parser::{Parser, shortened};
+use super::verbs::{FILLERS, JOINTS};
 
 /// How many things may be described by one another: "the bench near the tree near ...".
 const DEEPEST: u32 = 4;
 /// Coordinates beyond this are outside every world, m.
 const FARTHEST_POINT: f64 = 1.0e7;
 /// Words that end a phrase whose words are not known.
-const BOUNDARIES: &[&str] = &["to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with"];
+const BOUNDARIES: &[&str] =
+    &["to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless", "when", "from", "of", "or", "that", "while", "before", "after"];
+const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
+const INDEFINITE: &[&str] = &["a", "an", "any", "some", "one of the", "one of", "another"];
 
 impl<'a> Parser<'a> {
     /// A thing or a place.
     pub(super) fn reference(&mut self, depth: u32) -> Result<Reference, PlanError> {
         self.eat_any(&["the point", "point", "the position", "position", "coordinates", "the coordinates"]);
-        let (mut start, mut choice) = (self.at, Choice::Open);
-        let target = if let Some(target) = self.simple_target()? {
-            target
-        } else {
-            choice = self.choice();
-            start = self.at; // answers leave the article out
-            self.noun()?
+        let start = self.at;
+        if let Some(them) = self.somebody() {
+            return Ok(them);
+        }
+        if let Some(target) = self.simple_target()? {
+            return Ok(Reference::to(target, self.text_from(start)));
+        }
+        let mut reference = Reference::to(Target::Here, String::new());
+        self.modifiers(&mut reference);
+        let mut text_at = self.at; // answers leave the article out
+        if reference.choice != Choice::Open || reference.traits != super::clause::Traits::default() {
+            text_at = start + usize::from(longest_phrase(&self.lexemes[start..], DETERMINERS).is_some());
+        }
+        reference.target = self.noun()?;
+        self.compound(&mut reference, text_at);
+        if let Target::Any(category) = &reference.target {
+            self.class = Some(category);
+        }
+        reference.text = self.text_from(text_at);
+        self.described(&mut reference, depth)?;
+        if reference.relation.is_some() {
+            reference.text = self.text_from(text_at);
+        }
+        self.or_another(&reference)?;
+        Ok(reference)
+    }
+
+    /// "The bench or the chair" leaves open which.
+    fn or_another(&mut self, reference: &Reference) -> Result<(), PlanError> {
+        let start = self.at;
+        if !self.eat_any(&["or"]) {
+            return Ok(());
+        }
+        let Ok(other) = self.reference(0) else {
+            self.at = start;
+            return Ok(());
         };
-        let text = self.text_from(start);
-        let relation = self.relation(depth)?;
-        let text = if relation.is_some() { self.text_from(start) } else { text };
-        Ok(Reference { target, choice, relation, text })
+        let mut candidates = Vec::new();
+        for one in [reference, &other] {
+            if let Ok(found) = self.view.find(one, super::resolve::Purpose::Any) {
+                candidates.push((found.id, found.label().to_owned()));
+            }
+        }
+        let wanted = format!("of {} or {}", reference.text, other.text);
+        Err(PlanError::Ambiguous { wanted, candidates })
+    }
+
+    /// Articles, numbers, colours and superlatives before a noun.
+    fn modifiers(&mut self, reference: &mut Reference) {
+        loop {
+            if let Some((count, words)) = self.peek_count() {
+                reference.count = count;
+                self.at += words;
+            } else if let Some(nth) = self.peek_ordinal() {
+                reference.choice = Choice::Nth(nth);
+                self.at += 1;
+            } else if self.eat_any(&["other", "another"]) {
+                reference.traits.other = true;
+            } else if longest_phrase(self.rest(), INDEFINITE).is_some() && self.eat_any(INDEFINITE) {
+                reference.indefinite = true;
+            } else if self.eat_any(DETERMINERS) {
+            } else if self.eat_any(NEAREST) {
+                if !matches!(reference.choice, Choice::Nth(_)) {
+                    reference.choice = Choice::Nearest;
+                }
+            } else if self.eat_any(FARTHEST) {
+                reference.choice = Choice::Farthest;
+            } else if self.eat_any(FREE) {
+                reference.traits.free = true;
+            } else if self.names_follow() {
+                return;
+            } else if let Some(((measure, most), words)) = longest(self.rest(), MOSTS) {
+                reference.choice = Choice::Most(measure, most);
+                self.at += words;
+            } else if let Some((paint, words)) = self.peek_paint() {
+                reference.traits.paint = Some(paint);
+                self.at += words;
+            } else if self.eat_any(&["parked"]) {
+                reference.traits.parked = true;
+            } else {
+                return;
+            }
+        }
+    }
+
+    fn peek_ordinal(&self) -> Option<u32> {
+        let nth = numbers::ordinal(self.rest())?;
+        // "One second" is a time, and nobody calls a thing "second" alone.
+        matches!(self.rest().get(1)?.token, Token::Word(_)).then_some(nth)
+    }
+
+    /// Whether a name begins here with what else would be an adjective: "Blue Spoon", "Little Italy".
+    fn names_follow(&self) -> bool {
+        let adjective = longest(self.rest(), MOSTS).map(|(_, words)| words).or(self.peek_paint().map(|(_, words)| words));
+        let Some(words) = adjective else { return false };
+        let after = &self.rest()[words..];
+        let is_plain = category(after).is_some() && !self.is_capital(self.at);
+        !is_plain && self.names.exact(self.rest()).is_some_and(|(_, count)| count > words)
+    }
+
+    /// Whether the token is written with a capital, as names are.
+    fn is_capital(&self, at: usize) -> bool {
+        let written = self.lexemes.get(at).and_then(|lexeme| self.words[lexeme.start..].chars().next());
+        at > 0 && written.is_some_and(char::is_uppercase)
+    }
+
+    /// "The library door": the first noun says whose.
+    fn compound(&mut self, reference: &mut Reference, text_at: usize) {
+        let Some((head, words)) = category(self.rest()) else { return };
+        if matches!(&reference.target, Target::Any(category) if *category == head) {
+            return;
+        }
+        self.at += words;
+        let whose = Reference { target: reference.target.clone(), ..Reference::to(Target::It, self.text_from(text_at)) };
+        reference.target = Target::Any(head);
+        reference.relation = Some(Stands::Of(Box::new(whose)));
+    }
+
+    /// What is said after a noun: where it stands, and what it is like.
+    fn described(&mut self, reference: &mut Reference, depth: u32) -> Result<(), PlanError> {
+        loop {
+            let start = self.at;
+            let copula = self.eat_any(COPULAS);
+            if copula && let Some((paint, words)) = self.peek_paint().filter(|_| self.lexemes[start].token != Token::Word("is".to_owned())) {
+                reference.traits.paint = Some(paint);
+                self.at += words;
+            } else if self.eat_any(&["nearest", "closest", "nearest you", "closest to you", "nearest to you", "near you", "close to you", "nearby", "close by", "closest to me", "nearest to me", "near me", "around here", "near here"]) {
+                if !(self.peeks("to")) {
+                    if reference.choice == Choice::Open {
+                        reference.choice = Choice::Nearest;
+                    }
+                    continue;
+                }
+                self.at += 1;
+                let anchor = self.reference(depth + 1)?;
+                reference.relation = Some(Stands::NearestTo(Box::new(anchor), true));
+            } else if self.eat_any(&["farthest away", "furthest away", "farthest from you", "furthest from you", "most distant", "farthest", "furthest", "farthest away from you"]) {
+                if !self.eat_any(&["from", "away from"]) {
+                    reference.choice = Choice::Farthest;
+                    continue;
+                }
+                let anchor = self.reference(depth + 1)?;
+                reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
+            } else if reference.relation.is_none()
+                && let Some(relation) = self.relation(depth)?
+            {
+                reference.relation = Some(relation);
+            } else {
+                self.at = start;
+                return Ok(());
+            }
+        }
     }
 
     /// Pronouns, ids and coordinates.
     fn simple_target(&mut self) -> Result<Option<Target>, PlanError> {
-        if self.eat_any(&["it", "them", "that one", "this one"]) {
+        if self.eat_any(&["it", "that one", "this one", "this thing", "that thing"]) {
             return Ok(Some(Target::It));
         }
-        if self.eat_any(&["there"]) {
+        if self.eat_any(&["there", "that place"]) {
             return Ok(Some(Target::There));
         }
-        if self.eat_any(&["here"]) {
+        if self.eat_any(&["here", "where you started", "where you were", "where you are", "where you started from", "your starting point", "the start"]) {
             return Ok(Some(Target::Here));
         }
         match self.rest() {
@@ -83,22 +227,18 @@ impl<'a> Parser<'a> {
         Ok(Target::Point { x: *x, y: *y, z: height.first().copied() })
     }
 
-    fn choice(&mut self) -> Choice {
-        let mut choice = Choice::Open;
-        loop {
-            if self.eat_any(NEAREST) {
-                choice = Choice::Nearest;
-            } else if self.eat_any(FARTHEST) {
-                choice = Choice::Farthest;
-            } else if !self.eat_any(DETERMINERS) && !self.eat_any(&["free", "empty", "available"]) {
-                return choice;
-            }
-        }
-    }
-
     /// A name or a class of things; of two that fit, the longer.
     fn noun(&mut self) -> Result<Target, PlanError> {
-        let (named, class) = (self.names.exact(self.rest()), category(self.rest()));
+        let class = category(self.rest());
+        // Names are looked up only where one may stand: the index of a large city takes time.
+        let may_be_name = match class {
+            None => true,
+            Some((_, words)) => {
+                let next = self.at + words;
+                self.is_capital(self.at) || self.is_capital(next) || fits(&self.lexemes[next..], "of").is_some()
+            }
+        };
+        let named = if may_be_name { self.names.exact(self.rest()) } else { None };
         match (named, class) {
             (Some((ids, count)), class) if class.is_none_or(|(_, words)| count >= words) => {
                 self.at += count;
@@ -108,7 +248,13 @@ impl<'a> Parser<'a> {
                 self.at += count;
                 Ok(Target::Any(category))
             }
-            _ => self.misspelt(),
+            _ => {
+                let class = self.class;
+                match class {
+                    Some(class) if self.eat_any(&["one", "ones"]) => Ok(Target::Any(class)),
+                    _ => self.misspelt(),
+                }
+            }
         }
     }
 
@@ -143,6 +289,11 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// Whether an order could go on or end here, so that no noun does.
+    fn ends_phrase(&self) -> bool {
+        [JOINTS, BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
+    }
+
     /// The words up to where something known goes on.
     fn unknown_phrase(&self) -> &'a [Lexeme] {
         let rest = self.rest();
@@ -154,23 +305,64 @@ impl<'a> Parser<'a> {
                     .any(|words| longest_phrase(here, words).is_some())
                 || longest(here, RELATIONS).is_some()
         };
-        let end = (0..rest.len()).find(ends).unwrap_or(rest.len());
+        let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());
+        if end == 0 && matches!(rest.first(), Some(Lexeme { token: Token::Word(_), .. })) && !self.ends_phrase() {
+            end = 1;
+        }
         &rest[..end]
     }
 
     /// How the thing stands to another, if that is said.
-    pub(super) fn relation(&mut self, depth: u32) -> Result<Option<(Relation, Box<Reference>)>, PlanError> {
+    pub(super) fn relation(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
         let start = self.at;
         self.eat_any(COPULAS);
-        let Some((relation, count)) = longest(self.rest(), RELATIONS) else {
+        let side = longest(self.rest(), SIDES);
+        let relation = longest(self.rest(), RELATIONS);
+        if let Some((side, count)) = side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words)) {
+            self.at += count;
+            return Ok(Some(Stands::Side(side)));
+        }
+        let between = self.eat_any(&["between", "in between", "halfway between", "midway between"]);
+        let of = !between && relation.is_none() && self.eat_any(&["of", "belonging to", "to"]) && self.of_follows(start);
+        if !between && !of && relation.is_none() {
             self.at = start;
             return Ok(None);
-        };
+        }
         if depth >= DEEPEST {
             return Err(self.not_understood("describe a thing by at most four others"));
         }
+        if between {
+            return self.between(depth).map(Some);
+        }
+        if of {
+            return Ok(Some(Stands::Of(Box::new(self.reference(depth + 1)?))));
+        }
+        let Some((relation, count)) = relation else { return Ok(None) };
         self.at += count;
-        Ok(Some((relation, Box::new(self.reference(depth + 1)?))))
+        if self.eat_any(&["you", "me", "yourself"]) {
+            return Ok(Some(Stands::Side(Side::Ahead)));
+        }
+        Ok(Some(Stands::To(relation, Box::new(self.reference(depth + 1)?))))
+    }
+
+    /// "To" says whose only of a door: "the door to the lab", but "bring the parcel to the lab".
+    fn of_follows(&self, start: usize) -> bool {
+        let is_to = self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("to".to_owned()));
+        let is_door = start > 0
+            && matches!(&self.lexemes[start - 1].token, Token::Word(word) if ["door", "doorway", "entrance", "gate"].contains(&word.as_str()));
+        !is_to || is_door
+    }
+
+    /// "Between the hospital and the museum", "between the two trees".
+    fn between(&mut self, depth: u32) -> Result<Stands, PlanError> {
+        let one = self.reference(depth + 1)?;
+        if self.peeks("and") {
+            self.at += 1;
+            let other = self.reference(depth + 1)?;
+            return Ok(Stands::Between(Box::new(one), Box::new(other)));
+        }
+        let nth = |nth| Box::new(Reference { choice: Choice::Nth(nth), count: Count::One, ..one.clone() });
+        Ok(Stands::Between(nth(1), nth(2)))
     }
 
     pub(super) fn text_from(&self, start: usize) -> String {

@@ -4,15 +4,19 @@ use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, EntityRef, Relation, Role, Scene};
+use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Reference, Target};
+use super::AmbiguityPolicy;
+use super::clause::{Choice, Count, Measure, Reference, Target};
+use super::paint::Paint;
 
-/// Everything that stands in a relation to a thing is within this gap of it, m (see [`Relation::Near`]).
-const RELATED: f64 = 30.0;
-/// How many things that fit a description are looked at for something beside them, nearest first.
-const MOST_ANCHORS: usize = 256;
+/// How far one looks first, m; then three times as far, until enough is found.
+const FIRST_LOOK: f64 = 30.0;
+/// Things so much farther away than the nearest are not meant by "the bench" when it could be either, m.
+const EITHER: f64 = 50.0;
+/// "All the chairs" are those within, m.
+const ALL_WITHIN: f64 = 50.0;
 
 /// What the thing is wanted for: it rules out what is in use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,126 +35,204 @@ pub(super) struct View<'a> {
     pub(super) scene: &'a dyn Scene,
     pub(super) who: EntityId,
     pub(super) from: Point2,
+    /// Where the sentence was said.
+    pub(super) origin: Point2,
+    /// Which way one looks, radians from east.
+    pub(super) heading: f64,
     /// How far one looks, m.
     pub(super) range: f64,
     /// What "it" stands for.
     pub(super) it: Option<EntityId>,
+    /// Who "him", "her" and "them" stand for.
+    pub(super) them: Option<EntityId>,
+    /// What to do if several things fit.
+    pub(super) policy: AmbiguityPolicy,
 }
+
+/// A thing that fits, with the figure by which to choose; less is better.
+pub(super) type Ranked = (f64, EntityId);
 
 impl<'a> View<'a> {
     /// The entity that a phrase means.
     pub(super) fn find(&self, reference: &Reference, purpose: Purpose) -> Result<EntityRef<'a>, PlanError> {
         let candidates = self.candidates(reference, purpose)?;
-        let usable = |id: &EntityId| self.scene.entity(*id);
-        candidates.iter().find_map(usable).ok_or_else(|| self.not_found(reference, purpose))
+        let Some(best) = candidates.first() else { return Err(self.not_found(reference, purpose)) };
+        self.check_choice(reference, &candidates)?;
+        let chosen = match self.policy {
+            AmbiguityPolicy::First if reference.choice == Choice::Open && reference.relation.is_none() => {
+                candidates.iter().map(|(_, id)| *id).min().unwrap_or(best.1)
+            }
+            _ => best.1,
+        };
+        self.scene.entity(chosen).ok_or_else(|| self.not_found(reference, purpose))
     }
 
-    /// All that a phrase may mean, the best first.
-    fn candidates(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<EntityId>, PlanError> {
-        let mut found = match &reference.relation {
-            Some((relation, anchor)) => self.related(reference, *relation, anchor, purpose)?,
-            None => self.plain(reference, purpose)?,
-        };
-        if reference.choice == Choice::Farthest {
-            found.reverse();
+    /// All that a phrase in the plural means, the nearest first.
+    pub(super) fn find_all(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<EntityId>, PlanError> {
+        let mut found: Vec<EntityId> =
+            self.candidates(reference, purpose)?.into_iter().map(|(_, id)| id).collect();
+        match reference.count {
+            Count::Exactly(count) if found.len() < count as usize => {
+                let near = format!("there are only {}: {}", found.len(), self.surroundings());
+                return Err(PlanError::NotFound { wanted: reference.text.clone(), near });
+            }
+            Count::Exactly(count) => found.truncate(count as usize),
+            Count::All if found.is_empty() => return Err(self.not_found(reference, purpose)),
+            Count::All => {}
+            Count::One => found.truncate(1),
         }
         Ok(found)
     }
 
-    /// Without regard to relations, the nearest first.
-    fn plain(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<EntityId>, PlanError> {
-        let mut found: Vec<(f64, EntityId)> = Vec::new();
-        let mut keep = |entity: EntityRef<'_>| {
-            if entity.id != self.who && self.is_free(&entity, purpose) {
-                found.push((self.distance(&entity), entity.id));
-            }
+    /// Asks back, if the policy is to ask and the words leave open which.
+    fn check_choice(&self, reference: &Reference, candidates: &[Ranked]) -> Result<(), PlanError> {
+        let [best, second, ..] = candidates else { return Ok(()) };
+        let open = match reference.choice {
+            // A superlative without a single best is open under every policy.
+            Choice::Most(..) => same(best.0, second.0),
+            _ if self.policy != AmbiguityPolicy::Ask || reference.indefinite => false,
+            Choice::Open => self.is_plain(reference) && second.0 <= best.0 + EITHER,
+            Choice::Nearest => same(best.0, second.0),
+            _ => false,
         };
-        match &reference.target {
-            Target::Any(category) => {
-                let _ = self.scene.visit(&Aabb::column_around(self.from, self.range), &mut |entity| {
-                    if category.holds(&entity) {
-                        keep(entity);
-                    }
-                    ControlFlow::Continue(())
-                });
-            }
-            Target::Named(ids) => ids.iter().filter_map(|id| self.scene.entity(*id)).for_each(keep),
-            // What is named outright is meant, in use or not.
-            Target::Id(id) => {
-                return Ok(self.scene.entity(*id).map(|entity| entity.id).into_iter().collect());
-            }
-            Target::It => return Ok(vec![self.antecedent(reference)?]),
-            Target::There | Target::Here | Target::Point { .. } => {
-                let near = "a place was given where a thing is needed".to_owned();
-                return Err(PlanError::NotFound { wanted: format!("thing {:?}", reference.text), near });
-            }
+        if !open {
+            return Ok(());
         }
-        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.retain(|(distance, _)| *distance <= self.range);
-        Ok(found.into_iter().map(|(_, id)| id).collect())
+        let reach = match reference.choice {
+            Choice::Open => best.0 + EITHER,
+            _ => best.0 + best.0.abs() * 0.01,
+        };
+        let meant = candidates.iter().take_while(|(rank, _)| *rank <= reach);
+        let label = |(_, id): &Ranked| {
+            let entity = self.scene.entity(*id)?;
+            Some((*id, format!("{} at {:.0} m", entity.label(), self.distance(&entity))))
+        };
+        let candidates = meant.filter_map(label).collect();
+        Err(PlanError::Ambiguous { wanted: reference.text.clone(), candidates })
     }
 
-    fn antecedent(&self, reference: &Reference) -> Result<EntityId, PlanError> {
-        self.it.ok_or_else(|| PlanError::NotFound {
+    /// Whether the phrase names a class or a name, and not this very thing.
+    fn is_plain(&self, reference: &Reference) -> bool {
+        let side = matches!(reference.relation, None | Some(super::clause::Stands::Side(_)));
+        side && matches!(reference.target, Target::Any(_) | Target::Named(_))
+    }
+
+    /// All that a phrase may mean, the best first.
+    pub(super) fn candidates(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<Ranked>, PlanError> {
+        let mut found = match &reference.relation {
+            Some(relation) => self.related(reference, relation, purpose)?,
+            None => self.plain(reference, purpose)?,
+        };
+        match reference.choice {
+            Choice::Farthest => found.reverse(),
+            Choice::Nth(nth) => {
+                found = found.get(nth.saturating_sub(1) as usize).copied().into_iter().collect();
+            }
+            Choice::Most(measure, most) => self.rank_by(&mut found, measure, most),
+            Choice::Open | Choice::Nearest => {}
+        }
+        Ok(found)
+    }
+
+    /// The most of a measure first; what has none comes last.
+    fn rank_by(&self, found: &mut [Ranked], measure: Measure, most: bool) {
+        for (rank, id) in found.iter_mut() {
+            let Some(entity) = self.scene.entity(*id) else { continue };
+            let size = entity.info.shape.size();
+            let value = match measure {
+                Measure::Height => size.z,
+                Measure::Volume => size.x * size.y * size.z,
+                Measure::Mass => entity.info.mass.unwrap_or(0.0),
+            };
+            *rank = if most { -value } else { value };
+        }
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    }
+
+    /// Without regard to relations, the nearest first.
+    pub(super) fn plain(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<Ranked>, PlanError> {
+        match &reference.target {
+            // What is named outright is meant, in use or not.
+            Target::Id(id) => Ok(self.scene.entity(*id).map(|entity| (0.0, entity.id)).into_iter().collect()),
+            Target::It => self.spoken_of(self.it.or(self.them), reference),
+            Target::Them => self.spoken_of(self.them, reference),
+            Target::There | Target::Here | Target::Point { .. } => {
+                let near = "a place was given where a thing is needed".to_owned();
+                Err(PlanError::NotFound { wanted: format!("thing {:?}", reference.text), near })
+            }
+            Target::Any(_) => Ok(self.of_class(reference, purpose)),
+            Target::Named(ids) => {
+                let known = ids.iter().filter_map(|id| self.scene.entity(*id));
+                let fits = known.filter(|entity| self.fits(entity, reference, purpose));
+                let mut found: Vec<Ranked> = fits.map(|entity| (self.distance(&entity), entity.id)).collect();
+                sort(&mut found);
+                Ok(found)
+            }
+        }
+    }
+
+    /// Things of a class, looked for in ever wider circles until there are enough.
+    fn of_class(&self, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
+        let (enough, first) = match (reference.choice, reference.count) {
+            (_, Count::All) => (usize::MAX, ALL_WITHIN),
+            (Choice::Farthest | Choice::Most(..), _) => (usize::MAX, self.range),
+            (Choice::Nth(nth), _) => (nth as usize, FIRST_LOOK),
+            (_, Count::Exactly(count)) => (count as usize, FIRST_LOOK),
+            _ => (1, FIRST_LOOK),
+        };
+        let mut reach = first.min(self.range);
+        loop {
+            let found = self.within(reach, reference, purpose);
+            if found.len() >= enough || reach >= self.range || reference.count == Count::All {
+                let asks = self.policy == AmbiguityPolicy::Ask && reference.choice == Choice::Open;
+                let wider = found.first().map(|nearest| nearest.0 + EITHER).filter(|wider| asks && *wider > reach);
+                return wider.map_or(found, |wider| self.within(wider, reference, purpose));
+            }
+            reach = (reach * 3.0).min(self.range);
+        }
+    }
+
+    fn within(&self, reach: f64, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
+        let mut found = Vec::new();
+        let _ = self.scene.visit(&Aabb::column_around(self.from, reach), &mut |entity| {
+            if self.fits(&entity, reference, purpose) {
+                let distance = self.distance(&entity);
+                if distance <= reach {
+                    found.push((distance, entity.id));
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        sort(&mut found);
+        found
+    }
+
+    fn spoken_of(&self, who: Option<EntityId>, reference: &Reference) -> Result<Vec<Ranked>, PlanError> {
+        who.map(|id| vec![(0.0, id)]).ok_or_else(|| PlanError::NotFound {
             wanted: format!("thing that {:?} could stand for", reference.text),
             near: "name it first, in the same sentence".to_owned(),
         })
     }
 
-    /// Those that stand in the relation to what the anchor may mean.
-    fn related(
-        &self,
-        reference: &Reference,
-        relation: Relation,
-        anchor: &Reference,
-        purpose: Purpose,
-    ) -> Result<Vec<EntityId>, PlanError> {
-        let anchors = self.candidates(anchor, Purpose::Any)?;
-        let mut found: Vec<(f64, EntityId)> = Vec::new();
-        for anchor in anchors.iter().take(MOST_ANCHORS).filter_map(|id| self.scene.entity(*id)) {
-            self.beside(reference, relation, &anchor, purpose, &mut found)?;
-            // Unless the nearest or farthest is asked for, the first thing with something beside it is meant.
-            if reference.choice == Choice::Open && !found.is_empty() {
-                break;
-            }
-        }
-        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Ok(found.into_iter().map(|(_, id)| id).collect())
-    }
-
-    /// Adds what stands in the relation to one anchor, with a figure by which to choose.
-    fn beside(
-        &self,
-        reference: &Reference,
-        relation: Relation,
-        anchor: &EntityRef<'_>,
-        purpose: Purpose,
-        found: &mut Vec<(f64, EntityId)>,
-    ) -> Result<(), PlanError> {
-        let mut judge = |entity: EntityRef<'_>| {
-            let fits = entity.id != self.who && self.is_free(&entity, purpose);
-            if fits && relation.holds(&entity, anchor) {
-                let rank = match reference.choice {
-                    Choice::Open => anchor.info.shape.planar_distance(anchor.pose, &entity.planar()),
-                    Choice::Nearest | Choice::Farthest => self.distance(&entity),
-                };
-                found.push((rank, entity.id));
-            }
+    /// Whether an entity is of the class that a phrase names, is as it says, and can be used.
+    pub(super) fn fits(&self, entity: &EntityRef<'_>, reference: &Reference, purpose: Purpose) -> bool {
+        let wanted = match &reference.target {
+            Target::Any(category) => category.holds(entity),
+            Target::Named(ids) => ids.contains(&entity.id),
+            Target::Id(id) => entity.id == *id,
+            _ => true,
         };
-        if let Target::Any(category) = &reference.target {
-            let _ = self.scene.visit(&anchor.bounds.inflated(RELATED), &mut |entity| {
-                if category.holds(&entity) {
-                    judge(entity);
-                }
-                ControlFlow::Continue(())
-            });
-        } else {
-            self.plain(reference, purpose)?.iter().filter_map(|id| self.scene.entity(*id)).for_each(judge);
-        }
-        Ok(())
+        let traits = &reference.traits;
+        wanted
+            && entity.id != self.who
+            && !(traits.other && (self.it == Some(entity.id) || self.them == Some(entity.id)))
+            && traits.paint.is_none_or(|paint| entity.info.color.map(Paint::of) == Some(paint))
+            && (!traits.parked || entity.info.attributes.get("parked") == Some(&true.into()))
+            && (!traits.free || self.is_free(entity, Purpose::Seat) && self.is_free(entity, Purpose::Item))
+            && self.is_free(entity, purpose)
     }
 
-    fn distance(&self, entity: &EntityRef<'_>) -> f64 {
+    pub(super) fn distance(&self, entity: &EntityRef<'_>) -> f64 {
         entity.info.shape.planar_distance(entity.pose, &self.from)
     }
 
@@ -163,7 +245,7 @@ impl<'a> View<'a> {
     }
 
     /// The answer when nothing fits: whether all are in use, and what there is instead.
-    fn not_found(&self, reference: &Reference, purpose: Purpose) -> PlanError {
+    pub(super) fn not_found(&self, reference: &Reference, purpose: Purpose) -> PlanError {
         let in_use = purpose != Purpose::Any
             && self.candidates(reference, Purpose::Any).is_ok_and(|candidates| !candidates.is_empty());
         let near = if in_use { "all that there are in use".to_owned() } else { self.surroundings() };
@@ -179,7 +261,7 @@ impl<'a> View<'a> {
         /// How far, m, and how many things are listed.
         const NEAR: f64 = 100.0;
         const MOST: usize = 4;
-        let mut found: Vec<(f64, EntityId)> = Vec::new();
+        let mut found: Vec<Ranked> = Vec::new();
         let reach = NEAR.min(self.range);
         let _ = self.scene.visit(&Aabb::column_around(self.from, reach), &mut |entity| {
             let distance = self.distance(&entity);
@@ -188,7 +270,7 @@ impl<'a> View<'a> {
             }
             ControlFlow::Continue(())
         });
-        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        sort(&mut found);
         let mut listed: Vec<String> = Vec::new();
         for (distance, id) in found {
             let Some(entity) = self.scene.entity(id) else { continue };
@@ -206,6 +288,16 @@ impl<'a> View<'a> {
             format!("near are {}", listed.join(", "))
         }
     }
+}
+
+/// Nearest first; of two at the same distance the lower id.
+pub(super) fn sort(found: &mut [Ranked]) {
+    found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+}
+
+/// Whether two figures differ by less than people see, 1 %.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= a.abs() * 0.01
 }
 
 const fn is_surface(kind: EntityKind) -> bool {

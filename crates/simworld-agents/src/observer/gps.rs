@@ -1,5 +1,6 @@
 //! Position, heading and speed, with the noise of a receiver.
 
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point3, Vector3, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
@@ -8,7 +9,7 @@ use simworld_core::seam::{ObserveError, Observer, Space};
 use simworld_core::seed::{Seed, Stream};
 
 /// What a receiver says.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GpsFix {
     /// Where one is, world frame, m.
     pub position: Point3,

@@ -2,6 +2,8 @@
 
 mod gps;
 mod scene_graph;
+mod text;
 
 pub use gps::{GpsFix, GpsObserver};
-pub use scene_graph::{SceneGraph, SceneGraphObserver, Sighting};
+pub use scene_graph::{Oneself, SceneGraph, SceneGraphObserver, Sighting};
+pub use text::tokens_in;

@@ -1,14 +1,16 @@
 //! The scene as an agent may know it: things around with kind, label, bearing and distance, and who holds what.
 
-use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Aabb, heading, yaw_of};
+use simworld_core::geometry::{Aabb, Point3, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::{ObserveError, Observer};
+
+use super::gps::{GpsFix, GpsObserver};
+use crate::executor::{crosses, eyes, hides, looked_at};
 
 /// One thing in sight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,63 +31,53 @@ pub struct Sighting {
     pub bond: Option<(EntityId, Role)>,
 }
 
-/// What is around, nearest first.
+/// The agent itself, as it knows of itself.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Oneself {
+    /// Where the receiver says it is.
+    pub fix: GpsFix,
+    /// What it hangs on, and how: the chair it sits on, the car it is in.
+    pub on: Option<(EntityId, Role)>,
+    /// What hangs on it, and how: what it holds, the scooter it rides; ascending.
+    pub with: Vec<(EntityId, Role)>,
+}
+
+/// What is around, nearest first, and how the agent itself is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SceneGraph {
+    /// The agent.
+    pub oneself: Oneself,
     /// The things in sight; of two at the same distance the lower id comes first.
     pub sightings: Vec<Sighting>,
-}
-
-impl SceneGraph {
-    /// The graph as lines for a prompt, nearest first, at most `budget` characters; what is left out is counted.
-    pub fn to_text(&self, budget: usize) -> String {
-        let mut text = String::new();
-        for (index, sighting) in self.sightings.iter().enumerate() {
-            let line = sighting.to_string();
-            let more = format!("... and {} more\n", self.sightings.len() - index);
-            if text.chars().count() + line.chars().count() + 1 + more.len() > budget {
-                // Even the count is left out if there is no room for it.
-                if text.chars().count() + more.len() <= budget {
-                    text.push_str(&more);
-                }
-                break;
-            }
-            text.push_str(&line);
-            text.push('\n');
-        }
-        text
-    }
-}
-
-impl std::fmt::Display for Sighting {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let degrees = self.bearing.to_degrees();
-        let side = if degrees >= 0.0 { "left" } else { "right" };
-        let mut notes = String::new();
-        if self.speed > 0.1 {
-            write!(notes, ", moving at {:.1} m/s", self.speed)?;
-        }
-        if let Some((carrier, role)) = self.bond {
-            write!(notes, ", {} by {carrier}", format!("{role:?}").to_lowercase())?;
-        }
-        let (id, kind, label) = (self.id, self.kind, &self.label);
-        let name = if label == kind.as_str() { String::new() } else { format!(" \"{label}\"") };
-        write!(f, "{id} {kind}{name}: {:.1} m, {:.0}° to the {side}{notes}", self.distance, degrees.abs())
-    }
+    /// What became of what it did, and what it was told, the oldest first; see [`hear`](Self::hear).
+    pub feedback: Vec<String>,
 }
 
 /// Sees what is within a radius and a field of view; flat surfaces are left out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct SceneGraphObserver {
     radius: f64,
     field_of_view: f64,
     most: usize,
+    through: bool,
+    gps: GpsObserver,
+    /// What hides things, kept from one observation to the next for its memory alone.
+    screens: Vec<EntityId>,
+    seen: Vec<(f64, f64, EntityId)>,
 }
 
 impl SceneGraphObserver {
-    /// Sees all round, within `radius` m, the 64 nearest things.
+    /// Sees all round and through walls, within `radius` m, the 64 nearest things; knows exactly where it is.
     pub fn new(radius: f64) -> Self {
-        Self { radius, field_of_view: std::f64::consts::TAU, most: 64 }
+        Self {
+            radius,
+            field_of_view: std::f64::consts::TAU,
+            most: 64,
+            through: true,
+            gps: GpsObserver::exact(),
+            screens: Vec::new(),
+            seen: Vec::new(),
+        }
     }
 
     /// With a field of view, radians across.
@@ -101,6 +93,20 @@ impl SceneGraphObserver {
         self.most = most;
         self
     }
+
+    /// Sees only what no building, vehicle or shelter hides from the eyes.
+    #[must_use]
+    pub fn with_occlusion(mut self) -> Self {
+        self.through = false;
+        self
+    }
+
+    /// With a receiver whose fix it takes for its own position. What it sees it sees from where it really is.
+    #[must_use]
+    pub fn with_gps(mut self, gps: GpsObserver) -> Self {
+        self.gps = gps;
+        self
+    }
 }
 
 impl Observer for SceneGraphObserver {
@@ -113,21 +119,76 @@ impl Observer for SceneGraphObserver {
         out: &mut SceneGraph,
     ) -> Result<(), ObserveError> {
         let me = scene.entity(who).ok_or(ObserveError::Missing { id: who })?;
-        out.sightings.clear();
-        let here = me.planar();
-        let _ = scene.visit(&Aabb::column_around(here, self.radius), &mut |entity| {
+        self.gps.observe(scene, who, &mut out.oneself.fix)?;
+        out.oneself.on = me.attachment.map(|bond| (bond.parent, bond.role));
+        out.oneself.with.clear();
+        scene.visit_attached(who, &mut |load| {
+            out.oneself.with.extend(load.attachment.map(|bond| (load.id, bond.role)));
+        });
+        out.oneself.with.sort_unstable();
+        out.feedback.clear();
+        self.look(scene, &me);
+        let mut spare = std::mem::take(&mut out.sightings);
+        let mut kept = 0;
+        for (distance, bearing, id) in &self.seen {
+            if kept == self.most {
+                break;
+            }
+            let Some(entity) = scene.entity(*id) else { continue };
+            if self.is_hidden(scene, &me, &entity) {
+                continue;
+            }
+            match spare.get_mut(kept) {
+                Some(place) => place.set(&entity, *distance, *bearing),
+                None => spare.push(Sighting::of(&entity, *distance, *bearing)),
+            }
+            kept += 1;
+        }
+        spare.truncate(kept);
+        out.sightings = spare;
+        Ok(())
+    }
+}
+
+impl SceneGraphObserver {
+    /// Gathers what is within the radius and the field of view, nearest first, and what could hide it.
+    fn look(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) {
+        let (here, through) = (me.planar(), self.through);
+        let Self { seen, screens, radius, field_of_view, .. } = self;
+        seen.clear();
+        screens.clear();
+        let _ = scene.visit(&Aabb::column_around(here, *radius), &mut |entity| {
+            if entity.id == me.id || !is_thing(entity.kind) {
+                return ControlFlow::Continue(());
+            }
             let distance = entity.info.shape.planar_distance(entity.pose, &here);
-            if entity.id != who && is_thing(entity.kind) && distance <= self.radius {
-                let bearing = bearing(&me, &entity);
-                if bearing.abs() <= self.field_of_view * 0.5 {
-                    out.sightings.push(sighting(&entity, distance, bearing));
+            if distance <= *radius {
+                if !through && hides(&entity) {
+                    screens.push(entity.id);
+                }
+                let bearing = bearing(me, &entity);
+                if bearing.abs() <= *field_of_view * 0.5 {
+                    seen.push((distance, bearing, entity.id));
                 }
             }
             ControlFlow::Continue(())
         });
-        out.sightings.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
-        out.sightings.truncate(self.most);
-        Ok(())
+        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+    }
+
+    /// Whether something large stands between the eyes and the middle of a thing, and the eyes and its top.
+    fn is_hidden(&self, scene: &dyn Scene, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
+        if self.screens.is_empty() || other.attachment.is_some_and(|bond| bond.parent == me.id) {
+            return false;
+        }
+        let eye = eyes(me);
+        let (middle, top) = looked_at(other, eye.xy());
+        let carrier = me.attachment.map(|bond| bond.parent);
+        let behind = |point: &Point3| {
+            let mut screens = self.screens.iter().filter(|id| **id != other.id && Some(**id) != carrier);
+            screens.any(|id| scene.entity(*id).is_some_and(|screen| crosses(&screen, &eye, point)))
+        };
+        behind(&middle) && behind(&top)
     }
 }
 
@@ -141,14 +202,32 @@ fn bearing(me: &EntityRef<'_>, other: &EntityRef<'_>) -> f64 {
     if offset.norm() < 1e-9 { 0.0 } else { wrap_angle(heading(&offset) - yaw_of(me.pose)) }
 }
 
-fn sighting(entity: &EntityRef<'_>, distance: f64, bearing: f64) -> Sighting {
-    Sighting {
-        id: entity.id,
-        kind: entity.kind,
-        label: entity.label().to_owned(),
-        distance,
-        bearing,
-        speed: entity.twist.ground_speed(),
-        bond: entity.attachment.map(|bond| (bond.parent, bond.role)),
+impl Sighting {
+    fn of(entity: &EntityRef<'_>, distance: f64, bearing: f64) -> Self {
+        Self {
+            id: entity.id,
+            kind: entity.kind,
+            label: entity.label().to_owned(),
+            distance,
+            bearing,
+            speed: entity.twist.ground_speed(),
+            bond: entity.attachment.map(|bond| (bond.parent, bond.role)),
+        }
+    }
+
+    /// Becomes another sighting in place, without allocating anew.
+    fn set(&mut self, entity: &EntityRef<'_>, distance: f64, bearing: f64) {
+        let mut label = std::mem::take(&mut self.label);
+        label.clear();
+        label.push_str(entity.label());
+        *self = Self {
+            id: entity.id,
+            kind: entity.kind,
+            label,
+            distance,
+            bearing,
+            speed: entity.twist.ground_speed(),
+            bond: entity.attachment.map(|bond| (bond.parent, bond.role)),
+        };
     }
 }

@@ -174,7 +174,7 @@ pub(crate) fn field() -> (Simulation, Vec<EntityId>) {
 }
 
 pub(crate) fn agent(id: EntityId, mind: impl Mind<ConeHunt> + 'static) -> Agent<ConeHunt> {
-    let (planner, executor) = (Box::new(GrammarPlanner), Box::new(RuleExecutor::straight()));
+    let (planner, executor) = (Box::new(GrammarPlanner::default()), Box::new(RuleExecutor::straight()));
     Agent { id, mind: Box::new(mind), planner, executor }
 }
 

@@ -8,7 +8,7 @@ pub(crate) mod outcome;
 use std::collections::BTreeMap;
 
 use city::City;
-use simworld_agents::language::GrammarPlanner;
+use simworld_agents::language::{AmbiguityPolicy, GrammarPlanner};
 use simworld_core::intent::Intent;
 use simworld_core::seam::{Plan, PlanError, Planner};
 use simworld_core::value::Value;
@@ -82,6 +82,30 @@ pub(crate) enum Verdict {
     WrongAction(String),
     /// An answer where a plan was expected, or an answer that misses the point.
     WrongAnswer(String),
+}
+
+/// Plans for what is said, and judges what comes of it.
+pub(crate) fn verdict(city: &City, said: &Said) -> Verdict {
+    let got = understand(&mut GrammarPlanner::default(), city, said);
+    let Some(meant) = said.meaning.strip_prefix("? ") else { return judge(city, said, &got) };
+    // Who is told to ask names all that could be meant; who is not takes the first of them.
+    let mut meant: Vec<&str> = meant.split(" | ").collect();
+    let first = meant[0];
+    let asked = understand(&mut GrammarPlanner::with_policy(AmbiguityPolicy::Ask), city, said);
+    let mut named = match asked {
+        Err(PlanError::Ambiguous { candidates, .. }) => {
+            candidates.iter().map(|(id, _)| city.key(*id)).collect::<Vec<_>>()
+        }
+        Err(error) => return Verdict::WrongAnswer(error.to_string()),
+        Ok(plan) => return Verdict::WrongAction(notation::show(&plan, city)),
+    };
+    let taken = got.as_ref().is_ok_and(|plan| notation::show(plan, city).contains(first));
+    named.sort_unstable();
+    meant.sort_unstable();
+    match named == meant && taken {
+        true => Verdict::Right,
+        false => Verdict::WrongAnswer(format!("asked for {named:?}, by default took {got:?}")),
+    }
 }
 
 pub(crate) fn judge(city: &City, said: &Said, got: &Result<Plan, PlanError>) -> Verdict {

@@ -1,0 +1,249 @@
+//! Orders that move the body: going, stepping, turning, looking.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use simworld_core::action::StepDirection;
+use simworld_core::scene::Relation;
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Pace};
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{RELATIONS, longest, longest_phrase};
+use super::numbers;
+use super::parser::Parser;
+
+/// The longest single step, m.
+const LONGEST_STEP: f64 = 10.0;
+/// How far one looks up or down where no angle is said, radians.
+const GLANCE: f64 = 0.35;
+/// Units of length; a step is taken for a metre.
+pub(super) const LENGTHS: &[&str] =
+    &["metres", "metre", "meters", "meter", "m", "steps", "step", "paces", "pace", "a metre", "a meter", "a step"];
+
+const DIRECTIONS: &[(&[&str], StepDirection)] = &[
+    (
+        &["forward", "forwards", "ahead", "straight ahead", "straight", "straight on", "onward", "onwards", "straight forward"],
+        StepDirection::Forward,
+    ),
+    (&["backward", "backwards"], StepDirection::Backward),
+    (&["left", "to the left", "to your left", "leftwards"], StepDirection::Left),
+    (&["right", "to the right", "to your right", "rightwards"], StepDirection::Right),
+];
+
+#[derive(Clone, Copy)]
+enum Sense {
+    Left,
+    Right,
+    Around,
+}
+
+const SENSES: &[(&[&str], Sense)] = &[
+    (&["left", "to the left", "to your left", "leftwards", "anticlockwise", "counterclockwise"], Sense::Left),
+    (&["right", "to the right", "to your right", "rightwards", "clockwise"], Sense::Right),
+    (&["around", "round", "back", "about"], Sense::Around),
+];
+
+impl Parser<'_> {
+    pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
+        let pace = self.pace(pace)?;
+        if self.begins_step() {
+            return self.step().map(|step| vec![step]);
+        }
+        if self.eat_any(&["back and forth between", "to and fro between", "back and forth from"]) {
+            return self.back_and_forth(pace);
+        }
+        self.eat_any(&["straight", "directly", "over", "back", "up", "down", "away", "on", "all the way"]);
+        if longest_phrase(self.rest(), &["around", "past", "along"]).is_some() && !self.peeks("around here") {
+            return Err(self.not_understood("going around, past or along things is not understood: say where to"));
+        }
+        let pace = self.pace(pace)?;
+        if self.ends_clause() && self.continues() {
+            return Ok(vec![Clause::Forward]);
+        }
+        self.eat_any(&[
+            "to", "too", "towards", "toward", "up to", "over to", "into", "in", "onto", "on", "at", "for", "back to", "down to",
+            "through", "out to", "right up to", "straight to",
+        ]);
+        let stood = self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("stand".to_owned()));
+        let side = if stood { Some(Relation::NextTo) } else { self.side() };
+        let to = self.reference(0)?;
+        let pace = self.pace(pace)?;
+        Ok(vec![Clause::Go { to, side, pace, within: None }])
+    }
+
+    /// Whether what follows says how long to go on, or nothing follows "keep walking".
+    fn continues(&self) -> bool {
+        let going = ["until", "till", "while", "for", "as long as"];
+        longest_phrase(self.rest(), &going).is_some() || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
+    }
+
+    fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
+        let one = self.reference(0)?;
+        self.eat_any(&["and", "to"]);
+        let other = self.reference(0)?;
+        let go = |to| Clause::Go { to, side: None, pace, within: None };
+        let times = numbers::times(self.rest());
+        self.at += times.map_or(0, |(_, count)| count);
+        let body = vec![go(one), go(other)];
+        Ok(vec![Clause::Repeat { times: times.map_or(1, |(times, _)| times), body }])
+    }
+
+    /// Words of speed.
+    pub(super) fn pace(&mut self, usual: Pace) -> Result<Pace, PlanError> {
+        const FAST: &[&str] = &["quickly", "fast", "in a hurry", "as fast as you can", "as quickly as possible", "as fast as possible", "rapidly", "at a run"];
+        if self.eat_any(&["slowly", "at a slow pace", "leisurely", "calmly", "carefully"]) {
+            return Ok(Pace::Slow);
+        }
+        if self.eat_any(FAST) {
+            return Ok(Pace::Run);
+        }
+        let is_speed = matches!(self.rest(), [at, number, unit, ..]
+            if at.token == Token::Word("at".to_owned()) && matches!(number.token, Token::Number(_)) && matches!(unit.token, Token::Word(_)));
+        if is_speed {
+            self.at += 1;
+            return self.speed().map(Pace::At);
+        }
+        Ok(usual)
+    }
+
+    /// A speed, m/s.
+    pub(super) fn speed(&mut self) -> Result<f64, PlanError> {
+        let number_at = self.at;
+        if let Some((number, count)) = numbers::number(self.rest()) {
+            self.at += count;
+            let hourly = self.eat_any(&["km / h", "kmh", "kph", "kilometres per hour", "kilometers per hour", "kilometres an hour"]);
+            let _ = hourly
+                || self.eat_any(&["m / s", "mps", "metres per second", "meters per second", "metres a second", "meters a second"]);
+            let speed = if hourly { number / 3.6 } else { number };
+            if (0.1..=50.0).contains(&speed) {
+                return Ok(speed);
+            }
+            self.at = number_at;
+        }
+        Err(self.not_understood("give a speed from 0.1 to 50 m/s"))
+    }
+
+    /// "next to", "behind" and so on before a place.
+    fn side(&mut self) -> Option<Relation> {
+        let (relation, count) = longest(self.rest(), RELATIONS)?;
+        self.at += count;
+        Some(relation)
+    }
+
+    /// Whether a direction or a length follows: "go forward", "walk 3 m".
+    fn begins_step(&self) -> bool {
+        let in_digits = matches!(self.rest().first(), Some(Lexeme { token: Token::Number(_), .. }));
+        let back = longest_phrase(self.rest(), &["back"]).is_some()
+            && numbers::number(&self.rest()[1..])
+                .is_some_and(|(_, count)| longest_phrase(&self.rest()[1 + count..], LENGTHS).is_some());
+        in_digits || back || self.counts_steps() || longest(self.rest(), DIRECTIONS).is_some() && !self.leads_on()
+    }
+
+    /// "Straight to the museum" is no step.
+    fn leads_on(&self) -> bool {
+        let Some((_, count)) = longest(self.rest(), DIRECTIONS) else { return false };
+        longest_phrase(&self.rest()[count..], &["to", "towards", "over to", "into"]).is_some()
+            && longest(&self.rest()[count..], DIRECTIONS).is_none()
+    }
+
+    pub(super) fn reverse(&mut self) -> Result<Clause, PlanError> {
+        match self.step()? {
+            Clause::Step { distance, .. } => Ok(Clause::Step { direction: StepDirection::Backward, distance }),
+            other => Ok(other),
+        }
+    }
+
+    pub(super) fn step(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&["aside"]);
+        let mut direction = self.direction();
+        let mut distance = 0.5;
+        let number_at = self.at;
+        self.eat_any(&["by", "for"]);
+        if let Some((number, count)) = numbers::number(self.rest()) {
+            self.at += count;
+            self.eat_any(LENGTHS);
+            distance = number;
+        } else {
+            self.at = number_at;
+        }
+        direction = direction.or_else(|| self.direction());
+        if !(distance > 0.0 && distance <= LONGEST_STEP) {
+            self.at = number_at;
+            return Err(self.not_understood("step more than 0 and at most 10 metres"));
+        }
+        Ok(Clause::Step { direction: direction.unwrap_or(StepDirection::Forward), distance })
+    }
+
+    fn direction(&mut self) -> Option<StepDirection> {
+        if self.eat_any(&["back", "to the back"]) {
+            return Some(StepDirection::Backward);
+        }
+        let (direction, count) = longest(self.rest(), DIRECTIONS)?;
+        self.at += count;
+        Some(direction)
+    }
+
+    pub(super) fn turn(&mut self) -> Result<Clause, PlanError> {
+        let mut sense = self.sense();
+        self.eat_any(&["by", "for"]);
+        let number_at = self.at;
+        let mut angle = FRAC_PI_2;
+        if let Some((number, count)) = numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none()) {
+            self.at += count;
+            let in_radians = self.eat_any(&["radians", "radian", "rad"]);
+            self.eat_any(&["degrees", "degree", "deg", "°"]);
+            angle = if in_radians { number } else { number.to_radians() };
+        }
+        sense = sense.or_else(|| self.sense());
+        let Some(sense) = sense else { return Err(self.not_understood("say left, right or around")) };
+        if !(angle > 0.0 && angle <= 2.0 * PI) {
+            self.at = number_at;
+            return Err(self.not_understood("turn by more than 0 and at most 360 degrees"));
+        }
+        let angle = match sense {
+            Sense::Left => angle,
+            Sense::Right => -angle,
+            Sense::Around => PI,
+        };
+        Ok(Clause::Turn { angle })
+    }
+
+    fn sense(&mut self) -> Option<Sense> {
+        let (sense, count) = longest(self.rest(), SENSES)?;
+        self.at += count;
+        Some(sense)
+    }
+
+    /// "Turn to" somebody, or to a side.
+    pub(super) fn face(&mut self) -> Result<Clause, PlanError> {
+        if self.eat_any(&["the left", "your left", "left"]) {
+            return Ok(Clause::Turn { angle: FRAC_PI_2 });
+        }
+        if self.eat_any(&["the right", "your right", "right"]) {
+            return Ok(Clause::Turn { angle: -FRAC_PI_2 });
+        }
+        Ok(Clause::Face { what: self.reference(0)? })
+    }
+
+    pub(super) fn look(&mut self) -> Result<Clause, PlanError> {
+        for (way, sign) in [("up", 1.0), ("down", -1.0)] {
+            if self.peeks(way) {
+                self.at += 1;
+                self.eat_any(&["by"]);
+                let angle = numbers::number(self.rest());
+                self.at += angle.map_or(0, |(_, count)| count);
+                self.eat_any(&["degrees", "degree", "deg", "°"]);
+                let angle = angle.map_or(GLANCE, |(number, _)| number.to_radians());
+                if !(angle > 0.0 && angle <= FRAC_PI_2) {
+                    return Err(self.not_understood("look up or down by more than 0 and at most 90 degrees"));
+                }
+                return Ok(Clause::LookUp { angle: sign * angle });
+            }
+        }
+        if longest(self.rest(), SENSES).is_some() {
+            return self.turn();
+        }
+        self.eat_any(&["over", "at", "to", "towards"]);
+        Ok(Clause::Face { what: self.reference(0)? })
+    }
+}

@@ -1,0 +1,338 @@
+//! One order: a verb with its objects.
+
+use simworld_core::scene::Relation;
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Count, Manner, Pace, Reference, Stands, Target, Test, Vehicle};
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
+use super::numbers::{self, MOMENT};
+use super::parser::{Parser, UNDERSTOOD};
+use super::verbs::{VERBS, Verb};
+
+/// The longest wait, s.
+pub(super) const LONGEST_WAIT: f64 = 86_400.0;
+/// What people take photos with their words of.
+const PHOTOS: &[&str] = &["photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
+
+impl Parser<'_> {
+    /// An order; several if one verb says several things.
+    pub(super) fn order(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.skip_fillers();
+        let start = self.at;
+        let Some((verb, count)) = self.verb_here() else {
+            return self.order_without_verb();
+        };
+        self.at += count;
+        self.verb = Some(verb);
+        let times = numbers::times(self.rest()).filter(|_| verb != Verb::Wait);
+        self.at += times.map_or(0, |(_, count)| count);
+        let mut clauses = self.objects(verb, start)?;
+        if let Some((times, _)) = times {
+            clauses = vec![Clause::Repeat { times, body: clauses }];
+        }
+        Ok(clauses)
+    }
+
+    fn verb_here(&self) -> Option<(Verb, usize)> {
+        longest(self.rest(), VERBS)
+    }
+
+    /// "... then to the museum": the verb of the order before goes on.
+    fn order_without_verb(&mut self) -> Result<Vec<Clause>, PlanError> {
+        const BEGINNINGS: &[&str] = &["to", "at", "the", "a", "an", "him", "her", "it", "towards"];
+        let refused = self.not_understood(UNDERSTOOD);
+        let has_objects = |verb: &Verb| {
+            !matches!(verb, Verb::StandUp | Verb::Stop | Verb::Sit | Verb::Wait | Verb::Faster | Verb::Slower | Verb::Alight)
+        };
+        let Some(verb) = self.verb.filter(has_objects) else { return Err(refused) };
+        let is_phrase = longest_phrase(self.rest(), BEGINNINGS).is_some();
+        let start = self.at;
+        self.eat_any(match verb {
+            Verb::Look | Verb::Wave | Verb::Point => &["at", "to"][..],
+            Verb::Talk | Verb::Greet => &["to", "with"],
+            _ => &[],
+        });
+        match self.objects(verb, start) {
+            Ok(clauses) if self.at > start => Ok(clauses),
+            Err(error) if is_phrase => Err(error),
+            _ => {
+                self.at = start;
+                Err(refused)
+            }
+        }
+    }
+
+    fn objects(&mut self, verb: Verb, start: usize) -> Result<Vec<Clause>, PlanError> {
+        let one = |clause| Ok(vec![clause]);
+        match verb {
+            Verb::Go => self.go(Pace::Usual, start),
+            Verb::Run => self.go(Pace::Run, start),
+            Verb::Stroll => self.go(Pace::Slow, start),
+            Verb::Cross => {
+                self.eat_any(&["the", "this", "over"]);
+                self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
+                one(Clause::Cross)
+            }
+            Verb::Follow => {
+                let whom = self.reference(0)?;
+                one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
+            }
+            Verb::Take => self.take(),
+            Verb::Deliver => self.drop(Manner::Deliver),
+            Verb::Give => self.give(),
+            Verb::Drop => self.drop(Manner::DropOff),
+            Verb::PutDown => self.drop(Manner::PutDown),
+            Verb::Buy => self.buy(),
+            Verb::Sit => self.sit(),
+            Verb::StandUp => {
+                self.tail_place(&["from"])?; // from which seat is no choice
+                one(Clause::StandUp)
+            }
+            Verb::Stop => self.stop(),
+            Verb::Wait => self.wait(),
+            Verb::Board => self.board(),
+            Verb::Drive => self.drive(),
+            Verb::Alight => one(self.alight()),
+            Verb::Step => self.step().map(|step| vec![step]),
+            Verb::Reverse => self.reverse().map(|step| vec![step]),
+            Verb::Turn => self.turn().map(|turn| vec![turn]),
+            Verb::Look => self.look().map(|look| vec![look]),
+            Verb::Face => self.face().map(|face| vec![face]),
+            Verb::Point => one(Clause::Point { at: self.reference(0)? }),
+            Verb::Wave => {
+                self.eat_any(&["at", "to", "your hand at", "your hand to", "hand to", "hands to", "your hand"]);
+                one(Clause::Wave { to: self.reference(0)? })
+            }
+            Verb::Talk | Verb::Greet | Verb::Say | Verb::Tell | Verb::Argue => self.speak(verb),
+            Verb::Open | Verb::Close => {
+                let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
+                self.eat_any(&["up", "for me"]);
+                one(Clause::Door { what, open: verb == Verb::Open })
+            }
+            Verb::Photo => self.photo(1),
+            Verb::Faster => one(Clause::Speed { speed: 2.0 }),
+            Verb::Slower => one(Clause::Speed { speed: super::draft::STROLLING }),
+            Verb::SetSpeed => one(Clause::Speed { speed: self.speed()? }),
+        }
+    }
+
+    fn take(&mut self) -> Result<Vec<Clause>, PlanError> {
+        if self.counts_steps() {
+            return self.step().map(|step| vec![step]);
+        }
+        let photos = numbers::number(self.rest()).filter(|(number, _)| *number >= 1.0 && *number <= 100.0);
+        if let Some((number, count)) = photos
+            && let Some(words) = longest_phrase(&self.rest()[count..], PHOTOS)
+        {
+            self.at += count + words;
+            return self.photo(number as u32);
+        }
+        let start = self.at;
+        let what = match self.reference(0) {
+            Ok(what) => what,
+            // "Get two bottles of water": what nobody has to hand over is bought.
+            Err(error) => {
+                self.at = start;
+                return self.buy().map_err(|_| error);
+            }
+        };
+        self.eat_any(&["up", "along", "with you"]);
+        Ok(vec![Clause::Take { what, to: self.tail_place(&["to", "over to", "back to", "into"])? }])
+    }
+
+    fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
+        let named = self.eat_any(&["of"]) || !self.ends_clause();
+        let of = if named { Some(self.reference(0)?) } else { None };
+        Ok(vec![Clause::Photo { of, times }])
+    }
+
+    fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let first = self.reference(0)?;
+        if self.eat_any(&["to", "over to"]) {
+            return Ok(vec![Clause::Give { what: Some(first), to: self.reference(0)? }]);
+        }
+        if self.ends_clause() {
+            return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
+        }
+        Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
+    }
+
+    fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
+        let places = ["at", "to", "in", "on", "into", "over to", "back to", "onto"];
+        let what = if self.ends_clause() || longest_phrase(self.rest(), &places).is_some() {
+            None
+        } else {
+            Some(self.reference(0)?)
+        };
+        self.eat_any(&["down", "off", "up"]);
+        let at = self.tail_place(&places)?;
+        if manner == Manner::Deliver && at.is_none() {
+            if !self.ends_clause()
+                && let Some(to) = what
+            {
+                return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
+            }
+            return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
+        }
+        Ok(vec![Clause::Drop { what, at, manner }])
+    }
+
+    /// A place after one of these words.
+    pub(super) fn tail_place(&mut self, words: &[&str]) -> Result<Option<Reference>, PlanError> {
+        let side = longest(self.rest(), RELATIONS).map(|(_, count)| count);
+        match longest_phrase(self.rest(), words).max(side) {
+            Some(count) => {
+                self.at += count;
+                self.reference(0).map(Some)
+            }
+            None => Ok(None),
+        }
+    }
+
+    fn sit(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["there", "here", "down"]);
+        let start = self.at;
+        let beside = if self.eat_any(&["at"]) {
+            Some(Stands::To(Relation::NextTo, Box::new(self.reference(0)?)))
+        } else {
+            self.relation(0)?
+        };
+        if beside.is_some() {
+            // "Sit by the tree" asks for any seat there.
+            let text = format!("seat {}", self.text_from(start));
+            let seat = Reference::nearest(Category::seat());
+            let seat = Reference { choice: super::clause::Choice::Open, relation: beside, text, ..seat };
+            return Ok(vec![Clause::Sit { on: Some(seat) }]);
+        }
+        Ok(vec![Clause::Sit { on: self.tail_place(&["on", "in", "onto", "upon", "down on"])? }])
+    }
+
+    fn stop(&mut self) -> Result<Vec<Clause>, PlanError> {
+        if self.peeks("for") || self.peeks("until") || self.peeks("till") || self.peek_time().is_some() {
+            return self.wait();
+        }
+        self.eat_any(&["moving", "walking", "there", "here", "running", "that", "what you are doing", "everything"]);
+        Ok(vec![Clause::Stop])
+    }
+
+    fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["here", "there"]);
+        if self.peeks("until") || self.peeks("till") {
+            self.at += 1;
+            return Ok(vec![Clause::Until { test: self.test()?, body: Vec::new() }]);
+        }
+        let mut clauses = Vec::new();
+        if let Some((relation, count)) = longest(self.rest(), RELATIONS)
+            .or_else(|| fits(self.rest(), "at").map(|count| (Relation::NextTo, count)))
+        {
+            self.at += count;
+            let to = self.reference(0)?;
+            let side = Some(relation);
+            clauses.push(Clause::Go { to, side, pace: Pace::Usual, within: None });
+        }
+        let is_for = self.eat_any(&["for", "for about", "for at least"]);
+        self.eat_any(&["about"]);
+        let number_at = self.at;
+        let Some((seconds, count)) = self.peek_time() else {
+            if !clauses.is_empty() {
+                clauses.push(Clause::Wait { seconds: MOMENT });
+                return Ok(clauses);
+            }
+            if is_for && !self.ends_clause() {
+                return self.wait_for();
+            }
+            return Err(self.not_understood("say how long, as in \"wait 5 seconds\""));
+        };
+        self.at += count;
+        if !(seconds > 0.0 && seconds <= LONGEST_WAIT) {
+            self.at = number_at;
+            return Err(self.not_understood("wait for more than 0 and at most 86400 seconds"));
+        }
+        clauses.push(Clause::Wait { seconds });
+        Ok(clauses)
+    }
+
+    /// "Wait for Anna", "wait for a green light".
+    fn wait_for(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(&["the", "a"]);
+        if self.eat_any(&["green light", "green", "light to turn green", "light to be green", "lights to turn green"]) {
+            let test = Test::Light { light: None, shows: simworld_core::net::Aspect::Green };
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = start;
+        let what = self.reference(0)?;
+        self.eat_any(&["to arrive", "to come", "to come here", "to get here", "to reach you"]);
+        let test = Test::Near { what, within: super::tests_of::NEXT_TO_ME };
+        Ok(vec![Clause::Until { test, body: Vec::new() }])
+    }
+
+    /// A length of time; a bare number is seconds.
+    pub(super) fn peek_time(&self) -> Option<(f64, usize)> {
+        numbers::duration(self.rest())
+    }
+
+    fn board(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let what = if self.ends_clause() {
+            Reference::to(Target::It, "it".to_owned())
+        } else if self.eat_any(&["to"]) {
+            // "Ride to the school": on what one is on.
+            return Ok(vec![Clause::Go { to: self.reference(0)?, side: None, pace: Pace::Usual, within: None }]);
+        } else {
+            self.reference(0)?
+        };
+        Ok(vec![Clause::Board { what, to: self.tail_place(&["to", "over to", "back to"])? }])
+    }
+
+    fn drive(&mut self) -> Result<Vec<Clause>, PlanError> {
+        if self.eat_any(&["to", "over to", "towards", "back to"]) {
+            return Ok(vec![Clause::Drive { to: self.reference(0)? }]);
+        }
+        let what = self.reference(0)?;
+        let to = self.tail_place(&["to", "over to", "towards", "back to"])?;
+        Ok(vec![Clause::Board { what, to }])
+    }
+
+    fn alight(&mut self) -> Clause {
+        self.eat_any(&["the", "of the", "of"]);
+        let cars = ["car", "bus", "truck", "taxi", "van", "vehicle", "cab", "lorry"];
+        let from = if self.peeks("scooter") {
+            Vehicle::Scooter
+        } else if longest_phrase(self.rest(), &cars).is_some() {
+            Vehicle::Car
+        } else {
+            Vehicle::Any
+        };
+        self.at += usize::from(from != Vehicle::Any);
+        self.eat_any(&["it", "again"]);
+        Clause::Alight { from }
+    }
+
+    /// Whether a number of metres or steps follows: "take two steps".
+    pub(super) fn counts_steps(&self) -> bool {
+        numbers::number(self.rest())
+            .is_some_and(|(_, count)| longest_phrase(&self.rest()[count..], super::motion::LENGTHS).is_some())
+    }
+
+    /// Two or more of something.
+    pub(super) fn peek_count(&self) -> Option<(Count, usize)> {
+        const ALL: &[&str] = &["all", "all of the", "all the", "every", "each", "each of the", "every one of the"];
+        const BOTH: &[&str] = &["both", "both of the", "both the"];
+        if let Some(words) = longest_phrase(self.rest(), BOTH) {
+            return Some((Count::Exactly(2), words));
+        }
+        if let Some(words) = longest_phrase(self.rest(), ALL) {
+            let (count, more) = numbers::count(&self.rest()[words..])
+                .map_or((Count::All, 0), |(number, more)| (Count::Exactly(number), more));
+            return Some((count, words + more));
+        }
+        let is_noun = |count: usize| {
+            let next = self.rest().get(count).map(|lexeme: &Lexeme| &lexeme.token);
+            matches!(next, Some(Token::Word(_)))
+        };
+        let (number, count) = numbers::count(self.rest()).filter(|(_, count)| is_noun(*count))?;
+        let of = longest_phrase(&self.rest()[count..], &["of the", "of those", "of"]).unwrap_or(0);
+        Some((Count::Exactly(number), count + of))
+    }
+}

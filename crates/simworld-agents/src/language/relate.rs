@@ -1,0 +1,174 @@
+//! Things by where they stand: beside, between, on a side, nearest to.
+
+use std::ops::ControlFlow;
+
+use simworld_core::geometry::{Aabb, Point2, direction};
+use simworld_core::scene::{EntityRef, Relation};
+use simworld_core::seam::PlanError;
+
+use super::clause::{Choice, Reference, Side, Stands, Target};
+use super::resolve::{Purpose, Ranked, View, sort};
+
+/// Everything that stands in a relation to a thing is within this gap of it, m (see [`Relation::Near`]).
+const RELATED: f64 = 30.0;
+/// "Next to" where nothing is nearer, m: across a forecourt, not across a street.
+const LOOSELY_NEXT: f64 = 8.0;
+/// A part of a thing, such as its door, is within this gap of it, m.
+const PART: f64 = 15.0;
+/// How many things that fit a description are looked at for something beside them, nearest first.
+const MOST_ANCHORS: usize = 256;
+/// How far things to the left and right are looked for, m.
+const BESIDE_ME: f64 = 150.0;
+/// Half the width of what counts as ahead or behind, as the sine of the angle: 45°.
+const AHEAD: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+impl View<'_> {
+    /// Those that stand as they are said to, the best first.
+    pub(super) fn related(
+        &self,
+        reference: &Reference,
+        relation: &Stands,
+        purpose: Purpose,
+    ) -> Result<Vec<Ranked>, PlanError> {
+        match relation {
+            Stands::Side(side) => Ok(self.on_side(reference, *side, purpose)),
+            Stands::Between(one, other) => self.between(reference, one, other, purpose),
+            Stands::NearestTo(anchor, nearest) => {
+                let anchor = self.find(anchor, Purpose::Any)?;
+                let mut found = self.around(reference, anchor.planar(), self.range, purpose);
+                for (rank, id) in &mut found {
+                    let gap = self.scene.entity(*id).map_or(f64::INFINITY, |entity| gap(&anchor, &entity));
+                    *rank = if *nearest { gap } else { -gap };
+                }
+                found.retain(|(_, id)| *id != anchor.id);
+                sort(&mut found);
+                Ok(found)
+            }
+            Stands::Of(whose) => self.beside_any(reference, whose, purpose, &|entity, anchor| gap(anchor, entity) <= PART),
+            Stands::To(relation, anchor) => {
+                let strict = self.beside_any(reference, anchor, purpose, &|entity, anchor| relation.holds(entity, anchor))?;
+                if strict.is_empty() && *relation == Relation::NextTo {
+                    return self.beside_any(reference, anchor, purpose, &|entity, anchor| gap(anchor, entity) <= LOOSELY_NEXT);
+                }
+                Ok(strict)
+            }
+        }
+    }
+
+    /// Those that stand in a relation to what the anchor may mean.
+    fn beside_any(
+        &self,
+        reference: &Reference,
+        anchor: &Reference,
+        purpose: Purpose,
+        holds: &dyn Fn(&EntityRef<'_>, &EntityRef<'_>) -> bool,
+    ) -> Result<Vec<Ranked>, PlanError> {
+        let mut anchors = self.candidates(anchor, Purpose::Any)?;
+        if anchors.is_empty() {
+            return Err(self.not_found(anchor, Purpose::Any));
+        }
+        if matches!(anchor.target, Target::Any(_)) && anchor.choice == Choice::Open && anchor.relation.is_none() {
+            // Any that has something beside it will do, however far: "the hospital near a museum".
+            anchors = self.around(anchor, self.from, self.range, Purpose::Any);
+        }
+        let mut found: Vec<Ranked> = Vec::new();
+        for anchor in anchors.iter().take(MOST_ANCHORS).filter_map(|(_, id)| self.scene.entity(*id)) {
+            self.beside(reference, &anchor, purpose, holds, &mut found);
+            // Unless the nearest or farthest is asked for, the first thing with something beside it is meant.
+            if reference.choice == Choice::Open && !found.is_empty() {
+                break;
+            }
+        }
+        sort(&mut found);
+        found.dedup_by_key(|(_, id)| *id);
+        Ok(found)
+    }
+
+    /// Adds what stands in the relation to one anchor, with a figure by which to choose.
+    fn beside(
+        &self,
+        reference: &Reference,
+        anchor: &EntityRef<'_>,
+        purpose: Purpose,
+        holds: &dyn Fn(&EntityRef<'_>, &EntityRef<'_>) -> bool,
+        found: &mut Vec<Ranked>,
+    ) {
+        let _ = self.scene.visit(&anchor.bounds.inflated(RELATED), &mut |entity| {
+            if entity.id != anchor.id && self.fits(&entity, reference, purpose) && holds(&entity, anchor) {
+                let rank = match reference.choice {
+                    Choice::Open => gap(anchor, &entity),
+                    _ => self.distance(&entity),
+                };
+                found.push((rank, entity.id));
+            }
+            ControlFlow::Continue(())
+        });
+    }
+
+    /// Between the middles of two things, or not farther off the line than a third of its length; the nearest to the
+    /// middle first.
+    fn between(
+        &self,
+        reference: &Reference,
+        one: &Reference,
+        other: &Reference,
+        purpose: Purpose,
+    ) -> Result<Vec<Ranked>, PlanError> {
+        let (one, other) = (self.find(one, Purpose::Any)?, self.find(other, Purpose::Any)?);
+        let (from, along) = (one.planar(), other.planar() - one.planar());
+        let length = along.norm();
+        if length < 1e-6 {
+            return Ok(Vec::new());
+        }
+        let way = along / length;
+        let mut found = self.around(reference, from + along * 0.5, length * 0.5 + 1.0, purpose);
+        for (rank, id) in &mut found {
+            let Some(entity) = self.scene.entity(*id) else { continue };
+            let offset = entity.planar() - from;
+            let (forward, aside) = (offset.dot(&way), way.perp(&offset).abs());
+            let is_between = forward > 0.0 && forward < length && aside <= (length / 3.0).max(2.0);
+            *rank = if is_between { simworld_core::ops::hypot(forward - length * 0.5, aside) } else { f64::INFINITY };
+        }
+        found.retain(|(rank, id)| rank.is_finite() && *id != one.id && *id != other.id);
+        sort(&mut found);
+        Ok(found)
+    }
+
+    /// On a side of the agent, the nearest first.
+    fn on_side(&self, reference: &Reference, side: Side, purpose: Purpose) -> Vec<Ranked> {
+        let ahead = direction(self.heading);
+        let mut found = self.around(reference, self.from, BESIDE_ME.min(self.range), purpose);
+        found.retain(|(_, id)| {
+            let Some(entity) = self.scene.entity(*id) else { return false };
+            let offset = entity.bounds.center().xy() - self.from;
+            let way = offset / offset.norm().max(1e-9);
+            let (forward, left) = (ahead.dot(&way), ahead.perp(&way));
+            match side {
+                Side::Left => left > 0.1,
+                Side::Right => left < -0.1,
+                Side::Ahead => forward >= AHEAD,
+                Side::Behind => forward <= -AHEAD,
+            }
+        });
+        found
+    }
+
+    /// What fits within a distance of a point, the nearest to the agent first.
+    fn around(&self, reference: &Reference, point: Point2, reach: f64, purpose: Purpose) -> Vec<Ranked> {
+        let mut found: Vec<Ranked> = Vec::new();
+        let _ = self.scene.visit(&Aabb::column_around(point, reach), &mut |entity| {
+            if self.fits(&entity, reference, purpose) {
+                found.push((self.distance(&entity), entity.id));
+            }
+            ControlFlow::Continue(())
+        });
+        sort(&mut found);
+        found
+    }
+}
+
+/// From the footprint of a thing to the middle of another, or the other way about if that is less, m.
+fn gap(anchor: &EntityRef<'_>, entity: &EntityRef<'_>) -> f64 {
+    let to_middle = anchor.info.shape.planar_distance(anchor.pose, &entity.planar());
+    to_middle.min(entity.info.shape.planar_distance(entity.pose, &anchor.planar()))
+}

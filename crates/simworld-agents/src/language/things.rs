@@ -1,0 +1,307 @@
+//! Orders to a plan: taking, giving, sitting, riding, doors and shops.
+
+use simworld_core::action::Action;
+use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
+use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
+use simworld_core::value::Value;
+
+use super::clause::{Choice, Manner, Pace, Reference, Target, Test};
+use super::draft::{Draft, Load, Posture};
+use super::lexicon::{Category, class, is_animate};
+use super::resolve::Purpose;
+use super::tests_of::NEARBY;
+
+impl<'a> Draft<'a> {
+    pub(super) fn take_to(&mut self, what: &Reference, to: Option<&Reference>) -> Result<(), PlanError> {
+        if self.is_in_hand(what) {
+            return to.map_or(Ok(()), |to| self.drop(Some(what), Some(to), Manner::Deliver));
+        }
+        let item = self.find(what, Purpose::Item)?;
+        if item.kind.is_vehicle() && to.is_some() {
+            self.board(&Reference::to(Target::Id(item.id), what.text.clone()))?; // "take the taxi to the school"
+            return self.go_on_to(to);
+        }
+        self.take(what)?;
+        to.map_or(Ok(()), |to| self.bring(to, Manner::PutDown))
+    }
+
+    /// Whether the words stand for what is in hand already.
+    fn is_in_hand(&self, what: &Reference) -> bool {
+        let held = match self.held {
+            Some(Load::Bought) => true,
+            Some(Load::Thing(id)) => self.view.it == Some(id) || self.view.it.is_none(),
+            None => self.carried.is_some(),
+        };
+        held && what.target == Target::It
+    }
+
+    fn take(&mut self, what: &Reference) -> Result<(), PlanError> {
+        let item = self.find(what, Purpose::Item)?;
+        if self.held == Some(Load::Thing(item.id)) || self.carried == Some(item.id) {
+            return Ok(());
+        }
+        let id = item.id;
+        let action = match item.kind {
+            EntityKind::Parcel => Action::PickUp { item: id },
+            EntityKind::Chair | EntityKind::Cone | EntityKind::Prop => Action::CarryHeavy { item: id },
+            other => {
+                let near = format!("a {other} cannot be taken; parcels, chairs, cones and props can");
+                return Err(PlanError::NotFound { wanted: format!("{:?} to take", what.text), near });
+            }
+        };
+        let full = match &action {
+            Action::PickUp { .. } => self.held.is_some(),
+            _ => self.carried.is_some(),
+        };
+        if full {
+            let wanted = format!("free hand to take {:?}", what.text);
+            return Err(PlanError::NotFound { wanted, near: self.in_hand() });
+        }
+        self.go_beside(&item)?;
+        match action {
+            Action::PickUp { .. } => self.held = Some(Load::Thing(id)),
+            _ => self.carried = Some(id),
+        }
+        self.beside = None; // it comes along
+        self.act(action)
+    }
+
+    pub(super) fn drop(
+        &mut self,
+        what: Option<&Reference>,
+        at: Option<&Reference>,
+        manner: Manner,
+    ) -> Result<(), PlanError> {
+        // What one has in hand is what "it" is about here, whatever was spoken of since.
+        let in_hand = self.held.is_some() || self.carried.is_some();
+        if let Some(what) = what.filter(|what| !(in_hand && what.target == Target::It)) {
+            let item = self.find(what, Purpose::Item)?;
+            let in_hand = self.held == Some(Load::Thing(item.id)) || self.carried == Some(item.id);
+            if !in_hand && manner == Manner::Deliver {
+                self.take(what)?;
+            } else if !in_hand {
+                return Err(self.nothing_in_hand(&what.text));
+            }
+        }
+        match at {
+            Some(at) => self.bring(at, manner),
+            None => self.let_go(if manner == Manner::Deliver { Manner::PutDown } else { manner }),
+        }
+    }
+
+    /// Goes with what is in hand, and gives it to whoever is there, or puts it down.
+    fn bring(&mut self, to: &Reference, manner: Manner) -> Result<(), PlanError> {
+        let it = self.view.it;
+        self.go(to, None, Pace::Usual, None)?;
+        let receiver = self.beside.and_then(|id| self.view.scene.entity(id));
+        if let Some(receiver) = receiver.filter(|receiver| self.held.is_some() && takes(receiver)) {
+            self.held = None;
+            return self.act(Action::Give { to: receiver.id });
+        }
+        self.view.it = it.or(self.view.it);
+        self.let_go(if manner == Manner::Deliver { Manner::PutDown } else { manner })
+    }
+
+    pub(super) fn give(&mut self, what: Option<&Reference>, to: &Reference) -> Result<(), PlanError> {
+        let receiver = self.view.find(to, Purpose::Any)?;
+        if !takes(&receiver) {
+            let near = format!("a {} takes nothing: {}", receiver.kind, self.view.surroundings());
+            return Err(PlanError::NotFound { wanted: format!("{:?} to give things to", to.text), near });
+        }
+        let to = Reference::to(Target::Id(receiver.id), to.text.clone());
+        if let Some(what) = what.filter(|what| !self.is_in_hand(what)) {
+            self.take(what)?;
+        } else if self.held.is_none() {
+            return Err(self.nothing_in_hand("thing"));
+        }
+        self.bring(&to, Manner::DropOff)
+    }
+
+    fn let_go(&mut self, manner: Manner) -> Result<(), PlanError> {
+        let heavy = manner == Manner::PutDown && self.carried.is_some() || self.held.is_none() && self.carried.is_some();
+        if heavy {
+            self.view.it = self.carried.take();
+            return self.act(Action::PutDownHeavy);
+        }
+        match self.held.take() {
+            Some(Load::Thing(item)) => self.view.it = Some(item),
+            Some(Load::Bought) => {}
+            None => return Err(self.nothing_in_hand("thing")),
+        }
+        self.act(Action::DropOff)
+    }
+
+    fn nothing_in_hand(&self, wanted: &str) -> PlanError {
+        PlanError::NotFound { wanted: format!("{wanted} in hand"), near: self.in_hand() }
+    }
+
+    fn in_hand(&self) -> String {
+        let held = match self.held {
+            Some(Load::Thing(id)) => Some(id),
+            Some(Load::Bought) => return "you hold what you bought".to_owned(),
+            None => self.carried,
+        };
+        match held.and_then(|id| self.view.scene.entity(id)) {
+            Some(item) => format!("you hold {} {}", item.label(), item.id),
+            None => "your hands are empty".to_owned(),
+        }
+    }
+
+    pub(super) fn sit(&mut self, on: Option<&Reference>) -> Result<(), PlanError> {
+        let seat = match on {
+            Some(reference) => self.find(reference, Purpose::Seat)?,
+            None => self.any_seat()?,
+        };
+        if !seat.kind.is_seat() {
+            let near = format!("{} {} is no seat: {}", seat.label(), seat.id, self.view.surroundings());
+            return Err(PlanError::NotFound { wanted: "seat of that description".to_owned(), near });
+        }
+        self.mention(&seat);
+        self.go_beside(&seat)?;
+        self.posture = Posture::Seated;
+        self.act(Action::SitDown { seat: seat.id })
+    }
+
+    /// The seat that was spoken of, or else the nearest free one.
+    fn any_seat(&self) -> Result<EntityRef<'a>, PlanError> {
+        let spoken_of = self.view.it.and_then(|id| self.view.scene.entity(id));
+        if let Some(seat) = spoken_of.filter(|entity| entity.kind.is_seat()) {
+            return Ok(seat);
+        }
+        self.view.find(&Reference { indefinite: true, ..Reference::nearest(Category::seat()) }, Purpose::Seat)
+    }
+
+    pub(super) fn board(&mut self, what: &Reference) -> Result<(), PlanError> {
+        let vehicle = self.find(what, Purpose::Any)?;
+        let action = match vehicle.kind {
+            EntityKind::Scooter => Action::RideScooter { scooter: vehicle.id },
+            EntityKind::Car | EntityKind::Truck | EntityKind::Bus => Action::EnterCar { car: vehicle.id },
+            EntityKind::Building | EntityKind::Door => return self.go_beside(&vehicle),
+            other => {
+                let near = format!("a {other} cannot be; scooters, cars, trucks and buses can");
+                return Err(PlanError::NotFound {
+                    wanted: format!("{:?} to get on or into", what.text),
+                    near,
+                });
+            }
+        };
+        if self.posture == Posture::Aboard && self.beside == Some(vehicle.id) {
+            return Ok(()); // one sits in it already
+        }
+        self.go_beside(&vehicle)?;
+        self.posture = if vehicle.kind == EntityKind::Scooter { Posture::Riding } else { Posture::Aboard };
+        self.act(action)
+    }
+
+    /// Goes by what one is in or on, or else by the nearest car.
+    pub(super) fn drive(&mut self, to: &Reference) -> Result<(), PlanError> {
+        if !matches!(self.posture, Posture::Aboard | Posture::Riding) {
+            self.board(&Reference { indefinite: true, ..Reference::nearest(class("car")) })?;
+        }
+        self.go(to, None, Pace::Usual, None)
+    }
+
+    pub(super) fn door(&mut self, what: Option<&Reference>, open: bool) -> Result<(), PlanError> {
+        let nearest = Reference { indefinite: true, ..Reference::nearest(class("door")) };
+        let door = self.find(what.unwrap_or(&nearest), Purpose::Any)?;
+        let is_door = door.kind == EntityKind::Door || door.kind == EntityKind::Building && door.info.access.is_some();
+        if !is_door {
+            let near = format!("a {} has no door", door.kind);
+            let text = what.map_or("door", |what| what.text.as_str());
+            return Err(PlanError::NotFound { wanted: format!("{text:?} to open or close"), near });
+        }
+        self.go_beside(&door)?;
+        self.act(if open { Action::OpenDoor { door: door.id } } else { Action::CloseDoor { door: door.id } })
+    }
+
+    /// At the nearest place that sells it.
+    pub(super) fn buy(&mut self, goods: &str, times: u32, at: Option<&Reference>) -> Result<(), PlanError> {
+        let sells = |place: &EntityRef<'_>| {
+            matches!(place.info.attributes.get(SELLS), Some(Value::Text(sells))
+                if sells.split(',').any(|sold| sold.trim() == goods))
+        };
+        let not_sold = |near: String| PlanError::NotFound { wanted: format!("{goods} to buy"), near };
+        let place = match at {
+            Some(at) => self.find(at, Purpose::Any)?,
+            None => {
+                let here = self.beside.and_then(|id| self.view.scene.entity(id)).filter(sells);
+                let nearest = || self.view.scene.nearest(self.view.from, self.view.range, &sells);
+                here.or_else(nearest).ok_or_else(|| not_sold(self.view.surroundings()))?
+            }
+        };
+        if !sells(&place) {
+            return Err(not_sold(format!("{} {} does not sell it", place.label(), place.id)));
+        }
+        if self.held.is_some() {
+            let wanted = format!("free hand to buy {goods:?}");
+            return Err(PlanError::NotFound { wanted, near: self.in_hand() });
+        }
+        let before = self.steps_so_far();
+        self.go_beside(&place)?;
+        self.held = Some(Load::Bought);
+        self.view.it = None;
+        self.act(Action::Buy { goods: goods.to_owned(), from: place.id })?;
+        if times > 1 {
+            let steps = self.take_back(before);
+            self.push(PlanStep::Repeat { times, steps });
+        }
+        Ok(())
+    }
+
+    // ---- conditions ----
+
+    pub(super) fn condition(&mut self, test: &Test) -> Result<Condition, PlanError> {
+        Ok(match test {
+            Test::Light { light, shows } => {
+                let nearest = Reference { indefinite: true, ..Reference::nearest(class("traffic light")) };
+                let light = self.view.find(light.as_ref().unwrap_or(&nearest), Purpose::Any)?.id;
+                Condition::Signal { light, shows: *shows }
+            }
+            Test::Sees(what) => Condition::Sees(self.which(what)?),
+            Test::Near { what, within } => Condition::Near { what: self.which(what)?, within: *within },
+            Test::There { what, .. } => {
+                let which = self.which(what)?;
+                Condition::FreeNear { what: which, within: NEARBY }
+            }
+            Test::InUse(what) => Condition::InUse(self.find(what, Purpose::Any)?.id),
+            Test::Open(what) => {
+                let door = self.find(what, Purpose::Any)?;
+                if door.kind != EntityKind::Door && !door.info.attributes.contains_key(OPEN) {
+                    let near = format!("a {} neither opens nor closes", door.kind);
+                    return Err(PlanError::NotFound { wanted: format!("{:?} that is open", what.text), near });
+                }
+                Condition::Open(door.id)
+            }
+            Test::Holds(what) => match what {
+                Some(what) => Condition::Holds(Some(self.find(what, Purpose::Any)?.id)),
+                None => Condition::Holds(None),
+            },
+            Test::Seated => Condition::Seated,
+            Test::Raining => Condition::Raining,
+            Test::Snowing => Condition::Snowing,
+            Test::Dark => Condition::Dark,
+            Test::Elapsed(seconds) => Condition::Elapsed(*seconds),
+            Test::Not(test) => Condition::Not(Box::new(self.condition(test)?)),
+            Test::Both(one, other) => Condition::All(vec![self.condition(one)?, self.condition(other)?]),
+            Test::Either(one, other) => Condition::Any(vec![self.condition(one)?, self.condition(other)?]),
+        })
+    }
+
+    /// This thing, or any of its class if any will do; what is nearest by now is spoken of.
+    fn which(&mut self, what: &Reference) -> Result<Which, PlanError> {
+        let open = what.choice == Choice::Open && what.relation.is_none();
+        match &what.target {
+            Target::Any(category) if what.indefinite && open && what.traits.paint.is_none() => {
+                if let Ok(found) = self.view.find(what, Purpose::Any) {
+                    self.mention(&found);
+                }
+                Ok(category.to_which())
+            }
+            _ => Ok(Which::Entity(self.find(what, Purpose::Any)?.id)),
+        }
+    }
+}
+
+fn takes(entity: &EntityRef<'_>) -> bool {
+    is_animate(entity.kind) && entity.kind != EntityKind::Dog
+}
