@@ -376,7 +376,8 @@ impl<'a> Draft<'a> {
 
     /// To the other side of the nearest crossing, along its longer side.
     fn cross(&mut self) -> Result<(), PlanError> {
-        let crossing = self.view.find(&Reference { indefinite: true, ..Reference::nearest(class("crossing")) }, Purpose::Any)?;
+        let wanted = Reference { indefinite: true, text: "crossing".to_owned(), ..Reference::nearest(class("crossing")) };
+        let crossing = self.view.find(&wanted, Purpose::Any)?;
         let half = crossing.info.shape.size() * 0.5;
         let along = if half.x >= half.y {
             Point3::new(half.x + AT_POINT, 0.0, 0.0)

@@ -111,10 +111,18 @@ fn number(text: &str, follows_word: bool) -> Option<(Token, usize)> {
         let places = digits(fraction);
         length += if places > 0 { 1 + places } else { 0 };
     }
+    if ["st", "nd", "rd", "th"].iter().any(|ending| is_word(&text[signed + length..], ending)) {
+        return None; // "2nd" is a word
+    }
     // More digits than a number holds make infinity, which no rule takes for a place or a time.
     let value: f64 = text[signed..signed + length].parse().ok()?;
     let value = if matches!(sign, Some('-' | '−')) { -value } else { value };
     Some((Token::Number(value), signed + length))
+}
+
+/// Whether the text begins with just that word.
+fn is_word(text: &str, word: &str) -> bool {
+    text.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
 }
 
 fn id(text: &str) -> Option<(Token, usize)> {

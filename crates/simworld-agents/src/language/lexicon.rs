@@ -5,8 +5,10 @@ use simworld_core::seam::Which;
 
 use super::clause::{Measure, Side};
 use super::lexer::{Lexeme, Token};
-#[cfg(test)]
-use super::verbs::VERBS;
+use super::verbs::{VERBS, Verb};
+
+/// No verb has more words.
+const LONGEST_VERB: usize = 6;
 
 /// A class of things that people have words for.
 #[derive(Debug, PartialEq)]
@@ -117,7 +119,7 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["sidewalk", "pavement", "walkway"], &[EntityKind::Sidewalk]),
     things(&["crosswalk", "crossing", "zebra crossing"], &[EntityKind::Crosswalk]),
     places(&["home", "house", "apartment", "flat", "residence", "cottage"], Place::Home),
-    places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery"], Place::Restaurant),
+    places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery", "canteen", "cafeteria"], Place::Restaurant),
     places(&["store", "shop", "supermarket", "grocery", "grocery store", "market"], Place::Store),
     places(&["hospital", "clinic"], Place::Hospital),
     places(&["museum", "gallery"], Place::Museum),
@@ -187,6 +189,21 @@ pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
         }
     }
     Some(count)
+}
+
+/// As [`longest`], with the first word in any form of the verb: "sitting down".
+pub(super) fn longest_verb(lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
+    let plain = longest(lexemes, VERBS);
+    let lemma = lexemes.first().and_then(|lexeme| lexeme.lemma.clone());
+    let inflected = lemma.and_then(|lemma| {
+        let mut base = lexemes[..lexemes.len().min(LONGEST_VERB)].to_vec();
+        base[0].token = Token::Word(lemma);
+        longest(&base, VERBS)
+    });
+    match (plain, inflected) {
+        (Some(plain), Some(inflected)) if inflected.1 <= plain.1 => Some(plain),
+        (plain, inflected) => inflected.or(plain),
+    }
 }
 
 /// As [`fits`], with the last word in the singular or the plural.

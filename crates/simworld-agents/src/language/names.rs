@@ -120,13 +120,18 @@ impl<'a> Names<'a> {
         Some((ids, longest))
     }
 
-    /// What a whole phrase that is no exact name may have meant.
-    pub(super) fn guess(&self, phrase: &[Lexeme]) -> Guess {
+    /// What a phrase means that is part of a name.
+    pub(super) fn part(&self, phrase: &[Lexeme]) -> Option<Guess> {
         let said: Vec<&Token> = phrase.iter().map(|lexeme| &lexeme.token).collect();
         let part_of = |name: &&Name| name.tokens.windows(said.len()).any(|part| part.iter().eq(said.clone()));
         let parts: Vec<&Name> = self.index().entries.iter().filter(part_of).collect();
-        if !parts.is_empty() {
-            return one_name(&parts);
+        (!parts.is_empty()).then(|| one_name(&parts))
+    }
+
+    /// What a whole phrase that is no exact name may have meant.
+    pub(super) fn guess(&self, phrase: &[Lexeme]) -> Guess {
+        if let Some(part) = self.part(phrase) {
+            return part;
         }
         let said = join(phrase.iter().map(|lexeme| &lexeme.token));
         let mut best: Option<(usize, Vec<Candidate<'_>>)> = None;

@@ -33,6 +33,9 @@ fn numeral(lexeme: Option<&Lexeme>) -> Option<f64> {
 
 /// A number in digits or words at the start, with how many tokens it takes: "5", "twenty five", "half a", "a couple of".
 pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
+    if ["minus", "negative"].iter().any(|word| fits(lexemes, word).is_some()) {
+        return number(&lexemes[1..]).map(|(number, tokens)| (-number, tokens + 1));
+    }
     let first = numeral(lexemes.first())?;
     let second = numeral(lexemes.get(1));
     let article = |at: usize| ["a", "an"].iter().any(|word| fits(&lexemes[at.min(lexemes.len())..], word).is_some());

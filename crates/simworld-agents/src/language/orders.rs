@@ -5,10 +5,10 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Count, Manner, Pace, Reference, Stands, Target, Test, Vehicle};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
+use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase, longest_verb};
 use super::numbers::{self, MOMENT};
 use super::parser::{Parser, UNDERSTOOD};
-use super::verbs::{VERBS, Verb};
+use super::verbs::Verb;
 
 /// The longest wait, s.
 pub(super) const LONGEST_WAIT: f64 = 86_400.0;
@@ -25,8 +25,12 @@ impl Parser<'_> {
         };
         self.at += count;
         self.verb = Some(verb);
-        let times = numbers::times(self.rest()).filter(|_| verb != Verb::Wait);
+        // "Wave twice at Carol"; at the end of an order it may be about more than this one.
+        let mut times = numbers::times(self.rest());
         self.at += times.map_or(0, |(_, count)| count);
+        if times.is_some() && self.ends_clause() {
+            self.at -= times.take().map_or(0, |(_, count)| count);
+        }
         let mut clauses = self.objects(verb, start)?;
         if let Some((times, _)) = times {
             clauses = vec![Clause::Repeat { times, body: clauses }];
@@ -35,7 +39,7 @@ impl Parser<'_> {
     }
 
     fn verb_here(&self) -> Option<(Verb, usize)> {
-        longest(self.rest(), VERBS)
+        longest_verb(self.rest())
     }
 
     /// "... then to the museum": the verb of the order before goes on.

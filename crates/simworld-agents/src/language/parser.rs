@@ -14,13 +14,13 @@
 use simworld_core::action::StepDirection;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Test};
+use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{Category, fits, longest, longest_phrase};
+use super::lexicon::{Category, fits, longest_phrase, longest_verb};
 use super::names::Names;
 use super::numbers;
 use super::resolve::View;
-use super::verbs::{FILLERS, JOINTS, NEGATIONS, VERBS, Verb};
+use super::verbs::{FILLERS, JOINTS, NEGATIONS, Verb};
 
 /// What is understood, in one line, for answers.
 pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop off, put down, give, buy, sit down, stand up, \
@@ -40,6 +40,8 @@ pub(super) struct Parser<'a> {
     pub(super) class: Option<&'static Category>,
     /// The verb of the order before, for those that leave it out.
     pub(super) verb: Option<Verb>,
+    /// Whether a condition is read: then "is" says what holds and not which thing is meant.
+    pub(super) in_test: bool,
     depth: u32,
 }
 
@@ -59,7 +61,7 @@ impl<'a> Parser<'a> {
         names: &'a Names<'a>,
         view: &'a View<'a>,
     ) -> Self {
-        Self { words, lexemes, names, view, at: 0, class: None, verb: None, depth: 0 }
+        Self { words, lexemes, names, view, at: 0, class: None, verb: None, in_test: false, depth: 0 }
     }
 
     /// All orders of the sentence, at least one.
@@ -82,7 +84,7 @@ impl<'a> Parser<'a> {
             let start = self.at;
             self.skip_fillers();
             let joined = self.skip_joints();
-            let goes_on = longest(self.rest(), VERBS).is_some() || self.begins_block();
+            let goes_on = longest_verb(self.rest()).is_some() || self.begins_block();
             if self.at < self.lexemes.len() && !joined && !goes_on {
                 return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
             }
@@ -120,7 +122,7 @@ impl<'a> Parser<'a> {
     /// One order or block, without what follows it.
     fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_fillers();
-        if longest_phrase(self.rest(), NEGATIONS).is_some() && longest(self.rest(), VERBS).is_none() {
+        if longest_phrase(self.rest(), NEGATIONS).is_some() && longest_verb(self.rest()).is_none() {
             return Err(self.not_understood("that says what not to do: say what to do"));
         }
         if self.depth >= DEEPEST {
@@ -225,8 +227,8 @@ impl<'a> Parser<'a> {
     fn tails(&mut self, clauses: &mut Vec<Clause>, group: usize) -> Result<(), PlanError> {
         loop {
             let start = self.at;
-            self.skip_fillers();
             self.eat_any(&["again and again", "over and over", "over and over again", "repeatedly"]);
+            self.skip_fillers();
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
             if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
@@ -246,7 +248,14 @@ impl<'a> Parser<'a> {
         let Some(last) = clauses.last() else { return Ok(false) };
         if self.eat_any(&["until", "till"]) {
             let test = self.test()?;
-            let body = body_of(clauses.pop());
+            let body = match (clauses.pop(), &test) {
+                // Whoever walks until he is somewhere goes there.
+                (Some(Clause::Forward), Test::Near { what, .. }) => {
+                    let (to, pace) = (what.clone(), Pace::Usual);
+                    vec![Clause::Go { to, side: None, pace, within: None }]
+                }
+                (last, _) => body_of(last),
+            };
             clauses.push(Clause::Until { test, body });
         } else if self.eat_any(&["while", "as long as"]) {
             let test = Test::Not(Box::new(self.test()?));
@@ -333,7 +342,7 @@ impl<'a> Parser<'a> {
     /// Passes politeness, unless the words begin an order.
     pub(super) fn skip_fillers(&mut self) {
         while let Some(count) = longest_phrase(self.rest(), FILLERS) {
-            if longest(self.rest(), VERBS).is_some_and(|(_, words)| words >= count) {
+            if longest_verb(self.rest()).is_some_and(|(_, words)| words >= count) {
                 return;
             }
             self.at += count;

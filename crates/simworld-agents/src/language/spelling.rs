@@ -65,6 +65,13 @@ const MORE_WORDS: &[&str] = &[
     "here", "hello", "both", "all", "every", "each", "first", "third", "fourth", "fifth", "last", "parked", "other", "one",
     "ones", "left", "right", "back", "steps", "step", "half", "towards", "toward", "into", "onto", "with", "for", "from",
     "slowly", "quickly", "yourself", "speed", "hand", "position", "point", "coordinates", "traffic", "whatever", "straight",
+    "bit", "moment", "moments", "little", "short",
+    "few", "sec", "secs", "mins", "briefly", "some", "time", "forth", "fro", "dozen", "hundred", "couple", "stops", "starts", "rains",
+    "rain", "snows", "snow", "night", "day", "sunset", "dark", "sees", "seen", "visible", "sight", "view", "appears", "comes", "opens",
+    "closes", "passed", "past", "minus", "negative", "radians", "rad", "deg", "hour", "have", "has", "had", "been", "being", "does",
+    "anything", "something", "nothing", "everything", "hands", "empty", "near", "crossing", "amber", "shows", "turns", "changes",
+    "goes", "becomes", "kmh", "mps", "per", "aside", "clockwise", "anticlockwise", "pace", "paces", "along", "past", "through",
+    "photos", "pictures", "shots", "bottle", "bottles", "cup", "cups", "piece", "slice", "bowl", "glass", "portion", "copy", "loaf",
     "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "twenty", "thirty", "forty", "the", "and", "you",
 ];
 
@@ -100,31 +107,38 @@ fn is_known(word: &str) -> bool {
         || base_form(word).is_some()
 }
 
-/// The known word nearest to one that is not: at most one edit, or two in seven letters; of several at the same
-/// distance one that needs no other letter, and else none at all.
+/// How one spelling comes from another, the likeliest slip first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Slip {
+    /// Letters out of order.
+    Swapped,
+    /// A letter too many or too few.
+    Count,
+    /// Another letter: it may be another word.
+    Letter,
+}
+
+/// The known word nearest to one that is not: at most one edit, or two in seven letters. Of several as near the
+/// likelier slip is taken, then what the grammar knows; if that leaves two, or a word of no meaning here, none is.
 fn nearest(word: &str, names: &[String]) -> Option<String> {
     let length = word.chars().count();
-    let tolerance = match length {
-        0..=6 => 1,
-        _ => 2,
-    };
+    let tolerance = if length < 7 { 1 } else { 2 };
     let mut best: Vec<&str> = Vec::new();
-    let mut least = (usize::MAX, true);
-    let known = vocabulary().iter().copied();
-    for candidate in known.chain(names.iter().map(String::as_str)) {
-        if candidate.len().abs_diff(word.len()) > tolerance || !alike(word, candidate) {
+    let mut least = (usize::MAX, Slip::Letter, true);
+    for candidate in vocabulary().iter().copied().chain(names.iter().map(String::as_str)) {
+        if candidate.len().abs_diff(word.len()) > tolerance || candidate.len() < 3 || !alike(word, candidate) {
             continue;
         }
         let distance = strsim::osa_distance(word, candidate);
-        if distance > tolerance || candidate.chars().count() < 3 {
+        let slip = match candidate.chars().count() == length {
+            true if is_anagram(word, candidate) => Slip::Swapped,
+            true => Slip::Letter,
+            false => Slip::Count,
+        };
+        if distance > tolerance || length == 3 && slip == Slip::Letter {
             continue;
         }
-        // A letter too many, too few or out of order is a slip; another letter may be another word.
-        let other_letter = candidate.chars().count() == length && !is_anagram(word, candidate);
-        if length == 3 && other_letter {
-            continue;
-        }
-        let rank = (distance, other_letter);
+        let rank = (distance, slip, OTHER_WORDS.contains(&candidate));
         if rank < least {
             least = rank;
             best.clear();
@@ -134,7 +148,7 @@ fn nearest(word: &str, names: &[String]) -> Option<String> {
         }
     }
     match best[..] {
-        [one] => Some(one.to_owned()),
+        [one] if !least.2 => Some(one.to_owned()),
         _ => None,
     }
 }

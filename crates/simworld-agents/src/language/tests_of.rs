@@ -3,7 +3,7 @@
 use simworld_core::net::Aspect;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Reference, Target, Test};
+use super::clause::{Choice, Reference, Target, Test};
 use super::lexer::Token;
 use super::lexicon::{fits, longest, longest_phrase};
 use super::numbers;
@@ -30,6 +30,13 @@ const BECOMES: &[&str] =
 impl Parser<'_> {
     /// A condition.
     pub(super) fn test(&mut self) -> Result<Test, PlanError> {
+        let outer = std::mem::replace(&mut self.in_test, true);
+        let test = self.tests();
+        self.in_test = outer;
+        test
+    }
+
+    fn tests(&mut self) -> Result<Test, PlanError> {
         let mut test = self.simple_test()?;
         loop {
             let start = self.at;
@@ -119,6 +126,7 @@ impl Parser<'_> {
         }
         let mut what = self.reference(0)?;
         what.indefinite = true;
+        what.choice = Choice::Open; // "nearby" is what one asks
         self.eat_any(&["nearby", "here", "around", "near you", "near here", "close by", "around here", "free", "available", "left", "in sight"]);
         let free = what.traits.free;
         let test = Test::There { what, free };

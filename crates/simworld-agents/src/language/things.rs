@@ -17,7 +17,7 @@ impl<'a> Draft<'a> {
             return to.map_or(Ok(()), |to| self.drop(Some(what), Some(to), Manner::Deliver));
         }
         let item = self.find(what, Purpose::Item)?;
-        if item.kind.is_vehicle() && to.is_some() {
+        if item.kind.is_vehicle() {
             self.board(&Reference::to(Target::Id(item.id), what.text.clone()))?; // "take the taxi to the school"
             return self.go_on_to(to);
         }

@@ -152,7 +152,7 @@ pub(super) const FILLERS: &[&str] = &[
     "yeah", "yes", "sure", "buddy", "mate", "friend", "my friend", "sir", "madam", "be sure to", "make sure to",
     "make sure you", "remember to", "dont forget to", "you", "quickly", "carefully", "quietly", "calmly", "slowly",
     "gently", "simply", "maybe", "perhaps", "possibly", "immediately", "again", "we should", "i want to see you",
-    "it is time to", "its time to", "time to", "proceed to", "start to", "begin to", "start", "begin", "would you kindly",
+    "it is time to", "its time to", "time to", "start to", "begin to", "start", "begin", "would you kindly",
     "i would appreciate it if you could", "i would appreciate if you could", "i ask you to", "im asking you to",
     "can i ask you to", "could i ask you to", "may i ask you to", "the next thing is to", "after all", "there",
     "would you be so good as to", "would you be so kind as to", "if you would", "if you wouldnt mind", "over there",
