@@ -7,7 +7,7 @@ use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 use simworld_core::value::Value;
 
-use super::clause::{Clause, Manner, Pace, Reference, Target, Vehicle};
+use super::clause::{Clause, Grip, Manner, Pace, Reference, Target, Vehicle};
 use super::lexer::lex_speech;
 use super::names::Names;
 use super::parser::{Parser, shortened};
@@ -113,7 +113,7 @@ impl Call<'_> {
         Ok(Some(match name {
             "follow" => Clause::Follow { whom: self.thing("whom")?, pace: Pace::Usual },
             "face" => Clause::Face { what: self.thing("what")? },
-            "pick_up" => Clause::Take { what: self.thing("item")?, to: None },
+            "pick_up" => Clause::Take { what: self.thing("item")?, to: None, grip: Grip::Lift },
             "give" => Clause::Give { what: self.optional_thing("item")?, to: self.thing("to")? },
             "buy" => Clause::Buy { goods: self.text("goods")?, times: 1, at: self.optional_thing("at")? },
             "ride_scooter" => Clause::Board { what: self.thing("scooter")?, to: None },

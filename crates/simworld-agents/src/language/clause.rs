@@ -19,8 +19,8 @@ pub(super) enum Clause {
     Forward,
     /// Goes after somebody.
     Follow { whom: Reference, pace: Pace },
-    /// Takes something up and, if `to` is given, brings it there.
-    Take { what: Reference, to: Option<Reference> },
+    /// Takes something up and, if `to` is given, brings it there; a vehicle is ridden if the words allow it.
+    Take { what: Reference, to: Option<Reference>, grip: Grip },
     /// Lets go of what is in hand, at a place if one is given.
     Drop { what: Option<Reference>, at: Option<Reference>, manner: Manner },
     /// Hands something over.
@@ -103,6 +103,15 @@ pub(super) enum Pace {
     Slow,
     /// At a speed, m/s.
     At(f64),
+}
+
+/// What the words for taking allow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Grip {
+    /// Lifting it: "pick up".
+    Lift,
+    /// Lifting it or riding in or on it: "take the taxi".
+    LiftOrRide,
 }
 
 /// What is let go of.

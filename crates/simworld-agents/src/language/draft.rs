@@ -5,7 +5,7 @@ use simworld_core::geometry::{Point2, Point3, heading};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Relation, Role};
-use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep};
+use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 
 use super::clause::{Clause, Pace, Reference, Target, Test, Vehicle};
 use super::lexicon::{class, is_animate};
@@ -58,6 +58,8 @@ pub(super) struct Draft<'a> {
     /// What one will stand beside, and where one went last.
     pub(super) beside: Option<EntityId>,
     there: Option<(Goal, f64)>,
+    /// What one is in or on.
+    pub(super) mount: Option<EntityId>,
 }
 
 impl<'a> Draft<'a> {
@@ -84,6 +86,7 @@ impl<'a> Draft<'a> {
             carried: scene.attached(me.id, Role::Carried),
             beside: None,
             there: None,
+            mount: None,
             view,
         }
     }
@@ -116,7 +119,7 @@ impl<'a> Draft<'a> {
             Clause::Cross => self.cross(),
             Clause::Forward => self.act(Action::MoveForward { speed: WALKING }),
             Clause::Follow { whom, pace } => self.follow(whom, *pace),
-            Clause::Take { what, to } => self.take_to(what, to.as_ref()),
+            Clause::Take { what, to, grip } => self.take_to(what, to.as_ref(), *grip),
             Clause::Drop { what, at, manner } => self.drop(what.as_ref(), at.as_ref(), *manner),
             Clause::Give { what, to } => self.give(what.as_ref(), to),
             Clause::Buy { goods, times, at } => self.buy(goods, *times, at.as_ref()),
@@ -168,8 +171,12 @@ impl<'a> Draft<'a> {
             Clause::Speed { speed } => self.act(Action::ChangeSpeed { speed: *speed }),
             Clause::If { test, then, otherwise } => self.either(test, then, otherwise),
             Clause::Until { test, body } => {
-                let condition = self.condition(test)?;
+                // What is done is said first: "look at Fay until she is near you".
                 let steps = self.block(body)?;
+                let condition = self.condition(test)?;
+                if let (Condition::Near { what: Which::Entity(id), .. }, []) = (&condition, &steps[..]) {
+                    self.beside = Some(*id); // who came to me need not be gone to
+                }
                 self.push(PlanStep::Until { condition, steps });
                 Ok(())
             }
@@ -244,9 +251,12 @@ impl<'a> Draft<'a> {
 
     /// Remembers what was spoken of.
     pub(super) fn mention(&mut self, entity: &EntityRef<'_>) {
-        self.view.it = Some(entity.id);
         if is_animate(entity.kind) {
             self.view.them = Some(entity.id);
+        }
+        // Nobody calls a person "it".
+        if entity.kind != EntityKind::Person {
+            self.view.it = Some(entity.id);
         }
     }
 

@@ -25,9 +25,9 @@ impl Category {
         &CATEGORIES[0]
     }
 
-    /// Whether all of it are people, animals or robots: who is spoken of as him, her or them.
-    pub(super) fn is_animate(&self) -> bool {
-        !self.kinds.is_empty() && self.kinds.iter().all(|kind| is_animate(*kind))
+    /// Whether it is named after what it is used for.
+    pub(super) const fn is_place(&self) -> bool {
+        self.place.is_some()
     }
 
     /// The class as data.

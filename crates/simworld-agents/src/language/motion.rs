@@ -6,7 +6,7 @@ use simworld_core::action::StepDirection;
 use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Pace};
+use super::clause::{Clause, Pace, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{RELATIONS, longest, longest_phrase};
 use super::numbers;
@@ -57,6 +57,13 @@ impl Parser<'_> {
             return Err(self.not_understood("going around, past or along things is not understood: say where to"));
         }
         let pace = self.pace(pace)?;
+        let returns = self.lexemes[start..self.at]
+            .iter()
+            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "back" || word == "return"));
+        if returns && self.ends_clause() {
+            let to = Reference::to(Target::Here, "back".to_owned());
+            return Ok(vec![Clause::Go { to, side: None, pace, within: None }]);
+        }
         if self.ends_clause() && self.continues() {
             return Ok(vec![Clause::Forward]);
         }

@@ -3,7 +3,7 @@
 use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Count, Manner, Pace, Reference, Stands, Target, Test, Vehicle};
+use super::clause::{Clause, Count, Grip, Manner, Pace, Reference, Stands, Target, Test, Vehicle};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase, longest_verb};
 use super::numbers::{self, MOMENT};
@@ -82,7 +82,7 @@ impl Parser<'_> {
                 let whom = self.reference(0)?;
                 one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
             }
-            Verb::Take => self.take(),
+            Verb::Take => self.take(start),
             Verb::Deliver => self.drop(Manner::Deliver),
             Verb::Give => self.give(),
             Verb::Drop => self.drop(Manner::DropOff),
@@ -106,7 +106,8 @@ impl Parser<'_> {
             Verb::Point => one(Clause::Point { at: self.reference(0)? }),
             Verb::Wave => {
                 self.eat_any(&["at", "to", "your hand at", "your hand to", "hand to", "hands to", "your hand"]);
-                one(Clause::Wave { to: self.reference(0)? })
+                let it = Reference::to(Target::It, "it".to_owned());
+                one(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
             }
             Verb::Talk | Verb::Greet | Verb::Say | Verb::Tell | Verb::Argue => self.speak(verb),
             Verb::Open | Verb::Close => {
@@ -121,7 +122,13 @@ impl Parser<'_> {
         }
     }
 
-    fn take(&mut self) -> Result<Vec<Clause>, PlanError> {
+    fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
+        if self.eat_any(&["me to", "us to", "yourself to"]) {
+            return self.go(Pace::Usual, start);
+        }
+        let taken = self.lexemes[start..self.at].iter().map(|lexeme| &lexeme.token);
+        let grip = if taken.eq([&Token::Word("take".to_owned())]) { Grip::LiftOrRide } else { Grip::Lift };
+        self.eat_any(&["me", "us"]);
         if self.counts_steps() {
             return self.step().map(|step| vec![step]);
         }
@@ -142,7 +149,8 @@ impl Parser<'_> {
             }
         };
         self.eat_any(&["up", "along", "with you"]);
-        Ok(vec![Clause::Take { what, to: self.tail_place(&["to", "over to", "back to", "into"])? }])
+        let to = self.tail_place(&["to", "over to", "back to", "into"])?;
+        Ok(vec![Clause::Take { what, to, grip }])
     }
 
     fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
@@ -170,7 +178,18 @@ impl Parser<'_> {
             Some(self.reference(0)?)
         };
         self.eat_any(&["down", "off", "up"]);
-        let at = self.tail_place(&places)?;
+        let mut at = self.tail_place(&places)?;
+        let what = what.map(|mut what| {
+            // "Put the cone next to the bin" says where to, and not which cone.
+            match what.relation.take() {
+                Some(Stands::To(_, anchor)) if at.is_none() => at = Some(*anchor),
+                relation => what.relation = relation,
+            }
+            what
+        });
+        if at.is_none() && self.eat_any(&["here", "back", "back here"]) {
+            at = Some(Reference::to(Target::Here, "here".to_owned()));
+        }
         if manner == Manner::Deliver && at.is_none() {
             if !self.ends_clause()
                 && let Some(to) = what

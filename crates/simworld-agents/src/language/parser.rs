@@ -152,6 +152,11 @@ impl<'a> Parser<'a> {
         if self.eat_any(&["while", "as long as"]) {
             let test = Test::Not(Box::new(self.test()?));
             self.skip_joints();
+            let start = self.at;
+            if self.eat_any(&["wait", "stop", "stand still", "stay", "wait here", "stand"]) && self.ends_clause() {
+                return Ok(Some(vec![Clause::Until { test, body: Vec::new() }]));
+            }
+            self.at = start;
             return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
         }
         if self.eat_any(&["when", "whenever", "once", "as soon as", "after"]) {
@@ -233,7 +238,7 @@ impl<'a> Parser<'a> {
             if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, group, times, comma);
-            } else if comma && longest_phrase(&self.rest()[1..], &["until", "till", "unless"]).is_none() {
+            } else if comma && longest_phrase(&self.rest()[1..], &["until", "till", "unless", "but first", "but before that"]).is_none() {
                 self.at = start;
                 return Ok(());
             } else if !self.tail(clauses, comma)? {
@@ -274,12 +279,19 @@ impl<'a> Parser<'a> {
             clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
         } else if self.eat_any(&["before"]) {
             clauses.extend(self.order()?);
+        } else if self.eat_any(&["but first", "but before that", "but first of all", "but beforehand"]) {
+            let earlier = self.order()?;
+            let at = clauses.len() - 1;
+            clauses.splice(at..at, earlier);
         } else if self.eat_any(&["after"]) {
             let earlier = self.order()?;
             let at = clauses.len() - 1;
             clauses.splice(at..at, earlier);
         } else if let Some((seconds, count)) = self.peek_for() {
-            let rests = matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
+            // "Towards the museum for ten seconds" is on the way; "to the museum for ten seconds" is there.
+            let earlier = &self.lexemes[self.at.saturating_sub(6)..self.at];
+            let towards = earlier.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
+            let rests = !towards && matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
             self.at += count;
             if rests {
                 clauses.push(Clause::Wait { seconds });

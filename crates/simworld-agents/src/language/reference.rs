@@ -256,8 +256,14 @@ impl<'a> Parser<'a> {
                 Ok(Target::Named(ids))
             }
             (_, Some((category, count))) => {
+                let said = &self.rest()[..count];
                 self.at += count;
-                Ok(Target::Any(category))
+                // "The clinic" is the one that is called so, rather than the nearest hospital.
+                let is_synonym = category.is_place() && fits(said, category.words[0]).is_none();
+                match if is_synonym { self.names.part(said) } else { None } {
+                    Some(Guess::Named(ids)) => Ok(Target::Named(ids)),
+                    _ => Ok(Target::Any(category)),
+                }
             }
             _ => {
                 let class = self.class;

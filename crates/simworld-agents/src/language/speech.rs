@@ -19,7 +19,11 @@ impl Parser<'_> {
         let clause = match verb {
             Verb::Argue => {
                 self.eat_any(&["with"]);
-                Clause::Argue { with: self.reference(0)? }
+                let with = self.reference(0)?;
+                if self.eat_any(&["about", "over"]) {
+                    self.speech(self.lexemes.len())?; // gestures have no words
+                }
+                Clause::Argue { with }
             }
             Verb::Say => self.say()?,
             Verb::Tell => {
@@ -58,9 +62,14 @@ impl Parser<'_> {
 
     /// The words as they were written, up to a token or the end of the sentence.
     fn speech(&mut self, end: usize) -> Result<String, PlanError> {
-        let is_break = |lexeme: &Lexeme| lexeme.token == Token::Break;
         let said = &self.lexemes[self.at..end];
-        let count = said.iter().position(is_break).unwrap_or(said.len());
+        let ends = |at: &usize| match said[*at].token {
+            Token::Break => true,
+            // "..., then wait" is an order again.
+            Token::Comma => longest_phrase(&said[at + 1..], &["then", "and then", "after that", "and"]).is_some(),
+            _ => false,
+        };
+        let count = (0..said.len()).find(ends).unwrap_or(said.len());
         let (Some(first), Some(last)) = (said.first().filter(|_| count > 0), said[..count].last()) else {
             return Err(self.not_understood("say what to say"));
         };

@@ -5,19 +5,24 @@ use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
 use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
 use simworld_core::value::Value;
 
-use super::clause::{Choice, Manner, Pace, Reference, Target, Test};
+use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test};
 use super::draft::{Draft, Load, Posture};
 use super::lexicon::{Category, class, is_animate};
 use super::resolve::Purpose;
 use super::tests_of::NEARBY;
 
 impl<'a> Draft<'a> {
-    pub(super) fn take_to(&mut self, what: &Reference, to: Option<&Reference>) -> Result<(), PlanError> {
+    pub(super) fn take_to(
+        &mut self,
+        what: &Reference,
+        to: Option<&Reference>,
+        grip: Grip,
+    ) -> Result<(), PlanError> {
         if self.is_in_hand(what) {
             return to.map_or(Ok(()), |to| self.drop(Some(what), Some(to), Manner::Deliver));
         }
         let item = self.find(what, Purpose::Item)?;
-        if item.kind.is_vehicle() {
+        if item.kind.is_vehicle() && grip == Grip::LiftOrRide {
             self.board(&Reference::to(Target::Id(item.id), what.text.clone()))?; // "take the taxi to the school"
             return self.go_on_to(to);
         }
@@ -77,7 +82,7 @@ impl<'a> Draft<'a> {
         if let Some(what) = what.filter(|what| !(in_hand && what.target == Target::It)) {
             let item = self.find(what, Purpose::Item)?;
             let in_hand = self.held == Some(Load::Thing(item.id)) || self.carried == Some(item.id);
-            if !in_hand && manner == Manner::Deliver {
+            if !in_hand && (manner == Manner::Deliver || at.is_some()) {
                 self.take(what)?;
             } else if !in_hand {
                 return Err(self.nothing_in_hand(&what.text));
@@ -185,9 +190,10 @@ impl<'a> Draft<'a> {
                 });
             }
         };
-        if self.posture == Posture::Aboard && self.beside == Some(vehicle.id) {
+        if matches!(self.posture, Posture::Aboard | Posture::Riding) && self.mount == Some(vehicle.id) {
             return Ok(()); // one sits in it already
         }
+        self.mount = Some(vehicle.id);
         self.go_beside(&vehicle)?;
         self.posture = if vehicle.kind == EntityKind::Scooter { Posture::Riding } else { Posture::Aboard };
         self.act(action)

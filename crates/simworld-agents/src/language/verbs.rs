@@ -47,7 +47,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
         &[
             "go", "got to", "walk", "head", "navigate", "move", "come", "travel", "proceed", "get to", "get back to",
             "make your way", "go back", "come back", "return", "find", "approach", "visit", "reach", "inspect", "meet",
-            "march", "wander", "locate", "get over to", "get yourself to", "advance", "pay a visit to", "check out",
+            "march", "wander", "locate", "get over to", "get yourself to", "advance", "pay a visit to", "check out", "look for", "search for", "seek", "head for", "make for",
             "stand next to", "stand by", "stand near", "stand beside", "stand at", "stand behind", "stand in front of",
             "find your way", "get close to", "get near", "get nearer to",
         ],
@@ -71,7 +71,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
     (&["stand up", "stand", "get up", "rise", "get to your feet", "get on your feet"], Verb::StandUp),
     (
         &["stop", "halt", "freeze", "stand still", "stay", "stay here", "stay there", "stop there", "remain",
-          "stay put", "dont move", "hold still", "remain here", "remain there"],
+          "stay put", "stay where you are", "remain where you are", "dont move", "hold still", "remain here", "remain there"],
         Verb::Stop,
     ),
     (&["wait", "pause", "rest", "hang on", "hold on", "stand by for", "wait around"], Verb::Wait),
@@ -84,7 +84,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
     (&["drive"], Verb::Drive),
     (
         &["get off", "get out", "get out of", "exit", "dismount", "alight", "hop off", "hop out", "step out of",
-          "climb out", "climb out of", "jump out", "leave the car", "leave the vehicle", "step off"],
+          "climb out", "climb out of", "jump out", "leave the car", "leave the vehicle", "step off", "get down from", "get down", "climb off"],
         Verb::Alight,
     ),
     (&["step"], Verb::Step),
@@ -130,7 +130,7 @@ pub(super) const JOINTS: &[&str] = &[
     "and", "then", "next", "after that", "afterwards", "finally", "also", "first", "lastly", "after this", "later",
     "second", "subsequently", "firstly", "secondly", "thirdly", "to begin with", "to start with", "in the end",
     "when you are done", "when youre done", "once youre done", "once you are there", "when you get there", "plus",
-    "once you are done", "when youve done that", "once there", "followed by", "at last", "immediately", "but",
+    "once you are done", "when youve done that", "once there", "followed by", "at last", "immediately",
 ];
 
 /// Politeness around an order.
@@ -156,7 +156,7 @@ pub(super) const FILLERS: &[&str] = &[
     "i would appreciate it if you could", "i would appreciate if you could", "i ask you to", "im asking you to",
     "can i ask you to", "could i ask you to", "may i ask you to", "the next thing is to", "after all", "there",
     "would you be so good as to", "would you be so kind as to", "if you would", "if you wouldnt mind", "over there",
-    "i think you should", "i suggest you", "im begging you", "oh", "ah", "ahem", "hmm", "erm", "uh", "um", "er",
+    "i think you should", "i suggest you", "im begging you", "somewhere", "anywhere", "i want to", "i would like to", "id like to", "i need to", "im going to", "oh", "ah", "ahem", "hmm", "erm", "uh", "um", "er",
 ];
 
 /// Sounds of hesitation; they are dropped wherever they stand.
@@ -174,6 +174,9 @@ pub(super) fn base_form(word: &str) -> Option<String> {
         ("gotten", "get"), ("told", "tell"), ("said", "say"), ("spoken", "speak"), ("ridden", "ride"), ("rode", "ride"),
         ("drove", "drive"), ("driven", "drive"), ("brought", "bring"), ("met", "meet"), ("found", "find"), ("came", "come"), ("made", "make"), ("lying", "lie"),
     ];
+    if word == "lets" {
+        return None; // "let us"
+    }
     let is_verb = |stem: &str| {
         VERBS.iter().any(|(phrases, _)| phrases.iter().any(|phrase| phrase.split(' ').next() == Some(stem)))
     };

@@ -1,0 +1,105 @@
+//! Doors, gifts, purchases and talk: what each changes, and why it is refused.
+#![allow(clippy::unwrap_used, reason = "a helper of tests")]
+
+use simworld_core::action::{Action, ActionKind};
+use simworld_core::event::EventKind;
+use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{
+    EntityDesc, EntityKind, InteractionError, LOCKED, OPEN, Place, Role, SELLS, Scene, Shape, World, check_action,
+};
+use simworld_core::value::Value;
+
+fn put(world: &mut World, desc: EntityDesc) -> EntityId {
+    world.spawn(desc).unwrap()
+}
+
+fn thing(kind: EntityKind, x: f64) -> EntityDesc {
+    EntityDesc::new(kind, pose_facing(Point3::new(x, 0.0, 0.0), 0.0), Shape::cuboid(0.4, 0.4, 1.8))
+}
+
+fn person(world: &mut World, x: f64) -> EntityId {
+    put(world, thing(EntityKind::Person, x))
+}
+
+#[test]
+fn a_door_opens_and_closes_once_and_not_when_locked() {
+    let mut world = World::new();
+    let me = person(&mut world, 0.0);
+    let door = put(&mut world, thing(EntityKind::Door, 1.0));
+    let locked = put(&mut world, thing(EntityKind::Door, -1.0).with(LOCKED, true));
+    world.actuate(me, Action::OpenDoor { door }).unwrap();
+    assert_eq!(world.entity(door).unwrap().info.attributes.get(OPEN), Some(&Value::Bool(true)));
+    let again = world.actuate(me, Action::OpenDoor { door }).unwrap_err();
+    assert_eq!(again.to_string(), format!("door {door} is open already"));
+    world.actuate(me, Action::CloseDoor { door }).unwrap();
+    assert!(world.actuate(me, Action::CloseDoor { door }).is_err(), "closed twice");
+    let refused = world.actuate(me, Action::OpenDoor { door: locked }).unwrap_err();
+    assert!(matches!(refused, InteractionError::State { state: "locked", .. }), "{refused}");
+}
+
+#[test]
+fn what_is_given_changes_hands() {
+    let mut world = World::new();
+    let (me, other) = (person(&mut world, 0.0), person(&mut world, 1.0));
+    let parcel = put(&mut world, thing(EntityKind::Parcel, 0.5));
+    assert!(world.actuate(me, Action::Give { to: other }).is_err(), "gave nothing");
+    world.actuate(me, Action::PickUp { item: parcel }).unwrap();
+    assert!(world.actuate(me, Action::Give { to: me }).is_err(), "gave to himself");
+    world.actuate(me, Action::Give { to: other }).unwrap();
+    assert_eq!((world.attached(me, Role::Held), world.attached(other, Role::Held)), (None, Some(parcel)));
+    let second = put(&mut world, thing(EntityKind::Parcel, 0.5));
+    world.actuate(me, Action::PickUp { item: second }).unwrap();
+    assert!(world.actuate(me, Action::Give { to: other }).is_err(), "the other's hands are full");
+}
+
+#[test]
+fn what_is_bought_is_what_is_sold() {
+    let mut world = World::new();
+    let me = person(&mut world, 0.0);
+    let kiosk = thing(EntityKind::Building, 1.0).used_as(Place::Store).with(SELLS, "tea, map");
+    let kiosk = put(&mut world, kiosk);
+    let buy = |goods: &str| Action::Buy { goods: goods.to_owned(), from: kiosk };
+    let refused = world.actuate(me, buy("piano")).unwrap_err();
+    assert!(matches!(refused, InteractionError::NotSold { .. }), "{refused}");
+    world.actuate(me, buy("tea")).unwrap();
+    let tea = world.attached(me, Role::Held).unwrap();
+    assert_eq!(world.entity(tea).unwrap().label(), "tea");
+    let told = world.events().iter().any(|event| {
+        event.kind == EventKind::Bought { who: me, from: kiosk, item: tea }
+    });
+    assert!(told, "{:?}", world.events());
+    assert!(world.actuate(me, buy("map")).is_err(), "the hand is full");
+}
+
+#[test]
+fn who_is_spoken_to_is_near_and_hears_the_words() {
+    let mut world = World::new();
+    let (me, near, far) = (person(&mut world, 0.0), person(&mut world, 6.0), person(&mut world, 60.0));
+    let tree = put(&mut world, thing(EntityKind::Tree, 2.0));
+    let say = |with| Action::Converse { with, words: "good day".to_owned() };
+    world.actuate(me, say(near)).unwrap();
+    let said = EventKind::Said { who: me, to: near, words: "good day".to_owned() };
+    assert!(world.events().iter().any(|event| event.kind == said));
+    assert!(matches!(world.actuate(me, say(far)), Err(InteractionError::OutOfEarshot { .. })));
+    assert!(matches!(world.actuate(me, say(tree)), Err(InteractionError::WrongKind { .. })));
+    world.actuate(me, Action::Argue { with: near }).unwrap();
+    let argued = EventKind::Gesture { who: me, gesture: ActionKind::Argue, to: Some(near) };
+    assert!(world.events().iter().any(|event| event.kind == argued));
+}
+
+#[test]
+fn checking_an_action_changes_nothing_and_agrees_with_doing_it() {
+    let mut world = World::new();
+    let me = person(&mut world, 0.0);
+    let things: Vec<EntityId> =
+        EntityKind::ALL.iter().map(|kind| put(&mut world, thing(*kind, 1.0).with(SELLS, "tea"))).collect();
+    for thing in things {
+        for kind in ActionKind::ALL {
+            let action = simworld_core::testing::sample_action(*kind, thing);
+            let mut trial = World::restore(world.snapshot()).unwrap();
+            let checked = check_action(&world, me, &action);
+            assert_eq!(trial.actuate(me, action.clone()), checked, "{action:?}");
+        }
+    }
+}
