@@ -69,7 +69,9 @@ fn language(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("grammar/10k");
     for (name, words) in SENTENCES {
         let intent = Intent::Words(words.to_owned());
-        GrammarPlanner::default().plan(&intent, &world, me).unwrap_or_else(|error| panic!("{words}: {error}"));
+        GrammarPlanner::default()
+            .plan(&intent, &world, me)
+            .unwrap_or_else(|error| panic!("{words}: {error}"));
         group.bench_function(name, |bencher| {
             bencher.iter(|| black_box(GrammarPlanner::default().plan(&intent, &world, me)));
         });

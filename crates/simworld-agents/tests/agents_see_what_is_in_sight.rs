@@ -28,7 +28,11 @@ fn street() -> (World, EntityId, [EntityId; 4]) {
     (world, me, [house, hidden, tree, beside])
 }
 
-fn seen(observer: &mut SceneGraphObserver, world: &World, me: EntityId) -> Result<Vec<EntityId>, ObserveError> {
+fn seen(
+    observer: &mut SceneGraphObserver,
+    world: &World,
+    me: EntityId,
+) -> Result<Vec<EntityId>, ObserveError> {
     let mut graph = SceneGraph::default();
     observer.observe(world, me, &mut graph)?;
     Ok(graph.sightings.iter().map(|sighting| sighting.id).collect())
@@ -68,7 +72,10 @@ fn what_one_holds_and_what_became_of_it_is_said() {
     graph.hear(world.events(), me);
     assert_eq!(graph.feedback.len(), 1, "{:?}", graph.feedback);
     let prompt = graph.to_prompt(400);
-    assert!(prompt.contains(&format!("holding {parcel}")) && prompt.contains("> stand up failed: chair #3"), "{prompt}");
+    assert!(
+        prompt.contains(&format!("holding {parcel}")) && prompt.contains("> stand up failed: chair #3"),
+        "{prompt}"
+    );
     assert!(graph.oneself.fix.position.coords.norm() > 1e-6, "the receiver errs by metres");
     assert!((graph.sightings[0].distance - 0.2).abs() < 0.5, "what is seen is seen from where one really is");
 }
@@ -76,7 +83,9 @@ fn what_one_holds_and_what_became_of_it_is_said() {
 #[test]
 fn the_seam_is_kept() {
     let (world, me, _) = street();
-    let make = || Box::new(SceneGraphObserver::new(60.0).with_occlusion().with_gps(GpsObserver::new(2.0, 0.1, Seed(3))));
+    let make = || {
+        Box::new(SceneGraphObserver::new(60.0).with_occlusion().with_gps(GpsObserver::new(2.0, 0.1, Seed(3))))
+    };
     check_observer(|| make(), &world, me, SceneGraph::default);
 }
 

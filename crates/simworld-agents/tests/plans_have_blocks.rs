@@ -141,13 +141,18 @@ fn one_turns_to_what_one_looks_at() {
 #[test]
 fn blocks_without_end_or_sense_are_refused_or_end() {
     let mut world = World::new();
-    let me = world.spawn(EntityDesc::new(EntityKind::Person, at(0.0, 0.0), Shape::cuboid(0.5, 0.5, 1.8))).unwrap();
+    let me =
+        world.spawn(EntityDesc::new(EntityKind::Person, at(0.0, 0.0), Shape::cuboid(0.5, 0.5, 1.8))).unwrap();
     let endless = |inner: Vec<PlanStep>| PlanStep::Until { condition: Condition::Dark, steps: inner };
     let never = PlanStep::If { condition: Condition::Raining, then: vec![forward()], otherwise: Vec::new() };
     let mut executor = RuleExecutor::straight();
     executor.start(Plan { steps: vec![endless(vec![never])] }, &world, me).unwrap();
     for _ in 0..20 {
-        assert_eq!(executor.advance(&world, me, &mut Vec::new()), Ok(Progress::Running), "it waits, and does not hang");
+        assert_eq!(
+            executor.advance(&world, me, &mut Vec::new()),
+            Ok(Progress::Running),
+            "it waits, and does not hang"
+        );
     }
     let deep = (0..40).fold(forward(), |inner, _| endless(vec![inner]));
     assert!(executor.start(Plan { steps: vec![deep] }, &world, me).is_err(), "nested without end");

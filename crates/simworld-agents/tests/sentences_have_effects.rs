@@ -29,7 +29,8 @@ fn the_world_shows_what_was_asked_for() {
             };
             let (simulation, ended) = carry_out(City::read(name).world, city.me, plan);
             if let Err(found) = shows(&city, expected, &simulation, &ended) {
-                faults.push(format!("{name}: {:?} should leave {expected:?}, and left {found:?}", said.words));
+                faults
+                    .push(format!("{name}: {:?} should leave {expected:?}, and left {found:?}", said.words));
             }
         }
     }
@@ -45,7 +46,9 @@ fn a_taken_chair_is_said_to_be_taken_and_by_whom() {
     let plan = GrammarPlanner::default().plan(&call, &city.world, city.me).unwrap();
     // Carol sits down on it while the agent is still on its way.
     let parent_from_body = simworld_core::geometry::Pose::identity();
-    city.world.attach(carol, Some(Attachment { parent: chair, role: Role::Seated, parent_from_body })).unwrap();
+    city.world
+        .attach(carol, Some(Attachment { parent: chair, role: Role::Seated, parent_from_body }))
+        .unwrap();
     let (_, ended) = carry_out(city.world, city.me, plan);
     let Progress::Failed { reason } = ended else { panic!("{ended:?}") };
     assert!(reason.contains(&format!("taken by {carol}")), "{reason}");

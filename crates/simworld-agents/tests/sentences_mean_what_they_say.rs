@@ -206,8 +206,9 @@ fn what_is_in_hand_is_put_down() {
     let bond = |role| Some(Attachment { parent: me, role, parent_from_body: Pose::identity() });
     world.attach(EntityId::new(4, 0), bond(Role::Held)).unwrap();
     world.attach(EntityId::new(1, 0), bond(Role::Carried)).unwrap();
-    let plan =
-        |words: &str| show(&GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &world, me).unwrap());
+    let plan = |words: &str| {
+        show(&GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &world, me).unwrap())
+    };
     assert_eq!(plan("put it down").as_str(), "put down heavy");
     assert_eq!(plan("drop off the parcel at the museum"), "go #5, drop off");
     assert_eq!(plan("put down the chair and drop the parcel"), "put down heavy, drop off");

@@ -6,7 +6,8 @@ use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{
-    EntityDesc, EntityKind, InteractionError, LOCKED, OPEN, Place, Role, SELLS, Scene, Shape, World, check_action,
+    EntityDesc, EntityKind, InteractionError, LOCKED, OPEN, Place, Role, SELLS, Scene, Shape, World,
+    check_action,
 };
 use simworld_core::value::Value;
 
@@ -65,9 +66,10 @@ fn what_is_bought_is_what_is_sold() {
     world.actuate(me, buy("tea")).unwrap();
     let tea = world.attached(me, Role::Held).unwrap();
     assert_eq!(world.entity(tea).unwrap().label(), "tea");
-    let told = world.events().iter().any(|event| {
-        event.kind == EventKind::Bought { who: me, from: kiosk, item: tea }
-    });
+    let told = world
+        .events()
+        .iter()
+        .any(|event| event.kind == EventKind::Bought { who: me, from: kiosk, item: tea });
     assert!(told, "{:?}", world.events());
     assert!(world.actuate(me, buy("map")).is_err(), "the hand is full");
 }

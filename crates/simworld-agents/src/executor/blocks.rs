@@ -73,14 +73,10 @@ impl RuleExecutor {
                 plain => return Entered::Step(plain.clone()),
             };
             self.state.stage = Stage::Fresh;
-            match inner {
-                Some(place) => self.state.place.push(place),
-                None => {
-                    let restarted = self.move_on();
-                    if restarted {
-                        return Entered::Waiting;
-                    }
-                }
+            if let Some(place) = inner {
+                self.state.place.push(place);
+            } else if self.move_on() {
+                return Entered::Waiting; // begun anew: in the next step of the simulation
             }
         }
     }
@@ -156,7 +152,9 @@ impl RuleExecutor {
 fn inner<'a>(block: &'a PlanStep, place: &Place) -> &'a [PlanStep] {
     match block {
         PlanStep::If { otherwise, .. } if place.otherwise => otherwise,
-        PlanStep::If { then: steps, .. } | PlanStep::Repeat { steps, .. } | PlanStep::Until { steps, .. } => steps,
+        PlanStep::If { then: steps, .. } | PlanStep::Repeat { steps, .. } | PlanStep::Until { steps, .. } => {
+            steps
+        }
         _ => &[],
     }
 }

@@ -49,16 +49,16 @@ fn shown(scene: &dyn Scene, light: EntityId) -> Option<Aspect> {
     /// How far a post stands from the crossing that it is for, m.
     const POST: f64 = 15.0;
     let post = scene.entity(light)?;
-    let group = match post.info.attributes.get("signal_group").and_then(Value::as_i64) {
-        Some(group) => usize::try_from(group).ok()?,
-        None => {
-            let at = post.planar();
-            let signalled = scene.roads()?.crossings.iter().filter_map(|crossing| {
-                let distance = (crossing.start - at).norm().min((crossing.end - at).norm());
-                crossing.signal.filter(|_| distance <= POST).map(|group| (distance, group))
-            });
-            signalled.min_by(|a, b| a.0.total_cmp(&b.0))?.1.index()
-        }
+    let stated = post.info.attributes.get("signal_group").and_then(Value::as_i64);
+    let group = if let Some(group) = stated {
+        usize::try_from(group).ok()?
+    } else {
+        let at = post.planar();
+        let signalled = scene.roads()?.crossings.iter().filter_map(|crossing| {
+            let distance = (crossing.start - at).norm().min((crossing.end - at).norm());
+            crossing.signal.filter(|_| distance <= POST).map(|group| (distance, group))
+        });
+        signalled.min_by(|a, b| a.0.total_cmp(&b.0))?.1.index()
     };
     scene.signals().get(group).copied()
 }

@@ -16,9 +16,9 @@ use std::sync::Arc;
 
 use blocks::{Entered, Place};
 use navigate::{Arrival, Navigation};
+use serde::{Deserialize, Serialize};
 use sight::sees;
 pub(crate) use sight::{crosses, eyes, hides, looked_at};
-use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;

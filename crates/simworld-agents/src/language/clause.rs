@@ -74,11 +74,20 @@ pub(super) enum Clause {
 /// A condition that refers to things.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Test {
-    Light { light: Option<Reference>, shows: Aspect },
+    Light {
+        light: Option<Reference>,
+        shows: Aspect,
+    },
     Sees(Reference),
-    Near { what: Reference, within: f64 },
+    Near {
+        what: Reference,
+        within: f64,
+    },
     /// There is one near, free or not.
-    There { what: Reference, free: bool },
+    There {
+        what: Reference,
+        free: bool,
+    },
     InUse(Reference),
     Open(Reference),
     Holds(Option<Reference>),
@@ -260,21 +269,23 @@ impl Reference {
 impl Clause {
     /// The phrase that says how many times the order is to be done: to both chairs, at two people.
     pub(super) fn plural(&mut self) -> Option<&mut Reference> {
-        let reference = match self {
-            Self::Go { to, .. } | Self::Wave { to } | Self::Say { to, .. } => to,
-            Self::Take { what, .. }
-            | Self::Face { what }
-            | Self::Point { at: what }
-            | Self::Argue { with: what }
-            | Self::Follow { whom: what, .. } => what,
-            Self::Drop { what: Some(what), .. }
-            | Self::Give { what: Some(what), .. }
-            | Self::Door { what: Some(what), .. }
-            | Self::Sit { on: Some(what) }
-            | Self::Photo { of: Some(what), .. } => what,
-            _ => return None,
+        let (Self::Go { to: what, .. }
+        | Self::Wave { to: what }
+        | Self::Say { to: what, .. }
+        | Self::Take { what, .. }
+        | Self::Face { what }
+        | Self::Point { at: what }
+        | Self::Argue { with: what }
+        | Self::Follow { whom: what, .. }
+        | Self::Drop { what: Some(what), .. }
+        | Self::Give { what: Some(what), .. }
+        | Self::Door { what: Some(what), .. }
+        | Self::Sit { on: Some(what) }
+        | Self::Photo { of: Some(what), .. }) = self
+        else {
+            return None;
         };
-        (reference.count != Count::One).then_some(reference)
+        (what.count != Count::One).then_some(what)
     }
 
     /// Whether doing it twice in a row is doing something twice: waving is, sitting down is not.

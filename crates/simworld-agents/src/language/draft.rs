@@ -190,7 +190,8 @@ impl<'a> Draft<'a> {
 
     fn either(&mut self, test: &Test, then: &[Clause], otherwise: &[Clause]) -> Result<(), PlanError> {
         let condition = self.condition(test)?;
-        let (held, carried, posture, beside, there) = (self.held, self.carried, self.posture, self.beside, self.there);
+        let (held, carried, posture, beside, there) =
+            (self.held, self.carried, self.posture, self.beside, self.there);
         let (from, heading) = (self.view.from, self.view.heading);
         if let Condition::Holds(Some(item)) = &condition {
             self.held.get_or_insert(Load::Thing(*item));
@@ -198,7 +199,8 @@ impl<'a> Draft<'a> {
         let then = self.block(then)?;
         let it = self.view.it;
         // What else is done starts from where the first would have.
-        (self.held, self.carried, self.posture, self.beside, self.there) = (held, carried, posture, beside, there);
+        (self.held, self.carried, self.posture, self.beside, self.there) =
+            (held, carried, posture, beside, there);
         (self.view.from, self.view.heading) = (from, heading);
         let otherwise = self.block(otherwise)?;
         self.beside = None;
@@ -243,7 +245,11 @@ impl<'a> Draft<'a> {
         Err(PlanError::Unable { kind: self.kind, action, hint: format!("it can {}", names.join(", ")) })
     }
 
-    pub(super) fn find(&mut self, reference: &Reference, purpose: Purpose) -> Result<EntityRef<'a>, PlanError> {
+    pub(super) fn find(
+        &mut self,
+        reference: &Reference,
+        purpose: Purpose,
+    ) -> Result<EntityRef<'a>, PlanError> {
         let found = self.view.find(reference, purpose)?;
         self.mention(&found);
         Ok(found)
@@ -365,7 +371,8 @@ impl<'a> Draft<'a> {
     fn follow(&mut self, whom: &Reference, pace: Pace) -> Result<(), PlanError> {
         let target = self.find(whom, Purpose::Any)?;
         if !target.kind.is_mobile() {
-            let near = format!("a {} stays where it is: follow people, animals, robots or vehicles", target.kind);
+            let near =
+                format!("a {} stays where it is: follow people, animals, robots or vehicles", target.kind);
             return Err(PlanError::NotFound { wanted: format!("{:?} to follow", whom.text), near });
         }
         self.get_up()?;
@@ -386,7 +393,11 @@ impl<'a> Draft<'a> {
 
     /// To the other side of the nearest crossing, along its longer side.
     fn cross(&mut self) -> Result<(), PlanError> {
-        let wanted = Reference { indefinite: true, text: "crossing".to_owned(), ..Reference::nearest(class("crossing")) };
+        let wanted = Reference {
+            indefinite: true,
+            text: "crossing".to_owned(),
+            ..Reference::nearest(class("crossing"))
+        };
         let crossing = self.view.find(&wanted, Purpose::Any)?;
         let half = crossing.info.shape.size() * 0.5;
         let along = if half.x >= half.y {

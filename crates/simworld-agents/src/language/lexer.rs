@@ -2,7 +2,8 @@
 
 use simworld_core::id::EntityId;
 
-use super::verbs::{HESITATIONS, base_form};
+use super::politeness::HESITATIONS;
+use super::verbs::base_form;
 
 /// The smallest piece of a sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +37,8 @@ pub(super) struct Lexeme {
 /// As [`lex`], without the sounds that people make while they think, and the commas after them.
 pub(super) fn lex_speech(text: &str) -> Vec<Lexeme> {
     let mut lexemes = lex(text);
-    let is_sound = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if HESITATIONS.contains(&word.as_str()));
+    let is_sound =
+        |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if HESITATIONS.contains(&word.as_str()));
     while let Some(at) = lexemes.iter().position(is_sound) {
         lexemes.remove(at);
         let is_comma = |at: usize| matches!(lexemes.get(at), Some(Lexeme { token: Token::Comma, .. }));

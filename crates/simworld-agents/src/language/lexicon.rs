@@ -73,10 +73,24 @@ pub(super) const CATEGORIES: &[Category] = &[
         &["street lamp", "street light", "streetlight", "lamp post", "lamppost", "lamp", "lantern"],
         &[EntityKind::StreetLamp],
     ),
-    things(&["traffic light", "traffic signal", "stoplight", "light", "lights", "signal"], &[EntityKind::TrafficSignal]),
+    things(
+        &["traffic light", "traffic signal", "stoplight", "light", "lights", "signal"],
+        &[EntityKind::TrafficSignal],
+    ),
     things(&["sign", "street sign", "traffic sign"], &[EntityKind::Sign]),
     things(
-        &["trash bin", "bin", "trash can", "garbage can", "litter bin", "dustbin", "waste bin", "rubbish bin", "trashcan", "garbage bin"],
+        &[
+            "trash bin",
+            "bin",
+            "trash can",
+            "garbage can",
+            "litter bin",
+            "dustbin",
+            "waste bin",
+            "rubbish bin",
+            "trashcan",
+            "garbage bin",
+        ],
         &[EntityKind::TrashBin],
     ),
     things(
@@ -106,8 +120,26 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["scooter", "kick scooter", "e scooter", "electric scooter"], &[EntityKind::Scooter]),
     things(
         &[
-            "person", "people", "human", "pedestrian", "man", "men", "woman", "women", "passer by", "passerby",
-            "somebody", "someone", "anybody", "anyone", "everybody", "everyone", "whoever", "citizen", "guy", "lady",
+            "person",
+            "people",
+            "human",
+            "pedestrian",
+            "man",
+            "men",
+            "woman",
+            "women",
+            "passer by",
+            "passerby",
+            "somebody",
+            "someone",
+            "anybody",
+            "anyone",
+            "everybody",
+            "everyone",
+            "whoever",
+            "citizen",
+            "guy",
+            "lady",
         ],
         &[EntityKind::Person],
     ),
@@ -119,7 +151,10 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["sidewalk", "pavement", "walkway"], &[EntityKind::Sidewalk]),
     things(&["crosswalk", "crossing", "zebra crossing"], &[EntityKind::Crosswalk]),
     places(&["home", "house", "apartment", "flat", "residence", "cottage"], Place::Home),
-    places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery", "canteen", "cafeteria"], Place::Restaurant),
+    places(
+        &["restaurant", "diner", "café", "cafe", "bistro", "eatery", "canteen", "cafeteria"],
+        Place::Restaurant,
+    ),
     places(&["store", "shop", "supermarket", "grocery", "grocery store", "market"], Place::Store),
     places(&["hospital", "clinic"], Place::Hospital),
     places(&["museum", "gallery"], Place::Museum),
@@ -131,8 +166,23 @@ pub(super) const CATEGORIES: &[Category] = &[
 ];
 
 /// Words before a noun that say nothing about which.
-pub(super) const DETERMINERS: &[&str] =
-    &["the", "a", "an", "that", "this", "these", "those", "some", "any", "my", "your", "our", "one of the", "one of", "one"];
+pub(super) const DETERMINERS: &[&str] = &[
+    "the",
+    "a",
+    "an",
+    "that",
+    "this",
+    "these",
+    "those",
+    "some",
+    "any",
+    "my",
+    "your",
+    "our",
+    "one of the",
+    "one of",
+    "one",
+];
 
 /// Words that say which of several.
 pub(super) const NEAREST: &[&str] = &["nearest", "closest", "nearby", "near by"];
@@ -150,13 +200,31 @@ pub(super) const MOSTS: &[(&[&str], (Measure, bool))] = &[
 /// Sides of the agent.
 pub(super) const SIDES: &[(&[&str], Side)] = &[
     (
-        &["on the left", "on your left", "to the left", "to your left", "on the left side", "on your left side",
-          "on the left hand side", "on your left hand side", "at the left"],
+        &[
+            "on the left",
+            "on your left",
+            "to the left",
+            "to your left",
+            "on the left side",
+            "on your left side",
+            "on the left hand side",
+            "on your left hand side",
+            "at the left",
+        ],
         Side::Left,
     ),
     (
-        &["on the right", "on your right", "to the right", "to your right", "on the right side",
-          "on your right side", "on the right hand side", "on your right hand side", "at the right"],
+        &[
+            "on the right",
+            "on your right",
+            "to the right",
+            "to your right",
+            "on the right side",
+            "on your right side",
+            "on the right hand side",
+            "on your right hand side",
+            "at the right",
+        ],
         Side::Right,
     ),
     (&["ahead", "ahead of you", "in front of you", "straight ahead", "in front"], Side::Ahead),
@@ -165,9 +233,25 @@ pub(super) const SIDES: &[(&[&str], Side)] = &[
 
 /// How two things may stand to each other; the longest phrase that fits is taken.
 pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
-    (&["next to", "beside", "by", "right next to", "right by", "just by", "adjacent to", "at the side of", "alongside"], Relation::NextTo),
+    (
+        &[
+            "next to",
+            "beside",
+            "by",
+            "right next to",
+            "right by",
+            "just by",
+            "adjacent to",
+            "at the side of",
+            "alongside",
+        ],
+        Relation::NextTo,
+    ),
     (&["near", "near to", "close to", "not far from", "in the vicinity of", "close by"], Relation::Near),
-    (&["in front of", "outside", "outside of", "opposite", "opposite to", "across from"], Relation::InFrontOf),
+    (
+        &["in front of", "outside", "outside of", "opposite", "opposite to", "across from"],
+        Relation::InFrontOf,
+    ),
     (&["behind", "at the back of", "in back of"], Relation::Behind),
     (&["left of", "to the left of", "on the left of"], Relation::LeftOf),
     (&["right of", "to the right of", "on the right of"], Relation::RightOf),
@@ -176,8 +260,25 @@ pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
 ];
 
 /// Words between a noun and how it stands to another.
-pub(super) const COPULAS: &[&str] =
-    &["that is", "thats", "which is", "that stands", "which stands", "standing", "located", "placed", "who is", "whos", "who stands", "sitting", "is", "parked", "that are", "which are", "right"];
+pub(super) const COPULAS: &[&str] = &[
+    "that is",
+    "thats",
+    "which is",
+    "that stands",
+    "which stands",
+    "standing",
+    "located",
+    "placed",
+    "who is",
+    "whos",
+    "who stands",
+    "sitting",
+    "is",
+    "parked",
+    "that are",
+    "which are",
+    "right",
+];
 
 /// How many tokens at the start of `lexemes` are the words of the phrase; `None` if they are others.
 pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {

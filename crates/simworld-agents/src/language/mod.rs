@@ -18,6 +18,7 @@ mod numbers;
 mod orders;
 mod paint;
 mod parser;
+mod politeness;
 mod reference;
 mod relate;
 mod resolve;

@@ -17,12 +17,24 @@ const LONGEST_STEP: f64 = 10.0;
 /// How far one looks up or down where no angle is said, radians.
 const GLANCE: f64 = 0.35;
 /// Units of length; a step is taken for a metre.
-pub(super) const LENGTHS: &[&str] =
-    &["metres", "metre", "meters", "meter", "m", "steps", "step", "paces", "pace", "a metre", "a meter", "a step"];
+pub(super) const LENGTHS: &[&str] = &[
+    "metres", "metre", "meters", "meter", "m", "steps", "step", "paces", "pace", "a metre", "a meter",
+    "a step",
+];
 
 const DIRECTIONS: &[(&[&str], StepDirection)] = &[
     (
-        &["forward", "forwards", "ahead", "straight ahead", "straight", "straight on", "onward", "onwards", "straight forward"],
+        &[
+            "forward",
+            "forwards",
+            "ahead",
+            "straight ahead",
+            "straight",
+            "straight on",
+            "onward",
+            "onwards",
+            "straight forward",
+        ],
         StepDirection::Forward,
     ),
     (&["backward", "backwards"], StepDirection::Backward),
@@ -54,7 +66,9 @@ impl Parser<'_> {
         }
         self.eat_any(&["straight", "directly", "over", "back", "up", "down", "away", "on", "all the way"]);
         if longest_phrase(self.rest(), &["around", "past", "along"]).is_some() && !self.peeks("around here") {
-            return Err(self.not_understood("going around, past or along things is not understood: say where to"));
+            return Err(
+                self.not_understood("going around, past or along things is not understood: say where to")
+            );
         }
         let pace = self.pace(pace)?;
         let returns = self.lexemes[start..self.at]
@@ -68,10 +82,27 @@ impl Parser<'_> {
             return Ok(vec![Clause::Forward]);
         }
         self.eat_any(&[
-            "to", "too", "towards", "toward", "up to", "over to", "into", "in", "onto", "on", "at", "for", "back to", "down to",
-            "through", "out to", "right up to", "straight to",
+            "to",
+            "too",
+            "towards",
+            "toward",
+            "up to",
+            "over to",
+            "into",
+            "in",
+            "onto",
+            "on",
+            "at",
+            "for",
+            "back to",
+            "down to",
+            "through",
+            "out to",
+            "right up to",
+            "straight to",
         ]);
-        let stood = self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("stand".to_owned()));
+        let stood =
+            self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("stand".to_owned()));
         let side = if stood { Some(Relation::NextTo) } else { self.side() };
         let to = self.reference(0)?;
         let pace = self.pace(pace)?;
@@ -81,7 +112,8 @@ impl Parser<'_> {
     /// Whether what follows says how long to go on, or nothing follows "keep walking".
     fn continues(&self) -> bool {
         let going = ["until", "till", "while", "for", "as long as"];
-        longest_phrase(self.rest(), &going).is_some() || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
+        longest_phrase(self.rest(), &going).is_some()
+            || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
     }
 
     fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
@@ -97,7 +129,16 @@ impl Parser<'_> {
 
     /// Words of speed.
     pub(super) fn pace(&mut self, usual: Pace) -> Result<Pace, PlanError> {
-        const FAST: &[&str] = &["quickly", "fast", "in a hurry", "as fast as you can", "as quickly as possible", "as fast as possible", "rapidly", "at a run"];
+        const FAST: &[&str] = &[
+            "quickly",
+            "fast",
+            "in a hurry",
+            "as fast as you can",
+            "as quickly as possible",
+            "as fast as possible",
+            "rapidly",
+            "at a run",
+        ];
         if self.eat_any(&["slowly", "at a slow pace", "leisurely", "calmly", "carefully"]) {
             return Ok(Pace::Slow);
         }
@@ -118,9 +159,23 @@ impl Parser<'_> {
         let number_at = self.at;
         if let Some((number, count)) = numbers::number(self.rest()) {
             self.at += count;
-            let hourly = self.eat_any(&["km / h", "kmh", "kph", "kilometres per hour", "kilometers per hour", "kilometres an hour"]);
+            let hourly = self.eat_any(&[
+                "km / h",
+                "kmh",
+                "kph",
+                "kilometres per hour",
+                "kilometers per hour",
+                "kilometres an hour",
+            ]);
             let _ = hourly
-                || self.eat_any(&["m / s", "mps", "metres per second", "meters per second", "metres a second", "meters a second"]);
+                || self.eat_any(&[
+                    "m / s",
+                    "mps",
+                    "metres per second",
+                    "meters per second",
+                    "metres a second",
+                    "meters a second",
+                ]);
             let speed = if hourly { number / 3.6 } else { number };
             if (0.1..=50.0).contains(&speed) {
                 return Ok(speed);
@@ -143,7 +198,10 @@ impl Parser<'_> {
         let back = longest_phrase(self.rest(), &["back"]).is_some()
             && numbers::number(&self.rest()[1..])
                 .is_some_and(|(_, count)| longest_phrase(&self.rest()[1 + count..], LENGTHS).is_some());
-        in_digits || back || self.counts_steps() || longest(self.rest(), DIRECTIONS).is_some() && !self.leads_on()
+        in_digits
+            || back
+            || self.counts_steps()
+            || longest(self.rest(), DIRECTIONS).is_some() && !self.leads_on()
     }
 
     /// "Straight to the museum" is no step.
@@ -155,7 +213,9 @@ impl Parser<'_> {
 
     pub(super) fn reverse(&mut self) -> Result<Clause, PlanError> {
         match self.step()? {
-            Clause::Step { distance, .. } => Ok(Clause::Step { direction: StepDirection::Backward, distance }),
+            Clause::Step { distance, .. } => {
+                Ok(Clause::Step { direction: StepDirection::Backward, distance })
+            }
             other => Ok(other),
         }
     }
@@ -195,7 +255,9 @@ impl Parser<'_> {
         self.eat_any(&["by", "for"]);
         let number_at = self.at;
         let mut angle = FRAC_PI_2;
-        if let Some((number, count)) = numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none()) {
+        if let Some((number, count)) =
+            numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none())
+        {
             self.at += count;
             let in_radians = self.eat_any(&["radians", "radian", "rad"]);
             self.eat_any(&["degrees", "degree", "deg", "°"]);

@@ -91,7 +91,8 @@ impl<'a> Names<'a> {
             let said = lexemes.get(..tokens.len())?;
             let same = said.iter().zip(tokens).all(|(lexeme, token)| match (&lexeme.token, token) {
                 (Token::Word(said), Token::Word(word)) => {
-                    said == word || said.strip_prefix(word.as_str()).is_some_and(|end| end == "s" || end == "es")
+                    said == word
+                        || said.strip_prefix(word.as_str()).is_some_and(|end| end == "s" || end == "es")
                 }
                 (said, token) => said == token,
             });
@@ -104,7 +105,11 @@ impl<'a> Names<'a> {
     /// What is sold here, for answers.
     pub(super) fn sold(&self) -> String {
         let goods: Vec<&str> = self.index().goods.iter().map(|(goods, _)| goods.as_str()).collect();
-        if goods.is_empty() { "nothing is sold here".to_owned() } else { format!("sold are {}", goods.join(", ")) }
+        if goods.is_empty() {
+            "nothing is sold here".to_owned()
+        } else {
+            format!("sold are {}", goods.join(", "))
+        }
     }
 
     /// The entities whose name begins the phrase; of several names the longest. With the number of tokens it takes.

@@ -5,19 +5,63 @@ use super::lexicon::{fits, longest, longest_phrase};
 
 /// Numbers in words.
 const NUMERALS: &[(&str, f64)] = &[
-    ("a", 1.0), ("an", 1.0), ("one", 1.0), ("two", 2.0), ("three", 3.0), ("four", 4.0), ("five", 5.0), ("six", 6.0),
-    ("seven", 7.0), ("eight", 8.0), ("nine", 9.0), ("ten", 10.0), ("eleven", 11.0), ("twelve", 12.0),
-    ("thirteen", 13.0), ("fourteen", 14.0), ("fifteen", 15.0), ("sixteen", 16.0), ("seventeen", 17.0),
-    ("eighteen", 18.0), ("nineteen", 19.0), ("twenty", 20.0), ("thirty", 30.0), ("forty", 40.0), ("fifty", 50.0),
-    ("sixty", 60.0), ("seventy", 70.0), ("eighty", 80.0), ("ninety", 90.0), ("hundred", 100.0), ("dozen", 12.0),
-    ("half", 0.5), ("couple", 2.0),
+    ("a", 1.0),
+    ("an", 1.0),
+    ("one", 1.0),
+    ("two", 2.0),
+    ("three", 3.0),
+    ("four", 4.0),
+    ("five", 5.0),
+    ("six", 6.0),
+    ("seven", 7.0),
+    ("eight", 8.0),
+    ("nine", 9.0),
+    ("ten", 10.0),
+    ("eleven", 11.0),
+    ("twelve", 12.0),
+    ("thirteen", 13.0),
+    ("fourteen", 14.0),
+    ("fifteen", 15.0),
+    ("sixteen", 16.0),
+    ("seventeen", 17.0),
+    ("eighteen", 18.0),
+    ("nineteen", 19.0),
+    ("twenty", 20.0),
+    ("thirty", 30.0),
+    ("forty", 40.0),
+    ("fifty", 50.0),
+    ("sixty", 60.0),
+    ("seventy", 70.0),
+    ("eighty", 80.0),
+    ("ninety", 90.0),
+    ("hundred", 100.0),
+    ("dozen", 12.0),
+    ("half", 0.5),
+    ("couple", 2.0),
 ];
 
 /// Places in a row, in words.
 const ORDINALS: &[(&str, u32)] = &[
-    ("first", 1), ("second", 2), ("third", 3), ("fourth", 4), ("fifth", 5), ("sixth", 6), ("seventh", 7),
-    ("eighth", 8), ("ninth", 9), ("tenth", 10), ("1st", 1), ("2nd", 2), ("3rd", 3), ("4th", 4), ("5th", 5),
-    ("6th", 6), ("7th", 7), ("8th", 8), ("9th", 9), ("10th", 10),
+    ("first", 1),
+    ("second", 2),
+    ("third", 3),
+    ("fourth", 4),
+    ("fifth", 5),
+    ("sixth", 6),
+    ("seventh", 7),
+    ("eighth", 8),
+    ("ninth", 9),
+    ("tenth", 10),
+    ("1st", 1),
+    ("2nd", 2),
+    ("3rd", 3),
+    ("4th", 4),
+    ("5th", 5),
+    ("6th", 6),
+    ("7th", 7),
+    ("8th", 8),
+    ("9th", 9),
+    ("10th", 10),
 ];
 
 /// A little while, s, where none is said.
@@ -38,7 +82,8 @@ pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
     }
     let first = numeral(lexemes.first())?;
     let second = numeral(lexemes.get(1));
-    let article = |at: usize| ["a", "an"].iter().any(|word| fits(&lexemes[at.min(lexemes.len())..], word).is_some());
+    let article =
+        |at: usize| ["a", "an"].iter().any(|word| fits(&lexemes[at.min(lexemes.len())..], word).is_some());
     if first == 0.5 && article(1) {
         return Some((0.5, 2));
     }
@@ -48,8 +93,9 @@ pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         return Some((second.unwrap_or(1.0), 2 + of));
     }
     if let Some(units) = second.filter(|units| *units >= 1.0 && *units < 10.0 && !article(1)) {
-        let is_tens = first >= 20.0 && first < 100.0 && first % 10.0 == 0.0;
-        let in_words = matches!(lexemes[0].token, Token::Word(_)) && matches!(lexemes[1].token, Token::Word(_));
+        let is_tens = (20.0..100.0).contains(&first) && first % 10.0 == 0.0;
+        let in_words =
+            matches!(lexemes[0].token, Token::Word(_)) && matches!(lexemes[1].token, Token::Word(_));
         if is_tens && in_words {
             return Some((first + units, 2));
         }
@@ -63,7 +109,7 @@ pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
 /// A count of two or more before a plural: "two", "a couple of"; a lone article is none.
 pub(super) fn count(lexemes: &[Lexeme]) -> Option<(u32, usize)> {
     let (number, tokens) = number(lexemes)?;
-    (number >= 2.0 && number <= 100.0 && number.fract() == 0.0).then_some((number as u32, tokens))
+    ((2.0..=100.0).contains(&number) && number.fract() == 0.0).then_some((number as u32, tokens))
 }
 
 /// A place in a row.
@@ -81,7 +127,7 @@ pub(super) fn times(lexemes: &[Lexeme]) -> Option<(u32, usize)> {
     }
     let (number, tokens) = number(lexemes)?;
     let unit = longest_phrase(&lexemes[tokens..], &["times", "time", "more times", "times over"])?;
-    (number >= 1.0 && number <= 1000.0 && number.fract() == 0.0).then_some((number as u32, tokens + unit))
+    ((1.0..=1000.0).contains(&number) && number.fract() == 0.0).then_some((number as u32, tokens + unit))
 }
 
 /// A length of time, s, with how many tokens it takes; a bare number is seconds.
@@ -92,8 +138,18 @@ pub(super) fn duration(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         (&["hours", "hour", "h"], 3600),
     ];
     const MOMENTS: &[&str] = &[
-        "a moment", "a bit", "a while", "a little while", "a little", "a short while", "briefly", "a few seconds",
-        "some time", "a few moments", "a little bit", "a sec",
+        "a moment",
+        "a bit",
+        "a while",
+        "a little while",
+        "a little",
+        "a short while",
+        "briefly",
+        "a few seconds",
+        "some time",
+        "a few moments",
+        "a little bit",
+        "a sec",
     ];
     if let Some(tokens) = longest_phrase(lexemes, MOMENTS) {
         let is_second = fits(lexemes, "a sec").is_some();

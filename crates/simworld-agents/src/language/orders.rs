@@ -13,7 +13,8 @@ use super::verbs::Verb;
 /// The longest wait, s.
 pub(super) const LONGEST_WAIT: f64 = 86_400.0;
 /// What people take photos with their words of.
-const PHOTOS: &[&str] = &["photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
+const PHOTOS: &[&str] =
+    &["photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
 
 impl Parser<'_> {
     /// An order; several if one verb says several things.
@@ -47,7 +48,16 @@ impl Parser<'_> {
         const BEGINNINGS: &[&str] = &["to", "at", "the", "a", "an", "him", "her", "it", "towards"];
         let refused = self.not_understood(UNDERSTOOD);
         let has_objects = |verb: &Verb| {
-            !matches!(verb, Verb::StandUp | Verb::Stop | Verb::Sit | Verb::Wait | Verb::Faster | Verb::Slower | Verb::Alight)
+            !matches!(
+                verb,
+                Verb::StandUp
+                    | Verb::Stop
+                    | Verb::Sit
+                    | Verb::Wait
+                    | Verb::Faster
+                    | Verb::Slower
+                    | Verb::Alight
+            )
         };
         let Some(verb) = self.verb.filter(has_objects) else { return Err(refused) };
         let is_phrase = longest_phrase(self.rest(), BEGINNINGS).is_some();
@@ -105,7 +115,15 @@ impl Parser<'_> {
             Verb::Face => self.face().map(|face| vec![face]),
             Verb::Point => one(Clause::Point { at: self.reference(0)? }),
             Verb::Wave => {
-                self.eat_any(&["at", "to", "your hand at", "your hand to", "hand to", "hands to", "your hand"]);
+                self.eat_any(&[
+                    "at",
+                    "to",
+                    "your hand at",
+                    "your hand to",
+                    "hand to",
+                    "hands to",
+                    "your hand",
+                ]);
                 let it = Reference::to(Target::It, "it".to_owned());
                 one(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
             }
@@ -235,7 +253,20 @@ impl Parser<'_> {
         if self.peeks("for") || self.peeks("until") || self.peeks("till") || self.peek_time().is_some() {
             return self.wait();
         }
-        self.eat_any(&["moving", "walking", "there", "here", "running", "that", "what you are doing", "everything"]);
+        if self.eat_any(&["at", "by", "near", "next to"]) {
+            let to = self.reference(0)?;
+            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
+        self.eat_any(&[
+            "moving",
+            "walking",
+            "there",
+            "here",
+            "running",
+            "that",
+            "what you are doing",
+            "everything",
+        ]);
         Ok(vec![Clause::Stop])
     }
 
@@ -280,7 +311,13 @@ impl Parser<'_> {
     fn wait_for(&mut self) -> Result<Vec<Clause>, PlanError> {
         let start = self.at;
         self.eat_any(&["the", "a"]);
-        if self.eat_any(&["green light", "green", "light to turn green", "light to be green", "lights to turn green"]) {
+        if self.eat_any(&[
+            "green light",
+            "green",
+            "light to turn green",
+            "light to be green",
+            "lights to turn green",
+        ]) {
             let test = Test::Light { light: None, shows: simworld_core::net::Aspect::Green };
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
@@ -301,7 +338,12 @@ impl Parser<'_> {
             Reference::to(Target::It, "it".to_owned())
         } else if self.eat_any(&["to"]) {
             // "Ride to the school": on what one is on.
-            return Ok(vec![Clause::Go { to: self.reference(0)?, side: None, pace: Pace::Usual, within: None }]);
+            return Ok(vec![Clause::Go {
+                to: self.reference(0)?,
+                side: None,
+                pace: Pace::Usual,
+                within: None,
+            }]);
         } else {
             self.reference(0)?
         };
@@ -340,7 +382,8 @@ impl Parser<'_> {
 
     /// Two or more of something.
     pub(super) fn peek_count(&self) -> Option<(Count, usize)> {
-        const ALL: &[&str] = &["all", "all of the", "all the", "every", "each", "each of the", "every one of the"];
+        const ALL: &[&str] =
+            &["all", "all of the", "all the", "every", "each", "each of the", "every one of the"];
         const BOTH: &[&str] = &["both", "both of the", "both the"];
         if let Some(words) = longest_phrase(self.rest(), BOTH) {
             return Some((Count::Exactly(2), words));

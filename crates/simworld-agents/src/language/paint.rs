@@ -37,7 +37,8 @@ impl Paint {
     /// Linear [0.55, 0.03, 0.02] is sRGB (194, 48, 39) and reads red.
     pub(super) fn of(linear: [f32; 3]) -> Self {
         // Gamma 2.2 is near enough to the sRGB curve to name a colour.
-        let [r, g, b] = linear.map(|channel| simworld_core::ops::pow(f64::from(channel.clamp(0.0, 1.0)), 1.0 / 2.2));
+        let [r, g, b] =
+            linear.map(|channel| simworld_core::ops::pow(f64::from(channel.clamp(0.0, 1.0)), 1.0 / 2.2));
         let (most, least) = (r.max(g).max(b), r.min(g).min(b));
         let spread = most - least;
         let saturation = if most > 0.0 { spread / most } else { 0.0 };
@@ -55,8 +56,20 @@ impl Paint {
             (r - g) / spread + 4.0
         };
         match sector * 60.0 {
-            hue if !(15.0..345.0).contains(&hue) => if saturation < 0.45 && most > 0.7 { Self::Pink } else { Self::Red },
-            hue if hue < 38.0 => if most < 0.6 { Self::Brown } else { Self::Orange },
+            hue if !(15.0..345.0).contains(&hue) => {
+                if saturation < 0.45 && most > 0.7 {
+                    Self::Pink
+                } else {
+                    Self::Red
+                }
+            }
+            hue if hue < 38.0 => {
+                if most < 0.6 {
+                    Self::Brown
+                } else {
+                    Self::Orange
+                }
+            }
             hue if hue < 70.0 => Self::Yellow,
             hue if hue < 165.0 => Self::Green,
             hue if hue < 260.0 => Self::Blue,

@@ -19,8 +19,9 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase, longest_verb};
 use super::names::Names;
 use super::numbers;
+use super::politeness::{FILLERS, JOINTS, NEGATIONS};
 use super::resolve::View;
-use super::verbs::{FILLERS, JOINTS, NEGATIONS, Verb};
+use super::verbs::Verb;
 
 /// What is understood, in one line, for answers.
 pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop off, put down, give, buy, sit down, stand up, \
@@ -115,7 +116,8 @@ impl<'a> Parser<'a> {
     }
 
     fn begins_block(&self) -> bool {
-        const BLOCKS: &[&str] = &["if", "unless", "when", "until", "keep", "repeat", "before", "after", "while"];
+        const BLOCKS: &[&str] =
+            &["if", "unless", "when", "until", "keep", "repeat", "before", "after", "while"];
         longest_phrase(self.rest(), BLOCKS).is_some()
     }
 
@@ -153,7 +155,9 @@ impl<'a> Parser<'a> {
             let test = Test::Not(Box::new(self.test()?));
             self.skip_joints();
             let start = self.at;
-            if self.eat_any(&["wait", "stop", "stand still", "stay", "wait here", "stand"]) && self.ends_clause() {
+            if self.eat_any(&["wait", "stop", "stand still", "stay", "wait here", "stand"])
+                && self.ends_clause()
+            {
                 return Ok(Some(vec![Clause::Until { test, body: Vec::new() }]));
             }
             self.at = start;
@@ -178,8 +182,11 @@ impl<'a> Parser<'a> {
         self.eat_any(&["repeat", "repeat this", "do this", "do the following", "repeat the following"]);
         if let Some((times, count)) = numbers::times(self.rest()) {
             self.at += count;
+            // "Repeat three times: ..." is about all that follows.
+            let colon = matches!(self.rest(), [Lexeme { token: Token::Break, .. }, ..]);
             self.skip_joints();
-            return Ok(Some(vec![Clause::Repeat { times, body: self.orders(Extent::Group)? }]));
+            let extent = if colon { Extent::Sentence } else { Extent::Group };
+            return Ok(Some(vec![Clause::Repeat { times, body: self.orders(extent)? }]));
         }
         self.at = start;
         Ok(None)
@@ -235,13 +242,14 @@ impl<'a> Parser<'a> {
             self.eat_any(&["again and again", "over and over", "over and over again", "repeatedly"]);
             self.skip_fillers();
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+            let goes_on = || {
+                const AFTER_COMMA: &[&str] = &["until", "till", "unless", "but first", "but before that"];
+                longest_phrase(&self.rest()[1..], AFTER_COMMA).is_some()
+            };
             if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, group, times, comma);
-            } else if comma && longest_phrase(&self.rest()[1..], &["until", "till", "unless", "but first", "but before that"]).is_none() {
-                self.at = start;
-                return Ok(());
-            } else if !self.tail(clauses, comma)? {
+            } else if comma && !goes_on() || !self.tail(clauses, comma)? {
                 self.at = start;
                 return Ok(());
             }
@@ -279,19 +287,24 @@ impl<'a> Parser<'a> {
             clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
         } else if self.eat_any(&["before"]) {
             clauses.extend(self.order()?);
-        } else if self.eat_any(&["but first", "but before that", "but first of all", "but beforehand"]) {
-            let earlier = self.order()?;
-            let at = clauses.len() - 1;
-            clauses.splice(at..at, earlier);
-        } else if self.eat_any(&["after"]) {
+        } else if self.eat_any(&[
+            "after",
+            "but first",
+            "but before that",
+            "but first of all",
+            "but beforehand",
+        ]) {
             let earlier = self.order()?;
             let at = clauses.len() - 1;
             clauses.splice(at..at, earlier);
         } else if let Some((seconds, count)) = self.peek_for() {
             // "Towards the museum for ten seconds" is on the way; "to the museum for ten seconds" is there.
             let earlier = &self.lexemes[self.at.saturating_sub(6)..self.at];
-            let towards = earlier.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
-            let rests = !towards && matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
+            let towards = earlier
+                .iter()
+                .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
+            let rests = !towards
+                && matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
             self.at += count;
             if rests {
                 clauses.push(Clause::Wait { seconds });
@@ -330,7 +343,8 @@ impl<'a> Parser<'a> {
     }
 
     pub(super) fn ends_clause(&self) -> bool {
-        const TAILS: &[&str] = &["until", "till", "if", "unless", "when", "while", "before", "after", "as soon as", "for"];
+        const TAILS: &[&str] =
+            &["until", "till", "if", "unless", "when", "while", "before", "after", "as soon as", "for"];
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
             || [JOINTS, FILLERS, TAILS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
             || numbers::times(self.rest()).is_some()

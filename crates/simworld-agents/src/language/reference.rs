@@ -10,15 +10,17 @@ use super::lexicon::{
 use super::names::Guess;
 use super::numbers;
 use super::parser::{Parser, shortened};
-use super::verbs::{FILLERS, JOINTS};
+use super::politeness::{FILLERS, JOINTS};
 
 /// How many things may be described by one another: "the bench near the tree near ...".
 const DEEPEST: u32 = 4;
 /// Coordinates beyond this are outside every world, m.
 const FARTHEST_POINT: f64 = 1.0e7;
 /// Words that end a phrase whose words are not known.
-const BOUNDARIES: &[&str] =
-    &["to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless", "when", "from", "of", "or", "that", "while", "before", "after"];
+const BOUNDARIES: &[&str] = &[
+    "to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless",
+    "when", "from", "of", "or", "that", "while", "before", "after",
+];
 const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
 const INDEFINITE: &[&str] = &["a", "an", "any", "some", "one of the", "one of", "another"];
 
@@ -127,7 +129,8 @@ impl<'a> Parser<'a> {
 
     /// Whether a name begins here with what else would be an adjective: "Blue Spoon", "Little Italy".
     fn names_follow(&self) -> bool {
-        let adjective = longest(self.rest(), MOSTS).map(|(_, words)| words).or(self.peek_paint().map(|(_, words)| words));
+        let adjective =
+            longest(self.rest(), MOSTS).map(|(_, words)| words).or(self.peek_paint().map(|(_, words)| words));
         let Some(words) = adjective else { return false };
         let after = &self.rest()[words..];
         let is_plain = category(after).is_some() && !self.is_capital(self.at);
@@ -147,7 +150,10 @@ impl<'a> Parser<'a> {
             return;
         }
         self.at += words;
-        let whose = Reference { target: reference.target.clone(), ..Reference::to(Target::It, self.text_from(text_at)) };
+        let whose = Reference {
+            target: reference.target.clone(),
+            ..Reference::to(Target::It, self.text_from(text_at))
+        };
         reference.target = Target::Any(head);
         reference.relation = Some(Stands::Of(Box::new(whose)));
     }
@@ -160,10 +166,28 @@ impl<'a> Parser<'a> {
                 return Ok(());
             }
             let copula = self.eat_any(COPULAS);
-            if copula && let Some((paint, words)) = self.peek_paint().filter(|_| self.lexemes[start].token != Token::Word("is".to_owned())) {
+            if copula
+                && let Some((paint, words)) =
+                    self.peek_paint().filter(|_| self.lexemes[start].token != Token::Word("is".to_owned()))
+            {
                 reference.traits.paint = Some(paint);
                 self.at += words;
-            } else if self.eat_any(&["nearest", "closest", "nearest you", "closest to you", "nearest to you", "near you", "close to you", "nearby", "close by", "closest to me", "nearest to me", "near me", "around here", "near here"]) {
+            } else if self.eat_any(&[
+                "nearest",
+                "closest",
+                "nearest you",
+                "closest to you",
+                "nearest to you",
+                "near you",
+                "close to you",
+                "nearby",
+                "close by",
+                "closest to me",
+                "nearest to me",
+                "near me",
+                "around here",
+                "near here",
+            ]) {
                 if !(self.peeks("to")) {
                     if reference.choice == Choice::Open {
                         reference.choice = Choice::Nearest;
@@ -173,7 +197,16 @@ impl<'a> Parser<'a> {
                 self.at += 1;
                 let anchor = self.reference(depth + 1)?;
                 reference.relation = Some(Stands::NearestTo(Box::new(anchor), true));
-            } else if self.eat_any(&["farthest away", "furthest away", "farthest from you", "furthest from you", "most distant", "farthest", "furthest", "farthest away from you"]) {
+            } else if self.eat_any(&[
+                "farthest away",
+                "furthest away",
+                "farthest from you",
+                "furthest from you",
+                "most distant",
+                "farthest",
+                "furthest",
+                "farthest away from you",
+            ]) {
                 if !self.eat_any(&["from", "away from"]) {
                     reference.choice = Choice::Farthest;
                     continue;
@@ -199,7 +232,15 @@ impl<'a> Parser<'a> {
         if self.eat_any(&["there", "that place"]) {
             return Ok(Some(Target::There));
         }
-        if self.eat_any(&["here", "where you started", "where you were", "where you are", "where you started from", "your starting point", "the start"]) {
+        if self.eat_any(&[
+            "here",
+            "where you started",
+            "where you were",
+            "where you are",
+            "where you started from",
+            "your starting point",
+            "the start",
+        ]) {
             return Ok(Some(Target::Here));
         }
         match self.rest() {
@@ -246,7 +287,9 @@ impl<'a> Parser<'a> {
             None => true,
             Some((_, words)) => {
                 let next = self.at + words;
-                self.is_capital(self.at) || self.is_capital(next) || fits(&self.lexemes[next..], "of").is_some()
+                self.is_capital(self.at)
+                    || self.is_capital(next)
+                    || fits(&self.lexemes[next..], "of").is_some()
             }
         };
         let named = if may_be_name { self.names.exact(self.rest()) } else { None };
@@ -281,9 +324,9 @@ impl<'a> Parser<'a> {
             return Err(self.not_understood("say what: a thing, a place, a name, #id or (x, y)"));
         }
         // "The library door": the longest beginning that is part of a name.
-        let known = (1..phrase.len()).rev().find_map(|count| {
-            self.names.part(&phrase[..count]).map(|guess| (guess, count))
-        });
+        let known = (1..phrase.len())
+            .rev()
+            .find_map(|count| self.names.part(&phrase[..count]).map(|guess| (guess, count)));
         let (guess, phrase) = match (self.names.guess(phrase), known) {
             (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
             (guess, _) => (guess, phrase),
@@ -330,7 +373,10 @@ impl<'a> Parser<'a> {
                 || longest(here, RELATIONS).is_some()
         };
         let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());
-        if end == 0 && matches!(rest.first(), Some(Lexeme { token: Token::Word(_), .. })) && !self.ends_phrase() {
+        if end == 0
+            && matches!(rest.first(), Some(Lexeme { token: Token::Word(_), .. }))
+            && !self.ends_phrase()
+        {
             end = 1;
         }
         &rest[..end]
@@ -342,12 +388,17 @@ impl<'a> Parser<'a> {
         self.eat_any(COPULAS);
         let side = longest(self.rest(), SIDES);
         let relation = longest(self.rest(), RELATIONS);
-        if let Some((side, count)) = side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words)) {
+        if let Some((side, count)) =
+            side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words))
+        {
             self.at += count;
             return Ok(Some(Stands::Side(side)));
         }
         let between = self.eat_any(&["between", "in between", "halfway between", "midway between"]);
-        let of = !between && relation.is_none() && self.eat_any(&["of", "belonging to", "to"]) && self.of_follows(start);
+        let of = !between
+            && relation.is_none()
+            && self.eat_any(&["of", "belonging to", "to"])
+            && self.of_follows(start);
         if !between && !of && relation.is_none() {
             self.at = start;
             return Ok(None);
@@ -371,7 +422,8 @@ impl<'a> Parser<'a> {
 
     /// "To" says whose only of a door: "the door to the lab", but "bring the parcel to the lab".
     fn of_follows(&self, start: usize) -> bool {
-        let is_to = self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("to".to_owned()));
+        let is_to =
+            self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("to".to_owned()));
         let is_door = start > 0
             && matches!(&self.lexemes[start - 1].token, Token::Word(word) if ["door", "doorway", "entrance", "gate"].contains(&word.as_str()));
         !is_to || is_door

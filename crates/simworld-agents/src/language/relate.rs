@@ -44,11 +44,17 @@ impl View<'_> {
                 sort(&mut found);
                 Ok(found)
             }
-            Stands::Of(whose) => self.beside_any(reference, whose, purpose, &|entity, anchor| gap(anchor, entity) <= PART),
+            Stands::Of(whose) => {
+                self.beside_any(reference, whose, purpose, &|entity, anchor| gap(anchor, entity) <= PART)
+            }
             Stands::To(relation, anchor) => {
-                let strict = self.beside_any(reference, anchor, purpose, &|entity, anchor| relation.holds(entity, anchor))?;
+                let strict = self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                    relation.holds(entity, anchor)
+                })?;
                 if strict.is_empty() && *relation == Relation::NextTo {
-                    return self.beside_any(reference, anchor, purpose, &|entity, anchor| gap(anchor, entity) <= LOOSELY_NEXT);
+                    return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                        gap(anchor, entity) <= LOOSELY_NEXT
+                    });
                 }
                 Ok(strict)
             }
@@ -67,7 +73,10 @@ impl View<'_> {
         if anchors.is_empty() {
             return Err(self.not_found(anchor, Purpose::Any));
         }
-        if matches!(anchor.target, Target::Any(_)) && anchor.choice == Choice::Open && anchor.relation.is_none() {
+        if matches!(anchor.target, Target::Any(_))
+            && anchor.choice == Choice::Open
+            && anchor.relation.is_none()
+        {
             // Any that has something beside it will do, however far: "the hospital near a museum".
             anchors = self.around(anchor, self.from, self.range, Purpose::Any);
         }
@@ -127,7 +136,11 @@ impl View<'_> {
             let offset = entity.planar() - from;
             let (forward, aside) = (offset.dot(&way), way.perp(&offset).abs());
             let is_between = forward > 0.0 && forward < length && aside <= (length / 3.0).max(2.0);
-            *rank = if is_between { simworld_core::ops::hypot(forward - length * 0.5, aside) } else { f64::INFINITY };
+            *rank = if is_between {
+                simworld_core::ops::hypot(forward - length * 0.5, aside)
+            } else {
+                f64::INFINITY
+            };
         }
         found.retain(|(rank, id)| rank.is_finite() && *id != one.id && *id != other.id);
         sort(&mut found);

@@ -68,7 +68,11 @@ impl<'a> View<'a> {
     }
 
     /// All that a phrase in the plural means, the nearest first.
-    pub(super) fn find_all(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<EntityId>, PlanError> {
+    pub(super) fn find_all(
+        &self,
+        reference: &Reference,
+        purpose: Purpose,
+    ) -> Result<Vec<EntityId>, PlanError> {
         let mut found: Vec<EntityId> =
             self.candidates(reference, purpose)?.into_iter().map(|(_, id)| id).collect();
         match reference.count {
@@ -91,7 +95,7 @@ impl<'a> View<'a> {
             // A superlative without a single best is open under every policy.
             Choice::Most(..) => same(best.0, second.0),
             _ if self.policy != AmbiguityPolicy::Ask || reference.indefinite => false,
-            Choice::Open => self.is_plain(reference) && second.0 <= best.0 + EITHER,
+            Choice::Open => Self::is_plain(reference) && second.0 <= best.0 + EITHER,
             Choice::Nearest => same(best.0, second.0),
             _ => false,
         };
@@ -112,13 +116,17 @@ impl<'a> View<'a> {
     }
 
     /// Whether the phrase names a class or a name, and not this very thing.
-    fn is_plain(&self, reference: &Reference) -> bool {
+    fn is_plain(reference: &Reference) -> bool {
         let side = matches!(reference.relation, None | Some(super::clause::Stands::Side(_)));
         side && matches!(reference.target, Target::Any(_) | Target::Named(_))
     }
 
     /// All that a phrase may mean, the best first.
-    pub(super) fn candidates(&self, reference: &Reference, purpose: Purpose) -> Result<Vec<Ranked>, PlanError> {
+    pub(super) fn candidates(
+        &self,
+        reference: &Reference,
+        purpose: Purpose,
+    ) -> Result<Vec<Ranked>, PlanError> {
         let mut found = match &reference.relation {
             Some(relation) => self.related(reference, relation, purpose)?,
             None => self.plain(reference, purpose)?,
@@ -154,8 +162,8 @@ impl<'a> View<'a> {
         match &reference.target {
             // What is named outright is meant, in use or not.
             Target::Id(id) => Ok(self.scene.entity(*id).map(|entity| (0.0, entity.id)).into_iter().collect()),
-            Target::It => self.spoken_of(self.it.or(self.them), reference),
-            Target::Them => self.spoken_of(self.them, reference),
+            Target::It => Self::spoken_of(self.it.or(self.them), reference),
+            Target::Them => Self::spoken_of(self.them, reference),
             Target::There | Target::Here | Target::Point { .. } => {
                 let near = "a place was given where a thing is needed".to_owned();
                 Err(PlanError::NotFound { wanted: format!("thing {:?}", reference.text), near })
@@ -185,7 +193,8 @@ impl<'a> View<'a> {
             let found = self.within(reach, reference, purpose);
             if found.len() >= enough || reach >= self.range || reference.count == Count::All {
                 let asks = self.policy == AmbiguityPolicy::Ask && reference.choice == Choice::Open;
-                let wider = found.first().map(|nearest| nearest.0 + EITHER).filter(|wider| asks && *wider > reach);
+                let wider =
+                    found.first().map(|nearest| nearest.0 + EITHER).filter(|wider| asks && *wider > reach);
                 return wider.map_or(found, |wider| self.within(wider, reference, purpose));
             }
             reach = (reach * 3.0).min(self.range);
@@ -207,7 +216,7 @@ impl<'a> View<'a> {
         found
     }
 
-    fn spoken_of(&self, who: Option<EntityId>, reference: &Reference) -> Result<Vec<Ranked>, PlanError> {
+    fn spoken_of(who: Option<EntityId>, reference: &Reference) -> Result<Vec<Ranked>, PlanError> {
         who.map(|id| vec![(0.0, id)]).ok_or_else(|| PlanError::NotFound {
             wanted: format!("thing that {:?} could stand for", reference.text),
             near: "name it first, in the same sentence".to_owned(),

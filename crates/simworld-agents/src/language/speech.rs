@@ -66,7 +66,9 @@ impl Parser<'_> {
         let ends = |at: &usize| match said[*at].token {
             Token::Break => true,
             // "..., then wait" is an order again.
-            Token::Comma => longest_phrase(&said[at + 1..], &["then", "and then", "after that", "and"]).is_some(),
+            Token::Comma => {
+                longest_phrase(&said[at + 1..], &["then", "and then", "after that", "and"]).is_some()
+            }
             _ => false,
         };
         let count = (0..said.len()).find(ends).unwrap_or(said.len());
@@ -84,8 +86,23 @@ impl Parser<'_> {
     /// "Buy a coffee at the corner shop": goods are what a place nearby sells.
     pub(super) fn buy(&mut self) -> Result<Vec<Clause>, PlanError> {
         const VESSELS: &[&str] = &[
-            "bottle of", "bottles of", "cup of", "cups of", "piece of", "pieces of", "loaf of", "bowl of", "bowls of", "can of",
-            "cans of", "slice of", "slices of", "glass of", "portion of", "bag of", "copy of",
+            "bottle of",
+            "bottles of",
+            "cup of",
+            "cups of",
+            "piece of",
+            "pieces of",
+            "loaf of",
+            "bowl of",
+            "bowls of",
+            "can of",
+            "cans of",
+            "slice of",
+            "slices of",
+            "glass of",
+            "portion of",
+            "bag of",
+            "copy of",
         ];
         self.eat_any(&["me", "yourself", "us", "him", "her"]);
         let mut times = 1;
@@ -99,7 +116,10 @@ impl Parser<'_> {
             let rest = self.rest();
             let ends = ["at", "from", "in", "and", "then", "to", "for"];
             let end = (0..rest.len())
-                .find(|at| !matches!(rest[*at].token, Token::Word(_)) || longest_phrase(&rest[*at..], &ends).is_some())
+                .find(|at| {
+                    !matches!(rest[*at].token, Token::Word(_))
+                        || longest_phrase(&rest[*at..], &ends).is_some()
+                })
                 .unwrap_or(rest.len());
             let Some((first, last)) = rest[..end].first().zip(rest[..end].last()) else {
                 return Err(self.not_understood("say what to buy"));

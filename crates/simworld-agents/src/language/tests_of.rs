@@ -7,8 +7,8 @@ use super::clause::{Choice, Reference, Target, Test};
 use super::lexer::Token;
 use super::lexicon::{fits, longest, longest_phrase};
 use super::numbers;
-use super::parser::Parser;
 use super::paint::PAINTS;
+use super::parser::Parser;
 
 /// How near "near you" is, m.
 const NEAR_ME: f64 = 5.0;
@@ -17,15 +17,92 @@ pub(super) const NEXT_TO_ME: f64 = 3.0;
 /// How near "is there a chair nearby" means, m.
 pub(super) const NEARBY: f64 = 30.0;
 
+/// What makes a condition of the weather, and whether it is to hold.
+type Weather = (fn() -> Test, bool);
+
 const ASPECTS: &[(&[&str], Aspect)] = &[
     (&["green", "go", "walk"], Aspect::Green),
     (&["yellow", "amber", "orange"], Aspect::Yellow),
     (&["red"], Aspect::Red),
 ];
-const LIGHTS: &[&str] =
-    &["the light", "the traffic light", "the signal", "the lights", "the traffic signal", "light", "it", "the pedestrian light", "traffic light", "the traffic lights"];
-const BECOMES: &[&str] =
-    &["is", "are", "turns", "goes", "changes to", "becomes", "shows", "turns to", "switches to", "gets", "has turned", "is showing", "change to", "turn"];
+const LIGHTS: &[&str] = &[
+    "the light",
+    "the traffic light",
+    "the signal",
+    "the lights",
+    "the traffic signal",
+    "light",
+    "it",
+    "the pedestrian light",
+    "traffic light",
+    "the traffic lights",
+];
+const BECOMES: &[&str] = &[
+    "is",
+    "are",
+    "turns",
+    "goes",
+    "changes to",
+    "becomes",
+    "shows",
+    "turns to",
+    "switches to",
+    "gets",
+    "has turned",
+    "is showing",
+    "change to",
+    "turn",
+];
+
+const STATES: &[(&[&str], State)] = &[
+    (
+        &["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use"],
+        State::Free,
+    ),
+    (&["taken", "occupied", "in use", "not free", "busy", "full"], State::InUse),
+    (&["open", "not closed", "opened", "unlocked"], State::Open),
+    (&["closed", "shut", "not open"], State::Closed),
+    (
+        &["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by"],
+        State::Near,
+    ),
+    (
+        &[
+            "next to you",
+            "here",
+            "beside you",
+            "by your side",
+            "there",
+            "at your side",
+            "in front of you",
+            "with you",
+        ],
+        State::Next,
+    ),
+    (&["visible", "in sight", "in view"], State::Seen),
+];
+const ARRIVES: &[&str] = &[
+    "arrives",
+    "comes",
+    "gets here",
+    "comes near",
+    "arrives here",
+    "comes here",
+    "is here",
+    "comes close",
+    "reaches you",
+    "has arrived",
+    "comes back",
+    "comes to you",
+    "turns up",
+    "shows up",
+    "comes near you",
+    "arrive",
+];
+const APPEARS: &[&str] =
+    &["comes into view", "appears", "comes into sight", "becomes visible", "is visible", "is in sight"];
+const BECOMES_FREE: &[&str] = &["becomes free", "gets free", "becomes available", "frees up"];
+const OPENS: &[(&[&str], bool)] = &[(&["opens"], true), (&["closes", "shuts"], false)];
 
 impl Parser<'_> {
     /// A condition.
@@ -56,58 +133,136 @@ impl Parser<'_> {
 
     fn simple_test(&mut self) -> Result<Test, PlanError> {
         let start = self.at;
-        for rule in [Self::weather, Self::light, Self::seen, Self::there_is, Self::mine, Self::passed] {
+        for rule in [Self::weather, Self::light, Self::passed] {
+            if let Some(test) = rule(self) {
+                return Ok(test);
+            }
+            self.at = start;
+        }
+        for rule in [Self::seen, Self::there_is, Self::mine] {
             if let Some(test) = rule(self)? {
                 return Ok(test);
             }
             self.at = start;
         }
-        match self.thing_is() {
-            Ok(Some(test)) => Ok(test),
-            _ => {
-                self.at = start;
-                Err(self.not_understood(
-                    "a condition is such as \"the light is green\", \"you see a bench\", \"the chair is free\", \"the door is \
-                     open\", \"it rains\", \"it is dark\" or \"Anna is near you\"",
-                ))
-            }
+        if let Ok(Some(test)) = self.thing_is() {
+            return Ok(test);
         }
+        self.at = start;
+        Err(self.not_understood(
+            "a condition is such as \"the light is green\", \"you see a bench\", \"the chair is free\", \"the door is \
+             open\", \"it rains\", \"it is dark\" or \"Anna is near you\"",
+        ))
     }
 
-    fn weather(&mut self) -> Result<Option<Test>, PlanError> {
-        const RULES: &[(&[&str], (fn() -> Test, bool))] = &[
-            (&["it is raining", "its raining", "it rains", "it starts raining", "it starts to rain", "there is rain", "the rain starts", "it begins to rain"], (|| Test::Raining, true)),
-            (&["it is not raining", "it stops raining", "the rain stops", "it isnt raining", "it is dry", "its dry", "its not raining", "it has stopped raining", "it doesnt rain"], (|| Test::Raining, false)),
-            (&["it is snowing", "its snowing", "it snows", "it starts snowing", "it starts to snow"], (|| Test::Snowing, true)),
+    fn weather(&mut self) -> Option<Test> {
+        const RULES: &[(&[&str], Weather)] = &[
+            (
+                &[
+                    "it is raining",
+                    "its raining",
+                    "it rains",
+                    "it starts raining",
+                    "it starts to rain",
+                    "there is rain",
+                    "the rain starts",
+                    "it begins to rain",
+                ],
+                (|| Test::Raining, true),
+            ),
+            (
+                &[
+                    "it is not raining",
+                    "it stops raining",
+                    "the rain stops",
+                    "it isnt raining",
+                    "it is dry",
+                    "its dry",
+                    "its not raining",
+                    "it has stopped raining",
+                    "it doesnt rain",
+                ],
+                (|| Test::Raining, false),
+            ),
+            (
+                &["it is snowing", "its snowing", "it snows", "it starts snowing", "it starts to snow"],
+                (|| Test::Snowing, true),
+            ),
             (&["it is not snowing", "it stops snowing", "it isnt snowing"], (|| Test::Snowing, false)),
-            (&["it is dark", "its dark", "it gets dark", "it is night", "night falls", "its night", "the sun sets", "it becomes dark", "the sun goes down", "the sun is down"], (|| Test::Dark, true)),
-            (&["it is light", "it is day", "it is daytime", "the sun rises", "its day", "it is not dark", "it isnt dark", "the sun is up", "the sun comes up", "it gets light", "it is bright"], (|| Test::Dark, false)),
+            (
+                &[
+                    "it is dark",
+                    "its dark",
+                    "it gets dark",
+                    "it is night",
+                    "night falls",
+                    "its night",
+                    "the sun sets",
+                    "it becomes dark",
+                    "the sun goes down",
+                    "the sun is down",
+                ],
+                (|| Test::Dark, true),
+            ),
+            (
+                &[
+                    "it is light",
+                    "it is day",
+                    "it is daytime",
+                    "the sun rises",
+                    "its day",
+                    "it is not dark",
+                    "it isnt dark",
+                    "the sun is up",
+                    "the sun comes up",
+                    "it gets light",
+                    "it is bright",
+                ],
+                (|| Test::Dark, false),
+            ),
         ];
-        let Some(((make, holds), count)) = longest(self.rest(), RULES) else { return Ok(None) };
+        let ((make, holds), count): (Weather, usize) = longest(self.rest(), RULES)?;
         self.at += count;
-        Ok(Some(if holds { make() } else { Test::Not(Box::new(make())) }))
+        Some(if holds { make() } else { Test::Not(Box::new(make())) })
     }
 
-    fn light(&mut self) -> Result<Option<Test>, PlanError> {
+    fn light(&mut self) -> Option<Test> {
         if !self.eat_any(LIGHTS) {
-            return Ok(None);
+            return None;
         }
         if !self.eat_any(BECOMES) {
-            return Ok(None);
+            return None;
         }
         let not = self.eat_any(&["not", "no longer", "not yet"]);
-        let Some((shows, count)) = longest(self.rest(), ASPECTS) else { return Ok(None) };
+        let (shows, count) = longest(self.rest(), ASPECTS)?;
         self.at += count;
         let test = Test::Light { light: None, shows };
-        Ok(Some(if not { Test::Not(Box::new(test)) } else { test }))
+        Some(if not { Test::Not(Box::new(test)) } else { test })
     }
 
     fn seen(&mut self) -> Result<Option<Test>, PlanError> {
         const SEE: &[&str] = &[
-            "you see", "you can see", "you spot", "you notice", "you find", "you catch sight of", "see", "seeing", "you have seen",
-            "you are able to see", "you encounter", "you come across",
+            "you see",
+            "you can see",
+            "you spot",
+            "you notice",
+            "you find",
+            "you catch sight of",
+            "see",
+            "seeing",
+            "you have seen",
+            "you are able to see",
+            "you encounter",
+            "you come across",
         ];
-        const BLIND: &[&str] = &["you dont see", "you cannot see", "you cant see", "you do not see", "you no longer see", "you lose sight of"];
+        const BLIND: &[&str] = &[
+            "you dont see",
+            "you cannot see",
+            "you cant see",
+            "you do not see",
+            "you no longer see",
+            "you lose sight of",
+        ];
         if self.eat_any(BLIND) {
             return Ok(Some(Test::Not(Box::new(Test::Sees(self.reference(0)?)))));
         }
@@ -119,7 +274,8 @@ impl Parser<'_> {
 
     fn there_is(&mut self) -> Result<Option<Test>, PlanError> {
         const IS: &[&str] = &["there is", "theres", "there are", "you find that there is"];
-        const NOT: &[&str] = &["there is no", "theres no", "there are no", "there isnt", "there arent", "there is not"];
+        const NOT: &[&str] =
+            &["there is no", "theres no", "there are no", "there isnt", "there arent", "there is not"];
         let not = self.eat_any(NOT);
         if !not && !self.eat_any(IS) {
             return Ok(None);
@@ -127,7 +283,19 @@ impl Parser<'_> {
         let mut what = self.reference(0)?;
         what.indefinite = true;
         what.choice = Choice::Open; // "nearby" is what one asks
-        self.eat_any(&["nearby", "here", "around", "near you", "near here", "close by", "around here", "free", "available", "left", "in sight"]);
+        self.eat_any(&[
+            "nearby",
+            "here",
+            "around",
+            "near you",
+            "near here",
+            "close by",
+            "around here",
+            "free",
+            "available",
+            "left",
+            "in sight",
+        ]);
         let free = what.traits.free;
         let test = Test::There { what, free };
         Ok(Some(if not { Test::Not(Box::new(test)) } else { test }))
@@ -135,14 +303,48 @@ impl Parser<'_> {
 
     /// About the agent itself.
     fn mine(&mut self) -> Result<Option<Test>, PlanError> {
-        const HOLD: &[&str] = &["you are holding", "you hold", "you have", "you are carrying", "you carry", "youre holding", "youve got"];
-        const EMPTY: &[&str] = &["your hands are empty", "you are holding nothing", "your hand is empty", "you hold nothing", "your hands are free", "you have nothing in your hands", "you carry nothing"];
-        const SIT: &[&str] = &["you are sitting", "you are seated", "you sit", "youre sitting", "youre seated"];
+        const HOLD: &[&str] = &[
+            "you are holding",
+            "you hold",
+            "you have",
+            "you are carrying",
+            "you carry",
+            "youre holding",
+            "youve got",
+        ];
+        const EMPTY: &[&str] = &[
+            "your hands are empty",
+            "you are holding nothing",
+            "your hand is empty",
+            "you hold nothing",
+            "your hands are free",
+            "you have nothing in your hands",
+            "you carry nothing",
+        ];
+        const SIT: &[&str] =
+            &["you are sitting", "you are seated", "you sit", "youre sitting", "youre seated"];
         const STAND: &[&str] = &["you are standing", "you stand", "youre standing", "you are not sitting"];
         const REACH: &[&str] = &[
-            "you are near", "you are next to", "you are at", "you reach", "you get to", "you arrive at", "you are close to",
-            "you come to", "youre near", "youre at", "you are beside", "you are by", "you have reached", "you get near",
-            "you stand next to", "you are in front of", "youre next to", "reaching", "you arrive in", "you are within reach of",
+            "you are near",
+            "you are next to",
+            "you are at",
+            "you reach",
+            "you get to",
+            "you arrive at",
+            "you are close to",
+            "you come to",
+            "youre near",
+            "youre at",
+            "you are beside",
+            "you are by",
+            "you have reached",
+            "you get near",
+            "you stand next to",
+            "you are in front of",
+            "youre next to",
+            "reaching",
+            "you arrive in",
+            "you are within reach of",
         ];
         const FAR: &[&str] = &["you are far from", "you are away from", "you are not near", "you leave"];
         if self.eat_any(EMPTY) {
@@ -171,29 +373,24 @@ impl Parser<'_> {
     }
 
     /// "Ten seconds have passed".
-    fn passed(&mut self) -> Result<Option<Test>, PlanError> {
+    fn passed(&mut self) -> Option<Test> {
         self.eat_any(&["after"]);
-        let Some((seconds, count)) = numbers::duration(self.rest()) else { return Ok(None) };
+        let (seconds, count) = numbers::duration(self.rest())?;
         self.at += count;
-        let passed = self.eat_any(&["have passed", "has passed", "pass", "are over", "is over", "have gone by", "later"]);
-        Ok((passed && seconds > 0.0).then_some(Test::Elapsed(seconds)))
+        let passed = self.eat_any(&[
+            "have passed",
+            "has passed",
+            "pass",
+            "are over",
+            "is over",
+            "have gone by",
+            "later",
+        ]);
+        (passed && seconds > 0.0).then_some(Test::Elapsed(seconds))
     }
 
     /// About a thing: "the chair is free", "Anna arrives".
     fn thing_is(&mut self) -> Result<Option<Test>, PlanError> {
-        const STATES: &[(&[&str], State)] = &[
-            (&["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use"], State::Free),
-            (&["taken", "occupied", "in use", "not free", "busy", "full"], State::InUse),
-            (&["open", "not closed", "opened", "unlocked"], State::Open),
-            (&["closed", "shut", "not open"], State::Closed),
-            (&["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by"], State::Near),
-            (&["next to you", "here", "beside you", "by your side", "there", "at your side", "in front of you", "with you"], State::Next),
-            (&["visible", "in sight", "in view"], State::Seen),
-        ];
-        const ARRIVES: &[&str] = &["arrives", "comes", "gets here", "comes near", "arrives here", "comes here", "is here", "comes close", "reaches you", "has arrived", "comes back", "comes to you", "turns up", "shows up", "comes near you", "arrive"];
-        const APPEARS: &[&str] = &["comes into view", "appears", "comes into sight", "becomes visible", "is visible", "is in sight"];
-        const BECOMES_FREE: &[&str] = &["becomes free", "gets free", "becomes available", "frees up"];
-        const OPENS: &[(&[&str], bool)] = &[(&["opens"], true), (&["closes", "shuts"], false)];
         let what = self.reference(0)?;
         if self.eat_any(ARRIVES) {
             return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));

@@ -97,7 +97,13 @@ impl<'a> Draft<'a> {
     /// Goes with what is in hand, and gives it to whoever is there, or puts it down.
     fn bring(&mut self, to: &Reference, manner: Manner) -> Result<(), PlanError> {
         let it = self.view.it;
-        self.go(to, None, Pace::Usual, None)?;
+        let goes_to_thing = !matches!(to.target, Target::There | Target::Here | Target::Point { .. });
+        let is_there = goes_to_thing
+            && self.beside.is_some()
+            && self.view.find(to, Purpose::Any).ok().map(|to| to.id) == self.beside;
+        if !is_there {
+            self.go(to, None, Pace::Usual, None)?;
+        }
         let receiver = self.beside.and_then(|id| self.view.scene.entity(id));
         if let Some(receiver) = receiver.filter(|receiver| self.held.is_some() && takes(receiver)) {
             self.held = None;
@@ -123,7 +129,8 @@ impl<'a> Draft<'a> {
     }
 
     fn let_go(&mut self, manner: Manner) -> Result<(), PlanError> {
-        let heavy = manner == Manner::PutDown && self.carried.is_some() || self.held.is_none() && self.carried.is_some();
+        let heavy = manner == Manner::PutDown && self.carried.is_some()
+            || self.held.is_none() && self.carried.is_some();
         if heavy {
             self.view.it = self.carried.take();
             return self.act(Action::PutDownHeavy);
@@ -210,7 +217,8 @@ impl<'a> Draft<'a> {
     pub(super) fn door(&mut self, what: Option<&Reference>, open: bool) -> Result<(), PlanError> {
         let nearest = Reference { indefinite: true, ..Reference::nearest(class("door")) };
         let door = self.find(what.unwrap_or(&nearest), Purpose::Any)?;
-        let is_door = door.kind == EntityKind::Door || door.kind == EntityKind::Building && door.info.access.is_some();
+        let is_door =
+            door.kind == EntityKind::Door || door.kind == EntityKind::Building && door.info.access.is_some();
         if !is_door {
             let near = format!("a {} has no door", door.kind);
             let text = what.map_or("door", |what| what.text.as_str());
@@ -227,13 +235,12 @@ impl<'a> Draft<'a> {
                 if sells.split(',').any(|sold| sold.trim() == goods))
         };
         let not_sold = |near: String| PlanError::NotFound { wanted: format!("{goods} to buy"), near };
-        let place = match at {
-            Some(at) => self.find(at, Purpose::Any)?,
-            None => {
-                let here = self.beside.and_then(|id| self.view.scene.entity(id)).filter(sells);
-                let nearest = || self.view.scene.nearest(self.view.from, self.view.range, &sells);
-                here.or_else(nearest).ok_or_else(|| not_sold(self.view.surroundings()))?
-            }
+        let place = if let Some(at) = at {
+            self.find(at, Purpose::Any)?
+        } else {
+            let here = self.beside.and_then(|id| self.view.scene.entity(id)).filter(sells);
+            let nearest = || self.view.scene.nearest(self.view.from, self.view.range, &sells);
+            here.or_else(nearest).ok_or_else(|| not_sold(self.view.surroundings()))?
         };
         if !sells(&place) {
             return Err(not_sold(format!("{} {} does not sell it", place.label(), place.id)));
@@ -274,7 +281,10 @@ impl<'a> Draft<'a> {
                 let door = self.find(what, Purpose::Any)?;
                 if door.kind != EntityKind::Door && !door.info.attributes.contains_key(OPEN) {
                     let near = format!("a {} neither opens nor closes", door.kind);
-                    return Err(PlanError::NotFound { wanted: format!("{:?} that is open", what.text), near });
+                    return Err(PlanError::NotFound {
+                        wanted: format!("{:?} that is open", what.text),
+                        near,
+                    });
                 }
                 Condition::Open(door.id)
             }

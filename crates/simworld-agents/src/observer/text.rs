@@ -18,9 +18,15 @@ impl SceneGraph {
                     format!("{action} failed: {reason}")
                 }
                 EventKind::PlanDone { who: actor } if *actor == who => "plan done".to_owned(),
-                EventKind::PlanFailed { who: actor, reason } if *actor == who => format!("plan failed: {reason}"),
-                EventKind::IntentRefused { who: actor, reason } if *actor == who => format!("refused: {reason}"),
-                EventKind::Said { who: speaker, to, words } if *to == who => format!("{speaker} said to you: {words:?}"),
+                EventKind::PlanFailed { who: actor, reason } if *actor == who => {
+                    format!("plan failed: {reason}")
+                }
+                EventKind::IntentRefused { who: actor, reason } if *actor == who => {
+                    format!("refused: {reason}")
+                }
+                EventKind::Said { who: speaker, to, words } if *to == who => {
+                    format!("{speaker} said to you: {words:?}")
+                }
                 EventKind::Gesture { who: other, gesture, to: Some(to) } if *to == who => {
                     format!("{other} does this at you: {gesture}")
                 }
@@ -45,7 +51,8 @@ impl SceneGraph {
     pub fn to_prompt(&self, tokens: usize) -> String {
         let mut text = String::new();
         let fits = |text: &str| tokens_in(text) <= tokens;
-        let lines = std::iter::once(self.oneself_line()).chain(self.feedback.iter().map(|line| format!("> {line}\n")));
+        let lines = std::iter::once(self.oneself_line())
+            .chain(self.feedback.iter().map(|line| format!("> {line}\n")));
         for line in lines {
             let length = text.len();
             text.push_str(&line);
@@ -67,7 +74,8 @@ impl SceneGraph {
             let _ = write!(line, ", {:.1} m/s", fix.speed);
         }
         if let Some((carrier, role)) = self.oneself.on {
-            let _ = write!(line, ", {} {carrier}", if role == Role::Seated { "sitting on" } else { "aboard" });
+            let _ =
+                write!(line, ", {} {carrier}", if role == Role::Seated { "sitting on" } else { "aboard" });
         }
         for (load, role) in &self.oneself.with {
             let _ = match role {

@@ -48,8 +48,7 @@ impl City {
         for node in &mut plan.nodes {
             node.x += 3000.0;
         }
-        let roads =
-            RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("crossroads are sound");
+        let roads = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("crossroads are sound");
         world.set_roads(std::sync::Arc::new(roads));
         let mut ids = BTreeMap::new();
         for (key, thing) in things {
@@ -61,7 +60,10 @@ impl City {
 
     /// What the thing is called in the tables; its label, if it came later.
     pub(crate) fn key(&self, id: EntityId) -> String {
-        self.ids.iter().find(|(_, known)| **known == id).map_or_else(|| id.to_string(), |(key, _)| key.clone())
+        self.ids
+            .iter()
+            .find(|(_, known)| **known == id)
+            .map_or_else(|| id.to_string(), |(key, _)| key.clone())
     }
 }
 

@@ -48,13 +48,8 @@ pub(crate) fn said_in(city: &str) -> Vec<Said> {
 }
 
 /// What is made of one sentence.
-pub(crate) fn understand(
-    planner: &mut GrammarPlanner,
-    city: &City,
-    said: &Said,
-) -> Result<Plan, PlanError> {
-    let intent =
-        if said.family == "call" { call(&said.words) } else { Intent::Words(said.words.clone()) };
+pub(crate) fn understand(planner: &mut GrammarPlanner, city: &City, said: &Said) -> Result<Plan, PlanError> {
+    let intent = if said.family == "call" { call(&said.words) } else { Intent::Words(said.words.clone()) };
     planner.plan(&intent, &city.world, city.me)
 }
 
@@ -102,9 +97,10 @@ pub(crate) fn verdict(city: &City, said: &Said) -> Verdict {
     let taken = got.as_ref().is_ok_and(|plan| notation::show(plan, city).contains(first));
     named.sort_unstable();
     meant.sort_unstable();
-    match named == meant && taken {
-        true => Verdict::Right,
-        false => Verdict::WrongAnswer(format!("asked for {named:?}, by default took {got:?}")),
+    if named == meant && taken {
+        Verdict::Right
+    } else {
+        Verdict::WrongAnswer(format!("asked for {named:?}, by default took {got:?}"))
     }
 }
 
@@ -117,7 +113,8 @@ pub(crate) fn judge(city: &City, said: &Said, got: &Result<Plan, PlanError>) -> 
         (Some(expected), Err(error)) => {
             let (kind, part) = expected.split_once(" ~ ").unwrap_or((expected, ""));
             let answer = error.to_string();
-            let right = notation::kind_of(error) == kind && answer.to_lowercase().contains(&part.to_lowercase());
+            let right =
+                notation::kind_of(error) == kind && answer.to_lowercase().contains(&part.to_lowercase());
             if right { Verdict::Right } else { Verdict::WrongAnswer(answer) }
         }
         (Some(_), Ok(plan)) => Verdict::WrongAction(notation::show(plan, city)),

@@ -49,7 +49,8 @@ fn step(step: &PlanStep, city: &City) -> String {
         PlanStep::Face { to } => format!("face {}", goal(to, city)),
         PlanStep::Point { at } => format!("point {}", goal(at, city)),
         PlanStep::If { condition: when, then, otherwise } => {
-            let other = if otherwise.is_empty() { String::new() } else { format!(" else {}", block(otherwise)) };
+            let other =
+                if otherwise.is_empty() { String::new() } else { format!(" else {}", block(otherwise)) };
             format!("if {} {}{other}", condition(when, city), block(then))
         }
         PlanStep::Repeat { times, steps } => format!("repeat {times} {}", block(steps)),

@@ -38,7 +38,12 @@ pub(crate) fn carry_out(world: World, me: EntityId, plan: Plan) -> (Simulation, 
 }
 
 /// Whether the world shows what was expected: "seated x", "holds x", "at x", "fails reason".
-pub(crate) fn shows(city: &City, expected: &str, simulation: &Simulation, ended: &Progress) -> Result<(), String> {
+pub(crate) fn shows(
+    city: &City,
+    expected: &str,
+    simulation: &Simulation,
+    ended: &Progress,
+) -> Result<(), String> {
     let world = simulation.world();
     let (verb, object) = expected.split_once(' ').unwrap_or((expected, ""));
     if verb == "fails" {
@@ -58,7 +63,9 @@ pub(crate) fn shows(city: &City, expected: &str, simulation: &Simulation, ended:
     let parent = |role: Role| {
         world.entity(city.me).unwrap().attachment.filter(|bond| bond.role == role).map(|bond| bond.parent)
     };
-    let is_open = |key: &str| world.entity(city.ids[key]).unwrap().info.attributes.get(OPEN) == Some(&Value::Bool(true));
+    let is_open = |key: &str| {
+        world.entity(city.ids[key]).unwrap().info.attributes.get(OPEN) == Some(&Value::Bool(true))
+    };
     let found = match verb {
         "seated" => key(parent(Role::Seated)),
         "aboard" => key(parent(Role::Aboard)),

@@ -152,15 +152,10 @@ fn is_set(entity: &EntityRef<'_>, key: &str) -> bool {
 }
 
 /// A door of its own, or a building that is entered at its access point.
-fn turn_door(
-    scene: &dyn Scene,
-    who: EntityId,
-    door: EntityId,
-    open: bool,
-) -> Result<(), InteractionError> {
+fn turn_door(scene: &dyn Scene, who: EntityId, door: EntityId, open: bool) -> Result<(), InteractionError> {
     let (actor, target) = (find(scene, who)?, find(scene, door)?);
-    let is_door =
-        target.kind == EntityKind::Door || target.kind == EntityKind::Building && target.info.access.is_some();
+    let is_door = target.kind == EntityKind::Door
+        || target.kind == EntityKind::Building && target.info.access.is_some();
     if !is_door {
         let verb = if open { "open" } else { "close" };
         return Err(InteractionError::WrongKind { kind: target.kind, verb });

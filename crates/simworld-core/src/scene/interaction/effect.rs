@@ -22,7 +22,8 @@ impl World {
             Action::CarryHeavy { item } => self.hang(*item, who, &CARRY, CARRY.offset),
             Action::RideScooter { scooter } => self.hang(*scooter, who, &RIDE, RIDE.offset),
             Action::SitDown { seat } => {
-                let height = self.entity(*seat).map_or(0.0, |seat| (seat.info.shape.size().z * 0.5).min(0.45));
+                let height =
+                    self.entity(*seat).map_or(0.0, |seat| (seat.info.shape.size().z * 0.5).min(0.45));
                 self.hang(who, *seat, &SIT, SIT.offset + Vector3::z() * height);
             }
             Action::EnterCar { car } => self.hang(who, *car, &ENTER, ENTER.offset),

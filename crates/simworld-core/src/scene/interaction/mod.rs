@@ -127,9 +127,7 @@ const PICK_UP: Use = Use {
 const CARRY: Use = Use {
     verb: "carry",
     role: Role::Carried,
-    fits: |kind| {
-        matches!(kind, EntityKind::Parcel | EntityKind::Chair | EntityKind::Cone | EntityKind::Prop)
-    },
+    fits: |kind| matches!(kind, EntityKind::Parcel | EntityKind::Chair | EntityKind::Cone | EntityKind::Prop),
     offset: Point3::new(0.5, 0.0, 0.8),
 };
 const SIT: Use =
