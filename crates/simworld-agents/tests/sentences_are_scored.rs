@@ -25,7 +25,7 @@ const FLOORS: [(&str, f64); 14] = [
     ("repetition", 95.0),
     ("single_verb", 95.0),
     ("superlative", 95.0),
-    ("typo", 95.0),
+    ("typo", 92.0),
 ];
 
 #[derive(Default)]

@@ -25,7 +25,11 @@ impl RuleExecutor {
                 Some(reason) => self.fail(reason, out),
             };
         }
-        if let Err(reason) = check_action(scene, who, &action) {
+        // What is so already is told all the same: the body's refusal is an event, and no failure of the plan.
+        let is_so = is_visible(&action) && missing_effect(scene, who, &action).is_none();
+        if let Err(reason) = check_action(scene, who, &action)
+            && !is_so
+        {
             return self.fail(reason.to_string(), out);
         }
         match &action {

@@ -38,6 +38,7 @@ pub(super) const JOINTS: &[&str] = &[
 /// Politeness around an order.
 pub(super) const FILLERS: &[&str] = &[
     "please",
+    "but",
     "kindly",
     "could you",
     "can you",
