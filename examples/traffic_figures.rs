@@ -6,6 +6,7 @@
 //! cargo run --release --example traffic_figures -- --whole # with the rows of a million
 //! ```
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -17,6 +18,7 @@ use simworld_citygen::AllThreads;
 use simworld_core::hash::StateHash;
 use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
+use simworld_examples::beside_sumo::{BesideError, Workload, beside};
 use simworld_traffic::{Traffic, TrafficConfig};
 
 /// Measures how fast traffic moves and prints each rate beside its bar.
@@ -34,6 +36,9 @@ struct Arguments {
     /// Only rows whose description contains this.
     #[arg(long, default_value = "")]
     only: String,
+    /// A Python that has libsumo and eclipse-sumo, for the rows beside SUMO.
+    #[arg(long, default_value = "python3")]
+    python: PathBuf,
 }
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
@@ -49,7 +54,35 @@ fn main() -> Outcome<()> {
     rates(&arguments, &mut report)?;
     threads(&arguments, &mut report)?;
     city(&arguments, &mut report)?;
+    beside_sumo(&arguments, &mut report)?;
     report.print();
+    Ok(())
+}
+
+/// SUMO on the same files at the same step; more in the example `beside_sumo`.
+fn beside_sumo(arguments: &Arguments, report: &mut Report) -> Outcome<()> {
+    let (warm_up, measured) = (f64::from(arguments.warm_up), f64::from(arguments.measured));
+    let sizes: &[(u32, u32)] = if arguments.whole { &[(10, 1000), (30, 10_000)] } else { &[(10, 1000)] };
+    for (junctions, vehicles) in sizes.iter().copied() {
+        let what = format!("updates beside SUMO's on its own files, {vehicles} vehicles, one thread");
+        if !report.wants(&what) {
+            continue;
+        }
+        let workload = Workload { junctions, vehicles, step: DT, warm_up, measured };
+        let measured = match beside(workload, &arguments.python, Path::new("out/beside_sumo"), 1) {
+            Ok(found) => {
+                let [ours, sumo] = [found.ours, found.sumo].map(|rate| rate.per_second() / 1000.0);
+                format!(
+                    "{ours:.0} k/s to {sumo:.0} k/s of SUMO {}: {:.0} times",
+                    found.version,
+                    found.ratio()
+                )
+            }
+            Err(absent @ BesideError::Absent { .. }) => absent.to_string(),
+            Err(error) => return Err(error.into()),
+        };
+        report.add(&what, measured, "100 times");
+    }
     Ok(())
 }
 

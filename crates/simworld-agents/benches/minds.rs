@@ -26,7 +26,7 @@ fn city() -> (World, EntityId) {
         (EntityKind::Scooter, [1.1, 0.5, 1.1]),
     ];
     let mut world = World::new();
-    let mut put = |kind: EntityKind, x: f64, y: f64, [length, width, height]: [f64; 3]| {
+    let put = |kind: EntityKind, x: f64, y: f64, [length, width, height]: [f64; 3]| {
         EntityDesc::new(kind, pose_facing(Point3::new(x, y, 0.0), 0.0), Shape::cuboid(length, width, height))
     };
     for block in 0..100 {

@@ -125,7 +125,8 @@ fn crossings(jaywalking: f64) -> (u64, u64) {
         crossing_weight: 3.0,
         ..TrafficConfig::default()
     };
-    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(2)).unwrap();
+    let mut traffic =
+        Traffic::new(Arc::clone(&network), &config, Seed(2)).expect("the settings are in range");
     let mut was_on = vec![None; 150];
     let (mut at_red, mut at_green) = (0, 0);
     for step in 0..6000 {
@@ -172,7 +173,8 @@ fn car(position: Point2, velocity: Vector2) -> Foreign {
 fn before_a_car(speed: f64) -> (u32, u32, u32) {
     let network = grid();
     let config = TrafficConfig { crossing_weight: 5.0, ..on_foot(400, People::default()) };
-    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(6)).unwrap();
+    let mut traffic =
+        Traffic::new(Arc::clone(&network), &config, Seed(6)).expect("the settings are in range");
     let crossing = &network.crossings[0];
     let across = (crossing.end - crossing.start).normalize();
     let along = Vector2::new(-across.y, across.x);
@@ -214,7 +216,8 @@ fn nobody_steps_before_a_car_that_does_not_stop_or_walks_into_it() {
 #[test]
 fn walkers_go_round_what_stands_on_their_way() {
     let network = grid();
-    let mut traffic = Traffic::new(Arc::clone(&network), &on_foot(60, People::default()), Seed(6)).unwrap();
+    let mut traffic = Traffic::new(Arc::clone(&network), &on_foot(60, People::default()), Seed(6))
+        .expect("the settings are in range");
     // A post on every sidewalk, a little beside its middle.
     let posts: Vec<Foreign> = network
         .sidewalks
@@ -244,8 +247,9 @@ fn walkers_go_round_what_stands_on_their_way() {
 fn walked(interest: Option<Vec<Interest>>) -> f64 {
     let network = grid();
     let config = TrafficConfig { crossing_weight: 3.0, ..on_foot(500, People::default()) };
-    let mut traffic = Traffic::new(Arc::clone(&network), &config, Seed(12)).unwrap();
-    traffic.set_interest(interest).unwrap();
+    let mut traffic =
+        Traffic::new(Arc::clone(&network), &config, Seed(12)).expect("the settings are in range");
+    traffic.set_interest(interest).expect("interest is in range");
     let apart = 2.0 * config.walking.radius;
     let mut before: Vec<Point2> = traffic.pedestrians().iter().map(|walker| walker.position).collect();
     let (mut sum, mut was_on) = (0.0, vec![None; 500]);

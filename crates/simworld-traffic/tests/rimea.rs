@@ -1,4 +1,4 @@
-//! Test cases of the RiMEA guideline 4.1.1 (2025) that concern how people walk, for the crowd alone.
+//! Test cases of the `RiMEA` guideline 4.1.1 (2025) that concern how people walk, for the crowd alone.
 //!
 //! The numbers are those of the guideline. It gives a threshold for the first case alone; the other tolerances are ours and
 //! stand with each test. Case 4 is in `crowds_walk_as_measured`, case 7 beside the profiles. Cases 2, 3, 8, 13 and 14 are about
@@ -107,7 +107,7 @@ fn case_5_everybody_starts_in_their_own_time() {
     }
     let (begun, places) = (hall.from.clone(), hall.people.clone());
     let goal = |place: Point2| (place.x < 8.5).then(|| at(9.0, 2.5));
-    let mut first_moves = vec![f64::INFINITY; 10];
+    let mut first_moves = [f64::INFINITY; 10];
     while hall.seconds < 10.0 {
         hall.step(&goal);
     }

@@ -3,14 +3,14 @@
 use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
 use comfy_table::{CellAlignment, Table};
 use simworld_traffic::Traffic;
-use simworld_traffic::look::LevelOfService;
+use simworld_traffic::look::{JunctionDelay, LevelOfService};
 
 use super::Watched;
 
 /// The figures of a run, as a table to read.
 pub fn report(traffic: &Traffic, watched: &Watched) -> String {
     let mut table = Table::new();
-    table.load_preset(UTF8_HORIZONTAL_ONLY);
+    table.load_style(UTF8_HORIZONTAL_ONLY);
     for (name, value) in movement(watched).into_iter().chain(trips(watched)).chain(counts(traffic)) {
         table.add_row(vec![name, value]);
     }
@@ -72,7 +72,7 @@ fn counts(traffic: &Traffic) -> Vec<Row> {
 /// How many junctions are in each class.
 fn services(watched: &Watched) -> String {
     let used: Vec<LevelOfService> =
-        watched.recorder.junctions().iter().filter(|j| j.vehicles >= 5).map(|j| j.service()).collect();
+        watched.recorder.junctions().iter().filter(|j| j.vehicles >= 5).map(JunctionDelay::service).collect();
     let count = |class: LevelOfService| used.iter().filter(|own| **own == class).count();
     let classes: Vec<String> =
         LevelOfService::ALL.into_iter().map(|class| format!("{class} {}", count(class))).collect();

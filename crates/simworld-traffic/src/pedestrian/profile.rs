@@ -116,7 +116,7 @@ mod tests {
 
     use super::*;
 
-    /// RiMEA 7: speeds are those of the ages; mean and deviation of all are those asked for (our tolerance: 3 %).
+    /// `RiMEA` 7: speeds are those of the ages; mean and deviation of all are those asked for (our tolerance: 3 %).
     #[test]
     fn speeds_follow_age_and_sex() {
         let config = TrafficConfig::default();

@@ -20,9 +20,9 @@ mod threads;
 mod tracks;
 mod types;
 
+pub(crate) use halts::{Halt, Order, Then};
 #[cfg(feature = "validation")]
 pub(crate) use idm::advance;
-pub(crate) use halts::{Halt, Order, Then};
 pub use idm::{HARDEST_BRAKING, Idm};
 pub use lane_change::Mobil;
 pub(crate) use manager::{Moment, NONE, Path, STANDING, Sight, Vehicle, VehicleManager};
