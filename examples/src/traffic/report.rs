@@ -59,7 +59,10 @@ fn counts(traffic: &Traffic) -> Vec<Row> {
     vec![
         count("vehicles at the end", traffic.vehicles().count() as u64),
         count("waiting outside", traffic.outside() as u64),
-        count("pedestrians", traffic.pedestrians().len() as u64),
+        count(
+            "pedestrians",
+            traffic.pedestrians().iter().filter(|walker| walker.is_present()).count() as u64,
+        ),
         count("junctions crossed", counters.crossings),
         count("lane changes", counters.lane_changes),
         count("vehicles that had stood for three minutes", counters.long_waits),
