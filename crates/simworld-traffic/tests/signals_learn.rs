@@ -150,7 +150,7 @@ fn every_reward_prefers_the_longest_queue_to_a_clock_under_uneven_demand() {
     let env = || SignalEnv::new(Arc::clone(&network), config.clone()).expect("the settings are in range");
     let (seen, _) = env().spaces(EntityId::new(0, 0));
     assert_eq!(seen, Space::Box { low: 0.0, high: 1.0, shape: vec![2 + 1 + 8] });
-    let longest = |_: u64, seen: &[f64]| u64::from(seen[8] + seen[10] > seen[7] + seen[9]);
+    let longest = |_: u64, seen: &[f64]| u64::from(seen[7] + seen[9] > seen[8] + seen[10]);
     let clock = |step: u64, _: &[f64]| (step / 6) % 2;
     let makes: [fn(SignalEnv) -> SignalEnv; 4] = [
         |env| env,

@@ -58,7 +58,7 @@ impl TileConfig {
                 LatticeConfig {
                     jitter: 0.0,
                     bow: 0.0,
-                    gates: 70.0,
+                    gates: 68.0,
                     crossroads: 1.0,
                     ..LatticeConfig::default()
                 },
@@ -79,11 +79,11 @@ impl TileConfig {
                 LatticeConfig {
                     jitter: 0.15,
                     bow: 0.1,
-                    gates: 99.0,
+                    gates: 104.0,
                     crossroads: 0.1,
                     ..LatticeConfig::default()
                 },
-                RoadConfig { length: 60.0, dead_ends: 0.34, ..roads },
+                RoadConfig { length: 60.0, dead_ends: 0.36, ..roads },
             ),
             Style::Suburb => (
                 LatticeConfig {
@@ -97,7 +97,7 @@ impl TileConfig {
                     dead_ends: 0.55,
                     length: 120.0,
                     crossroads: 0.38,
-                    heading_variation: 0.32,
+                    heading_variation: 0.36,
                     length_variation: 0.6,
                     bow: 0.2,
                     bends: 1.0,

@@ -39,9 +39,10 @@
 //!     }
 //!     Ok(reward)
 //! };
-//! // Two stages of equal length, and the one whose lanes have the longer queue: the last four entries are queues.
+//! // Two stages of equal length, and the one whose lanes have the longer queue: the last four entries are
+//! // queues, and stage 1 is that of roads 0 and 2.
 //! let fixed = run(&|step, _| (step as u64 / 6) % 2)?;
-//! let longest = run(&|_, seen| u64::from(seen[8] + seen[10] > seen[7] + seen[9]))?;
+//! let longest = run(&|_, seen| u64::from(seen[7] + seen[9] > seen[8] + seen[10]))?;
 //! assert!(longest > fixed, "{longest} against {fixed}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -32,7 +32,7 @@ impl Traffic {
     /// let walker = traffic.add_walker(Point2::new(20.0, 5.0), Some(Point2::new(60.0, 5.0)))?;
     /// while traffic.walks().is_empty() { traffic.step(0.1); }
     /// assert_eq!(traffic.walks()[0].id, walker);
-    /// assert!(traffic.seconds() > 20.0 && traffic.seconds() < 80.0);
+    /// assert!(traffic.seconds() > 10.0 && traffic.seconds() < 80.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

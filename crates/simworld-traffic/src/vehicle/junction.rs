@@ -248,13 +248,8 @@ fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> 
         && tracks.strips[way].iter().all(|strip| {
             sight.walkers[strip.crossing as usize] == 0 && sight.waiting[strip.crossing as usize] == 0
         })
-        && (keeps_nobody_out(scene, way) || has_room(scene, way, vehicle) || may_pass(scene, vehicle))
+        && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
         && !tracks.yields_to[way].iter().any(|other| is_hindered(part, scene, *other, way, vehicle, distance))
-}
-
-/// Whether nobody else ever passes where one would stand on the way: a bend, where one follows on without room behind it.
-fn keeps_nobody_out(scene: &Scene<'_>, way: usize) -> bool {
-    scene.tracks.conflicts[way].is_empty() && scene.tracks.strips[way].is_empty()
 }
 
 fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {
