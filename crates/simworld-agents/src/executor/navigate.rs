@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
-use simworld_core::geometry::{Point2, heading, yaw_of};
+use simworld_core::geometry::{Point2, direction, heading, yaw_of};
 use simworld_core::id::{CrossingId, EntityId, WaypointId};
-use simworld_core::net::WaypointGraph;
+use simworld_core::net::{WaypointGraph, polyline};
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::Goal;
@@ -19,6 +19,10 @@ const PASSED: f64 = 0.7;
 const STRAIGHT: f64 = 0.03;
 /// With a larger heading error one turns on the spot, radians.
 const FACING: f64 = 1.0;
+/// With a larger heading error one goes no faster than `TURNING`, radians.
+const BEARING: f64 = 0.3;
+/// Speed at which anybody turns within the width of a sidewalk, m/s.
+const TURNING: f64 = 1.4;
 /// Coming nearer by less than this is no progress, m.
 const PROGRESS: f64 = 0.25;
 /// How long an evasion lasts, s.
@@ -168,12 +172,55 @@ impl RuleExecutor {
         } else {
             avoid::detour(scene, me, leg.point, destination.thing, self.config.look_ahead)
         };
+        let aside = self.on_the_walkway(scene, here, way, leg.point, aside);
         let error = face(me, leg.point, aside, out);
-        // Turning on the spot beats a wide circle round the waypoint.
-        let pace = if error.abs() > FACING { 0.0 } else { speed };
-        let is_last = way.next + 1 == way.legs.len();
-        self.tell_speed(if is_last { slow_for_arrival(pace, destination.distance) } else { pace }, out);
+        // Turning on the spot beats a wide circle round the waypoint, and who turns at speed swings off the kerb.
+        let pace = match error.abs() {
+            error if error > FACING => 0.0,
+            error if error > BEARING || aside != 0.0 => speed.min(TURNING),
+            _ => speed,
+        };
+        let pace = match way.legs.get(way.next + 1) {
+            None => slow_for(pace, 0.0, destination.distance),
+            Some(next) if next.crossing.is_some() || turns(here, leg.point, next.point) => {
+                slow_for(pace, TURNING, distance)
+            }
+            Some(_) => pace,
+        };
+        self.tell_speed(pace, out);
         Arrival::Underway
+    }
+
+    /// How far to the left of the way to a point one turns aside, radians: as wished, but not off a kerb.
+    fn on_the_walkway(
+        &self,
+        scene: &dyn Scene,
+        here: Point2,
+        way: &Navigation,
+        point: Point2,
+        wished: f64,
+    ) -> f64 {
+        if wished == 0.0 || way.crossing_begun {
+            return wished;
+        }
+        let ahead = heading(&(point - here));
+        let is_kept = |aside: &f64| !self.is_off_kerb(scene, here + direction(ahead + aside));
+        [wished, -wished].into_iter().find(is_kept).unwrap_or(0.0)
+    }
+
+    /// Whether a place is on a crossing that begins nearby.
+    fn is_off_kerb(&self, scene: &dyn Scene, at: Point2) -> bool {
+        let (Some(roads), Some(ways)) = (scene.roads(), &self.ways) else { return false };
+        let Some(nearest) = ways.nearest(at) else { return false };
+        let beside = ways.edges(nearest).iter().flat_map(|edge| ways.edges(edge.to));
+        let mut crossings = ways.edges(nearest).iter().chain(beside).filter_map(|edge| edge.crossing);
+        crossings.any(|id| {
+            let Some(crossing) = roads.crossings.get(id.index()) else { return false };
+            let length = (crossing.end - crossing.start).norm();
+            polyline::closest(&[crossing.start, crossing.end], &at).is_some_and(|near| {
+                near.station > 0.0 && near.station < length && near.distance < crossing.width
+            })
+        })
     }
 
     /// Stands and looks across.
@@ -290,11 +337,16 @@ impl Destination {
     }
 }
 
-/// Riders brake before the goal; walkers stop at once.
-fn slow_for_arrival(speed: f64, distance: f64) -> f64 {
+/// Whether a way bends at a place by so much that one slows down for it.
+fn turns(here: Point2, at: Point2, next: Point2) -> bool {
+    wrap_angle(heading(&(next - at)) - heading(&(at - here))).abs() > BEARING
+}
+
+/// Speed at which one comes to a place, so far away, at no more than `there`: riders brake before it; walkers stop at once.
+fn slow_for(speed: f64, there: f64, distance: f64) -> f64 {
     /// Comfortable braking, m/s².
     const BRAKING: f64 = 1.5;
-    let arriving = (2.0 * BRAKING * distance).sqrt();
+    let arriving = (there * there + 2.0 * BRAKING * distance).sqrt();
     // In quarters of a metre a second, so that the body is not told anew every step.
     speed.min(((arriving * 4.0).ceil() * 0.25).max(0.5))
 }
