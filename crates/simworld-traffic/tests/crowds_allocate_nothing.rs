@@ -1,56 +1,15 @@
 //! After a warm-up, a crowd and the walkers of a city ask the heap for nothing, and come to the same bits on any threads.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+mod counting;
+
 use std::sync::Arc;
 
+use counting::allocations;
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::{Alone, NetworkConfig, RoadNetwork, StreetPlan, Workers};
 use simworld_core::seed::Seed;
 use simworld_traffic::crowd::{AnticipationVelocity, Crowd, Person, Walls, Wish};
 use simworld_traffic::{Pedestrian, Traffic, TrafficConfig};
-
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-/// The system's allocator, counting the requests of each thread.
-struct Counting;
-
-fn count() {
-    // A thread that is being torn down has no counter left, and is not under test.
-    let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
-}
-
-// SAFETY: every call is passed on unchanged to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps the contract of `realloc`.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-/// How often the heap was asked during the work.
-fn allocations(work: &mut dyn FnMut()) -> u64 {
-    let before = ALLOCATIONS.get();
-    work();
-    ALLOCATIONS.get() - before
-}
 
 /// So many threads, each with every so-manieth part.
 struct Threads(usize);

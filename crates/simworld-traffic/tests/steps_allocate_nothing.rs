@@ -1,47 +1,13 @@
 //! After a warm-up a step of vehicles asks the heap for nothing, and a vehicle takes little memory.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+mod counting;
+
 use std::sync::Arc;
 
+use counting::allocations;
 use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_traffic::{Traffic, TrafficConfig};
-
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-/// The system's allocator, counting the requests of each thread.
-struct Counting;
-
-fn count() {
-    // A thread that is being torn down has no counter left, and is not under test.
-    let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
-}
-
-// SAFETY: every call is passed on unchanged to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps the contract of `realloc`.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// A grid of so many junctions each way at seven vehicles a kilometre of lane.
 fn grid(columns: usize) -> Traffic {
@@ -63,13 +29,11 @@ fn steps_of_vehicles_allocate_nothing_after_a_warm_up() {
     for _ in 0..6000 {
         traffic.step(0.1);
     }
-    let before = (ALLOCATIONS.get(), traffic.counters());
-    for _ in 0..1000 {
-        traffic.step(0.1);
-    }
-    let (allocations, counters) = (ALLOCATIONS.get() - before.0, traffic.counters());
-    assert!(counters.crossings > before.1.crossings + 500, "traffic flows: {counters:?}");
-    assert!(counters.lane_changes > before.1.lane_changes + 20, "lanes are changed: {counters:?}");
+    let before = traffic.counters();
+    let allocations = allocations(&mut || (0..1000).for_each(|_| traffic.step(0.1)));
+    let counters = traffic.counters();
+    assert!(counters.crossings > before.crossings + 500, "traffic flows: {counters:?}");
+    assert!(counters.lane_changes > before.lane_changes + 20, "lanes are changed: {counters:?}");
     // A rare longest queue may still want a longer slab: that is not every step.
     assert!(allocations <= 3, "{allocations} allocations in a thousand steps");
 }
