@@ -7,97 +7,12 @@ use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::ops;
 use simworld_core::seed::Seed;
 use simworld_traffic::crowd::{AnticipationVelocity, Crowd, Person, Walls, Wish};
+use simworld_traffic::validation::corridor::{Corridor, LENGTH, WIDTH, weidmann};
 
 const DT: f64 = 0.1;
-const LENGTH: f64 = 20.0;
-const WIDTH: f64 = 4.0;
 
 fn soak() -> bool {
     std::env::var("SIMWORLD_SOAK").is_ok()
-}
-
-/// A corridor whose ends are joined: who leaves at one comes in at the other.
-struct Corridor {
-    people: Vec<Person>,
-    wishes: Vec<Wish>,
-    walls: Walls,
-    crowd: Crowd,
-    seams: Vec<Person>,
-}
-
-impl Corridor {
-    /// People at a density per m², each of two who stand beside one another against the other if `opposed`.
-    fn new(density: f64, opposed: bool, seed: u64) -> Self {
-        let mut rng = Seed(seed).stream("corridor").rng();
-        let count = (density * LENGTH * WIDTH).round() as usize;
-        let rows = count.div_ceil((count as f64 * LENGTH / WIDTH).sqrt().ceil() as usize);
-        let columns = count.div_ceil(rows) as f64;
-        let (mut people, mut wishes) = (Vec::new(), Vec::new());
-        for index in 0..count {
-            let (column, row) = ((index / rows) as f64, index % rows);
-            let back = opposed && rng.unit() < 0.5;
-            let direction = if back { -Vector2::x() } else { Vector2::x() };
-            let y = 0.2 + (WIDTH - 0.4) * (row as f64 + 0.5) / rows as f64 + rng.uniform(-0.01, 0.01);
-            let x = LENGTH * (column + 0.5 * (row % 2) as f64) / columns;
-            people.push(Person::standing(Point2::new(x % LENGTH, y), direction));
-            wishes.push(Wish { direction, speed: rng.normal_clamped(1.34, 0.26, 0.5, 2.2) });
-        }
-        let wall = |y: f64| (Point2::new(-5.0, y), Point2::new(LENGTH + 5.0, y));
-        let walls = Walls::new(vec![wall(0.0), wall(WIDTH)]);
-        Self { people, wishes, walls, crowd: Crowd::default(), seams: Vec::new() }
-    }
-
-    fn step(&mut self, model: &AnticipationVelocity) {
-        self.seams.clear();
-        for person in &self.people {
-            let ahead = if person.position.x < LENGTH * 0.5 { LENGTH } else { -LENGTH };
-            let position = person.position + Vector2::x() * ahead;
-            if (-3.0..LENGTH + 3.0).contains(&position.x) {
-                self.seams.push(Person { position, ..*person });
-            }
-        }
-        self.crowd.step(model, &mut self.people, &self.wishes, &self.seams, &self.walls, DT);
-        for person in &mut self.people {
-            person.position.x = person.position.x.rem_euclid(LENGTH);
-        }
-    }
-
-    /// Mean speed along the wishes, m/s, over two minutes after the first.
-    fn mean_speed(&mut self, model: &AnticipationVelocity) -> f64 {
-        let mut sum = 0.0;
-        for step in 0..1800 {
-            self.step(model);
-            if step >= 600 {
-                sum += self.progress();
-            }
-        }
-        sum / 1200.0
-    }
-
-    fn progress(&self) -> f64 {
-        let along = |(person, wish): (&Person, &Wish)| person.direction.dot(&wish.direction) * person.speed;
-        self.people.iter().zip(&self.wishes).map(along).sum::<f64>() / self.people.len() as f64
-    }
-
-    fn nearest_two(&self) -> f64 {
-        let everybody: Vec<Point2> =
-            self.people.iter().chain(&self.seams).map(|person| person.position).collect();
-        nearest_two(&everybody)
-    }
-
-    /// How far the streams have parted into lanes, in [0, 1]: the order parameter of Rex and Löwen (2007), over files as wide
-    /// as a body with some room.
-    fn order(&self) -> f64 {
-        let file = |y: f64| (y / 0.5) as usize;
-        let mut files = [(0.0, 0.0); 8];
-        for (person, wish) in self.people.iter().zip(&self.wishes) {
-            let (sum, count) = &mut files[file(person.position.y).min(7)];
-            *sum += wish.direction.x;
-            *count += 1.0;
-        }
-        let squares = files.iter().filter(|(_, count)| *count > 0.0).map(|(sum, count)| sum * sum / count);
-        squares.sum::<f64>() / self.people.len() as f64
-    }
 }
 
 fn nearest_two(people: &[Point2]) -> f64 {
@@ -113,11 +28,6 @@ fn nearest_two(people: &[Point2]) -> f64 {
         }
     }
     nearest
-}
-
-/// Speed at a density per m² (Weidmann 1993), m/s.
-fn weidmann(density: f64) -> f64 {
-    1.34 * (1.0 - ops::exp(-1.913 * (1.0 / density - 1.0 / 5.4)))
 }
 
 #[test]
@@ -243,7 +153,8 @@ proptest! {
         let model = AnticipationVelocity { radius, ..AnticipationVelocity::default() };
         let mut corridor = Corridor::new(density, true, seed);
         let mut rng = Seed(seed).stream("wishes").rng();
-        prop_assume!(corridor.nearest_two() > 2.0 * radius);
+        let begun: Vec<Point2> = corridor.people.iter().chain(&corridor.seams).map(|person| person.position).collect();
+        prop_assume!(nearest_two(&begun) > 2.0 * radius);
         let ends = [0.0, LENGTH].map(|x| (Point2::new(x - 1.0, -1.0), Point2::new(x - 1.0, WIDTH + 1.0)));
         let side = |y: f64| (Point2::new(-2.0, y), Point2::new(LENGTH + 2.0, y));
         let walls = Walls::new(vec![ends[0], (ends[1].0 + Vector2::x() * 2.0, ends[1].1 + Vector2::x() * 2.0), side(0.0), side(WIDTH)]);

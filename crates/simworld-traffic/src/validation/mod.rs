@@ -14,6 +14,7 @@
 
 mod actuated;
 mod coordination;
+pub mod corridor;
 mod delay;
 mod discharge;
 mod following;
