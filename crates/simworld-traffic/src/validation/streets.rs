@@ -134,6 +134,38 @@ impl StopLine {
     }
 }
 
+/// A line across a lane: who passes it, and when to a fraction of a step.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
+    lane: u32,
+    /// Where it is, m along the lane.
+    station: f64,
+    /// Those on the lane who are beyond it.
+    beyond: Vec<u32>,
+    /// Number of the vehicle and the time at which its front passed, s.
+    pub(super) passed: Vec<(u32, f64)>,
+}
+
+impl Line {
+    pub(super) fn new(lane: LaneId, station: f64) -> Self {
+        Self { lane: lane.0, station, beyond: Vec::new(), passed: Vec::new() }
+    }
+
+    /// Looks at the traffic after a step.
+    pub(super) fn look(&mut self, traffic: &Traffic) {
+        let mut beyond = Vec::with_capacity(self.beyond.len() + 1);
+        for (id, track, s, v) in traffic.stations() {
+            if track == self.lane && s >= self.station {
+                if !self.beyond.contains(&id) {
+                    self.passed.push((id, traffic.seconds() - (s - self.station) / v.max(0.1)));
+                }
+                beyond.push(id);
+            }
+        }
+        self.beyond = beyond;
+    }
+}
+
 /// The mean of some values; NaN of none.
 pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
