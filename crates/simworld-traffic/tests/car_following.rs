@@ -1,7 +1,8 @@
 //! Car following as the published model predicts it.
 
 use proptest::prelude::*;
-use simworld_traffic::vehicle::Idm;
+use simworld_traffic::vehicle::{CarFollowing, HARDEST_BRAKING, Idm, Leader, VehicleType};
+use simworld_traffic::{TrafficConfig, TrafficError};
 
 /// A file of vehicles behind one that holds `leader(t)`; calls back with speeds and gaps every step.
 fn platoon(
@@ -78,5 +79,65 @@ proptest! {
         let mut least = f64::INFINITY;
         platoon(6, v, leader, 400, |_, gaps| least = gaps.iter().copied().fold(least, f64::min));
         prop_assert!(least > 0.0, "vehicles touched: {least} m");
+    }
+}
+
+const MODELS: [CarFollowing; 3] =
+    [CarFollowing::Idm, CarFollowing::Krauss { sigma: 0.0 }, CarFollowing::Acc { coolness: 0.99 }];
+
+/// Speed and way after a step; it comes to rest within it rather than go backwards.
+fn advance(v: f64, acceleration: f64, dt: f64) -> (f64, f64) {
+    let after = v + acceleration * dt;
+    if after >= 0.0 { (after, (v + after) * 0.5 * dt) } else { (0.0, v * v / (-2.0 * acceleration)) }
+}
+
+/// A leader brakes as hard as it can; the follower starts from any state in which it keeps its own gap at rest and time gap.
+#[test]
+fn by_no_model_a_leader_that_brakes_as_hard_as_it_can_is_hit() {
+    let driver = Idm::default();
+    for model in MODELS {
+        for dt in [0.05, 0.1, 0.2, 0.5] {
+            for (own, leading) in (0..28).flat_map(|own| (0..28).map(move |leading| (own, leading))) {
+                let (mut v, mut speed) = (f64::from(own) * 0.5, f64::from(leading) * 0.5);
+                let mut gap = driver.gap + v * driver.headway;
+                // In the first step the leader has not begun to brake, as far as the follower can see.
+                let mut acceleration = 0.0;
+                for _ in 0..400 {
+                    let ahead = Some(Leader { gap, speed, acceleration });
+                    let a = model.acceleration(&driver, v, driver.desired_speed, ahead, dt);
+                    assert!(a >= -HARDEST_BRAKING - 1e-9, "{model:?} brakes at {a} m/s²");
+                    let (next, way) = advance(v, a, dt);
+                    let (next_leader, leader_way) = advance(speed, -HARDEST_BRAKING, dt);
+                    gap += leader_way - way;
+                    (v, speed, acceleration) = (next, next_leader, -HARDEST_BRAKING);
+                    assert!(gap > 0.0, "{model:?} hits from {own}/2 m/s behind {leading}/2 m/s at dt {dt}");
+                }
+                assert!(v < 0.1, "{model:?} still drives at {v} m/s");
+            }
+        }
+    }
+}
+
+#[test]
+fn models_have_ranges_that_are_checked() {
+    let table = |model| {
+        let car = VehicleType { model, ..VehicleType::default() };
+        TrafficConfig { types: vec![car], ..TrafficConfig::default() }.validate()
+    };
+    for model in MODELS {
+        table(model).expect("it is in range");
+    }
+    for (model, named) in [
+        (CarFollowing::Krauss { sigma: 1.01 }, "model.krauss.sigma"),
+        (CarFollowing::Krauss { sigma: f64::NAN }, "model.krauss.sigma"),
+        (CarFollowing::Acc { coolness: -0.1 }, "model.acc.coolness"),
+        (CarFollowing::Acc { coolness: f64::INFINITY }, "model.acc.coolness"),
+    ] {
+        let refused = table(model).expect_err("it is out of range");
+        assert!(
+            matches!(&refused, TrafficError::VehicleType { index: 0, field, .. } if *field == named),
+            "{refused}"
+        );
+        assert!(refused.to_string().contains("types[0].model"), "{refused}");
     }
 }

@@ -28,6 +28,11 @@ fn a_queue_discharges_as_the_manual_says() {
 }
 
 #[test]
+fn a_queue_of_another_model_discharges_as_that_model_does() {
+    holds("queue discharge, other models");
+}
+
+#[test]
 fn flow_on_a_ring_is_that_of_the_model() {
     holds("ring");
 }

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use simworld_core::seed::Seed;
 use simworld_traffic::output::{Recorder, Syntax, TripInfo};
 use simworld_traffic::sumo::{SumoDemand, SumoNet, SumoWay};
-use simworld_traffic::vehicle::{VehicleKind, standard_types};
+use simworld_traffic::vehicle::{CarFollowing, VehicleKind, standard_types};
 use simworld_traffic::{Arrivals, Traffic, TrafficConfig};
 
 const GRID: &str = include_str!("data/grid.net.xml");
@@ -169,4 +169,27 @@ proptest! {
             let _planned_or_refused = demand.schedule(&net, Seed(1));
         }
     }
+}
+
+#[test]
+fn car_following_models_are_those_of_the_file() {
+    let text = r#"<routes>
+        <vType id="k" carFollowModel="Krauss" sigma="0.3"/>
+        <vType id="d" carFollowModel="Krauss"/>
+        <vType id="i" carFollowModel="IDM"/>
+        <vType id="a" carFollowModel="ACC"/>
+        <vType id="w" carFollowModel="Wiedemann"/>
+        <vType id="n"/>
+        <vType id="h" carFollowModel="Krauss" sigma="7"/>
+    </routes>"#;
+    let demand = read(text);
+    let rows = demand.vehicle_types();
+    let models: Vec<CarFollowing> = rows[standard_types().len()..].iter().map(|row| row.model).collect();
+    let krauss = |sigma| CarFollowing::Krauss { sigma };
+    let own = CarFollowing::Idm;
+    let acc = CarFollowing::Acc { coolness: 0.99 };
+    assert_eq!(models, [krauss(0.3), krauss(0.5), CarFollowing::Idm, acc, own, own, krauss(1.0)]);
+    let [warning] = &demand.warnings[..] else { panic!("one warning: {:?}", demand.warnings) };
+    assert!(warning.to_string().contains("`w`"), "{warning}");
+    TrafficConfig { types: rows, ..TrafficConfig::default() }.validate().unwrap();
 }

@@ -4,7 +4,7 @@ use simworld_core::ops;
 
 use super::streets::LENGTH;
 use super::{Effort, Figure, Figures, ValidationError};
-use crate::vehicle::{Idm, advance};
+use crate::vehicle::{CarFollowing, Idm, Leader, advance};
 
 const DT: f64 = 0.05;
 /// Followers.
@@ -12,15 +12,16 @@ const COUNT: usize = 8;
 
 /// A file of cars that begins in equilibrium behind a leader.
 struct File {
-    idm: Idm,
-    /// Place of the front and speed, the leader first.
-    cars: Vec<(f64, f64)>,
+    driver: Idm,
+    model: CarFollowing,
+    /// Place of the front, speed and last acceleration, the leader first.
+    cars: Vec<(f64, f64, f64)>,
 }
 
 impl File {
-    fn new(idm: Idm, v: f64) -> Self {
-        let step = idm.equilibrium_gap(v) + LENGTH;
-        Self { idm, cars: (0..=COUNT).map(|rank| (-step * rank as f64, v)).collect() }
+    fn new(driver: Idm, model: CarFollowing, v: f64) -> Self {
+        let step = model.equilibrium_gap(&driver, v) + LENGTH;
+        Self { driver, model, cars: (0..=COUNT).map(|rank| (-step * rank as f64, v, 0.0)).collect() }
     }
 
     fn gap(&self, rank: usize) -> f64 {
@@ -31,32 +32,44 @@ impl File {
     fn step(&mut self, leader: f64) {
         let asked: Vec<f64> = (1..=COUNT)
             .map(|rank| {
-                let (_, v) = self.cars[rank];
-                self.idm.acceleration(v, self.idm.desired_speed, self.gap(rank), self.cars[rank - 1].1)
+                let (_, v, _) = self.cars[rank];
+                let (_, speed, acceleration) = self.cars[rank - 1];
+                let leader = Leader { gap: self.gap(rank), speed, acceleration };
+                self.model.acceleration(&self.driver, v, self.driver.desired_speed, Some(leader), DT)
             })
             .collect();
-        let (_, before) = self.cars[0];
-        self.cars[0] = (self.cars[0].0 + (before + leader) * 0.5 * DT, leader);
+        let (at, before, _) = self.cars[0];
+        self.cars[0] = (at + (before + leader) * 0.5 * DT, leader, (leader - before) / DT);
         for (car, acceleration) in self.cars[1..].iter_mut().zip(asked) {
             let (v, way) = advance(car.1, acceleration, DT);
-            *car = (car.0 + way, v);
+            *car = (car.0 + way, v, acceleration);
         }
     }
 }
 
+/// The models that are measured; Krauss without imperfection, of which the theory knows nothing.
+const MODELS: [(&str, CarFollowing); 3] = [
+    ("IDM", CarFollowing::Idm),
+    ("Krauss", CarFollowing::Krauss { sigma: 0.0 }),
+    ("ACC", CarFollowing::Acc { coolness: 0.99 }),
+];
+
 const SOURCE: &str = "Treiber, Hennecke and Helbing 2000; Treiber and Kesting 2013, chapter 15";
 
 pub(super) fn equilibrium(effort: Effort) -> Figures {
-    let idm = Idm::default();
+    let driver = Idm::default();
     let mut figures = Vec::new();
-    for v in [2.0, 5.0, 8.0, 11.0, 13.0] {
-        // It begins elsewhere and settles.
-        let mut file = File::new(idm, v * 0.7);
-        for _ in 0..effort.pick(24_000, 60_000) {
-            file.step(v);
+    for (word, model) in MODELS {
+        for v in [2.0, 5.0, 8.0, 11.0, 13.0] {
+            // It begins elsewhere and settles.
+            let mut file = File::new(driver, model, v * 0.7);
+            for _ in 0..effort.pick(24_000, 60_000) {
+                file.step(v);
+            }
+            let name = format!("gap of the last follower by {word} at {v} m/s");
+            let expected = model.equilibrium_gap(&driver, v);
+            figures.push(Figure::near(name, file.gap(COUNT), expected, 0.01, "m").cited(SOURCE));
         }
-        let name = format!("gap of the last follower at {v} m/s");
-        figures.push(Figure::near(name, file.gap(COUNT), idm.equilibrium_gap(v), 0.01, "m").cited(SOURCE));
     }
     if figures.iter().any(|figure| figure.value.is_nan()) {
         return Err(ValidationError::Nothing {
@@ -75,10 +88,12 @@ struct Linear {
 }
 
 impl Linear {
-    fn at(idm: &Idm, v: f64) -> Self {
+    fn at(driver: &Idm, model: CarFollowing, v: f64) -> Self {
         const H: f64 = 1e-4;
-        let (s, free) = (idm.equilibrium_gap(v), idm.desired_speed);
-        let a = |s: f64, v: f64, leader: f64| idm.acceleration(v, free, s, leader);
+        let (s, free) = (model.equilibrium_gap(driver, v), driver.desired_speed);
+        let a = |gap: f64, v: f64, speed: f64| {
+            model.acceleration(driver, v, free, Some(Leader { gap, speed, acceleration: 0.0 }), DT)
+        };
         let slope = |high: f64, low: f64| (high - low) / (2.0 * H);
         Self {
             gap: slope(a(s + H, v, v), a(s - H, v, v)),
@@ -87,10 +102,15 @@ impl Linear {
         }
     }
 
-    /// By how much each follower amplifies a wave of so many radians a second.
+    /// By how much each follower amplifies a wave of so many radians a second, in steps of [`DT`]: speeds change by
+    /// `dt (f_s s + f_v v + f_l v_l)`, gaps by the mean of the speeds at both ends of a step. As the step goes to nothing it is
+    /// the formula of the book.
     fn amplification(&self, omega: f64) -> f64 {
-        let above = ops::hypot(self.gap, omega * self.leader);
-        above / ops::hypot(self.gap - omega * omega, -omega * self.own)
+        let (sin, cos) = ops::sin_cos(omega * DT);
+        // Summing up over a step is dt/2 (z + 1)/(z - 1) = -i dt/2 / tan(ω dt/2).
+        let sum = -0.5 * DT / ops::tan(0.5 * omega * DT);
+        let above = ops::hypot(self.leader, self.gap * sum);
+        above / ops::hypot((cos - 1.0) / DT - self.own, sin / DT + self.gap * sum)
     }
 
     /// Whether all long waves fade.
@@ -100,10 +120,10 @@ impl Linear {
 }
 
 /// By how much each follower amplifies a small wave of the leader, measured from the second to the last.
-fn measured(idm: Idm, v: f64, omega: f64) -> f64 {
+fn measured(driver: Idm, model: CarFollowing, v: f64, omega: f64) -> f64 {
     const SMALL: f64 = 0.01;
     let period = (std::f64::consts::TAU / omega / DT) as u32;
-    let mut file = File::new(idm, v);
+    let mut file = File::new(driver, model, v);
     let mut reach = [(f64::INFINITY, f64::NEG_INFINITY); COUNT + 1];
     let periods = 400.0 / (f64::from(period) * DT) + 12.0;
     for step in 0..(f64::from(period) * periods) as u32 {
@@ -121,13 +141,18 @@ fn measured(idm: Idm, v: f64, omega: f64) -> f64 {
 pub(super) fn platoon(_: Effort) -> Figures {
     let sluggish = Idm { acceleration: 0.5, ..Idm::default() };
     let mut figures = Vec::new();
-    for (name, idm) in [("default", Idm::default()), ("sluggish, 0.5 m/s²", sluggish)] {
+    let own = MODELS.map(|(word, model)| (word, Idm::default(), model));
+    let others = [
+        ("sluggish IDM, 0.5 m/s²", sluggish, CarFollowing::Idm),
+        ("sluggish ACC, 0.5 m/s²", sluggish, CarFollowing::Acc { coolness: 0.99 }),
+    ];
+    for (name, driver, model) in own.into_iter().chain(others) {
         for v in [4.0, 8.0, 12.0] {
-            let linear = Linear::at(&idm, v);
+            let linear = Linear::at(&driver, model, v);
             let mut grows = false;
             for seconds in [30.0, 60.0] {
                 let omega = std::f64::consts::TAU / seconds;
-                let found = measured(idm, v, omega);
+                let found = measured(driver, model, v, omega);
                 grows |= found > 1.0;
                 let label = format!("growth a follower, {name} at {v} m/s, waves of {seconds} s");
                 let expected = linear.amplification(omega);

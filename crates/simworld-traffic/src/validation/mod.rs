@@ -171,6 +171,11 @@ pub const MEASURES: &[Measure] = &[
         run: discharge::measure,
     },
     Measure {
+        name: "queue discharge, other models",
+        about: "the same by Krauss beside SUMO's, and by each model on a street beside itself alone",
+        run: discharge::other_models,
+    },
+    Measure {
         name: "ring",
         about: "flow over density on a ring without signals, against the curve of the model",
         run: ring::measure,

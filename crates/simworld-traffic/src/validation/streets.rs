@@ -58,7 +58,18 @@ pub(super) struct Signalised {
 impl Signalised {
     /// The first arm is red for `red` s, then green for `green` s, then yellow, and so on; red begins at time zero.
     pub(super) fn new(red: f64, green: f64, seed: u64) -> Result<Self, ValidationError> {
-        let mut traffic = traffic(&StreetPlan::crossroads(ARM), seed)?;
+        Self::of(&empty(), red, green, seed)
+    }
+
+    /// The same with other settings.
+    pub(super) fn of(
+        config: &TrafficConfig,
+        red: f64,
+        green: f64,
+        seed: u64,
+    ) -> Result<Self, ValidationError> {
+        let network = Arc::new(derive(&StreetPlan::crossroads(ARM))?);
+        let mut traffic = Traffic::new(network, config, Seed(seed))?;
         let ours = signal_of(&traffic, inner_lane(&traffic, 0)).ok_or_else(|| ValidationError::Nothing {
             measure: "fixed signal",
             reason: "the crossroads has no signals".to_owned(),
@@ -106,6 +117,8 @@ pub(super) fn is_green(traffic: &Traffic, lane: LaneId) -> bool {
 #[derive(Clone, Debug)]
 pub(super) struct StopLine {
     lane: u32,
+    /// How far beyond the end of the lane the line is, m; less than anybody drives in a step.
+    pub(super) beyond: f64,
     before: Vec<u32>,
     /// Number of the vehicle and the time at which its front passed, s.
     pub(super) passed: Vec<(u32, f64)>,
@@ -113,7 +126,7 @@ pub(super) struct StopLine {
 
 impl StopLine {
     pub(super) fn new(lane: LaneId) -> Self {
-        Self { lane: lane.0, before: Vec::new(), passed: Vec::new() }
+        Self { lane: lane.0, beyond: 0.0, before: Vec::new(), passed: Vec::new() }
     }
 
     /// Looks at the traffic after a step.
@@ -128,7 +141,7 @@ impl StopLine {
                 && let Some(rank) = self.before.iter().position(|other| *other == id)
             {
                 self.before.remove(rank);
-                self.passed.push((id, traffic.seconds() - s / v.max(0.1)));
+                self.passed.push((id, traffic.seconds() - (s - self.beyond) / v.max(0.1)));
             }
         }
     }

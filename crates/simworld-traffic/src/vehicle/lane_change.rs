@@ -13,7 +13,7 @@ use super::closures::Closures;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle, VehicleManager};
 use super::part::Part;
 use super::tracks::{Track, Tracks};
-use crate::{Counters, Leg, TrafficConfig};
+use crate::{Counters, Leg};
 
 /// When drivers change lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -207,13 +207,15 @@ impl Part {
         if there.behind.is_none() && scene.junctions.inbound(target) > 0.0 && s - length < 25.0 {
             return None;
         }
-        let mine = idm.acceleration(vehicle.v, free(target), ahead, there.ahead.map_or(0.0, |a| a.1));
+        let dt = scene.at.dt;
+        let leader_speed = there.ahead.map_or(0.0, |a| a.1);
+        let mine = row.drive(vehicle.v, free(target), (ahead, leader_speed), dt);
         let follower = follower.map(|other| {
             let row = config.vehicle_type(other.row);
             let free = row.free_speed(config, other.factor, tracks.speed[target as usize]);
             let alone = there.ahead.map_or(f64::INFINITY, |(rear, _)| rear - (s - length - behind));
-            let before = row.driver.acceleration(other.v, free, alone, there.ahead.map_or(0.0, |a| a.1));
-            (before, row.driver.acceleration(other.v, free, behind, vehicle.v))
+            let before = row.drive(other.v, free, (alone, leader_speed), dt);
+            (before, row.drive(other.v, free, (behind, vehicle.v), dt))
         });
         let safe = -mobil.safe_braking;
         if mine < safe || follower.is_some_and(|(_, after)| after < safe) {
@@ -222,7 +224,7 @@ impl Part {
         if must {
             return Some((1e3 + mine, there.rank));
         }
-        let (now, left_behind) = staying(config, tracks, queue, rank, lane);
+        let (now, left_behind) = staying(scene, queue, rank, lane);
         let suits = |lane: Track| {
             let stops_there = vehicle.halt.is_finite() && tracks.outermost[lane as usize];
             tracks.suits(lane, row.kind) + 2 * i8::from(stops_there)
@@ -390,18 +392,13 @@ fn may_change(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
 }
 
 /// The acceleration of a vehicle that stays in its lane, and what the one behind it gains if it leaves, m/s².
-fn staying(
-    config: &TrafficConfig,
-    tracks: &Tracks,
-    queue: &[Vehicle],
-    rank: usize,
-    lane: Track,
-) -> (f64, f64) {
+fn staying(scene: &Scene<'_>, queue: &[Vehicle], rank: usize, lane: Track) -> (f64, f64) {
+    let Scene { tracks, config, at, .. } = scene;
     let vehicle = &queue[rank];
     let limit = tracks.speed[lane as usize];
     let drive = |other: &Vehicle, gap: f64, leader: f64| {
         let row = config.vehicle_type(other.row);
-        row.driver.acceleration(other.v, row.free_speed(config, other.factor, limit), gap, leader)
+        row.drive(other.v, row.free_speed(config, other.factor, limit), (gap, leader), at.dt)
     };
     let leader = rank.checked_sub(1).map(|rank| &queue[rank]);
     let gap = |s: f64| leader.map_or(f64::INFINITY, |leader| leader.s - leader.length() - s);

@@ -1,6 +1,7 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
 use super::Idm;
+use super::following::{Ahead, CarFollowing, Leader};
 use super::junction::horizon;
 use super::lane_change::{CHANGE_ROOM, Ghost, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
@@ -33,7 +34,7 @@ impl<'a> Lane<'a> {
     }
 
     /// Whether a driver must decide in this step even far from all interest: who crosses, is about to, changes lanes, or may
-    /// pull away.
+    /// pull away. What Krauss asks for is for one step.
     fn is_pressing(&self, vehicle: &Vehicle, leader: Option<&Vehicle>) -> bool {
         let to_end = self.end - vehicle.s;
         let reaches_line = vehicle.v > STANDING && to_end < vehicle.v + 2.0;
@@ -45,6 +46,7 @@ impl<'a> Lane<'a> {
             || vehicle.holding != NONE
             || reaches_line
             || pulls_away
+            || matches!(self.scene.config.vehicle_type(vehicle.row).model, CarFollowing::Krauss { .. })
     }
 }
 
@@ -70,16 +72,18 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
     let idm = &kind.driver;
     let mut view = View {
         idm,
+        model: &kind.model,
+        dt: lane.scene.at.dt,
         s: vehicle.s,
         v: vehicle.v,
         gap: f64::INFINITY,
-        pressure: 0.0,
+        ahead: Ahead::NOTHING,
         factor: f64::from(vehicle.factor) * config.conditions.speed,
         free: kind.free_speed(config, vehicle.factor, lane.limit),
     };
     if let Some(leader) = leader {
         let gap = leader.s - leader.length() - vehicle.s;
-        view.follow(gap, leader.v);
+        view.see(Leader { gap, speed: leader.v, acceleration: f64::from(leader.acceleration) });
         if leader.halt.is_finite() && leader.v < STANDING {
             // Far enough behind that one can pass it on the lane beside.
             view.stop_in(view.before_change(lane, gap - idm.gap), idm.gap);
@@ -117,7 +121,11 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
     if !lane.scene.sight.obstacles.is_empty() {
         view.beware(&lane.scene.sight, lane.track, vehicle.s, idm.gap);
     }
-    let mut acceleration = idm.respond(vehicle.v, view.free, view.pressure);
+    let mut acceleration = view.ahead.respond(view.model, idm, vehicle.v, view.free, view.dt);
+    if let CarFollowing::Krauss { .. } = view.model {
+        let draw = lane.scene.draw("dawdle", vehicle.id);
+        acceleration = kind.model.dawdle(idm, vehicle.v, acceleration, draw);
+    }
     if vehicle.v < STANDING && view.gap < idm.gap {
         // Standing close is standing: no creeping on rounding.
         acceleration = acceleration.min(0.0);
@@ -125,13 +133,15 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
     acceleration
 }
 
-/// How near the nearest thing ahead is, how much what is ahead presses, and the speed that the road allows.
+/// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
 struct View<'a> {
     idm: &'a Idm,
+    model: &'a CarFollowing,
+    dt: f64,
     s: f64,
     v: f64,
     gap: f64,
-    pressure: f64,
+    ahead: Ahead,
     /// The driver's share of the limits.
     factor: f64,
     free: f64,
@@ -139,9 +149,15 @@ struct View<'a> {
 
 impl View<'_> {
     #[inline]
+    fn see(&mut self, leader: Leader) {
+        self.gap = self.gap.min(leader.gap);
+        self.ahead.see(self.model, self.idm, self.v, &leader, self.dt);
+    }
+
+    /// Somebody whose acceleration one does not see, or something that stands.
+    #[inline]
     fn follow(&mut self, gap: f64, speed: f64) {
-        self.gap = self.gap.min(gap);
-        self.pressure = self.pressure.max(self.idm.pressure(self.v, gap, speed));
+        self.see(Leader { gap, speed, acceleration: f64::NEG_INFINITY });
     }
 
     /// Must stand before a line so far ahead.

@@ -174,6 +174,13 @@ impl Scene<'_> {
         &self.tails[place.part as usize][place.local as usize]
     }
 
+    /// A number that is random in [0, 1) for each vehicle and step, of a purpose.
+    pub(super) fn draw(&self, purpose: &str, id: u32) -> f64 {
+        let stream = self.streams.named(purpose).indexed(u64::from(id)).indexed(self.at.step);
+        // The key of a stream is a hash of its path: as good a draw as the first of its generator, and cheaper.
+        (stream.seed().0 >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+    }
+
     /// The way on from a lane: that of the route, or one drawn at random.
     pub(crate) fn choose(
         &self,

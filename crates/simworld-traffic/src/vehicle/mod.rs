@@ -3,6 +3,7 @@
 mod closures;
 mod deadlock;
 mod entry;
+mod following;
 mod halts;
 mod idm;
 mod junction;
@@ -20,6 +21,7 @@ mod threads;
 mod tracks;
 mod types;
 
+pub use following::{CarFollowing, Leader};
 pub(crate) use halts::{Halt, Order, Then};
 #[cfg(feature = "validation")]
 pub(crate) use idm::advance;

@@ -113,6 +113,13 @@ impl State {
 
     fn vehicle_type(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
         let one = SumoType::of(element)?;
+        if one.car_following.is_some() && one.model().is_none() {
+            self.warn(
+                "vType",
+                element,
+                "has a car-following model without counterpart: it follows as its class does",
+            );
+        }
         if let (Open::Types, Some(distribution)) = (&self.open, self.demand.type_distributions.last_mut()) {
             let weight = element.number("probability")?.unwrap_or(1.0);
             distribution.choices.push((one.id.clone(), weight.max(0.0)));

@@ -4,7 +4,7 @@ use super::SumoDemand;
 use crate::VehicleChoice;
 use crate::sumo::SumoError;
 use crate::sumo::xml::Element;
-use crate::vehicle::{Idm, VehicleKind, VehicleType, standard_types};
+use crate::vehicle::{CarFollowing, Idm, VehicleKind, VehicleType, standard_types};
 
 /// Rows of a table of types.
 const MOST_ROWS: usize = 255;
@@ -38,6 +38,10 @@ pub struct SumoType {
     pub speed_factor: Option<f64>,
     /// Deviation of that share.
     pub speed_deviation: Option<f64>,
+    /// The car-following model: `Krauss`, `IDM`, `ACC` and others.
+    pub car_following: Option<String>,
+    /// Imperfection of a driver by Krauss, 0 to 1.
+    pub sigma: Option<f64>,
 }
 
 impl SumoType {
@@ -64,6 +68,8 @@ impl SumoType {
             tau: positive("tau")?,
             speed_factor,
             speed_deviation,
+            car_following: element.get("carFollowModel").map(std::borrow::Cow::into_owned),
+            sigma: positive("sigma")?,
         })
     }
 
@@ -101,6 +107,21 @@ impl SumoType {
                     12.0,
                 ),
             },
+            model: self.model().unwrap_or(base.model),
+        }
+    }
+
+    /// The model by which it follows; `None` if the file does not say, or names one that there is not here.
+    pub fn model(&self) -> Option<CarFollowing> {
+        match self.car_following.as_deref()? {
+            // SUMO's default of sigma.
+            "Krauss" | "KraussOrig1" | "KraussPS" => {
+                Some(CarFollowing::Krauss { sigma: self.sigma.unwrap_or(0.5).clamp(0.0, 1.0) })
+            }
+            "IDM" => Some(CarFollowing::Idm),
+            // The authors' value; SUMO's controller of this name has no such parameter.
+            "ACC" => Some(CarFollowing::Acc { coolness: 0.99 }),
+            _ => None,
         }
     }
 

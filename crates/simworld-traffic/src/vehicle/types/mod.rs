@@ -9,7 +9,7 @@ use simworld_core::scene::Shape;
 use simworld_core::seed::StreamRng;
 pub use table::standard_types;
 
-use super::Idm;
+use super::{CarFollowing, Idm, Leader};
 use crate::{TrafficConfig, TrafficError};
 
 /// Vehicles longer than this swing out of their lane in a turn, m.
@@ -33,8 +33,10 @@ pub struct VehicleType {
     pub speed_factor: f64,
     /// The standard deviation of that share, in [0, 0.3]; it is drawn once a vehicle, within two deviations.
     pub speed_deviation: f64,
-    /// How it follows: its own highest speed, its gaps, how it accelerates and brakes.
+    /// Its own highest speed, its gaps, how it accelerates and brakes, by whichever model.
     pub driver: Idm,
+    /// The model by which it follows.
+    pub model: CarFollowing,
 }
 
 impl Default for VehicleType {
@@ -54,6 +56,14 @@ impl VehicleType {
     #[inline]
     pub(crate) fn free_speed(&self, config: &TrafficConfig, factor: f32, limit: f64) -> f64 {
         self.driver.desired_speed.min(f64::from(factor) * config.conditions.speed * limit)
+    }
+
+    /// The acceleration at a speed, with a free speed, behind something at a gap with a speed, m and m/s; an infinite gap is a
+    /// free road.
+    #[inline]
+    pub(crate) fn drive(&self, v: f64, free: f64, (gap, speed): (f64, f64), dt: f64) -> f64 {
+        let leader = Leader { gap, speed, acceleration: f64::NEG_INFINITY };
+        self.model.acceleration(&self.driver, v, free, gap.is_finite().then_some(leader), dt)
     }
 
     /// Draws the factor of one vehicle.
@@ -94,7 +104,7 @@ impl VehicleType {
                 "deceleration to 12 m/s²",
             ),
         ];
-        for (field, value, low, high, allowed) in checks {
+        for (field, value, low, high, allowed) in checks.into_iter().chain(self.model.own_range()) {
             if !(low..=high).contains(&value) {
                 return Err(TrafficError::VehicleType { index, field, value, allowed });
             }

@@ -8,7 +8,7 @@
 //! spread by a tenth about the limit (SUMO's `speedDev` of passenger cars), less among professional drivers.
 
 use super::{VehicleKind, VehicleType};
-use crate::vehicle::Idm;
+use crate::vehicle::{CarFollowing, Idm};
 
 /// The types that there are if nobody says otherwise: one a kind, in the order of [`VehicleKind::ALL`]. Riders and emergency
 /// vehicles have no share: who has them asks for them.
@@ -39,6 +39,7 @@ pub(super) fn car() -> VehicleType {
         speed_factor: 1.0,
         speed_deviation: 0.1,
         driver: Idm { desired_speed: kmh(180.0), ..Idm::default() },
+        model: CarFollowing::Idm,
     }
 }
 
@@ -139,5 +140,6 @@ fn emergency() -> VehicleType {
         speed_factor: 1.5,
         speed_deviation: 0.05,
         driver: Idm { acceleration: 2.0, deceleration: 2.5, ..car().driver },
+        ..car()
     }
 }
