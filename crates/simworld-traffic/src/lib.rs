@@ -20,6 +20,7 @@ mod route;
 pub mod signal;
 #[cfg(feature = "sumo")]
 pub mod sumo;
+mod takeover;
 mod traffic;
 #[cfg(feature = "validation")]
 pub mod validation;
@@ -39,4 +40,5 @@ pub use pedestrian::{AtDestination, Pedestrian, People, Sex, Walk};
 pub use route::{Leg, Route, Router};
 #[cfg(feature = "hierarchy")]
 pub use route::{LegHierarchy, LegScratch};
+pub use takeover::{Control, ControlError, Drive, LaneWish, Stroll};
 pub use traffic::{Body, Counters, Foreign, Interest, Placed, Traffic};

@@ -7,6 +7,8 @@ mod gap;
 mod incidents;
 mod interest;
 mod outline;
+mod takeover;
+mod takeover_walkers;
 mod walkers;
 
 use std::sync::Arc;
@@ -65,7 +67,9 @@ pub struct Traffic {
     // Buffers kept from step to step.
     walkers: Vec<u32>,
     claims: Vec<u32>,
-    obstacles: Vec<(u32, f64)>,
+    obstacles: Vec<vehicle::Obstacle>,
+    /// Bodies that are on no track.
+    gathered: Vec<Foreign>,
     /// Who does the work.
     workers: Box<dyn Workers + Send + Sync>,
     gaps: Gaps,
@@ -141,6 +145,7 @@ impl Traffic {
             placed,
             claims: Vec::new(),
             obstacles: Vec::new(),
+            gathered: Vec::new(),
             workers: Box::new(Alone),
         };
         traffic.state.detectors = Detectors::new(groups);
@@ -299,12 +304,13 @@ impl Traffic {
     /// One step of `dt` s among bodies that are not the traffic's own: drivers stop for them, walkers go round them, and
     /// nobody steps on to a crossing before one that will not stop.
     pub fn step_among(&mut self, foreign: &[Foreign], dt: f64) {
-        self.finder.find(&self.tracks, foreign, &mut self.walkers, &mut self.obstacles);
+        let bodies = self.gather(foreign);
+        self.finder.find(&self.tracks, &self.gathered, &mut self.walkers, &mut self.obstacles);
         for (count, own) in self.walkers.iter_mut().zip(&self.state.pedestrians.on_crossing) {
             *count += own;
         }
         self.update_vehicles(dt);
-        self.update_pedestrians(foreign, dt);
+        self.update_pedestrians(bodies, dt);
         self.state.steps += 1;
         // Counted, not accumulated, so that long runs keep their phase.
         self.state.seconds = self.state.steps as f64 * dt;
@@ -329,7 +335,9 @@ impl Traffic {
         vehicles.step(&self.tracks, &self.driving, streams, sight, at, counters, &*self.workers);
     }
 
-    fn update_pedestrians(&mut self, foreign: &[Foreign], dt: f64) {
+    /// Walkers among so many of the gathered bodies.
+    fn update_pedestrians(&mut self, bodies: usize, dt: f64) {
+        let foreign = &self.gathered[..bodies];
         outline::threats(&self.tracks.network, &self.finder, foreign, &mut self.threats);
         self.bodies.truncate(self.standing_bodies);
         for body in foreign {

@@ -1,36 +1,16 @@
 //! Traffic takes the same way to the bit on one, two and eight threads, whoever works first.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+mod lent_threads;
 
+use std::sync::Arc;
+
+use lent_threads::Threads;
 use simworld_core::hash::{StateDigest, StateHash};
 use simworld_core::id::LaneId;
 use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan, Workers};
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{Leg, Route, Router, Traffic, TrafficConfig};
-
-/// So many threads, each of which takes the next part that nobody has.
-struct Threads(usize);
-
-impl Workers for Threads {
-    fn run(&self, parts: usize, work: &(dyn Fn(usize) + Sync)) {
-        let next = AtomicUsize::new(0);
-        std::thread::scope(|scope| {
-            for _ in 0..self.0 {
-                scope.spawn(|| {
-                    loop {
-                        let part = next.fetch_add(1, Ordering::Relaxed);
-                        if part >= parts {
-                            break;
-                        }
-                        work(part);
-                    }
-                });
-            }
-        });
-    }
-}
 
 /// The last part first.
 struct Backwards;

@@ -47,7 +47,7 @@ impl Streets<'_> {
 impl Pedestrian {
     /// Whether it decides in a step.
     pub(super) fn decides(&self, turn: bool) -> bool {
-        turn || self.range == Range::Near
+        (turn || self.range == Range::Near) && self.stage != Stage::Free
     }
 
     fn wish(&self, walkers: &[Pedestrian], walkway: &Walkway, hold: Option<f64>) -> Wish {
@@ -58,7 +58,7 @@ impl Pedestrian {
         let speed = match self.stage {
             Stage::Walking => self.free_speed() * pace,
             Stage::Crossing => (self.free_speed() * pace).max(CROSSING_SPEED),
-            Stage::Waiting | Stage::Gone => 0.0,
+            Stage::Waiting | Stage::Gone | Stage::Free => 0.0,
         };
         // Who does not decide before then does not go beyond the waypoint.
         let most = hold.map_or(f64::INFINITY, |hold| distance / hold);

@@ -113,6 +113,7 @@ impl PedestrianManager {
             self.walkers[id as usize].stage = Stage::Gone;
             self.walkers[id as usize].velocity = Vector2::zeros();
             self.free.push(id);
+            self.guides.forget(id);
             self.forget_subset();
         }
     }

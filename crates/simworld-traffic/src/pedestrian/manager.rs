@@ -12,6 +12,7 @@ use simworld_core::seed::Stream;
 use super::decide::{Deciding, Event, Sight};
 use super::herd::Streets;
 use super::journey::Journeys;
+use super::takeover::Guides;
 use super::walkway::Walkway;
 use super::{Pedestrian, Range, Stage, Walk};
 use crate::crowd::{Crowd, Person};
@@ -32,6 +33,8 @@ pub(crate) struct PedestrianManager {
     /// Those of them who may walk as far as the signal says.
     pub(crate) waiting: Vec<u32>,
     pub(super) journeys: Journeys,
+    /// Who is guided or moved by somebody else.
+    pub(super) guides: Guides,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
     /// Numbers of those who entered since the last step, and walks that ended in it and since.
@@ -64,6 +67,7 @@ impl Clone for PedestrianManager {
             at_kerb: self.at_kerb.clone(),
             waiting: self.waiting.clone(),
             journeys: self.journeys.clone(),
+            guides: self.guides.clone(),
             free: self.free.clone(),
             ..Self::default()
         }
@@ -72,7 +76,10 @@ impl Clone for PedestrianManager {
 
 impl PartialEq for PedestrianManager {
     fn eq(&self, other: &Self) -> bool {
-        self.walkers == other.walkers && self.journeys == other.journeys && self.free == other.free
+        self.walkers == other.walkers
+            && self.journeys == other.journeys
+            && self.guides == other.guides
+            && self.free == other.free
     }
 }
 
@@ -176,7 +183,7 @@ impl PedestrianManager {
         match walker.stage {
             Stage::Waiting => self.at_kerb[walker.crossing.index()] -= 1,
             Stage::Crossing => self.on_crossing[walker.crossing.index()] -= 1,
-            Stage::Walking | Stage::Gone => {}
+            Stage::Walking | Stage::Gone | Stage::Free => {}
         }
     }
 
@@ -214,7 +221,9 @@ impl PedestrianManager {
                 if turn {
                     walker.take_up(crowd, index);
                 }
-                walker.position += walker.velocity * dt;
+                if walker.stage != Stage::Free {
+                    walker.position += walker.velocity * dt;
+                }
             }
         });
     }
@@ -225,13 +234,14 @@ impl PedestrianManager {
         let fits = |walker: &Pedestrian| {
             walker.from.index().max(walker.to.index()) < count
                 && (walker.party as usize) < walkers
-                && (matches!(walker.stage, Stage::Walking | Stage::Gone)
+                && (matches!(walker.stage, Stage::Walking | Stage::Gone | Stage::Free)
                     || walker.crossing.index() < crossings)
         };
         [&self.on_crossing, &self.at_kerb, &self.waiting].into_iter().all(|counts| counts.len() == crossings)
             && self.walkers.iter().all(fits)
             && self.free.iter().all(|index| (*index as usize) < walkers)
             && self.journeys.fit(walkers, count)
+            && self.guides.fit(&self.walkers)
     }
 
     pub(crate) fn state_hash(&self, hasher: &mut StateHasher) {
@@ -245,6 +255,7 @@ impl PedestrianManager {
             hasher.u64(x << 32 | y).u64(u64::from(walker.from.0) << 32 | u64::from(walker.to.0));
             hasher.u64(u64::from(walker.decisions) << 8 | walker.stage as u64);
         }
+        self.guides.state_hash(hasher);
     }
 }
 

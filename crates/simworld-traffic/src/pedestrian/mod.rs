@@ -11,6 +11,7 @@ mod manager;
 mod party;
 mod place;
 mod profile;
+mod takeover;
 mod walkway;
 
 pub use config::People;
@@ -66,6 +67,8 @@ enum Stage {
     Crossing,
     /// It has left; its number is free.
     Gone,
+    /// Somebody else moves it.
+    Free,
 }
 
 /// What a walker does at red.

@@ -31,20 +31,24 @@ pub struct Body {
 }
 
 impl Traffic {
-    /// The vehicles, track by track, front to back on each; the tracks of one intersection after those of another.
+    /// The vehicles, track by track, front to back on each; the tracks of one intersection after those of another; then those that
+    /// are [free](Self::free), by number.
     pub fn vehicles(&self) -> impl Iterator<Item = Body> {
         let vehicles = self.state.vehicles.iter(&self.tracks);
-        vehicles.map(|(track, vehicle, path)| self.body(track, vehicle, path))
+        vehicles.map(|(track, vehicle, path)| self.body(track, vehicle, path)).chain(self.free_vehicles())
     }
 
     /// A vehicle by its number; `None` if nobody has it.
     pub fn vehicle(&self, id: u32) -> Option<Body> {
+        if let Some(free) = self.state.vehicles.free_body(id) {
+            return Some(self.free_vehicle(free));
+        }
         let (track, vehicle, path) = self.state.vehicles.find(&self.tracks, id)?;
         Some(self.body(track, vehicle, path))
     }
 
     /// Where each vehicle is: its number, the lane or connection it is on, its front on it, m, and its speed, m/s. Lanes are
-    /// numbered as in the network, connections after them.
+    /// numbered as in the network, connections after them. Free bodies are on none.
     pub fn stations(&self) -> impl Iterator<Item = (u32, u32, f64, f64)> {
         let vehicles = self.state.vehicles.iter(&self.tracks);
         vehicles.map(|(track, vehicle, _)| (vehicle.id, track, vehicle.s, vehicle.v))

@@ -2,15 +2,21 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::{Point2, Vector2, direction};
 use simworld_core::net::polyline;
 
-use crate::vehicle::Tracks;
+use crate::vehicle::{Obstacle, Tracks};
 
 /// Width of a cell of the search grid, m.
 const CELL: f64 = 8.0;
 /// Half the width that a vehicle sweeps, with a margin, m.
 const SWEPT: f64 = 1.3;
+/// Who reaches no farther than this to all sides walks, or rides something small: drivers stop before the strip for them, m.
+const PERSON: f64 = 1.5;
+/// Who is slower than this stands, m/s.
+const STANDING: f64 = 0.1;
+/// A body is covered by at most so many discs to either side of its middle.
+const MOST_DISCS: f64 = 20.0;
 
 /// A body that is not the traffic's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,33 +100,75 @@ impl Finder {
         tracks: &Tracks,
         foreign: &[Foreign],
         on_crossing: &mut [u32],
-        obstacles: &mut Vec<(u32, f64)>,
+        obstacles: &mut Vec<Obstacle>,
     ) {
         on_crossing.fill(0);
         obstacles.clear();
         for body in foreign {
-            let reach = body.radius.max(body.half_width);
-            let here = (cell(body.position.x), cell(body.position.y));
-            let mut crosses = false;
-            for index in self.crossings.get(&here).into_iter().flatten() {
-                let crossing = &tracks.network.crossings[*index as usize];
-                let strip = [crossing.start, crossing.end];
-                let near = polyline::closest(&strip, &body.position);
-                if near.is_some_and(|near| near.distance <= crossing.width * 0.5 + reach) {
-                    on_crossing[*index as usize] += 1;
-                    crosses = true;
-                }
-            }
-            if crosses {
+            let is_person = body.radius.max(body.half_width) < PERSON;
+            if is_person && self.count_on_crossings(tracks, body, on_crossing) {
                 continue; // drivers stop before the strip, not before the person
             }
-            for track in self.tracks.get(&here).into_iter().flatten() {
-                let near = polyline::closest(tracks.path(*track), &body.position);
-                if let Some(near) = near.filter(|near| near.distance < SWEPT + reach) {
-                    obstacles.push((*track, near.station - reach));
+            let first = obstacles.len();
+            for (at, reach) in body.discs() {
+                for track in self.tracks_at(at) {
+                    let near = polyline::closest(tracks.path(track), &at);
+                    let Some(near) = near.filter(|near| near.distance < SWEPT + reach) else { continue };
+                    let (back, front) = (near.station - reach, near.station + reach);
+                    match obstacles[first..].iter_mut().find(|other| other.track == track) {
+                        Some(own) => (own.near, own.far) = (own.near.min(back), own.far.max(front)),
+                        None => obstacles.push(body.on(tracks, track, back, front)),
+                    }
                 }
             }
         }
-        obstacles.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        obstacles.sort_by(|a, b| a.track.cmp(&b.track).then(a.near.total_cmp(&b.near)));
+    }
+
+    /// Counts a person on the crossings where they are; false if that is none.
+    fn count_on_crossings(&self, tracks: &Tracks, body: &Foreign, on_crossing: &mut [u32]) -> bool {
+        let reach = body.radius.max(body.half_width);
+        let here = (cell(body.position.x), cell(body.position.y));
+        let mut crosses = false;
+        for index in self.crossings.get(&here).into_iter().flatten() {
+            let crossing = &tracks.network.crossings[*index as usize];
+            let strip = [crossing.start, crossing.end];
+            let near = polyline::closest(&strip, &body.position);
+            if near.is_some_and(|near| near.distance <= crossing.width * 0.5 + reach) {
+                on_crossing[*index as usize] += 1;
+                crosses = true;
+            }
+        }
+        crosses
+    }
+
+    /// The tracks that may pass under a place.
+    pub(super) fn tracks_at(&self, at: Point2) -> impl Iterator<Item = u32> {
+        self.tracks.get(&(cell(at.x), cell(at.y))).into_iter().flatten().copied()
+    }
+}
+
+impl Foreign {
+    /// Discs that cover it: their middles, and how far they reach, m.
+    fn discs(&self) -> impl Iterator<Item = (Point2, f64)> {
+        let ahead = self.direction.try_normalize(1e-9).unwrap_or_else(Vector2::x);
+        let long = self.radius >= self.half_width;
+        let (along, reach) =
+            if long { (ahead, self.half_width) } else { (Vector2::new(-ahead.y, ahead.x), self.radius) };
+        let span = self.radius.max(self.half_width) - reach;
+        // The outermost end with the body; between them there is no room for a wheel.
+        let count = (span / reach.max(0.3)).ceil().min(MOST_DISCS);
+        let middle = self.position;
+        (0..=2 * count as u32).map(move |index| {
+            let share = if count > 0.0 { f64::from(index) / count - 1.0 } else { 0.0 };
+            (middle + along * (span * share), reach)
+        })
+    }
+
+    /// It as an obstacle on a track.
+    fn on(&self, tracks: &Tracks, track: u32, near: f64, far: f64) -> Obstacle {
+        let yaw = polyline::at(tracks.path(track), (near + far) * 0.5).1;
+        let v = self.velocity.dot(&direction(yaw)).max(0.0);
+        Obstacle { track, near, far, v, stands: self.velocity.norm() < STANDING }
     }
 }

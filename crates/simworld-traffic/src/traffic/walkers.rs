@@ -106,12 +106,13 @@ impl Traffic {
         let refused = |reason| TrafficError::Walk { reason };
         let to = self.ways.nearest(to).filter(|_| to.x.is_finite() && to.y.is_finite());
         let to = to.ok_or(refused("nobody walks near its end: give a place near a sidewalk"))?;
-        let (mut scratch, mut route) = (RouteScratch::default(), Route::default());
-        if !self.ways.route(from, to, &mut scratch, &mut route) {
-            return Err(refused(
-                "no way leads to its end: choose one on the same side of what has no crossing",
-            ));
-        }
-        Ok(route.waypoints)
+        let nowhere = "no way leads to its end: choose one on the same side of what has no crossing";
+        path(&self.ways, from, to).ok_or(refused(nowhere))
     }
+}
+
+/// The shortest way from a waypoint to another, both included.
+pub(super) fn path(ways: &WaypointGraph, from: WaypointId, to: WaypointId) -> Option<Vec<WaypointId>> {
+    let (mut scratch, mut route) = (RouteScratch::default(), Route::default());
+    ways.route(from, to, &mut scratch, &mut route).then_some(route.waypoints)
 }

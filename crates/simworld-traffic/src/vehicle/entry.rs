@@ -117,15 +117,33 @@ impl VehicleManager {
         end: TripEnd,
         now: f64,
     ) -> bool {
-        if id as usize >= self.numbers() || self.whereabouts.get(id as usize) == NONE {
+        // A free body is on no track; its trip ends where it left the last.
+        let free = self.controls.free.remove(&id).map(|free| (free.from, free.vehicle, free.path));
+        let Some((track, vehicle, path)) = free.or_else(|| self.take_out(tracks, config, id)) else {
             return false;
+        };
+        self.halts.remove(id);
+        self.controls.forget(id);
+        self.free.push(id);
+        self.ended.push(trip(tracks, config, track, (&vehicle, &path), end, now));
+        true
+    }
+
+    /// Takes a vehicle off its track, which knows nothing of it any more; its number stays its own. With the track.
+    pub(super) fn take_out(
+        &mut self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        id: u32,
+    ) -> Option<(Track, Vehicle, Path)> {
+        if id as usize >= self.numbers() || self.whereabouts.get(id as usize) == NONE {
+            return None;
         }
         let track = self.whereabouts.get(id as usize);
         let place = tracks.layout.place(track);
         let slabs = &mut self.parts[place.part as usize].slabs;
         let rank = slabs.queue(place.local as usize).iter().position(|vehicle| vehicle.id == id);
-        let taken = rank.and_then(|rank| slabs.remove(place.local as usize, rank));
-        let Some((vehicle, path)) = taken else { return false };
+        let (vehicle, path) = slabs.remove(place.local as usize, rank?)?;
         if vehicle.holding != NONE {
             self.junctions.clear_way(vehicle.holding, vehicle.is_long());
         }
@@ -136,10 +154,7 @@ impl VehicleManager {
             self.junctions.arrive(tracks.lane_after(vehicle.holding as usize), &vehicle, config);
         }
         self.whereabouts.set(id as usize, NONE);
-        self.halts.remove(id);
-        self.free.push(id);
-        self.ended.push(trip(tracks, config, track, (&vehicle, &path), end, now));
-        true
+        Some((track, vehicle, path))
     }
 }
 

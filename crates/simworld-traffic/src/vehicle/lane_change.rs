@@ -12,7 +12,8 @@ use super::VehicleKind;
 use super::closures::Closures;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle, VehicleManager};
 use super::part::Part;
-use super::tracks::{Track, Tracks};
+use super::tracks::{Obstacle, Track, Tracks};
+use crate::takeover::LaneWish;
 use crate::{Counters, Leg};
 
 /// When drivers change lanes.
@@ -129,21 +130,30 @@ impl Part {
         let vehicle = self.slabs.queue(local)[rank];
         // Who is before a blocked stretch leaves the lane as well, but where he goes is as it was.
         let lost = vehicle.next == NONE;
+        let asked = scene.controls.lane_wish(vehicle.id);
+        if asked == Some(LaneWish::Keep) {
+            return false;
+        }
         let block = self.block_ahead(local, rank);
         if block.is_some_and(|gap| gap < CHANGE_ROOM - 4.0) || stays_at_kerb(tracks, lane, &vehicle) {
             return false; // too near to get round it, or where it is to stand
         }
-        let must = lost || block.is_some();
+        let must = lost || block.is_some() || asked.is_some();
         let to_end = tracks.length[lane as usize] - vehicle.s;
         if !must && to_end < BEFORE_LINE * vehicle.v + 10.0 {
             return false;
         }
         let kind = scene.config.vehicle_type(vehicle.row).kind;
         let path = &self.slabs.paths(local)[rank];
-        let wanted = VehicleManager::next_leg(tracks, scene.routes, &vehicle, path);
+        let own = || VehicleManager::next_leg(tracks, scene.routes, &vehicle, path);
+        let wanted = scene.controls.next_leg(vehicle.id).or_else(own);
         let mut best: Option<(f64, Track, u32, usize)> = None;
         let sides = tracks.beside[lane as usize].into_iter();
         for target in sides.filter(|target| *target != NONE && tracks.may_use(*target, kind)) {
+            let is_left = tracks.beside[lane as usize][0] == target;
+            if asked.is_some_and(|wish| is_left != (wish == LaneWish::Left)) {
+                continue;
+            }
             let blocked = first_block(self.ghosts(tracks.layout.local(target)), vehicle.s);
             if scene.closures.has(target) || blocked.is_some_and(|gap| gap < BLOCK_SEEN) {
                 continue;
@@ -158,7 +168,8 @@ impl Part {
                 wanted
                     .and_then(|leg| tracks.way_to(scene.closures, target, leg, kind).or_else(|| towards(leg)))
             };
-            let Some(way) = way else { continue };
+            // Who drives it may leave the lane of its route.
+            let Some(way) = way.or(asked.map(|_| NONE)) else { continue };
             if let Some((gain, place)) = self.gain(scene, lane, rank, target, must)
                 && best.is_none_or(|best| gain > best.0)
             {
@@ -286,6 +297,14 @@ impl Part {
             if self.layout(scene.tracks).tracks.get(scene.tracks.layout.local(*lane)) == Some(lane) {
                 let (lane, length) = (scene.tracks.layout.local(*lane) as u32, to - from);
                 self.work.ghosts.push(Ghost { lane, rear: *from, length, v: 0.0, is_fixed: true });
+            }
+        }
+        // Bodies that are on no lane of the traffic's own are in the way of who changes, and one passes those that stand.
+        for Obstacle { track, near, far, v, stands } in scene.sight.obstacles.iter().copied() {
+            let place = scene.tracks.layout.place(track);
+            if place.part == self.number() && (track as usize) < scene.tracks.lanes {
+                let (lane, length) = (place.local, far - near);
+                self.work.ghosts.push(Ghost { lane, rear: near, length, v, is_fixed: stands });
             }
         }
     }

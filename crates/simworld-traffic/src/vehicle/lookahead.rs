@@ -6,7 +6,7 @@ use super::junction::horizon;
 use super::lane_change::{CHANGE_ROOM, Ghost, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::part::Part;
-use super::tracks::{Track, Tracks};
+use super::tracks::{Obstacle, Track, Tracks};
 
 /// Where a vehicle stops before a line, m.
 const BEFORE_LINE: f64 = 0.5;
@@ -66,7 +66,7 @@ pub(super) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], rests: bool, acc
 
 /// The acceleration of a vehicle, m/s².
 #[inline]
-fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) -> f64 {
+pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) -> f64 {
     let config = lane.scene.config;
     let kind = config.vehicle_type(vehicle.row);
     let idm = &kind.driver;
@@ -100,6 +100,9 @@ fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) ->
         None if vehicle.holding != vehicle.next => {
             if to_end <= horizon(vehicle.v) {
                 view.stop_in(to_end, idm.gap);
+                if leader.is_none() {
+                    view.mind_leavers(lane, to_end);
+                }
             }
         }
         None => view.enter_junction(lane, vehicle.next as usize, to_end, leader.is_none()),
@@ -197,8 +200,24 @@ impl View<'_> {
             Some(leader) => self.follow(to_line + leader.s - leader.length(), leader.v),
             None => self.after_way(lane.scene, way, to_line + tracks.length[track]),
         }
-        if let Some(station) = first_obstacle(&lane.scene.sight, track as Track, 0.0) {
-            self.follow(to_line + station, 0.0);
+        if let Some(obstacle) = first_obstacle(&lane.scene.sight, track as Track, 0.0) {
+            self.follow(to_line + obstacle.near, obstacle.v);
+        }
+    }
+
+    /// Stays behind those whose front has left the lane and whose rear has not.
+    fn mind_leavers(&mut self, lane: &Lane<'_>, to_end: f64) {
+        let tracks = lane.scene.tracks;
+        for way in &tracks.network.lanes[lane.track as usize].outgoing {
+            if !lane.scene.junctions.is_held(way.0) {
+                continue;
+            }
+            let track = tracks.lanes as Track + way.0;
+            if let Some(last) = lane.part.slabs.queue(tracks.layout.local(track)).last()
+                && last.s < last.length()
+            {
+                self.follow(to_end + last.s - last.length(), last.v);
+            }
         }
     }
 
@@ -242,6 +261,9 @@ impl View<'_> {
         if !last.is_none() {
             self.follow(to_lane + last.rear, last.v);
         }
+        if let Some(obstacle) = first_obstacle(&scene.sight, lane, 0.0) {
+            self.follow(to_lane + obstacle.near, obstacle.v);
+        }
         self.slow_to(0.0, to_lane + scene.tracks.length[lane as usize]);
     }
 
@@ -258,14 +280,17 @@ impl View<'_> {
 
     /// Stops behind foreign bodies on the track.
     fn beware(&mut self, sight: &Sight<'_>, track: Track, s: f64, gap: f64) {
-        if let Some(station) = first_obstacle(sight, track, s) {
-            self.follow(station - self.s + gap * 0.5, 0.0);
+        if let Some(obstacle) = first_obstacle(sight, track, s) {
+            // Nearer to what stands than to what may move.
+            let closer = if obstacle.v > STANDING { 0.0 } else { gap * 0.5 };
+            self.follow(obstacle.near - self.s + closer, obstacle.v);
         }
     }
 }
 
-/// The first foreign body on a track beyond a station.
-fn first_obstacle(sight: &Sight<'_>, track: Track, beyond: f64) -> Option<f64> {
-    let start = sight.obstacles.partition_point(|(at, station)| (*at, *station) < (track, beyond));
-    sight.obstacles.get(start).filter(|(at, _)| *at == track).map(|(_, station)| *station)
+/// The first body on a track whose far side is beyond a station.
+fn first_obstacle<'a>(sight: &Sight<'a>, track: Track, beyond: f64) -> Option<&'a Obstacle> {
+    let start = sight.obstacles.partition_point(|obstacle| obstacle.track < track);
+    let mut here = sight.obstacles[start..].iter().take_while(|obstacle| obstacle.track == track);
+    here.find(|obstacle| obstacle.near >= beyond)
 }

@@ -17,6 +17,7 @@ use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
 use super::closures::Closures;
+use super::controls::{Controls, hasty};
 use super::deadlock::Waits;
 use super::entry::route_way;
 use super::halts::Halts;
@@ -25,7 +26,7 @@ use super::part::{Part, Tail, Transfer};
 use super::slabs::Slabs;
 use super::tally::Tally;
 use super::threads::each;
-use super::tracks::{Track, Tracks};
+use super::tracks::{Obstacle, Track, Tracks};
 use super::types::{TypeIndex, VehicleType, is_long};
 use crate::{Counters, Leg, Route, TrafficConfig, Trip};
 
@@ -94,7 +95,7 @@ pub(crate) struct Path {
     /// The leg of the route that it is on.
     pub(super) leg: u32,
     /// Decisions made so far: the index of its next draw.
-    decisions: u32,
+    pub(super) decisions: u32,
     pub(super) scheduled: f64,
     pub(super) entered: f64,
     /// Distance and free travel time of the tracks that it has left, m and s.
@@ -118,8 +119,8 @@ pub(crate) struct Sight<'a> {
     pub(crate) walkers: &'a [u32],
     /// People at the kerb of each crossing who may walk.
     pub(crate) waiting: &'a [u32],
-    /// Foreign bodies on tracks: track and station of their near side, sorted.
-    pub(crate) obstacles: &'a [(Track, f64)],
+    /// Bodies on tracks that are not the traffic's own, by track and near side.
+    pub(crate) obstacles: &'a [Obstacle],
 }
 
 /// When a step is.
@@ -162,6 +163,9 @@ pub(crate) struct Scene<'a> {
     /// What is closed, and where vehicles are to halt.
     pub(crate) closures: &'a Closures,
     pub(crate) halts: &'a Halts,
+    /// Who is driven by somebody else, and the settings that bind them.
+    pub(crate) controls: &'a Controls,
+    pub(crate) hasty: &'a TrafficConfig,
     /// Who was handed over, by the part that they left and the part that they enter.
     pub(crate) handed: &'a [Vec<Vec<Transfer>>],
 }
@@ -220,6 +224,8 @@ pub(crate) struct VehicleManager {
     pub(crate) closures: Closures,
     /// Where vehicles are to halt.
     pub(super) halts: Halts,
+    /// Who is driven by somebody else.
+    pub(super) controls: Controls,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
     /// Numbers of those who entered in the last step, and the trips that ended in it.
@@ -227,6 +233,9 @@ pub(crate) struct VehicleManager {
     pub(crate) entered: Vec<u32>,
     #[serde(skip)]
     pub(crate) ended: Vec<Trip>,
+    /// What binds those whom somebody else drives, under the conditions of now.
+    #[serde(skip)]
+    hasty: Option<TrafficConfig>,
     #[serde(skip)]
     pub(super) waits: Waits,
     /// Lanes whose first has lost patience.
@@ -285,6 +294,8 @@ impl VehicleManager {
             passes: &self.passes,
             closures: &self.closures,
             halts: &self.halts,
+            controls: &self.controls,
+            hasty: self.hasty.as_ref().unwrap_or(config),
             handed: &self.handed,
         }
     }
@@ -354,6 +365,8 @@ impl VehicleManager {
         workers: &dyn Workers,
     ) {
         self.unlock(tracks, config, (at.now, at.dt), counters);
+        self.steer(tracks, config, streams);
+        self.mind_haste(config);
         self.tails.resize_with(self.parts.len(), Vec::new);
         self.handed.resize_with(self.parts.len(), Vec::new);
         let mut parts = std::mem::take(&mut self.parts);
@@ -379,6 +392,14 @@ impl VehicleManager {
         self.serve_halts(tracks, config, at.now + at.dt, counters);
     }
 
+    /// Takes up the conditions for those whom somebody else drives, if there are any.
+    fn mind_haste(&mut self, config: &TrafficConfig) {
+        let is_known = self.hasty.as_ref().is_some_and(|hasty| hasty.conditions == config.conditions);
+        if !self.controls.is_empty() && !is_known {
+            self.hasty = Some(hasty(config));
+        }
+    }
+
     /// Takes together what the parts counted, whose trips ended, and who lost patience.
     fn sum_up(&mut self, tracks: &Tracks, counters: &mut Counters) {
         let begin = self.ended.len();
@@ -396,6 +417,7 @@ impl VehicleManager {
         self.ended[begin..].sort_by_key(|trip| trip.id);
         for trip in &self.ended[begin..] {
             self.halts.remove(trip.id);
+            self.controls.forget(trip.id);
             self.free.push(trip.id);
         }
     }
@@ -452,6 +474,12 @@ impl VehicleManager {
             && self.passes.is_sorted()
             && self.closures.fits(tracks)
             && self.halts.fits(tracks, count)
+            && self.controls.fits(
+                tracks,
+                types,
+                self.routes.len(),
+                &self.whereabouts.iter().collect::<Vec<_>>(),
+            )
             && self.free.iter().all(|id| (*id as usize) < count)
             && self.iter(tracks).all(|(track, v, path)| {
                 (v.id as usize) < count
@@ -477,5 +505,6 @@ impl VehicleManager {
             hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
             hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(f64::from(vehicle.shift));
         }
+        self.controls.state_hash(hasher);
     }
 }

@@ -1,11 +1,13 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
 mod closures;
+mod controls;
 mod deadlock;
 mod entry;
 mod following;
 mod halts;
 mod idm;
+mod join;
 mod junction;
 mod lane_change;
 mod lanes;
@@ -21,6 +23,7 @@ mod threads;
 mod tracks;
 mod types;
 
+pub(crate) use controls::FreeVehicle;
 pub use following::{CarFollowing, Leader};
 pub(crate) use halts::{Halt, Order, Then};
 #[cfg(feature = "validation")]
@@ -28,6 +31,6 @@ pub(crate) use idm::advance;
 pub use idm::{HARDEST_BRAKING, Idm};
 pub use lane_change::Mobil;
 pub(crate) use manager::{Moment, NONE, Path, STANDING, Sight, Vehicle, VehicleManager};
-pub(crate) use tracks::{Tracks, Way};
+pub(crate) use tracks::{Obstacle, Tracks, Way};
 pub(crate) use types::{TypeIndex, draw_type};
 pub use types::{VehicleKind, VehicleType, standard_types};

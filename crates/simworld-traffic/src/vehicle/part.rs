@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::controls::obey;
 use super::entry::trip;
 use super::idm::advance;
 use super::junction::Request;
@@ -65,6 +66,8 @@ pub(crate) struct Work {
     pub(super) ghosts: Vec<Ghost>,
     pub(super) accelerations: Vec<f64>,
     pub(super) weights: Vec<f64>,
+    /// Who is driven by somebody else: the number of the track in the part, and of the vehicle.
+    pub(super) steered: Vec<(u32, u32)>,
     pub(super) requests: Vec<Request>,
     /// Tracks on which somebody holds a way, a bit each.
     busy: Vec<u64>,
@@ -102,6 +105,11 @@ pub(crate) struct Part {
 impl Part {
     pub(super) fn new(number: usize, slabs: Slabs) -> Self {
         Self { number: number as u32, slabs, ..Self::default() }
+    }
+
+    /// Which part it is.
+    pub(super) fn number(&self) -> u32 {
+        self.number
     }
 
     /// Its tracks.
@@ -159,16 +167,28 @@ impl Part {
     fn accelerate(&mut self, scene: &Scene<'_>) {
         let mut accelerations = std::mem::take(&mut self.work.accelerations);
         accelerations.clear();
+        self.list_steered(scene);
         let layout = self.layout(scene.tracks);
+        let mut steered = &self.work.steered[..];
         let mut ghosts = &self.work.ghosts[..];
         for local in self.slabs.occupied() {
             let from = ghosts.iter().position(|ghost| ghost.lane as usize >= local).unwrap_or(ghosts.len());
             let until = from + ghosts[from..].iter().take_while(|ghost| ghost.lane as usize == local).count();
             let track = layout.tracks[local];
-            let lane = Lane::new(self, scene, track, &ghosts[from..until]);
+            let own_ghosts = &ghosts[from..until];
+            let lane = Lane::new(self, scene, track, own_ghosts);
             ghosts = &ghosts[until..];
             let rests = from == until && self.rests(scene, local, track);
-            lookahead::accelerations(&lane, self.slabs.queue(local), rests, &mut accelerations);
+            let (queue, first) = (self.slabs.queue(local), accelerations.len());
+            lookahead::accelerations(&lane, queue, rests, &mut accelerations);
+            if steered.first().is_some_and(|first| first.0 as usize <= local) {
+                let count = steered.partition_point(|(track, _)| *track as usize <= local);
+                let (here, others) = steered.split_at(count);
+                steered = others;
+                let hasty = Scene { config: scene.hasty, ..*scene };
+                let lane = Lane::new(self, &hasty, track, own_ghosts);
+                obey(scene, &lane, queue, here.iter().map(|(_, id)| *id), &mut accelerations[first..]);
+            }
         }
         self.work.accelerations = accelerations;
     }

@@ -27,6 +27,19 @@ pub(crate) struct Strip {
     pub(crate) end: f64,
 }
 
+/// A body on a track that is not the traffic's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Obstacle {
+    pub(crate) track: Track,
+    /// Its near and its far side, m along the track.
+    pub(crate) near: f64,
+    pub(crate) far: f64,
+    /// How fast it goes along the track, m/s, zero if it stands or comes towards one.
+    pub(crate) v: f64,
+    /// Whether it stands.
+    pub(crate) stands: bool,
+}
+
 /// What a step asks of a way across an intersection, apart from its lists.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Way {
