@@ -130,6 +130,12 @@ pub enum TrafficError {
         /// What is wrong with it.
         reason: &'static str,
     },
+    /// A siren on a vehicle that has none.
+    #[error("vehicle {id} has no siren: only those of kind emergency have one")]
+    NoSiren {
+        /// The vehicle.
+        id: u32,
+    },
     /// A closure of what is not there, or at no time.
     #[error("nothing can be closed so: {reason}")]
     Closure {

@@ -11,6 +11,8 @@ pub struct Counters {
     pub crossings: u64,
     /// Steps in which a vehicle went on at red because it could no longer stop.
     pub dilemmas: u64,
+    /// Times that an emergency vehicle passed a red light with its siren on.
+    pub reds_by_siren: u64,
     /// Times that a vehicle was held at a stop line, or far from all interest behind another, by more than its brakes.
     pub forced_stops: u64,
     /// Times that a vehicle had stood for three minutes.
@@ -52,6 +54,7 @@ impl Counters {
             updates,
             crossings,
             dilemmas,
+            reds_by_siren,
             forced_stops,
             long_waits,
             lane_changes,
@@ -72,6 +75,7 @@ impl Counters {
         self.updates += updates;
         self.crossings += crossings;
         self.dilemmas += dilemmas;
+        self.reds_by_siren += reds_by_siren;
         self.forced_stops += forced_stops;
         self.long_waits += long_waits;
         self.lane_changes += lane_changes;

@@ -3,7 +3,7 @@
 use simworld_core::id::LaneId;
 
 use super::Traffic;
-use crate::vehicle::{Halt, Order, Then};
+use crate::vehicle::{Halt, Order, Then, VehicleKind};
 use crate::{Closed, Closure, Leg, Stop, TrafficError};
 
 impl Traffic {
@@ -54,6 +54,27 @@ impl Traffic {
         }
         let vehicles = &mut self.state.vehicles;
         Ok(vehicles.order(&self.tracks, &self.driving, id, [Halt::at_once(seconds)], Order::First))
+    }
+
+    /// Turns the siren of an emergency vehicle on or off. With it on its driver takes the `speed_factor` of its type, without it
+    /// the limit like others. Others ahead of it leave its lane where another leads on, nobody enters a
+    /// junction before it on a way that meets its own, and it passes red lights slowly, when its way is clear of others
+    /// ([`Counters::reds_by_siren`](crate::Counters::reds_by_siren)). False if there is no vehicle of that number.
+    ///
+    /// # Errors
+    /// The vehicle is not of kind [`Emergency`](crate::vehicle::VehicleKind::Emergency).
+    pub fn set_siren(&mut self, id: u32, is_on: bool) -> Result<bool, TrafficError> {
+        let vehicles = &mut self.state.vehicles;
+        let Some((_, vehicle, _)) = vehicles.find(&self.tracks, id) else { return Ok(false) };
+        if self.driving.vehicle_type(vehicle.row).kind != VehicleKind::Emergency {
+            return Err(TrafficError::NoSiren { id });
+        }
+        Ok(vehicles.switch_siren(&self.tracks, &self.driving, id, is_on))
+    }
+
+    /// The numbers of the vehicles that have their siren on, ascending.
+    pub fn sirens(&self) -> &[u32] {
+        self.state.vehicles.sirens.on()
     }
 
     /// Makes a vehicle park at the kerb: it drives to a station on a leg of its route, m from the beginning of its lanes, stops

@@ -3,6 +3,7 @@
 use super::VehicleKind;
 use super::closures::Closures;
 use super::manager::{EXIT, NONE, Path, Vehicle, VehicleManager};
+use super::sirens::Sirens;
 use super::tracks::{Track, Tracks};
 use crate::demand::Departure;
 use crate::{Leg, Route, TrafficConfig, Trip, TripEnd};
@@ -31,6 +32,8 @@ impl VehicleManager {
         let Some(departure) = &self.open_departure(tracks, departure) else { return false };
         let next = self.routes.get(departure.route as usize).and_then(|route| route.0.get(1)).copied();
         let row = config.vehicle_type(departure.row);
+        let factor = Sirens::factor(row, departure.factor, row.siren);
+        let departure = &Departure { factor, ..*departure };
         let (length, idm) = (row.length, &row.driver);
         let leads_on = |lane: &Track| {
             next.is_none_or(|next| tracks.way_to(&self.closures, *lane, next, row.kind).is_some())
@@ -105,6 +108,7 @@ impl VehicleManager {
             route.map_or(NONE, |route| route_way(tracks, &self.closures, route, &path, lane, row.kind));
         let vehicle = Vehicle::new(row, departure.row, departure.factor, id, s);
         self.push(tracks, lane, Vehicle { v, next, ..vehicle }, path);
+        self.sirens.switch(id, row.siren);
         self.entered.push(id);
     }
 
@@ -124,6 +128,7 @@ impl VehicleManager {
         };
         self.halts.remove(id);
         self.controls.forget(id);
+        self.sirens.switch(id, false);
         self.free.push(id);
         self.ended.push(trip(tracks, config, track, (&vehicle, &path), end, now));
         true

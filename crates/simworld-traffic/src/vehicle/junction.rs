@@ -9,6 +9,7 @@ use simworld_core::net::Aspect;
 
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
+use super::sirens::{SEES as SIREN_SEES, may_pass_red};
 use super::tally::Tally;
 use super::tracks::{Track, Tracks, Way};
 use crate::TrafficConfig;
@@ -159,8 +160,10 @@ impl Part {
             let distance = end - vehicle.s;
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
             let aspect = scene.sight.aspects[way.signal as usize];
+            let siren = scene.sirens.is_on(vehicle.id);
             let gone = match aspect {
                 Aspect::Green => false,
+                _ if siren && distance < SIREN_SEES => false,
                 Aspect::Yellow => {
                     needed <= at_yellow(scene.config, vehicle)
                         && !(way.crosses_oncoming && distance < AT_LINE)
@@ -173,7 +176,7 @@ impl Part {
                 vehicle.holding = NONE;
                 // Until it decides: what brings it to a stand at the line.
                 vehicle.acceleration = vehicle.acceleration.min(-needed as f32);
-            } else if aspect == Aspect::Red {
+            } else if aspect == Aspect::Red && !siren {
                 self.work.counters.dilemmas += 1;
             }
         }
@@ -238,18 +241,24 @@ fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> 
     let Scene { tracks, sight, junctions, .. } = scene;
     let way = vehicle.next as usize;
     let distance = tracks.length[lane as usize] - vehicle.s;
+    let siren = scene.sirens.is_on(vehicle.id);
     vehicle.shift == 0.0
-        && signal_allows(scene, way, vehicle, distance)
+        && (signal_allows(scene, way, vehicle, distance) || (siren && may_pass_red(vehicle, distance)))
+        && (siren || !scene.sirens.keep_free(tracks, way))
         && !tracks.conflicts[way].iter().any(|other| junctions.is_held(*other))
         && tracks.tight[way].iter().all(|other| {
             let held = if vehicle.is_long() { &junctions.holders } else { &junctions.long_holders };
             held.get(*other as usize) == 0
         })
         && tracks.strips[way].iter().all(|strip| {
-            sight.walkers[strip.crossing as usize] == 0 && sight.waiting[strip.crossing as usize] == 0
+            sight.walkers[strip.crossing as usize] == 0
+                && (siren || sight.waiting[strip.crossing as usize] == 0)
         })
         && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
-        && !tracks.yields_to[way].iter().any(|other| is_hindered(part, scene, *other, way, vehicle, distance))
+        && (siren
+            || !tracks.yields_to[way]
+                .iter()
+                .any(|other| is_hindered(part, scene, *other, way, vehicle, distance)))
 }
 
 fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {

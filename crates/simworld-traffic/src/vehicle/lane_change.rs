@@ -6,15 +6,14 @@
 //! who is before it in either.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::id::LaneId;
 
 use super::VehicleKind;
 use super::closures::Closures;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle, VehicleManager};
 use super::part::Part;
 use super::tracks::{Obstacle, Track, Tracks};
+use crate::Leg;
 use crate::takeover::LaneWish;
-use crate::{Counters, Leg};
 
 /// When drivers change lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,8 +51,6 @@ const BEFORE_LINE: f64 = 5.0;
 const BLOCK_SEEN: f64 = 80.0;
 /// What a lane of one's own is worth, m/s²: buses keep to bus lanes, riders to cycle lanes and else to the right.
 const OWN_LANE: f64 = 2.0;
-/// Who stands in a lane that does not lead on for so long looks for another way, s.
-const PATIENCE: f64 = 40.0;
 
 /// A body in a lane that it has not quite left.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,7 +135,8 @@ impl Part {
         if block.is_some_and(|gap| gap < CHANGE_ROOM - 4.0) || stays_at_kerb(tracks, lane, &vehicle) {
             return false; // too near to get round it, or where it is to stand
         }
-        let must = lost || block.is_some() || asked.is_some();
+        let makes_way = scene.sirens.is_heard(lane, vehicle.s) && !scene.sirens.is_on(vehicle.id);
+        let must = lost || block.is_some() || makes_way || asked.is_some();
         let to_end = tracks.length[lane as usize] - vehicle.s;
         if !must && to_end < BEFORE_LINE * vehicle.v + 10.0 {
             return false;
@@ -156,6 +154,10 @@ impl Part {
             }
             let blocked = first_block(self.ghosts(tracks.layout.local(target)), vehicle.s);
             if scene.closures.has(target) || blocked.is_some_and(|gap| gap < BLOCK_SEEN) {
+                continue;
+            }
+            // Nobody gets before a siren, but for who has to be there.
+            if !lost && scene.sirens.is_heard(target, vehicle.s) && !scene.sirens.is_on(vehicle.id) {
                 continue;
             }
             // A lane on the way to one that leads on is a step towards it.
@@ -235,6 +237,9 @@ impl Part {
         if must {
             return Some((1e3 + mine, there.rank));
         }
+        // With a siren every gain is worth it, and what others lose is nothing.
+        let siren = scene.sirens.is_on(vehicle.id);
+        let (politeness, threshold) = if siren { (0.0, 0.0) } else { (mobil.politeness, mobil.threshold) };
         let (now, left_behind) = staying(scene, queue, rank, lane);
         let suits = |lane: Track| {
             let stops_there = vehicle.halt.is_finite() && tracks.outermost[lane as usize];
@@ -242,8 +247,8 @@ impl Part {
         };
         let own = f64::from(suits(target) - suits(lane)) * OWN_LANE;
         let loss = follower.map_or(0.0, |(before, after)| before - after);
-        let gain = mine - now + own + mobil.politeness * (left_behind - loss);
-        (gain > mobil.threshold).then_some((gain, there.rank))
+        let gain = mine - now + own + politeness * (left_behind - loss);
+        (gain > threshold).then_some((gain, there.rank))
     }
 
     /// Those around a place in a lane, bodies that are changing out of it included.
@@ -346,54 +351,6 @@ impl Part {
         // Another may be on its way out of the same lane.
         let ghost = first_ghost(self.ghosts(old), s);
         [leader, ghost].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
-    }
-}
-
-impl VehicleManager {
-    /// Those who have stood too long in a lane that does not lead on take a way that does, and their route anew from there.
-    pub(super) fn lose_patience(&mut self, tracks: &Tracks, counters: &mut Counters) {
-        let mut stuck = std::mem::take(&mut self.stuck);
-        for lane in stuck.drain(..) {
-            let mut ways = tracks.network.lanes[lane as usize].outgoing.iter();
-            let has_goal = self.goal(tracks, lane, 0).is_some();
-            if has_goal && ways.any(|way| self.take_way(tracks, lane, 0, way.0)) {
-                counters.rerouted += 1;
-            }
-        }
-        self.stuck = stuck;
-    }
-
-    /// The last leg of the route of a vehicle of a lane; none if it turns at random.
-    pub(super) fn goal(&self, tracks: &Tracks, lane: Track, rank: usize) -> Option<Leg> {
-        let path = self.paths(tracks, lane).get(rank)?;
-        self.routes.get(path.route as usize)?.0.last().copied()
-    }
-
-    /// Lets a vehicle of a lane take a way from it, and its route anew from there; false if its end cannot be reached so.
-    pub(super) fn take_way(&mut self, tracks: &Tracks, lane: Track, rank: usize, way: u32) -> bool {
-        if self.closures.has(tracks.lane_after(way as usize)) {
-            return false;
-        }
-        let mut route = None;
-        if let Some(goal) = self.goal(tracks, lane, rank) {
-            let after = Leg::of(&tracks.network, tracks.network.connections[way as usize].to);
-            let Some(mut rest) = self.closures.quickest(tracks, after, goal) else { return false };
-            rest.0.insert(0, Leg::of(&tracks.network, LaneId(lane)));
-            route = Some(self.add_route(rest));
-        }
-        let (queue, paths) = self.both_mut(tracks, lane);
-        queue[rank].next = way;
-        if let Some(route) = route {
-            (paths[rank].route, paths[rank].leg) = (route, 0);
-        }
-        true
-    }
-}
-
-impl Vehicle {
-    /// Whether, first in its lane, it has waited long enough for a gap to a lane that leads on.
-    pub(super) fn is_stuck(&self) -> bool {
-        self.next == NONE && self.stood >= PATIENCE && self.shift == 0.0 && self.halt.is_infinite()
     }
 }
 

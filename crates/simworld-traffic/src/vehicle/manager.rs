@@ -23,6 +23,7 @@ use super::entry::route_way;
 use super::halts::Halts;
 use super::junction::Junctions;
 use super::part::{Part, Tail, Transfer};
+use super::sirens::Sirens;
 use super::slabs::Slabs;
 use super::tally::Tally;
 use super::threads::each;
@@ -166,6 +167,8 @@ pub(crate) struct Scene<'a> {
     /// Who is driven by somebody else, and the settings that bind them.
     pub(crate) controls: &'a Controls,
     pub(crate) hasty: &'a TrafficConfig,
+    /// Where drivers hear a siren.
+    pub(crate) sirens: &'a Sirens,
     /// Who was handed over, by the part that they left and the part that they enter.
     pub(crate) handed: &'a [Vec<Vec<Transfer>>],
 }
@@ -226,6 +229,8 @@ pub(crate) struct VehicleManager {
     pub(super) halts: Halts,
     /// Who is driven by somebody else.
     pub(super) controls: Controls,
+    /// Who has a siren on.
+    pub(crate) sirens: Sirens,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
     /// Numbers of those who entered in the last step, and the trips that ended in it.
@@ -296,6 +301,7 @@ impl VehicleManager {
             halts: &self.halts,
             controls: &self.controls,
             hasty: self.hasty.as_ref().unwrap_or(config),
+            sirens: &self.sirens,
             handed: &self.handed,
         }
     }
@@ -367,6 +373,7 @@ impl VehicleManager {
         self.unlock(tracks, config, (at.now, at.dt), counters);
         self.steer(tracks, config, streams);
         self.mind_haste(config);
+        self.hear_sirens(tracks);
         self.tails.resize_with(self.parts.len(), Vec::new);
         self.handed.resize_with(self.parts.len(), Vec::new);
         let mut parts = std::mem::take(&mut self.parts);
@@ -418,6 +425,7 @@ impl VehicleManager {
         for trip in &self.ended[begin..] {
             self.halts.remove(trip.id);
             self.controls.forget(trip.id);
+            self.sirens.switch(trip.id, false);
             self.free.push(trip.id);
         }
     }
@@ -480,6 +488,7 @@ impl VehicleManager {
                 self.routes.len(),
                 &self.whereabouts.iter().collect::<Vec<_>>(),
             )
+            && self.sirens.fits(count)
             && self.free.iter().all(|id| (*id as usize) < count)
             && self.iter(tracks).all(|(track, v, path)| {
                 (v.id as usize) < count

@@ -10,6 +10,7 @@ use super::lane_change::Ghost;
 use super::layout::PartLayout;
 use super::lookahead::{self, Lane};
 use super::manager::{EXIT, NONE, Path, STANDING, Scene, Vehicle};
+use super::sirens::passes_red;
 use super::slabs::Slabs;
 use super::tracks::{Track, Tracks};
 use crate::{Counters, Trip, TripEnd};
@@ -278,6 +279,7 @@ impl Part {
     /// From a lane onto the way that it holds.
     fn enter_way(&mut self, scene: &Scene<'_>, lane: Track, mut vehicle: Vehicle, mut path: Path) {
         let tracks = scene.tracks;
+        self.work.counters.reds_by_siren += u64::from(passes_red(scene, &vehicle, vehicle.next));
         leave_behind(scene, lane, &mut vehicle, &mut path);
         let track = tracks.lanes as Track + vehicle.next;
         scene.whereabouts.set(vehicle.id as usize, track);

@@ -4,6 +4,7 @@ use simworld_core::seed::{Stream, StreamRng};
 
 use super::VehicleKind;
 use super::manager::{NONE, Path, Vehicle, VehicleManager};
+use super::sirens::Sirens;
 use super::tracks::{Track, Tracks};
 use super::types::{TypeIndex, VehicleType, draw_type};
 use crate::TrafficConfig;
@@ -67,7 +68,8 @@ impl VehicleManager {
             let row = draw_type(&config.types, |_| true, &mut rng);
             let kind = config.vehicle_type(row);
             let Some((track, s)) = places.take(kind.kind) else { break };
-            taken.push((track, s, row, kind.draw_factor(&mut rng)));
+            let factor = Sirens::factor(kind, kind.draw_factor(&mut rng), kind.siren);
+            taken.push((track, s, row, factor));
         }
         // Front to back on each lane, so that pushing to the back keeps the order.
         taken.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
@@ -78,6 +80,7 @@ impl VehicleManager {
             let mind = (tracks, config);
             vehicle.next = self.choose(mind, streams, &mut weights, &vehicle, &mut path, *track);
             self.whereabouts.push(*track);
+            self.sirens.switch(index as u32, config.vehicle_type(*row).siren);
             self.push(tracks, *track, vehicle, path);
         }
         taken.len() as u32

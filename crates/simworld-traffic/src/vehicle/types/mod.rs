@@ -29,7 +29,8 @@ pub struct VehicleType {
     pub width: f64,
     /// Height, m, in [0.5, 5].
     pub height: f64,
-    /// The mean of the speeds that drivers choose, as a share of the speed limit, in [0.2, 2].
+    /// The mean of the speeds that drivers choose, as a share of the speed limit, in [0.2, 2]; of emergency vehicles with their
+    /// siren on, which without it drive at the limit on average.
     pub speed_factor: f64,
     /// The standard deviation of that share, in [0, 0.3]; it is drawn once a vehicle, within two deviations.
     pub speed_deviation: f64,
@@ -37,6 +38,8 @@ pub struct VehicleType {
     pub driver: Idm,
     /// The model by which it follows.
     pub model: CarFollowing,
+    /// Whether it comes with its siren on; for emergency vehicles only.
+    pub siren: bool,
 }
 
 impl Default for VehicleType {
@@ -108,6 +111,10 @@ impl VehicleType {
             if !(low..=high).contains(&value) {
                 return Err(TrafficError::VehicleType { index, field, value, allowed });
             }
+        }
+        if self.siren && self.kind != VehicleKind::Emergency {
+            let allowed = "a siren to emergency vehicles only";
+            return Err(TrafficError::VehicleType { index, field: "siren", value: 1.0, allowed });
         }
         Ok(())
     }
