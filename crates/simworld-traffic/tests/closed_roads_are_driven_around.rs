@@ -171,10 +171,9 @@ fn what_cannot_be_closed_is_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    // Lanes and legs only: while a stretch is blocked, two vehicles may touch by centimetres at the next junction (docs/open.md).
     #[test]
     fn nobody_is_lost_whatever_is_closed(
-        closures in prop::collection::vec((any::<prop::sample::Index>(), 0..2, 0.0..120.0_f64, 1.0..200.0_f64), 1..14),
+        closures in prop::collection::vec((any::<prop::sample::Index>(), 0..3, 0.0..120.0_f64, 1.0..200.0_f64), 1..14),
         leave in any::<bool>(),
         seed in 0..100_u64,
     ) {
@@ -186,6 +185,7 @@ proptest! {
             let lane = LaneId(index.index(network.lanes.len()) as u32);
             let what = match what {
                 0 => Closed::Lane(lane),
+                1 => Closed::Stretch(lane, 30.0, 50.0),
                 _ => Closed::Leg(Leg::of(&network, lane)),
             };
             traffic.close(Closure { what, from, until: from + lasts }).unwrap();

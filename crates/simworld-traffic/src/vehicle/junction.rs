@@ -1,8 +1,8 @@
 //! Leave to cross: who may enter a junction, and when leave is taken back.
 //!
-//! A way across is granted to a vehicle only while no way that touches it is held, nobody with priority would be hindered,
-//! nobody is on the strips that it passes over, and there is room behind it. Leave ends when the vehicle's rear is
-//! out. Two vehicles on touching ways are therefore never in the junction at once, whatever their drivers do.
+//! A way across is granted to a vehicle only while its [place in the order](super::precedence) among those on ways that meet
+//! it is free, nobody with priority would be hindered, nobody is on the strips that it passes over, and there is room
+//! behind it. Leave ends when the vehicle's rear is out. Long vehicles share the junction with nobody whose way they meet.
 
 use serde::{Deserialize, Serialize};
 use simworld_core::net::Aspect;
@@ -16,14 +16,12 @@ use crate::TrafficConfig;
 
 /// Braking that drivers accept to stop at yellow, m/s².
 const COMFORTABLE: f64 = 3.0;
-/// Time that one wants between clearing a conflict and the arrival of who has priority, s.
-const MARGIN: f64 = 1.0;
+/// Others need not wait for one who has leave and has stood before the line for so long, s.
+const HESITATES: f64 = 2.0;
 /// Yellow that has shown for less time than this leaves enough of it to get under way, s.
 const FRESH: f64 = 0.6;
 /// A vehicle nearer to its stop line than this stands at it, m.
 const AT_LINE: f64 = 1.5;
-/// Vehicles with priority are looked for within this distance, m.
-const SIGHT: f64 = 90.0;
 
 /// Parts of a metre in which room is counted: what comes and goes adds up to nothing again.
 const TICKS: f64 = 1024.0;
@@ -69,6 +67,12 @@ impl Junctions {
     #[inline]
     pub(super) fn is_held(&self, way: u32) -> bool {
         self.holders.get(way as usize) > 0
+    }
+
+    /// Whether somebody long holds a way.
+    #[inline]
+    pub(super) fn has_long(&self, way: u32) -> bool {
+        self.long_holders.get(way as usize) > 0
     }
 
     /// Room on a lane that is promised to vehicles on their way to it, m.
@@ -146,6 +150,8 @@ impl Part {
 
     /// Takes leave back from those who can still stop for a signal that changed; counts those who cannot.
     fn revoke(&mut self, scene: &Scene<'_>, local: usize, end: f64) {
+        // Nobody behind one who lost leave keeps it; nobody behind one who hesitates is before him in the order.
+        let (mut is_barred, mut hesitates) = (false, false);
         for vehicle in self.slabs.queue_mut(local) {
             if vehicle.holding == NONE || vehicle.holding != vehicle.next {
                 if vehicle.holding == NONE && vehicle.next != EXIT {
@@ -153,24 +159,30 @@ impl Part {
                 }
                 continue;
             }
-            let way = &scene.tracks.ways[vehicle.holding as usize];
-            if way.signal == NONE {
-                continue;
+            hesitates |= vehicle.stood > HESITATES;
+            if hesitates {
+                self.leaves = self.leaves.wrapping_add(1);
+                vehicle.granted = self.leaves;
             }
+            let way = &scene.tracks.ways[vehicle.holding as usize];
             let distance = end - vehicle.s;
             let needed = vehicle.v * vehicle.v / (2.0 * distance.max(0.01));
-            let aspect = scene.sight.aspects[way.signal as usize];
+            let aspect = scene.aspect(way.signal);
             let siren = scene.sirens.is_on(vehicle.id);
-            let gone = match aspect {
-                Aspect::Green => false,
-                _ if siren && distance < SIREN_SEES => false,
-                Aspect::Yellow => {
-                    needed <= at_yellow(scene.config, vehicle)
-                        && !(way.crosses_oncoming && distance < AT_LINE)
-                }
-                Aspect::Red => needed <= scene.config.vehicle_type(vehicle.row).driver.emergency_deceleration,
-            };
+            let gone = is_barred
+                || match aspect {
+                    Aspect::Green => false,
+                    _ if siren && distance < SIREN_SEES => false,
+                    Aspect::Yellow => {
+                        needed <= at_yellow(scene.config, vehicle)
+                            && !(way.crosses_oncoming && distance < AT_LINE)
+                    }
+                    Aspect::Red => {
+                        needed <= scene.config.vehicle_type(vehicle.row).driver.emergency_deceleration
+                    }
+                };
             if gone {
+                is_barred = true;
                 scene.junctions.clear_way(vehicle.holding, vehicle.is_long());
                 scene.junctions.arrive(way.to, vehicle, scene.config);
                 vehicle.holding = NONE;
@@ -208,6 +220,7 @@ impl Part {
         requests.sort_unstable_by(|a, b| {
             b.stood.total_cmp(&a.stood).then(a.rank.cmp(&b.rank)).then(a.id.cmp(&b.id))
         });
+        let mut overtaken = std::mem::take(&mut self.work.overtaken);
         for request in requests.drain(..) {
             let (lane, rank) = (request.lane as usize, request.rank as usize);
             let queue = self.slabs.queue(lane);
@@ -218,8 +231,11 @@ impl Part {
                 continue; // one's turn comes after those before
             }
             let track = self.layout(scene.tracks).tracks[lane];
-            if may_enter(self, scene, track, &vehicle) {
-                self.slabs.queue_mut(lane)[rank].holding = vehicle.next;
+            if may_enter(self, scene, track, &vehicle, &mut overtaken) {
+                self.leaves = self.leaves.wrapping_add(1);
+                let granted = &mut self.slabs.queue_mut(lane)[rank];
+                (granted.holding, granted.granted) = (vehicle.next, self.leaves);
+                self.put_last(&mut overtaken);
                 scene.junctions.grant(scene.tracks, &vehicle, scene.config);
                 self.work.counters.crossings += 1;
                 if may_pass(scene, &vehicle) {
@@ -227,6 +243,7 @@ impl Part {
                 }
             }
         }
+        self.work.overtaken = overtaken;
     }
 }
 
@@ -237,7 +254,13 @@ pub(super) fn horizon(v: f64) -> f64 {
     8.0 + v * 1.5 + v * v / 4.0
 }
 
-fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> bool {
+fn may_enter(
+    part: &Part,
+    scene: &Scene<'_>,
+    lane: Track,
+    vehicle: &Vehicle,
+    overtaken: &mut Vec<(u32, u32)>,
+) -> bool {
     let Scene { tracks, sight, junctions, .. } = scene;
     let way = vehicle.next as usize;
     let distance = tracks.length[lane as usize] - vehicle.s;
@@ -245,7 +268,6 @@ fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> 
     vehicle.shift == 0.0
         && (signal_allows(scene, way, vehicle, distance) || (siren && may_pass_red(vehicle, distance)))
         && (siren || !scene.sirens.keep_free(tracks, way))
-        && !tracks.conflicts[way].iter().any(|other| junctions.is_held(*other))
         && tracks.tight[way].iter().all(|other| {
             let held = if vehicle.is_long() { &junctions.holders } else { &junctions.long_holders };
             held.get(*other as usize) == 0
@@ -255,10 +277,7 @@ fn may_enter(part: &Part, scene: &Scene<'_>, lane: Track, vehicle: &Vehicle) -> 
                 && (siren || sight.waiting[strip.crossing as usize] == 0)
         })
         && (has_room(scene, way, vehicle) || may_pass(scene, vehicle))
-        && (siren
-            || !tracks.yields_to[way]
-                .iter()
-                .any(|other| is_hindered(part, scene, *other, way, vehicle, distance)))
+        && part.finds_gap(scene, way, vehicle, distance, overtaken)
 }
 
 fn signal_allows(scene: &Scene<'_>, way: usize, vehicle: &Vehicle, distance: f64) -> bool {
@@ -314,32 +333,6 @@ pub(super) fn is_room(
     // What moves will have moved on by the time one gets there.
     let rear = last.rear + if last.v > STANDING { last.v * 2.0 } else { 0.0 };
     rear - inbound >= room
-}
-
-/// Whether somebody with priority on another way would have to brake.
-fn is_hindered(
-    part: &Part,
-    scene: &Scene<'_>,
-    other: u32,
-    way: usize,
-    vehicle: &Vehicle,
-    distance: f64,
-) -> bool {
-    let tracks = scene.tracks;
-    let Way { from, signal, .. } = tracks.ways[other as usize];
-    if signal != NONE && scene.sight.aspects[signal as usize] != Aspect::Green {
-        return false;
-    }
-    let end = tracks.length[from as usize];
-    let rival = part.slabs.queue(tracks.layout.local(from)).iter().find(|rival| rival.next == other);
-    let Some(rival) = rival.filter(|rival| end - rival.s < SIGHT) else { return false };
-    if rival.v < STANDING && rival.stood > 3.0 {
-        return false; // it cannot go, or lets one go
-    }
-    let track = tracks.lanes + way;
-    let pace = ((vehicle.v + tracks.speed[track].min(8.0)) * 0.5).max(2.5);
-    let clear = (distance + tracks.length[track] + vehicle.length()) / pace;
-    (end - rival.s) / rival.v.max(3.0) < clear + MARGIN
 }
 
 /// Room on a lane that a vehicle takes when it stands, in ticks.

@@ -6,6 +6,7 @@ use super::junction::horizon;
 use super::lane_change::{CHANGE_ROOM, Ghost, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::part::Part;
+use super::precedence::Precedence;
 use super::tracks::{Obstacle, Track, Tracks};
 
 /// Where a vehicle stops before a line, m.
@@ -31,6 +32,18 @@ impl<'a> Lane<'a> {
         let tracks = scene.tracks;
         let (end, limit) = (tracks.length[track as usize], tracks.speed[track as usize]);
         Self { part, scene, track, way: tracks.connection(track), end, limit, ghosts }
+    }
+
+    /// Those who are on a way out of it, or have their rear there: front and rear along the way, m, and speed, m/s.
+    fn on_way(&self, way: u32) -> impl Iterator<Item = (f64, f64, f64)> {
+        let tracks = self.scene.tracks;
+        let track = tracks.lanes + way as usize;
+        let on_way = self.part.slabs.queue(tracks.layout.local(track as Track)).iter();
+        // Of those behind the way only the last can still have its rear on it.
+        let tail = self.scene.tail(tracks.lane_after(way as usize));
+        let rear = tail.rear + tracks.length[track];
+        let behind = (tail.way == way).then_some((rear + f64::from(tail.length), rear, tail.v));
+        on_way.map(|other| (other.s, other.s - other.length(), other.v)).chain(behind)
     }
 
     /// Whether a driver must decide in this step even far from all interest: who crosses, is about to, changes lanes, or may
@@ -94,18 +107,11 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
     }
     let to_end = lane.end - vehicle.s;
     match lane.way {
-        Some(way) => view.across(lane, way, to_end, vehicle.s, leader.is_none()),
-        None if vehicle.next == EXIT => {}
-        None if vehicle.next == NONE => view.stop_in(view.before_change(lane, to_end), idm.gap),
-        None if vehicle.holding != vehicle.next => {
-            if to_end <= horizon(vehicle.v) {
-                view.stop_in(to_end, idm.gap);
-                if leader.is_none() {
-                    view.mind_leavers(lane, to_end);
-                }
-            }
+        Some(way) => view.across(lane, way, to_end, vehicle, leader.is_none()),
+        None if vehicle.holding != vehicle.next || vehicle.next == NONE => {
+            view.stay_on(lane, vehicle, to_end, leader.is_none());
         }
-        None => view.enter_junction(lane, vehicle.next as usize, to_end, leader.is_none()),
+        None => view.enter_junction(lane, vehicle, to_end, leader.is_none()),
     }
     if !lane.ghosts.is_empty()
         && let Some((gap, speed)) = first_ghost(lane.ghosts, vehicle.s)
@@ -186,12 +192,32 @@ impl View<'_> {
         self.free = self.free.min(allowed.max(0.5));
     }
 
+    /// On a lane without leave to cross: its end, and those who have left it but for their rear.
+    fn stay_on(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, to_end: f64, is_first: bool) {
+        let is_near = to_end <= horizon(vehicle.v);
+        match vehicle.next {
+            EXIT => {}
+            NONE => self.stop_in(self.before_change(lane, to_end), self.idm.gap),
+            _ if is_near => self.stop_in(to_end, self.idm.gap),
+            _ => {}
+        }
+        if !(is_first && is_near) {
+            return;
+        }
+        for way in &lane.scene.tracks.network.lanes[lane.track as usize].outgoing {
+            for (_, rear, v) in lane.on_way(way.0).filter(|other| other.1 < 0.0) {
+                self.follow(to_end + rear, v);
+            }
+        }
+    }
+
     /// On a lane with leave to cross: what is on the way, and behind it.
-    fn enter_junction(&mut self, lane: &Lane<'_>, way: usize, to_line: f64, is_first: bool) {
-        let tracks = lane.scene.tracks;
+    fn enter_junction(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, to_line: f64, is_first: bool) {
+        let (tracks, way) = (lane.scene.tracks, vehicle.next as usize);
         let track = tracks.lanes + way;
         self.slow_to(self.factor * tracks.speed[track], to_line);
         self.mind_people(tracks, &lane.scene.sight, way, to_line);
+        self.mind_older(lane, vehicle, way, -to_line);
         if !is_first {
             return;
         }
@@ -205,29 +231,23 @@ impl View<'_> {
         }
     }
 
-    /// Stays behind those whose front has left the lane and whose rear has not.
-    fn mind_leavers(&mut self, lane: &Lane<'_>, to_end: f64) {
-        let tracks = lane.scene.tracks;
-        for way in &tracks.network.lanes[lane.track as usize].outgoing {
-            if !lane.scene.junctions.is_held(way.0) {
-                continue;
-            }
-            let track = tracks.lanes as Track + way.0;
-            if let Some(last) = lane.part.slabs.queue(tracks.layout.local(track)).last()
-                && last.s < last.length()
-            {
-                self.follow(to_end + last.s - last.length(), last.v);
-            }
-        }
-    }
-
     /// On the way across.
-    fn across(&mut self, lane: &Lane<'_>, way: usize, to_end: f64, s: f64, is_first: bool) {
-        self.mind_people(lane.scene.tracks, &lane.scene.sight, way, -s);
-        self.let_part(lane, way, s);
+    fn across(&mut self, lane: &Lane<'_>, way: usize, to_end: f64, vehicle: &Vehicle, is_first: bool) {
+        self.mind_people(lane.scene.tracks, &lane.scene.sight, way, -vehicle.s);
+        self.mind_older(lane, vehicle, way, vehicle.s);
+        self.let_part(lane, way, vehicle.s);
         if is_first {
             self.after_way(lane.scene, way, to_end);
         }
+    }
+
+    /// Lets those go first whose leave is older; `at` is where one is on the way, negative before it.
+    fn mind_older(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, way: usize, at: f64) {
+        let gap = self.idm.gap;
+        lane.part.mind_older(lane.scene, vehicle, (way, at), |precedence| match precedence {
+            Precedence::Stop { distance } => self.stop_in(distance, gap),
+            Precedence::Follow { gap, speed } => self.follow(gap, speed),
+        });
     }
 
     /// Stays behind those who left the same lane for another way until their rear is out of one's own; `at` is where one is
@@ -238,15 +258,7 @@ impl View<'_> {
             if !lane.scene.junctions.is_held(*sibling) {
                 continue;
             }
-            let track = tracks.lanes + *sibling as usize;
-            let on_way = lane.part.slabs.queue(tracks.layout.local(track as Track)).iter();
-            let on_way = on_way.map(|other| (other.s, other.s - other.length(), other.v));
-            // Of those behind the way only the last can still have its rear on it.
-            let tail = lane.scene.tail(tracks.lane_after(*sibling as usize));
-            let length = tracks.length[track];
-            let rear = tail.rear + length;
-            let behind = (tail.way == *sibling).then_some((rear + f64::from(tail.length), rear, tail.v));
-            for (front, rear, v) in on_way.chain(behind) {
+            for (front, rear, v) in lane.on_way(*sibling) {
                 if front > at && rear < *clear {
                     self.follow(rear - at, v);
                 }

@@ -52,6 +52,8 @@ pub(crate) struct Vehicle {
     pub(crate) next: u32,
     /// The connection it has been granted and not yet cleared.
     pub(crate) holding: u32,
+    /// Its place in the order of leave of the part.
+    pub(crate) granted: u32,
     /// Its type: a row of the table.
     pub(crate) row: TypeIndex,
     /// Length, m, as in the table.
@@ -186,6 +188,12 @@ impl Scene<'_> {
         let stream = self.streams.named(purpose).indexed(u64::from(id)).indexed(self.at.step);
         // The key of a stream is a hash of its path: as good a draw as the first of its generator, and cheaper.
         (stream.seed().0 >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+    }
+
+    /// What a signal group shows; green where there is none.
+    #[inline]
+    pub(crate) fn aspect(&self, group: u32) -> Aspect {
+        if group == NONE { Aspect::Green } else { self.sight.aspects[group as usize] }
     }
 
     /// The way on from a lane: that of the route, or one drawn at random.
@@ -513,6 +521,7 @@ impl VehicleManager {
             hasher.u64(u64::from(track));
             hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
             hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(f64::from(vehicle.shift));
+            hasher.u64(u64::from(vehicle.granted));
         }
         self.controls.state_hash(hasher);
     }

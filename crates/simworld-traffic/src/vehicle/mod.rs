@@ -1,6 +1,7 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
 mod closures;
+mod conflicts;
 mod controls;
 mod deadlock;
 mod entry;
@@ -16,6 +17,7 @@ mod lookahead;
 mod manager;
 mod part;
 mod patience;
+mod precedence;
 mod ragged;
 mod sirens;
 mod slabs;

@@ -30,14 +30,16 @@ pub(crate) struct Tail {
     pub(crate) v: f64,
     /// Its length, m.
     pub(crate) length: f32,
-    /// The connection it came by, if its rear has not cleared it.
+    /// The connection it came by, if its rear has not cleared it, and its place in the order of leave there.
     pub(crate) way: u32,
+    pub(crate) granted: u32,
 }
 
 impl Tail {
     pub(super) fn of(last: &Vehicle) -> Self {
         let way = if last.holding == last.next { NONE } else { last.holding };
-        Self { rear: last.s - last.length(), v: last.v, length: last.length, way }
+        let (rear, v) = (last.s - last.length(), last.v);
+        Self { rear, v, length: last.length, way, granted: last.granted }
     }
 
     /// Whether the lane is empty.
@@ -49,7 +51,7 @@ impl Tail {
 
 impl Default for Tail {
     fn default() -> Self {
-        Self { rear: f64::INFINITY, v: 0.0, length: 0.0, way: NONE }
+        Self { rear: f64::INFINITY, v: 0.0, length: 0.0, way: NONE, granted: 0 }
     }
 }
 
@@ -70,6 +72,8 @@ pub(crate) struct Work {
     /// Who is driven by somebody else: the number of the track in the part, and of the vehicle.
     pub(super) steered: Vec<(u32, u32)>,
     pub(super) requests: Vec<Request>,
+    /// Whom one who asks for leave would overtake in the order of leave: lane and rank.
+    pub(super) overtaken: Vec<(u32, u32)>,
     /// Tracks on which somebody holds a way, a bit each.
     busy: Vec<u64>,
     /// Tracks whose front left them in this step.
@@ -94,6 +98,8 @@ pub(crate) struct Work {
 pub(crate) struct Part {
     number: u32,
     pub(crate) slabs: Slabs,
+    /// How often leave was given: the last place in the order.
+    pub(super) leaves: u32,
     /// Who is changing lanes: the number of the lane in the part, and of the vehicle.
     pub(super) shifting: Vec<(u32, u32)>,
     /// Lanes far from all interest, a bit each; nothing if none is.

@@ -8,6 +8,7 @@ use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline
 use simworld_core::ops::{self, wrap_angle};
 
 use super::closures::Closures;
+use super::conflicts::{Conflict, conflicts};
 use super::layout::Layout;
 use super::manager::NONE;
 use super::ragged::Ragged;
@@ -62,9 +63,8 @@ pub(crate) struct Tracks {
     pub(crate) speed: Vec<f64>,
     /// The ways across, by connection.
     pub(crate) ways: Vec<Way>,
-    /// The connections whose vehicles could touch one on this connection, and those of them to which it gives way.
-    pub(crate) conflicts: Ragged<u32>,
-    pub(crate) yields_to: Ragged<u32>,
+    /// The connections whose vehicles could touch one on this connection, and where.
+    pub(crate) conflicts: Ragged<Conflict>,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Ragged<(u32, f64)>,
     /// Ways so near to each connection that a long vehicle on either sweeps over the other in the turn.
@@ -96,14 +96,12 @@ impl Tracks {
         });
         let speed = lane_speeds.chain(way_speeds).collect();
         let connections = 0..network.connections.len();
-        let ids = |list: &[ConnectionId]| list.iter().map(|id| id.0).collect::<Vec<_>>();
         Self {
             lanes: network.lanes.len(),
             length,
             speed,
             ways: network.connections.iter().map(|connection| way(&network, connection)).collect(),
-            conflicts: network.connections.iter().map(|connection| ids(&connection.conflicts)).collect(),
-            yields_to: network.connections.iter().map(|connection| ids(&connection.yields_to)).collect(),
+            conflicts: conflicts(&network, config),
             siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
             tight: connections.clone().map(|index| tight(&network, index)).collect(),
             strips: connections.map(|index| strips(&network, index)).collect(),

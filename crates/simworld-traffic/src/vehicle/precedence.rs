@@ -1,0 +1,324 @@
+//! Who goes first where ways meet: by gaps when leave is asked for, by the order of leave on the way.
+//!
+//! Leave has an order. Of two on ways that meet, the one whose leave is older goes first, and the other stops before the
+//! stretch that they share until the first is out of it. Along a lane the order is that of the queue, so that nobody ever
+//! waits for one who waits for him. One who asks is put behind all who hold ways that meet his own; before one of them
+//! he goes only if that one has not reached its line, can still stop for it, and by all that is seen need not.
+
+use simworld_core::net::Aspect;
+
+use super::Way;
+use super::conflicts::Conflict;
+use super::junction::horizon;
+use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
+use super::part::Part;
+use super::tracks::Track;
+
+/// Time that one wants between clearing a conflict and the arrival of who has priority, s; and of who has not.
+const MARGIN: f64 = 1.0;
+const MARGIN_OF_EQUALS: f64 = 0.5;
+/// Vehicles with priority are looked for within this distance, m.
+const SIGHT: f64 = 90.0;
+/// Braking with which one who is overtaken in the order could stop at its line, m/s².
+const EASILY: f64 = 2.0;
+/// Acceleration with which others are expected to clear the way, and to come, m/s².
+const CLEARS: f64 = 1.0;
+const COMES: f64 = 1.5;
+/// One relies on somebody else being gone while one could still stop with this, m/s², in the time that follows, s.
+const RELIES: f64 = 2.5;
+const RELIES_FOR: f64 = 0.5;
+
+/// Whether one leave is older than another; numbers begin anew after the last.
+pub(super) fn is_before(one: u32, other: u32) -> bool {
+    one.wrapping_sub(other) > u32::MAX / 2
+}
+
+/// Somebody who holds a way, seen along it.
+#[derive(Clone, Copy, Debug)]
+struct Holder {
+    /// Its front, m along the way; negative before its line.
+    front: f64,
+    length: f64,
+    v: f64,
+    granted: u32,
+    /// Its rank in the lane before the line.
+    rank: u32,
+}
+
+impl Holder {
+    fn rear(&self) -> f64 {
+        self.front - self.length
+    }
+
+    /// When it will be out of the way of another, s; never if it stands in the junction.
+    fn clears(&self, conflict: &Conflict, speed: f64) -> f64 {
+        if self.front > 0.0 && self.v < STANDING {
+            return f64::INFINITY;
+        }
+        time_over(conflict.other.passed() - self.rear(), self.v, CLEARS, speed.max(3.0))
+    }
+}
+
+/// How one who asks would cross.
+struct Asker {
+    /// To its line, m.
+    distance: f64,
+    v: f64,
+    length: f64,
+    acceleration: f64,
+    /// The speed across, m/s.
+    speed: f64,
+}
+
+impl Asker {
+    fn time(&self, station: f64) -> f64 {
+        time_over(self.distance + station, self.v, self.acceleration, self.speed)
+    }
+
+    /// Its speed when it has come to a station, m/s.
+    fn speed_at(&self, station: f64) -> f64 {
+        let square = self.v * self.v + 2.0 * self.acceleration * (self.distance + station);
+        square.max(0.0).sqrt().min(self.speed)
+    }
+
+    /// Whether it could go after a holder without standing in the junction.
+    fn goes_after(&self, holder: &Holder, conflict: &Conflict, speed: f64) -> bool {
+        holder.clears(conflict, speed) <= self.time(conflict.own.enter())
+    }
+
+    /// Whether it would be gone before one who comes in that time at that speed.
+    fn goes_before(&self, conflict: &Conflict, comes: f64, v: f64) -> bool {
+        let gone = conflict.own.passed() + self.length;
+        // Where both end in one lane the other must come down to one's own speed.
+        let excess = if conflict.merges { (v - self.speed_at(gone)).max(0.0) } else { 0.0 };
+        let slowed = excess * excess / (2.0 * EASILY * v.max(1.0));
+        let margin = if conflict.yields { MARGIN } else { MARGIN_OF_EQUALS };
+        self.time(gone) + slowed + margin <= comes
+    }
+}
+
+impl Part {
+    /// Whether one who asks finds its place among those who hold ways that meet its own, and a gap before those who have
+    /// priority; lists whom it would overtake in the order.
+    pub(super) fn finds_gap(
+        &self,
+        scene: &Scene<'_>,
+        way: usize,
+        vehicle: &Vehicle,
+        distance: f64,
+        overtaken: &mut Vec<(u32, u32)>,
+    ) -> bool {
+        overtaken.clear();
+        // Who hears a siren waits for it.
+        let siren = scene.sirens.is_on(vehicle.id);
+        let (tracks, junctions) = (scene.tracks, scene.junctions);
+        let row = scene.config.vehicle_type(vehicle.row);
+        let asker = Asker {
+            distance,
+            v: vehicle.v,
+            length: vehicle.length(),
+            acceleration: row.driver.acceleration,
+            speed: row.free_speed(scene.config, vehicle.factor, tracks.speed[tracks.lanes + way]),
+        };
+        tracks.conflicts[way].iter().all(|conflict| {
+            let is_held = junctions.is_held(conflict.way);
+            if is_held && (vehicle.is_long() || junctions.has_long(conflict.way)) {
+                return false; // long ones have the junction to themselves
+            }
+            (!is_held || self.fits_in(scene, &asker, conflict, overtaken))
+                && !(conflict.yields && !siren && self.is_hindered(scene, &asker, conflict))
+        })
+    }
+
+    /// Whether one who asks may go after or before each of those who hold a way.
+    fn fits_in(
+        &self,
+        scene: &Scene<'_>,
+        asker: &Asker,
+        conflict: &Conflict,
+        overtaken: &mut Vec<(u32, u32)>,
+    ) -> bool {
+        let tracks = scene.tracks;
+        let speed = tracks.speed[tracks.lanes + conflict.way as usize];
+        let from = tracks.ways[conflict.way as usize].from;
+        let limit = tracks.speed[from as usize];
+        let mut fits = true;
+        self.holders(scene, conflict.way, |holder| {
+            if !fits || asker.goes_after(holder, conflict, speed) {
+                return;
+            }
+            let could_stop = holder.front < 0.0 && holder.v * holder.v <= -2.0 * EASILY * holder.front;
+            let way = conflict.other.enter() - holder.front;
+            let comes = time_over(way, holder.v, COMES, holder.v.max(limit));
+            fits = could_stop && asker.goes_before(conflict, comes, holder.v);
+            if fits {
+                overtaken.push((tracks.layout.local(from) as u32, holder.rank));
+            }
+        });
+        fits
+    }
+
+    /// Whether somebody with priority who has no leave yet would have to brake.
+    fn is_hindered(&self, scene: &Scene<'_>, asker: &Asker, conflict: &Conflict) -> bool {
+        let tracks = scene.tracks;
+        let Some((end, rival)) = self.next_rival(scene, conflict.way) else { return false };
+        if rival.v < STANDING && rival.stood > 3.0 {
+            return false; // it cannot go, or lets one go
+        }
+        let way = end - rival.s + conflict.other.enter();
+        let limit = tracks.speed[tracks.ways[conflict.way as usize].from as usize];
+        let comes = time_over(way, rival.v, COMES, rival.v.max(limit));
+        !asker.goes_before(conflict, comes, rival.v)
+    }
+
+    /// The first without leave on the way to a way that its signal lets go, and where its lane ends.
+    fn next_rival(&self, scene: &Scene<'_>, way: u32) -> Option<(f64, &Vehicle)> {
+        let tracks = scene.tracks;
+        let Way { from, signal, .. } = tracks.ways[way as usize];
+        if scene.aspect(signal) != Aspect::Green {
+            return None;
+        }
+        let end = tracks.length[from as usize];
+        let queue = self.slabs.queue(tracks.layout.local(from)).iter();
+        let mut near = queue.take_while(|rival| end - rival.s < SIGHT);
+        near.find(|rival| rival.next == way && rival.holding != way).map(|rival| (end, rival))
+    }
+
+    /// All who hold a way: before it, on it, and with their rears still on it.
+    fn holders(&self, scene: &Scene<'_>, way: u32, mut see: impl FnMut(&Holder)) {
+        let tracks = scene.tracks;
+        let track = tracks.lanes + way as usize;
+        let Way { from, to, .. } = tracks.ways[way as usize];
+        let end = tracks.length[from as usize];
+        let before = self.slabs.queue(tracks.layout.local(from)).iter().enumerate();
+        for (rank, vehicle) in before.take_while(|(_, vehicle)| vehicle.has_leave_or_exits()) {
+            if vehicle.holding == way {
+                see(&Holder::of(vehicle, vehicle.s - end, rank));
+            }
+        }
+        for vehicle in self.slabs.queue(tracks.layout.local(track as Track)) {
+            see(&Holder::of(vehicle, vehicle.s, 0));
+        }
+        let tail = scene.tail(to);
+        if tail.way == way {
+            let (length, rear) = (f64::from(tail.length), tail.rear + tracks.length[track]);
+            see(&Holder { front: rear + length, length, v: tail.v, granted: tail.granted, rank: 0 });
+        }
+    }
+
+    /// Puts those who were overtaken, and all with leave behind them, last in the order.
+    pub(super) fn put_last(&mut self, overtaken: &mut Vec<(u32, u32)>) {
+        overtaken.sort_unstable();
+        overtaken.dedup_by_key(|place| place.0);
+        for (lane, rank) in overtaken.drain(..) {
+            let Self { slabs, leaves, .. } = self;
+            let with_leave = slabs.queue_mut(lane as usize)[rank as usize..].iter_mut();
+            with_leave.take_while(|vehicle| vehicle.has_leave_or_exits()).for_each(|vehicle| {
+                *leaves = leaves.wrapping_add(1);
+                vehicle.granted = *leaves;
+            });
+        }
+    }
+
+    /// What one with leave must mind of those whose leave is older: where to stop, or whom to follow.
+    pub(super) fn mind_older(
+        &self,
+        scene: &Scene<'_>,
+        vehicle: &Vehicle,
+        (way, front): (usize, f64),
+        mut mind: impl FnMut(Precedence),
+    ) {
+        let tracks = scene.tracks;
+        let acceleration = scene.config.vehicle_type(vehicle.row).driver.acceleration;
+        for conflict in tracks.conflicts[way].iter().filter(|other| scene.junctions.is_held(other.way)) {
+            let to_zone = conflict.own.enter() - front;
+            if to_zone > horizon(vehicle.v) {
+                continue;
+            }
+            let speed = tracks.speed[tracks.lanes + conflict.way as usize];
+            self.holders(scene, conflict.way, |holder| {
+                if !is_before(holder.granted, vehicle.granted) {
+                    return;
+                }
+                let rear = holder.rear();
+                if conflict.merges && rear >= conflict.other.enter() {
+                    let ends = (tracks.length[tracks.lanes + way], conflict.other_length(scene));
+                    mind(Precedence::Follow { gap: ends.0 - front - (ends.1 - rear), speed: holder.v });
+                } else if rear < conflict.other.passed() && to_zone > -0.5 {
+                    let sure = vehicle.v * (vehicle.v / (2.0 * RELIES) + RELIES_FOR) + 1.0;
+                    let own = scene.tracks.speed[tracks.lanes + way].max(vehicle.v);
+                    let comes = time_over(to_zone, vehicle.v, acceleration, own);
+                    if to_zone < sure || holder.clears(conflict, speed) > comes {
+                        mind(Precedence::Stop { distance: to_zone });
+                    }
+                }
+            });
+        }
+    }
+}
+
+/// What the older leave of another asks of one.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Precedence {
+    /// To stop so far ahead, m.
+    Stop { distance: f64 },
+    /// To follow it, m and m/s.
+    Follow { gap: f64, speed: f64 },
+}
+
+impl Conflict {
+    fn other_length(&self, scene: &Scene<'_>) -> f64 {
+        scene.tracks.length[scene.tracks.lanes + self.way as usize]
+    }
+}
+
+impl Holder {
+    fn of(vehicle: &Vehicle, front: f64, rank: usize) -> Self {
+        let (v, granted) = (vehicle.v, vehicle.granted);
+        Self { front, length: vehicle.length(), v, granted, rank: rank as u32 }
+    }
+}
+
+impl Vehicle {
+    /// Whether it has leave for the end of its lane or leaves the network there: nobody has leave behind one of whom neither
+    /// is true.
+    fn has_leave_or_exits(&self) -> bool {
+        self.next == EXIT || (self.holding != NONE && self.holding == self.next)
+    }
+}
+
+/// The time that a way takes from a speed with an acceleration up to another speed, s.
+fn time_over(way: f64, v: f64, acceleration: f64, most: f64) -> f64 {
+    if way <= 0.0 {
+        return 0.0;
+    }
+    if v >= most {
+        return way / ((v + most) * 0.5); // it slows down on the way
+    }
+    let until = (most * most - v * v) / (2.0 * acceleration);
+    if way <= until {
+        ((v * v + 2.0 * acceleration * way).sqrt() - v) / acceleration
+    } else {
+        (most - v) / acceleration + (way - until) / most
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_those_of_constant_acceleration() {
+        // 12 m from rest at 1.5 m/s²: 4 s; with at most 3 m/s 2 s for 3 m and 3 s for the other 9.
+        assert!((time_over(12.0, 0.0, 1.5, 10.0) - 4.0).abs() < 1e-12);
+        assert!((time_over(12.0, 0.0, 1.5, 3.0) - 5.0).abs() < 1e-12);
+        assert!((time_over(12.0, 4.0, 1.5, 4.0) - 3.0).abs() < 1e-12);
+        assert!(time_over(-1.0, 4.0, 1.5, 4.0) == 0.0);
+    }
+
+    #[test]
+    fn the_order_goes_on_when_numbers_begin_anew() {
+        assert!(is_before(3, 4) && !is_before(4, 3) && !is_before(4, 4));
+        assert!(is_before(u32::MAX, 2) && !is_before(2, u32::MAX));
+    }
+}
