@@ -27,12 +27,12 @@ pub(crate) struct Zone {
 }
 
 impl Zone {
-    pub(crate) fn enter(&self) -> f64 {
+    pub(crate) fn enter(self) -> f64 {
         f64::from(self.enter)
     }
 
     /// Where a rear must be for the other to go on: out of the stretch, or far enough on it to be followed.
-    pub(crate) fn passed(&self) -> f64 {
+    pub(crate) fn passed(self) -> f64 {
         if self.leave.is_finite() { f64::from(self.leave) } else { self.enter() + FOLLOW }
     }
 }

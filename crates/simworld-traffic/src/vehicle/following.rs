@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use simworld_core::ops;
 
 use super::Idm;
+use super::lookahead::BEFORE_LINE;
 
 /// A car-following model.
 ///
@@ -187,7 +188,8 @@ fn safe_acceleration(driver: &Idm, v: f64, leader: &Leader, dt: f64) -> f64 {
 fn constant_acceleration(driver: &Idm, v: f64, leader: &Leader) -> f64 {
     let (gap, speed) = (leader.gap.max(0.01), leader.speed);
     if speed <= 0.0 {
-        return -v * v / (2.0 * gap);
+        // Lines are told as leaders a standing gap beyond them: one stops where one is to stand.
+        return -v * v / (2.0 * (gap - driver.gap + BEFORE_LINE).max(0.01));
     }
     let its = leader.acceleration.min(driver.acceleration);
     if its == f64::NEG_INFINITY {

@@ -10,7 +10,7 @@ use super::precedence::Precedence;
 use super::tracks::{Obstacle, Track, Tracks};
 
 /// Where a vehicle stops before a line, m.
-const BEFORE_LINE: f64 = 0.5;
+pub(super) const BEFORE_LINE: f64 = 0.5;
 
 /// A track as its drivers see it.
 pub(super) struct Lane<'a> {
