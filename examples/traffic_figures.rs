@@ -19,6 +19,7 @@ use simworld_core::hash::StateHash;
 use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_examples::beside_sumo::{BesideError, Workload, beside};
+use simworld_traffic::validation::halls::{Halls, PEOPLE};
 use simworld_traffic::{Traffic, TrafficConfig};
 
 /// Measures how fast traffic moves and prints each rate beside its bar.
@@ -52,6 +53,7 @@ fn main() -> Outcome<()> {
     let arguments = Arguments::parse();
     let mut report = Report::new(&arguments);
     rates(&arguments, &mut report)?;
+    walkers(&arguments, &mut report)?;
     threads(&arguments, &mut report)?;
     city(&arguments, &mut report)?;
     beside_sumo(&arguments, &mut report)?;
@@ -193,6 +195,42 @@ fn rates(arguments: &Arguments, report: &mut Report) -> Outcome<()> {
         report.add("  cost of one against the first row", format!("{relative:.2}"), "about 1");
         let bytes = traffic.vehicle_bytes() as f64 / f64::from(vehicles);
         report.add("  memory of a vehicle", format!("{bytes:.0} B"), "256 B");
+    }
+    Ok(())
+}
+
+/// People between walls at one per m², and walkers of a city with their memory.
+fn walkers(arguments: &Arguments, report: &mut Report) -> Outcome<()> {
+    let what = "10 k people between walls, 1 per m², one thread";
+    if report.wants(what) {
+        let mut halls = Halls::new(1);
+        let mut least = f64::INFINITY;
+        for round in 0..=3 {
+            let before = cpu_seconds(now());
+            for _ in 0..arguments.measured * 10 {
+                halls.step(DT);
+            }
+            // The first round is for them to mix.
+            if round > 0 {
+                least = least.min(cpu_seconds(now()) - before);
+            }
+        }
+        let rate = PEOPLE as f64 * f64::from(arguments.measured) / DT / least;
+        report.add(what, format!("{:.2} M agent-steps/CPU s", rate / 1e6), "2 M");
+    }
+    let what = "100 k walkers of a city, one thread";
+    if report.wants(what) {
+        let count = 100_000;
+        let plan = StreetPlan::grid(60, 60, 200.0);
+        let network = RoadNetwork::derive_with(&plan, &NetworkConfig::default(), &AllThreads)?;
+        let config = TrafficConfig { vehicles: 0, pedestrians: count, ..TrafficConfig::default() };
+        let mut traffic = Traffic::new(Arc::new(network), &config, Seed(42))?;
+        run(&mut traffic, arguments.warm_up / 4, what);
+        let (time, _) = best(&mut traffic, (arguments.measured / 4).max(1), what);
+        let rate = f64::from(count) * f64::from((arguments.measured / 4).max(1)) / DT / time;
+        report.add(what, format!("{:.2} M agent-steps/CPU s", rate / 1e6), "-");
+        let bytes = traffic.walker_bytes() as f64 / f64::from(count);
+        report.add("  memory of a walker: itself, its cell, its decision", format!("{bytes:.0} B"), "150 B");
     }
     Ok(())
 }

@@ -13,6 +13,7 @@ use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{NetworkPatch, PatchError};
 use crate::scene::{Attachment, EntityDesc, InteractionError, Scene, World, WorldError};
+use crate::traffic::TrafficOrder;
 use crate::value::Value;
 
 /// One change asked of a world.
@@ -89,6 +90,8 @@ pub enum Command {
         /// What it wants.
         intent: Intent,
     },
+    /// Asks something of the traffic.
+    Traffic(TrafficOrder),
 }
 
 /// Why a command had no effect; the world is as it was.
@@ -114,7 +117,7 @@ pub enum CommandError {
 pub struct Applied {
     /// The entity it made.
     pub spawned: Option<EntityId>,
-    /// The command that takes it back; actions and intents cannot be taken back.
+    /// The command that takes it back; actions, intents and orders to the traffic cannot be taken back.
     pub undo: Option<Command>,
 }
 
@@ -192,6 +195,10 @@ impl World {
             }
             Command::Intend { who, intent } => {
                 self.intend(*who, intent.clone())?;
+                None
+            }
+            Command::Traffic(order) => {
+                self.order(order.clone())?;
                 None
             }
         };

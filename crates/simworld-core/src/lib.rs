@@ -24,4 +24,5 @@ pub mod seed;
 pub mod simulation;
 #[cfg(feature = "testing")]
 pub mod testing;
+pub mod traffic;
 pub mod value;

@@ -4,10 +4,9 @@
 use std::sync::Arc;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
-use simworld_traffic::crowd::{AnticipationVelocity, Crowd, Person, Walls, Wish};
+use simworld_traffic::validation::halls::Halls;
 use simworld_traffic::{Traffic, TrafficConfig};
 
 /// Traffic after its first minute, when it has left its starting places.
@@ -38,33 +37,10 @@ fn updates(c: &mut Criterion) {
     group.finish();
 }
 
-/// Ten thousand people who walk to and fro in ten halls of 100 by 10 m, half of them each way.
+/// Ten thousand people between walls.
 fn crowd(c: &mut Criterion) {
-    let model = AnticipationVelocity::default();
-    let mut rng = Seed(1).stream("halls").rng();
-    let place = |index: u32| Point2::new(f64::from(index % 100) + 0.5, f64::from(index / 100) + 0.5);
-    let mut people: Vec<Person> =
-        (0..10_000).map(|index| Person::standing(place(index), Vector2::x())).collect();
-    let mut wishes: Vec<Wish> = people
-        .iter()
-        .map(|_| {
-            let direction = if rng.unit() < 0.5 { Vector2::x() } else { -Vector2::x() };
-            Wish { direction, speed: rng.normal_clamped(1.34, 0.26, 0.5, 2.2) }
-        })
-        .collect();
-    let at = Point2::new;
-    let mut walls: Vec<(Point2, Point2)> =
-        (0..=10).map(|hall| f64::from(hall) * 10.0).map(|y| (at(0.0, y), at(100.0, y))).collect();
-    walls.extend([0.0, 100.0].map(|x| (at(x, 0.0), at(x, 100.0))));
-    let (walls, mut crowd) = (Walls::new(walls), Crowd::default());
-    let mut step = || {
-        for (person, wish) in people.iter().zip(&mut wishes) {
-            if (person.position.x - 50.0) * wish.direction.x > 48.0 {
-                wish.direction = -wish.direction;
-            }
-        }
-        crowd.step(&model, &mut people, &wishes, &[], &walls, 0.1);
-    };
+    let mut halls = Halls::new(1);
+    let mut step = || halls.step(0.1);
     for _ in 0..600 {
         step();
     }

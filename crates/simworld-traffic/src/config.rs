@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::crowd::AnticipationVelocity;
 use crate::pedestrian::People;
 use crate::vehicle::{Mobil, VehicleKind, VehicleType, standard_types};
-use crate::{DrivingConditions, NoWay};
+use crate::{ControlError, DrivingConditions, NoWay};
 
 /// How much traffic there is, and how it behaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,6 +93,23 @@ pub enum TrafficError {
     NoSuchType {
         /// The kind that was asked for.
         kind: VehicleKind,
+    },
+    /// No vehicle is of that kind.
+    #[error(
+        "there is no kind of vehicles called {kind:?}: give car, van, truck, bus, motorcycle, bicycle, scooter or emergency vehicle"
+    )]
+    NoVehicle {
+        /// What was asked for.
+        kind: String,
+    },
+    /// Somebody cannot be taken over, moved or given back.
+    #[error(transparent)]
+    Control(#[from] ControlError),
+    /// An order that this version does not know.
+    #[error("this traffic knows no order {name}: it was made by a later version")]
+    Order {
+        /// Its name.
+        name: &'static str,
     },
     /// The walkways cannot be made.
     #[error(transparent)]

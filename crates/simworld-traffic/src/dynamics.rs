@@ -1,5 +1,9 @@
 //! Traffic in a world: its vehicles and pedestrians as entities, its signals as the world's.
 
+mod handed;
+mod orders;
+
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use simworld_core::environment::Weather;
@@ -11,6 +15,7 @@ use simworld_core::seam::{Dynamics, DynamicsError};
 use simworld_core::seed::{Seed, Stream, StreamRng};
 use simworld_core::value::Value;
 
+use self::handed::Who;
 use crate::traffic::State;
 use crate::{Body, DrivingConditions, Foreign, Pedestrian, Sex, Traffic, TrafficConfig, TrafficError};
 
@@ -26,6 +31,10 @@ const PAINTS: [[f32; 3]; 7] = [
 ];
 
 /// Moves the traffic of a world: one entity a vehicle and a pedestrian.
+///
+/// Orders to the traffic ([`Command::Traffic`](simworld_core::command::Command::Traffic)) are carried out at the beginning of a
+/// step; one that cannot be is reported as the event `traffic_refused`, and a closure as `closed` with its number. Who is taken
+/// out of the world is taken out of the traffic.
 ///
 /// People and vehicles that belong to others are seen: drivers stop for them, but not for parked
 /// vehicles (attribute `parked`), which keep within their lanes.
@@ -52,6 +61,8 @@ pub struct TrafficDynamics {
     vehicles: Vec<EntityId>,
     paint: Stream,
     pedestrians: Vec<EntityId>,
+    /// Whom somebody else moves.
+    handed: BTreeMap<EntityId, Who>,
     /// Bodies of others, found anew when entities come or go.
     others: Vec<EntityId>,
     revision: Option<u64>,
@@ -86,6 +97,7 @@ impl TrafficDynamics {
             vehicles,
             paint: stream.named("entered"),
             pedestrians,
+            handed: BTreeMap::new(),
             others: Vec::new(),
             revision: None,
             foreign: Vec::new(),
@@ -206,12 +218,12 @@ impl TrafficDynamics {
     fn write(&self, world: &mut World) -> Result<(), DynamicsError> {
         for body in self.traffic.vehicles() {
             let id = self.vehicles[body.id as usize];
-            if world.entity(id).is_some() {
+            if world.entity(id).is_some() && !self.is_handed(id) {
                 world.set_motion(id, body.pose, body.twist)?;
             }
         }
         for (id, walker) in self.pedestrians.iter().zip(self.traffic.pedestrians()) {
-            if !walker.is_present() || world.entity(*id).is_none() {
+            if !walker.is_present() || world.entity(*id).is_none() || self.is_handed(*id) {
                 continue;
             }
             let pose = pose_facing(Point3::new(walker.position.x, walker.position.y, 0.0), walker.heading());
@@ -222,6 +234,9 @@ impl TrafficDynamics {
         Ok(())
     }
 }
+
+/// What is saved: the configuration, the state, entities of vehicles and walkers by number, and whom somebody else moves.
+type Saved = (TrafficConfig, State, Vec<EntityId>, Vec<EntityId>, BTreeMap<EntityId, Who>);
 
 fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.shape);
@@ -258,6 +273,11 @@ impl Dynamics for TrafficDynamics {
             return Err(DynamicsError::Other(message.to_owned()));
         }
         self.mind_weather(world)?;
+        if self.revision != Some(world.revision()) {
+            self.bury(world);
+        }
+        self.obey(world);
+        self.follow(world);
         self.look_around(world);
         // Those who were taken out between two steps or came then, and those who left in this one.
         self.clear_away(world)?;
@@ -269,7 +289,8 @@ impl Dynamics for TrafficDynamics {
     }
 
     fn save(&self) -> Result<Vec<u8>, DynamicsError> {
-        let saved = (self.traffic.config(), self.traffic.state(), &self.vehicles, &self.pedestrians);
+        let saved =
+            (self.traffic.config(), self.traffic.state(), &self.vehicles, &self.pedestrians, &self.handed);
         let mut bytes =
             postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
         bytes.extend(checksum(&bytes));
@@ -282,7 +303,7 @@ impl Dynamics for TrafficDynamics {
         if checksum(bytes) != *sum {
             return Err(refused("its checksum does not fit its bytes, so it is damaged"));
         }
-        let (config, state, vehicles, pedestrians): (TrafficConfig, State, Vec<EntityId>, Vec<EntityId>) =
+        let (config, state, vehicles, pedestrians, handed): Saved =
             postcard::from_bytes(bytes).map_err(|error| refused(&error.to_string()))?;
         let named = config == *self.traffic.config()
             && vehicles.len() >= state.numbers()
@@ -290,7 +311,7 @@ impl Dynamics for TrafficDynamics {
         if !named || !self.traffic.set_state(state) {
             return Err(refused("it belongs to another network or configuration"));
         }
-        (self.vehicles, self.pedestrians) = (vehicles, pedestrians);
+        (self.vehicles, self.pedestrians, self.handed) = (vehicles, pedestrians, handed);
         self.revision = None;
         self.weather = None;
         Ok(())
@@ -298,5 +319,6 @@ impl Dynamics for TrafficDynamics {
 
     fn state_hash(&self, hasher: &mut StateHasher) {
         self.traffic.state_hash(hasher);
+        self.handed.values().for_each(|who| who.hash(hasher));
     }
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::id::EntityId;
 use thiserror::Error;
 
 use crate::Leg;
@@ -102,6 +103,14 @@ pub enum ControlError {
         what: &'static str,
         /// The number.
         id: u32,
+    },
+    /// No vehicle or walker has the entity.
+    #[error(
+        "{entity} is neither a vehicle nor a walker of the traffic as asked for: it may have left, or be another's"
+    )]
+    NoEntity {
+        /// The entity.
+        entity: EntityId,
     },
     /// It is not under that control.
     #[error("{what} {id} is not {wanted}: {mend}")]

@@ -419,6 +419,11 @@ impl Traffic {
         self.state.vehicles.bytes()
     }
 
+    /// Memory that the walkers take with all that is kept for their steps, bytes; the network is not theirs.
+    pub fn walker_bytes(&self) -> usize {
+        self.state.pedestrians.bytes()
+    }
+
     /// The walkers, by number; some may have [left](Pedestrian::is_present).
     pub fn pedestrians(&self) -> &[Pedestrian] {
         &self.state.pedestrians.walkers

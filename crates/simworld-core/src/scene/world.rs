@@ -25,6 +25,7 @@ use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
 use crate::net::{Aspect, NetworkPatch, PatchError, RoadNetwork};
+use crate::traffic::TrafficOrder;
 
 /// Positions farther out than this are refused, m: a third of the way round the Earth.
 const WORLD_LIMIT: f64 = 1.3e7;
@@ -73,6 +74,7 @@ pub struct World {
     // What this step is told and what happened in it; emptied at its end.
     actuations: Vec<(EntityId, Action)>,
     intents: Vec<(EntityId, Intent)>,
+    orders: Vec<TrafficOrder>,
     events: Vec<Event>,
 }
 
@@ -263,6 +265,11 @@ impl World {
         &self.intents
     }
 
+    /// What is asked of the traffic this step, in the order it was said.
+    pub fn orders(&self) -> &[TrafficOrder] {
+        &self.orders
+    }
+
     /// What happened since the step began, in order.
     pub fn events(&self) -> &[Event] {
         &self.events
@@ -289,12 +296,19 @@ impl World {
         Ok(())
     }
 
+    pub(crate) fn order(&mut self, order: TrafficOrder) -> Result<(), WorldError> {
+        order.who().map_or(Ok(()), |who| self.check_alive(who))?;
+        self.orders.push(order);
+        Ok(())
+    }
+
     /// Ends the step: carried things follow their carriers, digests are renewed, the clock advances.
     pub fn finish_step(&mut self) {
         self.follow_carriers();
         self.renew_digests();
         self.actuations.clear();
         self.intents.clear();
+        self.orders.clear();
         self.clock.advance();
     }
 

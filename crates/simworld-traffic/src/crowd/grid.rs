@@ -128,6 +128,13 @@ impl Grid {
         (floor(at.x * self.per_metre), floor(at.y * self.per_metre))
     }
 
+    /// Bytes that it takes.
+    pub(super) fn bytes(&self) -> usize {
+        (self.starts.capacity() + self.ranks.capacity()) * 4
+            + self.seen.capacity() * size_of::<Seen>()
+            + (self.x.capacity() + self.y.capacity()) * 8
+    }
+
     /// The middle of a cell, m.
     pub(super) fn middle(&self, cell: Cell) -> Point2 {
         Point2::new(cell.0 as f64 + 0.5, cell.1 as f64 + 0.5) / self.per_metre

@@ -83,6 +83,11 @@ impl Crowd {
         });
     }
 
+    /// Bytes that it takes for people; what threads need for themselves grows with the threads' parts, not with the people.
+    pub(crate) fn bytes(&self) -> usize {
+        self.grid.bytes() + self.decisions.capacity() * size_of::<Decision>()
+    }
+
     /// What the last call of [`decide`](Self::decide) made of somebody, if they decided.
     pub(crate) fn decision(&self, index: usize) -> Option<&Decision> {
         Some(&self.decisions[self.grid.rank(index)]).filter(|decision| decision.facing != [0.0; 2])

@@ -68,6 +68,14 @@ impl Journeys {
         journey.path.get(decisions as usize).map_or(Next::Arrived, |next| Next::To(*next))
     }
 
+    /// Bytes that they take; what the tree takes beside its entries is not counted.
+    pub(super) fn bytes(&self) -> usize {
+        let of = |journey: &Journey| {
+            size_of::<(u32, Journey)>() + journey.path.capacity() * size_of::<WaypointId>()
+        };
+        self.0.values().map(of).sum()
+    }
+
     pub(super) fn fit(&self, walkers: usize, waypoints: usize) -> bool {
         let is_known = |waypoint: &WaypointId| waypoint.index() < waypoints;
         self.0.iter().all(|(index, journey)| {

@@ -228,6 +228,15 @@ impl PedestrianManager {
         });
     }
 
+    /// Bytes that the walkers take, with their journeys and all that is kept for a step.
+    pub(crate) fn bytes(&self) -> usize {
+        self.walkers.capacity() * size_of::<Pedestrian>()
+            + self.crowd.bytes()
+            + self.journeys.bytes()
+            + self.free.capacity() * 4
+            + self.subset.as_ref().map_or(0, Vec::capacity) * 4
+    }
+
     /// Whether a saved state is one of this network.
     pub(crate) fn fits(&self, ways: &WaypointGraph, crossings: usize) -> bool {
         let (count, walkers) = (ways.waypoints().len(), self.walkers.len());

@@ -18,6 +18,7 @@ pub mod corridor;
 mod delay;
 mod discharge;
 mod following;
+pub mod halls;
 mod policies;
 mod priority;
 mod ring;

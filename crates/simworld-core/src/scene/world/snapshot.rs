@@ -14,6 +14,7 @@ use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{Aspect, RoadNetwork};
 use crate::scene::EntityDesc;
+use crate::traffic::TrafficOrder;
 
 /// A [`World`] as data: serialise it, and [restore](World::restore) goes on bit for bit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +31,7 @@ pub struct WorldSnapshot {
     revision: u64,
     actuations: Vec<(EntityId, Action)>,
     intents: Vec<(EntityId, Intent)>,
+    orders: Vec<TrafficOrder>,
     events: Vec<Event>,
 }
 
@@ -49,6 +51,7 @@ impl World {
             revision: self.revision,
             actuations: self.actuations.clone(),
             intents: self.intents.clone(),
+            orders: self.orders.clone(),
             events: self.events.clone(),
         }
     }
@@ -88,6 +91,7 @@ impl World {
             signals: snapshot.signals,
             actuations: snapshot.actuations,
             intents: snapshot.intents,
+            orders: snapshot.orders,
             events: snapshot.events,
             tree: Quadtree::with_width(snapshot.tree_width),
             ..Self::default()
