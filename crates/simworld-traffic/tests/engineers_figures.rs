@@ -33,6 +33,16 @@ fn a_queue_of_another_model_discharges_as_that_model_does() {
 }
 
 #[test]
+fn who_decides_late_makes_waves_grow_as_the_theory_says() {
+    holds("late decisions");
+}
+
+#[test]
+fn who_sees_badly_does_not_drive_steadily() {
+    holds("errors of drivers");
+}
+
+#[test]
 fn flow_on_a_ring_is_that_of_the_model() {
     holds("ring");
 }

@@ -1,10 +1,11 @@
 //! Following: gaps in equilibrium, and how a wave runs along a platoon.
 
+use nalgebra::Complex;
 use simworld_core::ops;
 
 use super::streets::LENGTH;
 use super::{Effort, Figure, Figures, ValidationError};
-use crate::vehicle::{CarFollowing, Idm, Leader, advance};
+use crate::vehicle::{CarFollowing, Idm, Leader, Perception, advance};
 
 const DT: f64 = 0.05;
 /// Followers.
@@ -14,6 +15,9 @@ const COUNT: usize = 8;
 struct File {
     driver: Idm,
     model: CarFollowing,
+    /// Time from one decision to the next, s; 0 for every step.
+    reaction_time: f64,
+    steps: u64,
     /// Place of the front, speed and last acceleration, the leader first.
     cars: Vec<(f64, f64, f64)>,
 }
@@ -21,7 +25,8 @@ struct File {
 impl File {
     fn new(driver: Idm, model: CarFollowing, v: f64) -> Self {
         let step = model.equilibrium_gap(&driver, v) + LENGTH;
-        Self { driver, model, cars: (0..=COUNT).map(|rank| (-step * rank as f64, v, 0.0)).collect() }
+        let cars = (0..=COUNT).map(|rank| (-step * rank as f64, v, 0.0)).collect();
+        Self { driver, model, reaction_time: 0.0, steps: 0, cars }
     }
 
     fn gap(&self, rank: usize) -> f64 {
@@ -30,14 +35,19 @@ impl File {
 
     /// A step in which the leader takes up a speed.
     fn step(&mut self, leader: f64) {
+        let late = Perception { reaction_time: self.reaction_time, ..Perception::default() };
         let asked: Vec<f64> = (1..=COUNT)
             .map(|rank| {
-                let (_, v, _) = self.cars[rank];
+                let (_, v, held) = self.cars[rank];
+                if !late.decides(rank as u32, self.steps, DT) {
+                    return held;
+                }
                 let (_, speed, acceleration) = self.cars[rank - 1];
                 let leader = Leader { gap: self.gap(rank), speed, acceleration };
                 self.model.acceleration(&self.driver, v, self.driver.desired_speed, Some(leader), DT)
             })
             .collect();
+        self.steps += 1;
         let (at, before, _) = self.cars[0];
         self.cars[0] = (at + (before + leader) * 0.5 * DT, leader, (leader - before) / DT);
         for (car, acceleration) in self.cars[1..].iter_mut().zip(asked) {
@@ -105,12 +115,17 @@ impl Linear {
     /// By how much each follower amplifies a wave of so many radians a second, in steps of [`DT`]: speeds change by
     /// `dt (f_s s + f_v v + f_l v_l)`, gaps by the mean of the speeds at both ends of a step. As the step goes to nothing it is
     /// the formula of the book.
-    fn amplification(&self, omega: f64) -> f64 {
-        let (sin, cos) = ops::sin_cos(omega * DT);
-        // Summing up over a step is dt/2 (z + 1)/(z - 1) = -i dt/2 / tan(ω dt/2).
-        let sum = -0.5 * DT / ops::tan(0.5 * omega * DT);
-        let above = ops::hypot(self.leader, self.gap * sum);
-        above / ops::hypot((cos - 1.0) / DT - self.own, sin / DT + self.gap * sum)
+    ///
+    /// Who decides every so many steps goes on as he last decided: in the mean over these steps, `1/n (1 + z⁻¹ + ...)` of what
+    /// perfect drivers do. What the sampling brings in from other frequencies is left out.
+    fn amplification(&self, omega: f64, reaction_time: f64) -> f64 {
+        let z = Complex::from_polar(1.0, omega * DT);
+        let steps = (reaction_time / DT).round().max(1.0) as i32;
+        let held = (0..steps).map(|step| z.powi(-step)).sum::<Complex<f64>>() / f64::from(steps);
+        let sum = (z + 1.0) / (z - 1.0) * (DT * 0.5);
+        let above = held * (sum * self.gap + self.leader);
+        let below = (z - 1.0) / DT - held * (Complex::from(self.own) - sum * self.gap);
+        (above / below).norm()
     }
 
     /// Whether all long waves fade.
@@ -120,10 +135,9 @@ impl Linear {
 }
 
 /// By how much each follower amplifies a small wave of the leader, measured from the second to the last.
-fn measured(driver: Idm, model: CarFollowing, v: f64, omega: f64) -> f64 {
+fn measured(mut file: File, v: f64, omega: f64) -> f64 {
     const SMALL: f64 = 0.01;
     let period = (std::f64::consts::TAU / omega / DT) as u32;
-    let mut file = File::new(driver, model, v);
     let mut reach = [(f64::INFINITY, f64::NEG_INFINITY); COUNT + 1];
     let periods = 400.0 / (f64::from(period) * DT) + 12.0;
     for step in 0..(f64::from(period) * periods) as u32 {
@@ -152,10 +166,10 @@ pub(super) fn platoon(_: Effort) -> Figures {
             let mut grows = false;
             for seconds in [30.0, 60.0] {
                 let omega = std::f64::consts::TAU / seconds;
-                let found = measured(driver, model, v, omega);
+                let found = measured(File::new(driver, model, v), v, omega);
                 grows |= found > 1.0;
                 let label = format!("growth a follower, {name} at {v} m/s, waves of {seconds} s");
-                let expected = linear.amplification(omega);
+                let expected = linear.amplification(omega, 0.0);
                 figures.push(Figure::near(label, found, expected, 0.02, "").cited(SOURCE));
             }
             let agrees = if grows == linear.is_stable() { 0.0 } else { 1.0 };
@@ -166,6 +180,36 @@ pub(super) fn platoon(_: Effort) -> Figures {
     }
     if figures.iter().any(|figure| figure.value.is_nan()) {
         return Err(ValidationError::Nothing { measure: "platoon", reason: "nobody followed".to_owned() });
+    }
+    Ok(figures)
+}
+
+/// Late decisions: a platoon that is stable when everybody decides at once is not when they decide late.
+pub(super) fn late_decisions(_: Effort) -> Figures {
+    const V: f64 = 8.0;
+    let (driver, model) = (Idm::default(), CarFollowing::Idm);
+    let linear = Linear::at(&driver, model, V);
+    let mut figures = Vec::new();
+    for reaction_time in [0.4, 0.8, 1.2, 1.6] {
+        let (mut grows, mut should) = (false, false);
+        for seconds in [10.0, 15.0, 30.0] {
+            let omega = std::f64::consts::TAU / seconds;
+            let found = measured(File { reaction_time, ..File::new(driver, model, V) }, V, omega);
+            let expected = linear.amplification(omega, reaction_time);
+            (grows, should) = (grows || found > 1.0, should || expected > 1.0);
+            let label = format!("growth a follower, deciding every {reaction_time} s, waves of {seconds} s");
+            // With less than ten decisions a wave what the sampling brings in from other frequencies begins to count.
+            let share = if seconds < 10.0 * reaction_time { 0.08 } else { 0.03 };
+            figures.push(Figure::near(label, found, expected, share, "").cited(SOURCE));
+        }
+        let agrees = if grows == should { 1.0 } else { 0.0 };
+        let word = if should { "unstable" } else { "stable" };
+        let label = format!("deciding every {reaction_time} s is {word}, as the theory says");
+        figures.push(Figure::within(label, agrees, (1.0, 1.0), "").cited(SOURCE));
+    }
+    if figures.iter().any(|figure| figure.value.is_nan()) {
+        let reason = "nobody followed".to_owned();
+        return Err(ValidationError::Nothing { measure: "late decisions", reason });
     }
     Ok(figures)
 }

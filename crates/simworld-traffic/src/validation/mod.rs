@@ -192,6 +192,16 @@ pub const MEASURES: &[Measure] = &[
         run: following::platoon,
     },
     Measure {
+        name: "late decisions",
+        about: "how a wave grows along a platoon of drivers who decide every so often, against the linear theory",
+        run: following::late_decisions,
+    },
+    Measure {
+        name: "errors of drivers",
+        about: "how much speeds differ on a ring of drivers who misjudge gaps, or dawdle",
+        run: ring::errors,
+    },
+    Measure {
         name: "fixed signal",
         about: "control delay at the stop line, arrivals even and at random",
         run: delay::fixed_signal,

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use simworld_core::geometry::{Point2, direction};
-use simworld_core::net::{CrossSection, Street, StreetPlan};
+use simworld_core::net::{CrossSection, RoadNetwork, Street, StreetPlan};
 use simworld_core::seed::Seed;
 
 use super::streets::{LENGTH, derive, empty, mean};
-use super::{Effort, Figure, Figures};
-use crate::vehicle::Idm;
+use super::{Effort, Figure, Figures, ValidationError};
+use crate::vehicle::{CarFollowing, Idm, Perception, VehicleType};
 use crate::{Traffic, TrafficConfig};
 
 const DT: f64 = 0.1;
@@ -73,4 +73,45 @@ pub(super) fn measure(effort: Effort) -> Figures {
         figures.push(Figure::near(name, flow, expected, 0.02, "veh/h").cited(source));
     }
     Ok(figures)
+}
+
+/// How much speeds on the ring differ from their mean, m/s, with drivers of a type: over time and vehicles.
+fn deviation(network: &Arc<RoadNetwork>, car: VehicleType, effort: Effort) -> Result<f64, ValidationError> {
+    let length: f64 = network.lanes.iter().map(|lane| lane.length).sum();
+    let vehicles = (25.0 * length / 1000.0) as u32;
+    let config = TrafficConfig { vehicles, types: vec![car], ..empty() };
+    let mut traffic = Traffic::new(Arc::clone(network), &config, Seed(4))?;
+    let mut speeds = Vec::new();
+    for step in 0..effort.pick(18_000, 36_000) {
+        traffic.step(DT);
+        if step % 20 == 0 && step > 12_000 {
+            speeds.extend(traffic.stations().map(|vehicle| vehicle.3));
+        }
+    }
+    let middle = mean(speeds.iter().copied());
+    Ok(mean(speeds.iter().map(|speed| (speed - middle) * (speed - middle))).sqrt())
+}
+
+/// Errors: speeds that are steady with perfect drivers are not with others, the less the worse they see.
+pub(super) fn errors(effort: Effort) -> Figures {
+    let network = Arc::new(derive(&plan())?);
+    let of = |gap_error: f64| {
+        let none = Perception { reaction_time: 0.0, speed_error: 0.0, gap_error, ..Perception::default() };
+        let car = VehicleType { perception: Some(none), ..empty().types[0].clone() };
+        deviation(&network, car, effort)
+    };
+    let (none, small, large) = (of(0.0)?, of(0.05)?, of(0.1)?);
+    let krauss = |sigma: f64| {
+        let car = VehicleType { model: CarFollowing::Krauss { sigma }, ..empty().types[0].clone() };
+        deviation(&network, car, effort)
+    };
+    let (calm, half, whole) = (krauss(0.0)?, krauss(0.5)?, krauss(1.0)?);
+    Ok(vec![
+        Figure::within("deviation of speeds, perfect drivers", none, (0.0, 0.02), "m/s"),
+        Figure::within("with gaps misjudged by 5 %", small, (0.03, 1.0), "m/s"),
+        Figure::within("with 10 %, over that with 5 %", large / small, (1.7, 2.3), ""),
+        Figure::within("by Krauss with sigma 0", calm, (0.0, 0.02), "m/s"),
+        Figure::within("by Krauss with sigma 0.5", half, (0.01, 2.0), "m/s"),
+        Figure::within("with sigma 1, over that with 0.5", whole / half, (1.7, 2.3), ""),
+    ])
 }

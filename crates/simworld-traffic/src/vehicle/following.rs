@@ -108,17 +108,15 @@ pub(crate) struct Ahead {
 impl Ahead {
     pub(crate) const NOTHING: Self = Self { pressure: 0.0, bound: f64::INFINITY };
 
-    /// Takes one more thing into account.
+    /// Takes one more thing into account, by the IDM.
     #[inline]
-    pub(crate) fn see(&mut self, model: &CarFollowing, driver: &Idm, v: f64, leader: &Leader, dt: f64) {
-        self.pressure = self.pressure.max(driver.pressure(v, leader.gap, leader.speed));
-        if !matches!(model, CarFollowing::Idm) {
-            self.see_by_others(model, driver, v, leader, dt);
-        }
+    pub(crate) fn press(&mut self, driver: &Idm, v: f64, gap: f64, speed: f64) {
+        self.pressure = self.pressure.max(driver.pressure(v, gap, speed));
     }
 
-    #[inline(never)]
-    fn see_by_others(&mut self, model: &CarFollowing, driver: &Idm, v: f64, leader: &Leader, dt: f64) {
+    /// The same by any model.
+    pub(crate) fn see(&mut self, model: &CarFollowing, driver: &Idm, v: f64, leader: &Leader, dt: f64) {
+        self.press(driver, v, leader.gap, leader.speed);
         let bound = match model {
             CarFollowing::Idm => return,
             CarFollowing::Krauss { .. } => safe_acceleration(driver, v, leader, dt),
@@ -127,17 +125,14 @@ impl Ahead {
         self.bound = self.bound.min(bound);
     }
 
-    /// The acceleration, m/s².
+    /// The acceleration by the IDM, m/s².
     #[inline]
-    pub(crate) fn respond(&self, model: &CarFollowing, driver: &Idm, v: f64, free: f64, dt: f64) -> f64 {
-        if matches!(model, CarFollowing::Idm) {
-            return driver.respond(v, free, self.pressure);
-        }
-        self.respond_by_others(model, driver, v, free, dt)
+    pub(crate) fn respond_by_idm(&self, driver: &Idm, v: f64, free: f64) -> f64 {
+        driver.respond(v, free, self.pressure)
     }
 
-    #[inline(never)]
-    fn respond_by_others(&self, model: &CarFollowing, driver: &Idm, v: f64, free: f64, dt: f64) -> f64 {
+    /// The acceleration by any model, m/s².
+    pub(crate) fn respond(&self, model: &CarFollowing, driver: &Idm, v: f64, free: f64, dt: f64) -> f64 {
         let wanted = match model {
             CarFollowing::Idm => driver.respond(v, free, self.pressure),
             CarFollowing::Krauss { .. } => {

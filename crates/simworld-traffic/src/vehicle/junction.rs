@@ -266,7 +266,7 @@ fn may_enter(
     let distance = tracks.length[lane as usize] - vehicle.s;
     let siren = scene.sirens.is_on(vehicle.id);
     vehicle.shift == 0.0
-        && (signal_allows(scene, way, vehicle, distance) || (siren && may_pass_red(vehicle, distance)))
+        && (signal_allows(scene, way, vehicle, distance) || (siren && may_pass_red(scene, vehicle, distance)))
         && (siren || !scene.sirens.keep_free(tracks, way))
         && tracks.tight[way].iter().all(|other| {
             let held = if vehicle.is_long() { &junctions.holders } else { &junctions.long_holders };

@@ -5,6 +5,7 @@ use super::following::{Ahead, CarFollowing, Leader};
 use super::junction::horizon;
 use super::lane_change::{CHANGE_ROOM, Ghost, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
+use super::otherwise::Otherwise;
 use super::part::Part;
 use super::precedence::Precedence;
 use super::tracks::{Obstacle, Track, Tracks};
@@ -85,8 +86,7 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
     let idm = &kind.driver;
     let mut view = View {
         idm,
-        model: &kind.model,
-        dt: lane.scene.at.dt,
+        otherwise: kind.drives_otherwise().then(|| Otherwise::new(lane.scene, kind, vehicle.id)),
         s: vehicle.s,
         v: vehicle.v,
         gap: f64::INFINITY,
@@ -130,11 +130,14 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
     if !lane.scene.sight.obstacles.is_empty() {
         view.beware(&lane.scene.sight, lane.track, vehicle.s, idm.gap);
     }
-    let mut acceleration = view.ahead.respond(view.model, idm, vehicle.v, view.free, view.dt);
-    if let CarFollowing::Krauss { .. } = view.model {
-        let draw = lane.scene.draw("dawdle", vehicle.id);
-        acceleration = kind.model.dawdle(idm, vehicle.v, acceleration, draw);
-    }
+    let mut acceleration = match &view.otherwise {
+        None => view.ahead.respond_by_idm(idm, vehicle.v, view.free),
+        Some(otherwise) => {
+            let is_crossing = vehicle.holding != NONE && vehicle.v > STANDING;
+            let is_pressed = lane.way.is_some() || vehicle.shift != 0.0 || is_crossing;
+            otherwise.respond(lane.scene, vehicle, &view.ahead, (view.free, view.gap), is_pressed)
+        }
+    };
     if vehicle.v < STANDING && view.gap < idm.gap {
         // Standing close is standing: no creeping on rounding.
         acceleration = acceleration.min(0.0);
@@ -145,8 +148,8 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
 struct View<'a> {
     idm: &'a Idm,
-    model: &'a CarFollowing,
-    dt: f64,
+    /// One who is not perfect, or drives by another model than the IDM.
+    otherwise: Option<Otherwise<'a>>,
     s: f64,
     v: f64,
     gap: f64,
@@ -160,7 +163,10 @@ impl View<'_> {
     #[inline]
     fn see(&mut self, leader: Leader) {
         self.gap = self.gap.min(leader.gap);
-        self.ahead.see(self.model, self.idm, self.v, &leader, self.dt);
+        match &self.otherwise {
+            None => self.ahead.press(self.idm, self.v, leader.gap, leader.speed),
+            Some(otherwise) => otherwise.see(&mut self.ahead, self.v, leader),
+        }
     }
 
     /// Somebody whose acceleration one does not see, or something that stands.

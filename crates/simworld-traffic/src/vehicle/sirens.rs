@@ -154,8 +154,9 @@ impl VehicleManager {
 }
 
 /// Whether a vehicle with its siren on, so far before its stop line, may go on at red.
-pub(super) fn may_pass_red(vehicle: &Vehicle, distance: f64) -> bool {
-    vehicle.v <= SLOW && distance < SEES
+pub(super) fn may_pass_red(scene: &Scene<'_>, vehicle: &Vehicle, distance: f64) -> bool {
+    let crossed = &scene.tracks.network.connections[vehicle.next as usize].conflicts;
+    vehicle.v <= SLOW && distance < SEES && !crossed.iter().any(|other| scene.junctions.is_held(other.0))
 }
 
 /// Whether a vehicle that enters a way now passes a red light with its siren on.

@@ -108,6 +108,7 @@ impl SumoType {
                 ),
             },
             model: self.model().unwrap_or(base.model),
+            perception: base.perception,
             siren: false,
         }
     }

@@ -9,7 +9,7 @@ use simworld_core::scene::Shape;
 use simworld_core::seed::StreamRng;
 pub use table::standard_types;
 
-use super::{CarFollowing, Idm, Leader};
+use super::{CarFollowing, Idm, Leader, Perception};
 use crate::{TrafficConfig, TrafficError};
 
 /// Vehicles longer than this swing out of their lane in a turn, m.
@@ -38,6 +38,8 @@ pub struct VehicleType {
     pub driver: Idm,
     /// The model by which it follows.
     pub model: CarFollowing,
+    /// How its driver sees and how quickly he decides; `None` is perfect.
+    pub perception: Option<Perception>,
     /// Whether it comes with its siren on; for emergency vehicles only.
     pub siren: bool,
 }
@@ -61,6 +63,12 @@ impl VehicleType {
         self.driver.desired_speed.min(f64::from(factor) * config.conditions.speed * limit)
     }
 
+    /// Whether there is more to it than the IDM of a perfect driver.
+    #[inline]
+    pub(crate) fn drives_otherwise(&self) -> bool {
+        !matches!(self.model, CarFollowing::Idm) || self.perception.is_some()
+    }
+
     /// The acceleration at a speed, with a free speed, behind something at a gap with a speed, m and m/s; an infinite gap is a
     /// free road.
     #[inline]
@@ -80,6 +88,7 @@ impl VehicleType {
     pub(crate) fn validate(&self, index: usize) -> Result<(), TrafficError> {
         let Idm { desired_speed, headway, gap, acceleration, deceleration, emergency_deceleration } =
             self.driver;
+        let perception = self.perception.as_ref().map(Perception::ranges);
         let checks = [
             ("share", self.share, 0.0, 1000.0, "0 to 1000"),
             ("length", self.length, 0.5, 30.0, "0.5 to 30 m"),
@@ -107,10 +116,18 @@ impl VehicleType {
                 "deceleration to 12 m/s²",
             ),
         ];
-        for (field, value, low, high, allowed) in checks.into_iter().chain(self.model.own_range()) {
+        for (field, value, low, high, allowed) in
+            checks.into_iter().chain(self.model.own_range()).chain(perception.into_iter().flatten())
+        {
             if !(low..=high).contains(&value) {
                 return Err(TrafficError::VehicleType { index, field, value, allowed });
             }
+        }
+        let reaction = self.perception.map_or(0.0, |perception| perception.reaction_time);
+        if matches!(self.model, CarFollowing::Krauss { .. }) && reaction > headway {
+            let (field, value, allowed) =
+                ("perception.reaction_time", reaction, "by Krauss, at most the headway");
+            return Err(TrafficError::VehicleType { index, field, value, allowed });
         }
         if self.siren && self.kind != VehicleKind::Emergency {
             let allowed = "a siren to emergency vehicles only";

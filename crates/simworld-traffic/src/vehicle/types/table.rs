@@ -40,6 +40,7 @@ pub(super) fn car() -> VehicleType {
         speed_deviation: 0.1,
         driver: Idm { desired_speed: kmh(180.0), ..Idm::default() },
         model: CarFollowing::Idm,
+        perception: None,
         siren: false,
     }
 }
