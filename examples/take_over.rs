@@ -68,7 +68,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     traffic.hand_over(car)?;
     physics.add_vehicle(&world, car, VehicleClass::Sedan.parameters())?;
     println!("{car} is somebody else's now, on lane {}", lane.0);
-    let mut trip = Trip::new(&network, lane, arguments.junctions);
+    let trip = Trip::new(&network, lane, arguments.junctions);
     let mut driver = Driver::default();
     let (mut way, mut aside, mut before) = (0.0, 0.0_f64, position(&world, car)?);
     while !trip.is_done(before) {

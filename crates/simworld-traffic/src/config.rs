@@ -1,7 +1,7 @@
 //! How much traffic there is, and how it behaves.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::net::NetworkError;
+use simworld_core::net::{NetworkError, NetworkFault};
 use simworld_core::scene::WorldError;
 use thiserror::Error;
 
@@ -111,6 +111,9 @@ pub enum TrafficError {
         /// Its name.
         name: &'static str,
     },
+    /// The network does not hold together.
+    #[error(transparent)]
+    Damaged(#[from] NetworkFault),
     /// The walkways cannot be made.
     #[error(transparent)]
     Network(#[from] NetworkError),

@@ -33,8 +33,11 @@ impl Pid {
         Self { proportional, integral, derivative, windup, sum: 0.0, last: None }
     }
 
-    /// The output for an error that has stood for `dt` s.
+    /// The output for an error that has stood for `dt` s; nothing is made of an error that is not finite, or has stood for no time.
     pub fn update(&mut self, error: f64, dt: f64) -> f64 {
+        if !(error.is_finite() && dt > 0.0 && dt.is_finite()) {
+            return 0.0;
+        }
         let bound = if self.integral > 0.0 { self.windup / self.integral } else { 0.0 };
         self.sum = (self.sum + error * dt).clamp(-bound, bound);
         let slope = self.last.map_or(0.0, |last| (error - last) / dt);
@@ -73,8 +76,13 @@ impl Default for Driver {
 }
 
 impl Driver {
-    /// The pedal and the wheel for a body at a pose and a speed, to follow `path` at `wanted` m/s.
+    /// The pedal and the wheel for a body at a pose and a speed, to follow `path` at `wanted` m/s. A body of which any of these is
+    /// not finite is braked.
     pub fn drive(&mut self, pose: &Pose, speed: f64, path: &[Point2], wanted: f64, dt: f64) -> [Action; 2] {
+        let at = planar(pose);
+        if ![at.x, at.y, yaw_of(pose), speed, wanted].iter().all(|number| number.is_finite()) {
+            return [Action::Brake { level: 1.0 }, Action::Steer { angle: 0.0 }];
+        }
         [self.pedal(speed, wanted, dt), Action::Steer { angle: self.steer(pose, speed, path, dt) }]
     }
 

@@ -114,9 +114,10 @@ impl Traffic {
     /// Places vehicles and pedestrians; [`placed`](Self::placed) says how many found room.
     ///
     /// # Errors
-    /// A setting out of range.
+    /// A setting out of range, or a network that does not hold together.
     pub fn new(network: Arc<RoadNetwork>, config: &TrafficConfig, seed: Seed) -> Result<Self, TrafficError> {
         config.validate()?;
+        network.check()?;
         let streams = seed.stream("traffic");
         let signals = IntersectionManager::new(&network);
         let (crossings, groups) = (network.crossings.len(), network.signal_groups());
@@ -208,7 +209,7 @@ impl Traffic {
     /// how long it waited since.
     ///
     /// # Errors
-    /// A route that cannot be driven, or a kind or type that the configuration has not.
+    /// A route that cannot be driven, a kind or type that the configuration has not, or a time that is not finite.
     pub fn insert_scheduled(
         &mut self,
         route: Route,
@@ -217,6 +218,10 @@ impl Traffic {
     ) -> Result<u64, TrafficError> {
         route.validate(&self.tracks.network)?;
         vehicle.validate(&self.driving)?;
+        if !scheduled.is_finite() {
+            let (field, allowed) = ("scheduled", "a finite time, s");
+            return Err(TrafficError::Config { field, value: scheduled, allowed });
+        }
         let State { vehicles, demand, .. } = &mut self.state;
         // A route that can be driven has a first leg.
         let entry = route.0[0];
@@ -296,14 +301,18 @@ impl Traffic {
         Ok(())
     }
 
-    /// One step of `dt` s.
+    /// One step of `dt` s; one that is not positive and finite is none, and changes nothing.
     pub fn step(&mut self, dt: f64) {
         self.step_among(&[], dt);
     }
 
     /// One step of `dt` s among bodies that are not the traffic's own: drivers stop for them, walkers go round them, and
-    /// nobody steps on to a crossing before one that will not stop.
+    /// nobody steps on to a crossing before one that will not stop. Bodies that are nowhere, or not of this world's size, are not
+    /// seen.
     pub fn step_among(&mut self, foreign: &[Foreign], dt: f64) {
+        if !(dt > 0.0 && dt.is_finite()) {
+            return;
+        }
         let bodies = self.gather(foreign);
         self.finder.find(&self.tracks, &self.gathered, &mut self.walkers, &mut self.obstacles);
         for (count, own) in self.walkers.iter_mut().zip(&self.state.pedestrians.on_crossing) {

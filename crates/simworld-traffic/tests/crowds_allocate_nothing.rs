@@ -98,3 +98,17 @@ fn threads_change_no_bit() {
 fn a_walker_is_small() {
     assert!(size_of::<Pedestrian>() <= 80, "{} bytes", size_of::<Pedestrian>());
 }
+
+/// A walker without a journey, with its cell, its decision and everything else that a step keeps for it.
+#[test]
+fn a_walker_takes_no_more_than_its_share() {
+    let plan = StreetPlan::grid(14, 14, 200.0);
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network");
+    let config = TrafficConfig { vehicles: 0, pedestrians: 5000, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::new(network), &config, Seed(3)).expect("the settings are in range");
+    for _ in 0..50 {
+        traffic.step(0.1);
+    }
+    let each = traffic.walker_bytes() as f64 / f64::from(traffic.placed().pedestrians);
+    assert!(each <= 150.0, "{each} bytes");
+}

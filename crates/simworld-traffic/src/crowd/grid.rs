@@ -24,6 +24,9 @@ pub(super) struct Seen {
     pub(super) index: u32,
 }
 
+/// The cell farthest from the middle.
+const FARTHEST: f64 = (1_u64 << 40) as f64;
+
 /// A cell: column and row.
 pub(super) type Cell = (i64, i64);
 
@@ -143,6 +146,8 @@ impl Grid {
 
 /// `f64::floor` as an integer; without a call, which the processors of twenty years ago would need.
 fn floor(x: f64) -> i64 {
+    // Who is beyond the end of the world is at it: there is always a next cell.
+    let x = x.clamp(-FARTHEST, FARTHEST);
     let whole = x as i64;
     whole - i64::from((whole as f64) > x)
 }

@@ -149,6 +149,21 @@ impl Finder {
 }
 
 impl Foreign {
+    /// Whether it is somewhere, and of a size that bodies have.
+    pub(super) fn is_sound(&self) -> bool {
+        /// Nothing that moves among traffic is longer, m: trains are.
+        const LONGEST: f64 = 500.0;
+        /// Nor farther away, m, or faster, m/s.
+        const FARTHEST: f64 = 1e7;
+        const FASTEST: f64 = 300.0;
+        let [at, ahead, moving] = [self.position.coords, self.direction, self.velocity];
+        [ahead.x, ahead.y].iter().all(|number| number.is_finite())
+            && [at.x, at.y].iter().all(|number| number.abs() <= FARTHEST)
+            && [moving.x, moving.y].iter().all(|number| number.abs() <= FASTEST)
+            && (0.0..=LONGEST).contains(&self.radius)
+            && (0.0..=LONGEST).contains(&self.half_width)
+    }
+
     /// Discs that cover it: their middles, and how far they reach, m.
     fn discs(&self) -> impl Iterator<Item = (Point2, f64)> {
         let ahead = self.direction.try_normalize(1e-9).unwrap_or_else(Vector2::x);

@@ -121,14 +121,16 @@ impl Traffic {
     pub(super) fn gather(&mut self, foreign: &[Foreign]) -> usize {
         let mut gathered = std::mem::take(&mut self.gathered);
         gathered.clear();
-        gathered.extend_from_slice(foreign);
-        gathered.extend(self.free_vehicles().map(|body| Foreign::of(&body)));
+        let free = self.free_vehicles().map(|body| Foreign::of(&body));
+        gathered.extend(foreign.iter().copied().chain(free).filter(Foreign::is_sound));
         let count = gathered.len();
         let radius = self.config.walking.radius;
-        gathered.extend(self.state.pedestrians.free_bodies().map(|walker| Foreign {
+        let walkers = self.state.pedestrians.free_bodies();
+        let walkers = walkers.map(|walker| Foreign {
             velocity: walker.velocity(),
             ..Foreign::standing(walker.position, radius)
-        }));
+        });
+        gathered.extend(walkers.filter(Foreign::is_sound));
         self.gathered = gathered;
         count
     }

@@ -93,10 +93,10 @@ impl Traffic {
     }
 
     /// Gives walkers things to go round: street furniture, trees, whatever stands on their way. They are no part of what is
-    /// saved. What is on no walkway costs time and changes nothing.
+    /// saved. What is on no walkway costs time and changes nothing; what is nowhere, or not of this world's size, is left out.
     pub fn set_obstacles(&mut self, obstacles: &[Foreign]) {
         self.bodies.clear();
-        for obstacle in obstacles {
+        for obstacle in obstacles.iter().filter(|body| body.is_sound()) {
             outline(obstacle, self.config.walking.radius, &mut self.bodies);
         }
         self.standing_bodies = self.bodies.len();
