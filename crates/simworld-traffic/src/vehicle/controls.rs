@@ -123,8 +123,8 @@ impl Controls {
 pub(crate) fn hasty(config: &TrafficConfig) -> TrafficConfig {
     let mut config = config.clone();
     for row in &mut config.types {
-        // The one of the models that answers to everything ahead at once without a draw.
-        row.model = CarFollowing::Idm;
+        // The one of the models that answers to everything ahead at once without a draw, and eyes that miss nothing.
+        (row.model, row.perception) = (CarFollowing::Idm, None);
         let driver = &mut row.driver;
         driver.desired_speed *= SPEEDING;
         driver.headway = driver.headway.min(LEAST_HEADWAY);
