@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::crowd::AnticipationVelocity;
 use crate::pedestrian::People;
 use crate::vehicle::{Mobil, VehicleKind, VehicleType, standard_types};
-use crate::{ControlError, DrivingConditions, NoWay};
+use crate::{ControlError, DrivingConditions, Leg, NoWay};
 
 /// How much traffic there is, and how it behaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -147,6 +147,16 @@ pub enum TrafficError {
     Stop {
         /// Its index.
         stop: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A parking place from which nobody can depart, or at which nobody can park.
+    #[error("a parking place {station} m along leg {leg:?}: {reason}")]
+    Kerb {
+        /// The leg.
+        leg: Leg,
+        /// The station, m.
+        station: f64,
         /// What is wrong with it.
         reason: &'static str,
     },

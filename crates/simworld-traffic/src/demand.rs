@@ -16,6 +16,10 @@ use crate::line::{self, Stop};
 use crate::vehicle::{Halt, Order, Then, Tracks, TypeIndex, VehicleKind, VehicleManager, draw_type};
 use crate::{Counters, Leg, Route, TrafficConfig, TrafficError};
 
+/// Whoever parks takes so long for it, s, and those behind wait (Highway Capacity Manual 2000, chapter 16: a manoeuvre blocks the
+/// lane for 18 s on average).
+const PARKING: f64 = 18.0;
+
 /// How the vehicles of a flow come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -132,8 +136,20 @@ pub(crate) struct Departure {
     /// The flow that it is of, for its stops.
     pub(crate) source: Option<u32>,
     pub(crate) scheduled: f64,
+    pub(crate) kerbs: Kerbs,
     /// Its number among those who were sent one by one; [`OF_FLOW`] if a flow sent it.
     pub(crate) number: u64,
+}
+
+/// Where a trip begins and ends beside the road: the stations of parking places, m from the beginning of the lanes of the first
+/// and of the last leg. Without one the vehicle enters at the beginning of its first leg, or leaves at the end of its last.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Kerbs {
+    /// Where its front stands when it departs.
+    pub from: Option<f64>,
+    /// Where it parks.
+    pub to: Option<f64>,
 }
 
 /// The number of those whom flows send.
@@ -190,6 +206,7 @@ impl Departure {
             factor: config.vehicle_type(row).draw_factor(rng),
             source: None,
             scheduled,
+            kerbs: Kerbs::default(),
             number: OF_FLOW,
         }
     }
@@ -210,6 +227,8 @@ pub(crate) struct DemandManager {
     sources: Vec<Source>,
     /// First come, first served, at the beginning of each leg.
     outside: BTreeMap<Leg, VecDeque<Departure>>,
+    /// Who waits in a parking place beside a leg, in the order in which they came.
+    parked: Vec<(Leg, Departure)>,
     /// How many were sent one by one.
     sent: u64,
     /// The numbers of those who entered in the last step, in their order.
@@ -244,19 +263,24 @@ impl DemandManager {
         route: u32,
         vehicle: VehicleChoice,
         (config, streams): (&TrafficConfig, Stream),
-        scheduled: f64,
+        (scheduled, kerbs): (f64, Kerbs),
     ) -> u64 {
         let number = self.sent;
         self.sent += 1;
         let mut rng = streams.named("trips").indexed(number).rng();
         let departure = Departure::draw(config, Some(vehicle), route, scheduled, &mut rng);
-        self.outside.entry(entry).or_default().push_back(Departure { number, ..departure });
+        let departure = Departure { kerbs, number, ..departure };
+        if kerbs.from.is_some() {
+            self.parked.push((entry, departure));
+        } else {
+            self.outside.entry(entry).or_default().push_back(departure);
+        }
         number
     }
 
-    /// Vehicles that wait outside.
+    /// Vehicles that wait outside, or in a parking place.
     pub(crate) fn outside(&self) -> usize {
-        self.outside.values().map(VecDeque::len).sum()
+        self.outside.values().map(VecDeque::len).sum::<usize>() + self.parked.len()
     }
 
     /// Lets come who is due, and enter who has room.
@@ -279,18 +303,28 @@ impl DemandManager {
                     break;
                 }
                 self.admitted.push(departure.number);
-                let stops = departure.source.and_then(|source| self.sources.get(source as usize));
-                if let Some(stops) = stops.map(|source| &source.flow.stops).filter(|stops| !stops.is_empty())
-                    && let Some(id) = vehicles.entered.last().copied()
-                {
-                    let scheduled = departure.scheduled;
-                    let halts = stops.iter().map(|stop| Halt::at(stop, scheduled, Then::GoOn));
-                    vehicles.order(tracks, config, id, halts, Order::Last);
-                }
+                let source = departure.source.and_then(|source| self.sources.get(source as usize));
+                give_halts(
+                    vehicles,
+                    (tracks, config),
+                    departure,
+                    source.map_or(&[], |source| &source.flow.stops),
+                );
                 queue.pop_front();
                 counters.entered += 1;
             }
         }
+        let admitted = &mut self.admitted;
+        self.parked.retain(|(leg, departure)| {
+            let place = (*leg, departure.kerbs.from.unwrap_or_default());
+            let departs = vehicles.pull_out(tracks, config, place, departure, now);
+            if departs {
+                admitted.push(departure.number);
+                give_halts(vehicles, (tracks, config), departure, &[]);
+                counters.entered += 1;
+            }
+            !departs
+        });
     }
 
     fn draw(&mut self, index: usize, config: &TrafficConfig, streams: Stream, now: f64) {
@@ -323,7 +357,30 @@ impl DemandManager {
         }) && self.outside.iter().all(|(leg, queue)| {
             !leg.lanes(&tracks.network).is_empty()
                 && queue.iter().all(|departure| known(departure.route) && is_type(departure))
+        }) && self.parked.iter().all(|(leg, departure)| {
+            !leg.lanes(&tracks.network).is_empty()
+                && known(departure.route)
+                && is_type(departure)
+                && departure.kerbs.from.is_some_and(f64::is_finite)
         })
+    }
+}
+
+/// Tells the one who entered last where it stops on its way, and where it parks.
+fn give_halts(
+    vehicles: &mut VehicleManager,
+    (tracks, config): (&Tracks, &TrafficConfig),
+    departure: &Departure,
+    stops: &[Stop],
+) {
+    let Some(id) = vehicles.entered.last().copied() else { return };
+    if !stops.is_empty() {
+        let halts = stops.iter().map(|stop| Halt::at(stop, departure.scheduled, Then::GoOn));
+        vehicles.order(tracks, config, id, halts, Order::Last);
+    }
+    if let (Some(station), Some(leg)) = (departure.kerbs.to, vehicles.last_leg(departure.route)) {
+        let place = Stop::new(leg, station, PARKING);
+        vehicles.order(tracks, config, id, [Halt::at(&place, 0.0, Then::Park)], Order::Last);
     }
 }
 

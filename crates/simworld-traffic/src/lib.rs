@@ -30,8 +30,8 @@ pub use closure::{Closed, Closure, NoWay};
 pub use conditions::DrivingConditions;
 pub use config::{TrafficConfig, TrafficError};
 pub use demand::{
-    Activity, ActivityChains, Arrivals, DayTimes, Departing, Flow, OdMatrix, Person, Schedule, TimeProfile,
-    Trip, TripEnd, VehicleChoice, Zone, commuters,
+    Activity, ActivityChains, Arrivals, DayTimes, Departing, Flow, Kerbs, OdMatrix, Person, Schedule,
+    TimeProfile, Trip, TripEnd, VehicleChoice, Zone, commuters,
 };
 pub use dynamics::TrafficDynamics;
 pub use line::{Line, Stop};

@@ -6,6 +6,7 @@ mod foreign;
 mod gap;
 mod incidents;
 mod interest;
+mod kerbs;
 mod outline;
 mod takeover;
 mod takeover_walkers;
@@ -25,7 +26,7 @@ use simworld_core::net::{Alone, Aspect, RoadNetwork, SignalPlan, WaypointConfig,
 use simworld_core::seed::{Seed, Stream};
 
 use crate::crowd::Person;
-use crate::demand::{DemandManager, Flow, OF_FLOW, Trip, TripEnd, VehicleChoice};
+use crate::demand::{DemandManager, Flow, Kerbs, OF_FLOW, Trip, TripEnd, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
@@ -216,17 +217,7 @@ impl Traffic {
         vehicle: VehicleChoice,
         scheduled: f64,
     ) -> Result<u64, TrafficError> {
-        route.validate(&self.tracks.network)?;
-        vehicle.validate(&self.driving)?;
-        if !scheduled.is_finite() {
-            let (field, allowed) = ("scheduled", "a finite time, s");
-            return Err(TrafficError::Config { field, value: scheduled, allowed });
-        }
-        let State { vehicles, demand, .. } = &mut self.state;
-        // A route that can be driven has a first leg.
-        let entry = route.0[0];
-        let route = vehicles.add_route(route);
-        Ok(demand.add_trip(entry, route, vehicle, (&self.driving, self.streams), scheduled))
+        self.insert_between(route, vehicle, scheduled, Kerbs::default())
     }
 
     /// Takes a vehicle out, wherever it is; false if there is none of that number.

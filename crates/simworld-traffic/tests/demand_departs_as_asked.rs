@@ -100,7 +100,7 @@ fn people_live_their_days_in_order() {
     let network = city();
     let router = Router::new(&network);
     let mut traffic = empty(&network);
-    let stay = |place, duration, until| Activity { place, duration, until };
+    let stay = Activity::new;
     let chain = vec![
         stay(leg(0), 0.0, 60.0),
         stay(leg(9), 120.0, 0.0),

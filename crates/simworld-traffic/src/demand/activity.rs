@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use simworld_core::seed::{Seed, StreamRng};
 
-use super::VehicleChoice;
+use super::{Kerbs, VehicleChoice};
 use crate::output::Recorder;
 use crate::vehicle::VehicleKind;
 use crate::{Leg, Route, Traffic, TrafficError, TripEnd};
@@ -18,10 +18,20 @@ use crate::{Leg, Route, Traffic, TrafficError, TripEnd};
 pub struct Activity {
     /// Where: the leg on which one arrives and from which one departs.
     pub place: Leg,
+    /// Where one parks there and departs from, m from the beginning of the leg's lanes; without it one leaves the traffic at the
+    /// end of the leg and enters it at the beginning.
+    pub parking: Option<f64>,
     /// It lasts at least so long after the arrival, s.
     pub duration: f64,
     /// It does not end before this, s after the start.
     pub until: f64,
+}
+
+impl Activity {
+    /// A stay without a parking place.
+    pub const fn new(place: Leg, duration: f64, until: f64) -> Self {
+        Self { place, parking: None, duration, until }
+    }
 }
 
 /// One person: a name and the stays of a day. The last one does not end.
@@ -77,13 +87,13 @@ pub fn commuters(
             rng.normal_clamped(mean, deviation, (mean - 3.0 * deviation).max(0.0), mean + 3.0 * deviation)
         };
         let until = normal(times.to_work, &mut rng);
-        let mut chain = vec![Activity { place: home, duration: 0.0, until }];
-        chain.push(Activity { place: work, duration: normal(times.work, &mut rng), until: 0.0 });
+        let mut chain = vec![Activity::new(home, 0.0, until)];
+        chain.push(Activity::new(work, normal(times.work, &mut rng), 0.0));
         let shops = if rng.unit() < times.shoppers { shops } else { &[] };
         if let Some(shop) = rng.choose(shops).copied() {
-            chain.push(Activity { place: shop, duration: normal(times.shop, &mut rng), until: 0.0 });
+            chain.push(Activity::new(shop, normal(times.shop, &mut rng), 0.0));
         }
-        chain.push(Activity { place: home, duration: 0.0, until: 0.0 });
+        chain.push(Activity::new(home, 0.0, 0.0));
         Some(Person { name: format!("p{number}"), vehicle: VehicleKind::Car.into(), chain })
     };
     (0..count).filter_map(draw).collect()
@@ -143,7 +153,7 @@ impl ActivityChains {
     /// Sends those whose stay ends now, each on the route that `find` gives. Who is where the next stay is needs none.
     ///
     /// # Errors
-    /// A route that cannot be driven.
+    /// A route that cannot be driven, or a parking place that is none.
     pub fn feed(
         &mut self,
         traffic: &mut Traffic,
@@ -158,16 +168,17 @@ impl ActivityChains {
             self.leaving.pop();
             let Stage::At(index) = self.stages[person as usize] else { continue };
             let Person { vehicle, chain, .. } = &self.people[person as usize];
-            let (here, there) = (chain[index as usize].place, chain[index as usize + 1].place);
-            if here == there {
+            let (here, there) = (chain[index as usize], chain[index as usize + 1]);
+            if here.place == there.place {
                 self.stay(person, index + 1, end);
                 continue;
             }
-            let Some(route) = find(here, there) else {
+            let Some(route) = find(here.place, there.place) else {
                 self.stranded += 1;
                 continue;
             };
-            let number = traffic.insert_scheduled(route, *vehicle, end)?;
+            let kerbs = Kerbs { from: here.parking, to: there.parking };
+            let number = traffic.insert_between(route, *vehicle, end, kerbs)?;
             self.outside.insert(number, person);
             self.stages[person as usize] = Stage::To(index + 1);
         }
@@ -186,7 +197,7 @@ impl ActivityChains {
         for trip in traffic.ended() {
             let Some(person) = self.driving.remove(&trip.id) else { continue };
             let Stage::To(index) = self.stages[person as usize] else { continue };
-            if trip.end == TripEnd::Arrived {
+            if matches!(trip.end, TripEnd::Arrived | TripEnd::Parked) {
                 self.stay(person, index, trip.left);
             } else {
                 self.stranded += 1;

@@ -8,11 +8,29 @@ use super::tracks::{Track, Tracks};
 use crate::demand::Departure;
 use crate::{Leg, Route, TrafficConfig, Trip, TripEnd};
 
+/// Where a vehicle enters.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) lane: Track,
+    /// Its front, m along the lane, and its speed, m/s.
+    pub(super) s: f64,
+    pub(super) v: f64,
+    /// How many are before it in the lane.
+    pub(super) rank: usize,
+    /// How far it is to the left of the lane, m.
+    pub(super) shift: f32,
+}
+
 impl VehicleManager {
     /// Keeps a route and returns its number.
     pub(crate) fn add_route(&mut self, route: Route) -> u32 {
         self.routes.push(route);
         (self.routes.len() - 1) as u32
+    }
+
+    /// The last leg of a route.
+    pub(crate) fn last_leg(&self, route: u32) -> Option<Leg> {
+        self.routes.get(route as usize)?.0.last().copied()
     }
 
     pub(crate) fn route_count(&self) -> usize {
@@ -58,12 +76,14 @@ impl VehicleManager {
             let stopping = (leader.v * leader.v + 2.0 * idm.deceleration * spare).sqrt();
             limit.min(stopping).min(spare / idm.headway)
         });
-        self.put(tracks, config, departure, lane, speed, now);
+        let rank = self.queue(tracks, lane).len();
+        let place = Place { lane, s: length, v: speed, rank, shift: 0.0 };
+        self.put(tracks, config, departure, place, now);
         true
     }
 
     /// A departure on a route around what is closed; none if there is no such route now.
-    fn open_departure(&mut self, tracks: &Tracks, departure: &Departure) -> Option<Departure> {
+    pub(super) fn open_departure(&mut self, tracks: &Tracks, departure: &Departure) -> Option<Departure> {
         if self.closures.is_empty() {
             return Some(*departure);
         }
@@ -81,17 +101,16 @@ impl VehicleManager {
         Some(Departure { route, ..*departure })
     }
 
-    fn put(
+    /// Puts a vehicle into a lane, and returns its number.
+    pub(super) fn put(
         &mut self,
         tracks: &Tracks,
         config: &TrafficConfig,
         departure: &Departure,
-        lane: Track,
-        v: f64,
+        Place { lane, s, v, rank, shift }: Place,
         now: f64,
-    ) {
+    ) -> u32 {
         let row = config.vehicle_type(departure.row);
-        let s = row.length;
         let mut path = Path::new(lane, departure.route, departure.scheduled, now);
         // Its way is not driven up to where its front appears.
         path.driven = -s;
@@ -107,9 +126,12 @@ impl VehicleManager {
         let next =
             route.map_or(NONE, |route| route_way(tracks, &self.closures, route, &path, lane, row.kind));
         let vehicle = Vehicle::new(row, departure.row, departure.factor, id, s);
-        self.push(tracks, lane, Vehicle { v, next, ..vehicle }, path);
+        let place = tracks.layout.place(lane);
+        let slabs = &mut self.parts[place.part as usize].slabs;
+        slabs.insert(place.local as usize, rank, Vehicle { v, next, shift, ..vehicle }, path);
         self.sirens.switch(id, row.siren);
         self.entered.push(id);
+        id
     }
 
     /// Takes a vehicle out, wherever it is; false if there is none of that number.

@@ -39,7 +39,7 @@ pub(crate) struct Halt {
     not_before: f64,
     /// Since when one stands there, s.
     since: Option<f64>,
-    then: Then,
+    pub(super) then: Then,
 }
 
 impl Halt {
@@ -81,6 +81,12 @@ impl Halts {
             Some(_) if halt.is_before(tracks, lane, vehicle.s) => halt.station as f32,
             Some(_) => f32::INFINITY,
         }
+    }
+
+    /// The first from a number on that is to park next.
+    pub(super) fn next_parking(&self, from: u32) -> Option<u32> {
+        let parks = |list: &VecDeque<Halt>| list.front().is_some_and(|halt| halt.then == Then::Park);
+        self.lists.range(from..).find(|(_, list)| parks(list)).map(|(id, _)| *id)
     }
 
     pub(super) fn remove(&mut self, id: u32) {
@@ -132,6 +138,10 @@ impl VehicleManager {
         let (queue, _) = self.both_mut(tracks, track);
         if let Some(vehicle) = queue.iter_mut().find(|vehicle| vehicle.id == id) {
             vehicle.halt = halt;
+            if halt.is_infinite() && vehicle.shift != 0.0 && tracks.connection(track).is_none() {
+                // It had begun to park and does not after all.
+                self.move_in(tracks, track, id);
+            }
         }
     }
 

@@ -83,7 +83,7 @@ impl Part {
             let lane = layout.tracks[*local as usize];
             let queue = self.slabs.queue_mut(*local as usize);
             let Some(vehicle) = queue.iter_mut().find(|v| v.id == *id) else { return false };
-            let step = SIDEWAYS.min(STEEPNESS * vehicle.v) * scene.at.dt;
+            let step = sideways(vehicle.v) * scene.at.dt;
             let left = f64::from(vehicle.shift.abs()) - step;
             vehicle.shift = if left <= 0.0 { 0.0 } else { (left as f32).copysign(vehicle.shift) };
             if left > OUT
@@ -352,6 +352,11 @@ impl Part {
         let ghost = first_ghost(self.ghosts(old), s);
         [leader, ghost].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
     }
+}
+
+/// How quickly a vehicle moves aside at a speed, m/s.
+pub(super) fn sideways(v: f64) -> f64 {
+    SIDEWAYS.min(STEEPNESS * v)
 }
 
 /// How much longer one lane is than another beside it: stations along them are in proportion.

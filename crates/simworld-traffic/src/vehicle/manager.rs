@@ -11,7 +11,6 @@
 //! in the phase in which others add to them. The result is the same on any number of threads.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::hash::StateHasher;
 use simworld_core::id::IntersectionId;
 use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
@@ -405,6 +404,7 @@ impl VehicleManager {
         self.parts = parts;
         self.sum_up(tracks, counters);
         self.serve_halts(tracks, config, at.now + at.dt, counters);
+        self.pull_in(tracks, at.dt);
     }
 
     /// Takes up the conditions for those whom somebody else drives, if there are any.
@@ -473,56 +473,5 @@ impl VehicleManager {
         let parts: usize = self.parts.iter().map(Part::bytes).sum();
         let tails: usize = self.tails.iter().map(|tails| tails.capacity() * size_of::<Tail>()).sum();
         parts + tails + self.whereabouts.len() * 4 + self.junctions.bytes()
-    }
-
-    /// Whether a saved state is one of this network.
-    pub(crate) fn fits(&self, tracks: &Tracks, types: usize) -> bool {
-        let ways = tracks.ways.len();
-        let is_way = |way: u32| way >= EXIT || (way as usize) < ways;
-        let is_route = |route: u32| route == NONE || (route as usize) < self.routes.len();
-        let count = self.numbers();
-        let is_part = |(part, layout): (&Part, &super::layout::PartLayout)| part.fits(layout);
-        self.parts.len() == tracks.layout.parts.len()
-            && self.parts.iter().zip(&tracks.layout.parts).all(is_part)
-            && self.junctions.fits(tracks)
-            && self.whereabouts.iter().all(|track| track == NONE || (track as usize) < tracks.count())
-            && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
-            && self.passes.is_sorted()
-            && self.closures.fits(tracks)
-            && self.halts.fits(tracks, count)
-            && self.controls.fits(
-                tracks,
-                types,
-                self.routes.len(),
-                &self.whereabouts.iter().collect::<Vec<_>>(),
-            )
-            && self.sirens.fits(count)
-            && self.free.iter().all(|id| (*id as usize) < count)
-            && self.iter(tracks).all(|(track, v, path)| {
-                (v.id as usize) < count
-                    && usize::from(v.row) < types
-                    && v.length > 0.0
-                    && v.factor > 0.0
-                    && !v.halt.is_nan()
-                    && self.whereabouts.get(v.id as usize) == track
-                    && is_way(v.next)
-                    && is_way(v.holding)
-                    && v.s.is_finite()
-                    && v.shift.is_finite()
-                    && v.v.is_finite()
-                    && v.acceleration.is_finite()
-                    && (path.before as usize) < tracks.count()
-                    && is_route(path.route)
-            })
-    }
-
-    pub(crate) fn state_hash(&self, tracks: &Tracks, hasher: &mut StateHasher) {
-        for (track, vehicle, _) in self.iter(tracks) {
-            hasher.u64(u64::from(track));
-            hasher.u64(u64::from(vehicle.id)).f64(vehicle.s).f64(vehicle.v).f64(vehicle.stood);
-            hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(f64::from(vehicle.shift));
-            hasher.u64(u64::from(vehicle.granted));
-        }
-        self.controls.state_hash(hasher);
     }
 }

@@ -12,7 +12,7 @@ use super::conflicts::{Conflict, conflicts};
 use super::layout::Layout;
 use super::manager::NONE;
 use super::ragged::Ragged;
-use super::{VehicleKind, lanes};
+use super::{VehicleKind, kerb, lanes};
 use crate::{Leg, Router, TrafficConfig};
 
 /// A lane or a connection: lanes come first.
@@ -75,6 +75,8 @@ pub(crate) struct Tracks {
     pub(super) kinds: Vec<LaneKind>,
     /// Whether each lane is the last of its leg before the kerb or the cycle lane.
     pub(crate) outermost: Vec<bool>,
+    /// How far to the left of each lane the parking strip at its kerb lies, m; 0 where there is none.
+    pub(super) kerb: Vec<f32>,
     /// The ways from the end of each lane, with the leg to which each leads.
     exits: Ragged<(u32, Leg)>,
     pub(crate) router: Router,
@@ -96,6 +98,7 @@ impl Tracks {
         });
         let speed = lane_speeds.chain(way_speeds).collect();
         let connections = 0..network.connections.len();
+        let beside = lanes::beside(&network);
         Self {
             lanes: network.lanes.len(),
             length,
@@ -105,7 +108,8 @@ impl Tracks {
             siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
             tight: connections.clone().map(|index| tight(&network, index)).collect(),
             strips: connections.map(|index| strips(&network, index)).collect(),
-            beside: lanes::beside(&network),
+            kerb: kerb::places(&network, &beside),
+            beside,
             kinds: network.lanes.iter().map(|lane| lane.kind).collect(),
             outermost: lanes::outermost(&network),
             exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
