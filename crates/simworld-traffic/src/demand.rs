@@ -1,12 +1,14 @@
 //! Demand: flows and trips that enter the network, wait outside while there is no room, and leave at the end of their route.
 
 mod activity;
+mod itinerary;
 mod matrix;
 mod schedule;
 
 use std::collections::{BTreeMap, VecDeque};
 
 pub use activity::{Activity, ActivityChains, DayTimes, Person, commuters};
+pub use itinerary::{Itinerary, Kerb, Stage, Whereabouts};
 pub use matrix::{OdMatrix, TimeProfile, Zone};
 pub use schedule::{Departing, Schedule};
 use serde::{Deserialize, Serialize};
@@ -231,6 +233,8 @@ pub(crate) struct DemandManager {
     parked: Vec<(Leg, Departure)>,
     /// How many were sent one by one.
     sent: u64,
+    /// The stops of those of them who have any and are outside.
+    stops: BTreeMap<u64, Vec<Stop>>,
     /// The numbers of those who entered in the last step, in their order.
     #[serde(skip)]
     pub(crate) admitted: Vec<u64>,
@@ -278,6 +282,13 @@ impl DemandManager {
         number
     }
 
+    /// Gives one of those who were sent its stops.
+    pub(crate) fn stop_at(&mut self, number: u64, stops: Vec<Stop>) {
+        if !stops.is_empty() {
+            self.stops.insert(number, stops);
+        }
+    }
+
     /// Vehicles that wait outside, or in a parking place.
     pub(crate) fn outside(&self) -> usize {
         self.outside.values().map(VecDeque::len).sum::<usize>() + self.parked.len()
@@ -304,23 +315,21 @@ impl DemandManager {
                 }
                 self.admitted.push(departure.number);
                 let source = departure.source.and_then(|source| self.sources.get(source as usize));
-                give_halts(
-                    vehicles,
-                    (tracks, config),
-                    departure,
-                    source.map_or(&[], |source| &source.flow.stops),
-                );
+                let own = self.stops.remove(&departure.number).unwrap_or_default();
+                let stops = source.map_or(&own[..], |source| &source.flow.stops);
+                give_halts(vehicles, (tracks, config), departure, stops);
                 queue.pop_front();
                 counters.entered += 1;
             }
         }
-        let admitted = &mut self.admitted;
+        let (admitted, stops) = (&mut self.admitted, &mut self.stops);
         self.parked.retain(|(leg, departure)| {
             let place = (*leg, departure.kerbs.from.unwrap_or_default());
             let departs = vehicles.pull_out(tracks, config, place, departure, now);
             if departs {
                 admitted.push(departure.number);
-                give_halts(vehicles, (tracks, config), departure, &[]);
+                let own = stops.remove(&departure.number).unwrap_or_default();
+                give_halts(vehicles, (tracks, config), departure, &own);
                 counters.entered += 1;
             }
             !departs
@@ -362,6 +371,8 @@ impl DemandManager {
                 && known(departure.route)
                 && is_type(departure)
                 && departure.kerbs.from.is_some_and(f64::is_finite)
+        }) && self.stops.values().flatten().all(|stop| {
+            !stop.leg.lanes(&tracks.network).is_empty() && stop.station.is_finite() && stop.dwell >= 0.0
         })
     }
 }

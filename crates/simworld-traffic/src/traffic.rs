@@ -30,7 +30,7 @@ use crate::demand::{DemandManager, Flow, Kerbs, OF_FLOW, Trip, TripEnd, VehicleC
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
 use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
-use crate::{DrivingConditions, Route, TrafficConfig, TrafficError};
+use crate::{DrivingConditions, Route, Stop, TrafficConfig, TrafficError};
 
 /// How many found a place at the start, of those asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -218,6 +218,24 @@ impl Traffic {
         scheduled: f64,
     ) -> Result<u64, TrafficError> {
         self.insert_between(route, vehicle, scheduled, Kerbs::default())
+    }
+
+    /// The same for a vehicle that makes stops on its way.
+    ///
+    /// # Errors
+    /// Those of [`insert_scheduled`](Self::insert_scheduled), and a stop that it cannot make.
+    pub fn insert_stopping(
+        &mut self,
+        route: Route,
+        vehicle: VehicleChoice,
+        scheduled: f64,
+        stops: Vec<Stop>,
+    ) -> Result<u64, TrafficError> {
+        route.validate(&self.tracks.network)?;
+        crate::line::validate(&stops, &route, &self.tracks.network)?;
+        let number = self.insert_scheduled(route, vehicle, scheduled)?;
+        self.state.demand.stop_at(number, stops);
+        Ok(number)
     }
 
     /// Takes a vehicle out, wherever it is; false if there is none of that number.

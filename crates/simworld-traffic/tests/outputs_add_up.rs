@@ -68,12 +68,7 @@ fn every_vehicle_is_counted_once_by_every_detector_on_its_way() {
         ..Flow::new(straight(), 400.0)
     };
     schedule.add_flow("f", flow, 50).unwrap();
-    schedule.add(Departing {
-        name: "bus <1>".into(),
-        depart: 30.05,
-        route: straight(),
-        vehicle: VehicleKind::Bus.into(),
-    });
+    schedule.add(Departing::new("bus <1>", 30.05, straight(), VehicleKind::Bus.into()));
     let (mut counted, mut distance) = (0, 0.0);
     for step in 0..12_000 {
         schedule.feed(&mut traffic).unwrap();

@@ -60,7 +60,8 @@ fn everything_is_read() {
     assert_eq!((flow("five").number, flow("exp").arrivals), (5, Arrivals::Poisson));
     assert!((flow("exp").per_hour - 180.0).abs() < 1e-9 && (flow("chance").per_hour - 360.0).abs() < 1e-9);
     let warned: Vec<&str> = demand.warnings.iter().map(|warning| warning.id.as_str()).collect();
-    assert_eq!(warned, ["walker", "stop", "departPos", "waits"], "{:?}", demand.warnings);
+    assert_eq!(warned, ["departPos", "waits"], "{:?}", demand.warnings);
+    assert_eq!((demand.vehicles[1].stops[0].duration, demand.persons[0].stages.len()), (20.0, 1));
 }
 
 /// Runs a demand for so long and returns the trips as tripinfo has them: id, scheduled.

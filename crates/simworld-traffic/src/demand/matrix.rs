@@ -174,7 +174,7 @@ impl OdMatrix {
                         continue;
                     };
                     let name = format!("{}>{}.{number}", origin.name, goal.name);
-                    schedule.add(Departing { name, depart, route, vehicle: self.vehicle });
+                    schedule.add(Departing::new(name, depart, route, self.vehicle));
                     number += 1;
                 }
             }

@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use simworld_core::seed::{Seed, Stream, StreamRng};
 
-use super::{Flow, VehicleChoice};
+use super::itinerary::{Names, Travellers};
+use super::{Flow, Itinerary, VehicleChoice, Whereabouts};
 use crate::output::Recorder;
-use crate::{Arrivals, Route, Traffic, TrafficError};
+use crate::{Arrivals, Route, Stop, Traffic, TrafficError};
 
 /// One vehicle that is to depart.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,17 @@ pub struct Departing {
     pub route: Route,
     /// Its kind or type.
     pub vehicle: VehicleChoice,
+    /// Where it stops on its way.
+    pub stops: Vec<Stop>,
+    /// The line that it is of, for those who ride; empty if none.
+    pub line: String,
+}
+
+impl Departing {
+    /// A vehicle that makes no stops.
+    pub fn new(name: impl Into<String>, depart: f64, route: Route, vehicle: VehicleChoice) -> Self {
+        Self { name: name.into(), depart, route, vehicle, stops: Vec::new(), line: String::new() }
+    }
 }
 
 /// Vehicles that keep coming, with names: `name.0`, `name.1` and so on.
@@ -30,6 +42,7 @@ struct Series {
     vehicle: VehicleChoice,
     /// At most so many.
     number: u64,
+    line: String,
     drawn: u64,
     stream: Stream,
 }
@@ -51,12 +64,7 @@ type Due = Reverse<(u64, usize)>;
 /// let mut traffic = Traffic::new(network, &empty, Seed(1))?;
 /// let way = [Leg::new(RoadId(0), LaneDirection::Backward), Leg::new(RoadId(2), LaneDirection::Forward)];
 /// let mut schedule = Schedule::new(Seed(1));
-/// schedule.add(Departing {
-///     name: "bus 7".into(),
-///     depart: 5.0,
-///     route: Route(way.to_vec()),
-///     vehicle: VehicleKind::Bus.into(),
-/// });
+/// schedule.add(Departing::new("bus 7", 5.0, Route(way.to_vec()), VehicleKind::Bus.into()));
 /// for _ in 0..600 {
 ///     schedule.feed(&mut traffic)?;
 ///     traffic.step(0.1);
@@ -71,7 +79,10 @@ pub struct Schedule {
     series: Vec<Series>,
     next_of_series: BinaryHeap<Due>,
     /// Names of those who were sent and have not entered, by the number that the traffic gave them.
-    outside: BTreeMap<u64, String>,
+    outside: BTreeMap<u64, Names>,
+    /// Those under way, by number.
+    present: BTreeMap<u32, Names>,
+    travellers: Travellers,
     stream: Stream,
 }
 
@@ -88,6 +99,8 @@ impl Schedule {
             series: Vec::new(),
             next_of_series: BinaryHeap::new(),
             outside: BTreeMap::new(),
+            present: BTreeMap::new(),
+            travellers: Travellers::default(),
             stream: seed.stream("traffic/schedule"),
         }
     }
@@ -121,7 +134,8 @@ impl Schedule {
         flow.validate()?;
         let index = self.series.len();
         let stream = self.stream.indexed(index as u64);
-        let series = Series { name: name.into(), flow, vehicle, number, drawn: 0, stream };
+        let line = String::new();
+        let series = Series { name: name.into(), flow, vehicle, number, line, drawn: 0, stream };
         let first =
             series.flow.from + if series.flow.arrivals == Arrivals::Poisson { series.wait() } else { 0.0 };
         if number > 0 && first < series.flow.until {
@@ -129,6 +143,23 @@ impl Schedule {
         }
         self.series.push(series);
         Ok(())
+    }
+
+    /// Says of which line the last flow is that was added, for those who ride.
+    pub fn name_line(&mut self, line: impl Into<String>) {
+        if let Some(last) = self.series.last_mut() {
+            last.line = line.into();
+        }
+    }
+
+    /// Adds a person who walks, waits and rides.
+    pub fn add_person(&mut self, person: Itinerary) {
+        self.travellers.add(person);
+    }
+
+    /// Where those are who were added as persons.
+    pub fn people(&self) -> Whereabouts {
+        self.travellers.whereabouts()
     }
 
     /// How many single vehicles are left to depart, without those of flows.
@@ -153,10 +184,16 @@ impl Schedule {
     pub fn feed(&mut self, traffic: &mut Traffic) -> Result<usize, TrafficError> {
         let now = traffic.seconds() + 1e-9;
         let mut count = 0;
+        self.welcome(traffic);
+        self.travellers.feed(traffic, &self.present);
+        for trip in traffic.ended() {
+            self.present.remove(&trip.id);
+        }
         while let Some((time, index)) = take_due(&mut self.due, now) {
             let Some(departing) = self.departing[index].take() else { continue };
-            let number = traffic.insert_scheduled(departing.route, departing.vehicle, time)?;
-            self.outside.insert(number, departing.name);
+            let Departing { name, route, vehicle, stops, line, .. } = departing;
+            let number = traffic.insert_stopping(route, vehicle, time, stops)?;
+            self.outside.insert(number, [name.clone(), name, line]);
             count += 1;
         }
         while let Some((time, index)) = take_due(&mut self.next_of_series, now) {
@@ -168,8 +205,9 @@ impl Schedule {
                 self.next_of_series.push(due(next, index));
             }
             let series = &self.series[index];
-            let number = traffic.insert_scheduled(series.flow.route.clone(), series.vehicle, time)?;
-            self.outside.insert(number, name);
+            let (route, stops) = (series.flow.route.clone(), series.flow.stops.clone());
+            let number = traffic.insert_stopping(route, series.vehicle, time, stops)?;
+            self.outside.insert(number, [name, series.name.clone(), series.line.clone()]);
             count += 1;
         }
         Ok(count)
@@ -177,9 +215,19 @@ impl Schedule {
 
     /// Tells a recorder the names of those who entered in the last step; call it before the recorder observes.
     pub fn name(&mut self, traffic: &Traffic, recorder: &mut Recorder) {
+        self.welcome(traffic);
+        for (id, _) in traffic.admitted() {
+            if let Some([name, ..]) = self.present.get(&id) {
+                recorder.name(id, name.clone());
+            }
+        }
+    }
+
+    /// Takes note of who entered in the last step.
+    fn welcome(&mut self, traffic: &Traffic) {
         for (id, number) in traffic.admitted() {
-            if let Some(name) = number.and_then(|number| self.outside.remove(&number)) {
-                recorder.name(id, name);
+            if let Some(names) = number.and_then(|number| self.outside.remove(&number)) {
+                self.present.insert(id, names);
             }
         }
     }

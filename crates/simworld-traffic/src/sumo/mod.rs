@@ -10,4 +10,7 @@ mod xml;
 
 pub use error::{SumoError, SumoWarning};
 pub use net::SumoNet;
-pub use routes::{Distribution, SumoDemand, SumoFlow, SumoType, SumoVehicle, SumoWay};
+pub use routes::{
+    Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoPlace, SumoStage, SumoStop, SumoType,
+    SumoVehicle, SumoWay,
+};

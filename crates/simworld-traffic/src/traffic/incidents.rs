@@ -90,6 +90,11 @@ impl Traffic {
         Ok(self.state.vehicles.order(&self.tracks, &self.driving, id, [halt], Order::Last))
     }
 
+    /// The vehicles that stand at a stop of theirs, by number, with the leg and the station of the stop, m.
+    pub fn halting(&self) -> impl Iterator<Item = (u32, Leg, f64)> {
+        self.state.vehicles.halting()
+    }
+
     /// The closures that are not over yet, with their numbers.
     pub fn closures(&self) -> impl Iterator<Item = &(u32, Closure)> {
         self.state.vehicles.closures.iter()

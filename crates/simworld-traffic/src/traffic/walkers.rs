@@ -63,6 +63,12 @@ impl Traffic {
         Ok(id)
     }
 
+    /// Whether a way leads on foot from one place to another.
+    pub fn can_walk(&self, from: Point2, to: Point2) -> bool {
+        let from = self.ways.nearest(from).filter(|_| from.x.is_finite() && from.y.is_finite());
+        from.is_some_and(|from| self.walking_path(from, to).is_ok())
+    }
+
     /// Sends a walker to the waypoint nearest to a place, by the shortest way from the waypoint it heads for.
     ///
     /// # Errors

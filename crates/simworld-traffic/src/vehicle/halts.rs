@@ -103,6 +103,14 @@ impl Halts {
 }
 
 impl VehicleManager {
+    /// Who stands at a stop of theirs now: the number of the vehicle, the leg, and the station, m.
+    pub(crate) fn halting(&self) -> impl Iterator<Item = (u32, Leg, f64)> {
+        self.halts.lists.iter().filter_map(|(id, list)| {
+            let halt = list.front().filter(|halt| halt.since.is_some())?;
+            Some((*id, halt.leg?, halt.station))
+        })
+    }
+
     /// Gives a vehicle halts, after those that it has, or before them; false if there is none of that number.
     pub(crate) fn order(
         &mut self,

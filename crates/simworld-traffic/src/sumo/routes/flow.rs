@@ -1,7 +1,7 @@
 //! Flows.
 
-use super::SumoWay;
 use super::read::time;
+use super::{SumoStop, SumoWay};
 use crate::Arrivals;
 use crate::sumo::SumoError;
 use crate::sumo::xml::Element;
@@ -25,6 +25,10 @@ pub struct SumoFlow {
     pub number: u64,
     /// Their way.
     pub way: SumoWay,
+    /// Their stops on the way, beside those of their route.
+    pub stops: Vec<SumoStop>,
+    /// The line that they are of; empty if none.
+    pub line: String,
 }
 
 /// SUMO's default end of a flow, s: a day.
@@ -50,6 +54,8 @@ impl SumoFlow {
             arrivals,
             number: number.unwrap_or(u64::MAX),
             way,
+            stops: Vec::new(),
+            line: element.get("line").unwrap_or_default().into_owned(),
         })
     }
 }

@@ -2,11 +2,14 @@
 //!
 //! Edges are named; [`SumoDemand::schedule`] finds them in a network. Trips take the quickest way. A flow comes at even
 //! times (`period`, `vehsPerHour`, `number`), at random (`period="exp(rate)"`), or, with `probability`, at random with
-//! that mean a second, which is what a chance a second comes to. People, containers and stops are warned of.
+//! that mean a second, which is what a chance a second comes to. Vehicles make their stops; people walk, wait, and ride in
+//! vehicles that halt where they get in and out. Flows of people and containers are warned of.
 //!
 //! Source of the format: SUMO user documentation, *Definition of Vehicles, Vehicle Types, and Routes*.
 
 mod flow;
+mod people;
+mod person;
 mod plan;
 mod read;
 mod types;
@@ -17,6 +20,7 @@ use std::path::Path;
 
 use super::{SumoError, SumoWarning};
 pub use flow::SumoFlow;
+pub use person::{SumoBusStop, SumoPerson, SumoPlace, SumoStage, SumoStop};
 pub use types::SumoType;
 
 /// The way of a vehicle, in names of edges.
@@ -48,6 +52,10 @@ pub struct SumoVehicle {
     pub depart: f64,
     /// Its way.
     pub way: SumoWay,
+    /// Its stops on the way, beside those of its route.
+    pub stops: Vec<SumoStop>,
+    /// The line that it is of; empty if none.
+    pub line: String,
 }
 
 /// Several things of which one is drawn: ids with their weights.
@@ -68,6 +76,12 @@ pub struct SumoDemand {
     pub type_distributions: Vec<Distribution>,
     /// Routes with names, as edges.
     pub routes: Vec<(String, Vec<String>)>,
+    /// Stops of routes with names.
+    pub route_stops: Vec<(String, SumoStop)>,
+    /// Bus stops.
+    pub bus_stops: Vec<SumoBusStop>,
+    /// People.
+    pub persons: Vec<SumoPerson>,
     /// Distributions of routes.
     pub route_distributions: Vec<Distribution>,
     /// Vehicles and trips, in the order of the file.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use simworld_core::seed::{Seed, StreamRng};
 
-use super::{Distribution, SumoDemand, SumoWay};
+use super::{Distribution, SumoDemand, SumoStop, SumoWay};
 use crate::sumo::{SumoError, SumoNet, SumoWarning};
 use crate::vehicle::VehicleKind;
 use crate::{Departing, Flow, Leg, Route, Router, Schedule, VehicleChoice};
@@ -36,8 +36,11 @@ impl SumoDemand {
             );
             match route {
                 Ok(route) => {
-                    let (name, depart) = (vehicle.id.clone(), vehicle.depart);
-                    schedule.add(Departing { name, depart, route, vehicle: choice });
+                    let (name, depart) = (vehicle.id.as_str(), vehicle.depart);
+                    let stops = self.stops_of(&vehicle.way, &vehicle.stops);
+                    let stops = self.stops(net, (name, depart), &stops, &route, &mut warnings)?;
+                    let line = vehicle.line.clone();
+                    schedule.add(Departing { stops, line, ..Departing::new(name, depart, route, choice) });
                 }
                 Err(reason) => warnings.push(SumoWarning::new("vehicle", &vehicle.id, reason)),
             }
@@ -57,15 +60,26 @@ impl SumoDemand {
                 let reason = format!("of {} vehicles an hour was made one of {per_hour}", flow.per_hour);
                 warnings.push(SumoWarning::new("flow", &flow.id, reason));
             }
-            let arrivals = flow.arrivals;
-            let flow_here =
-                Flow { arrivals, from: flow.begin, until: flow.end, ..Flow::new(route, per_hour) };
-            if let Err(error) = schedule.add_flow_of(&flow.id, flow_here, choice, flow.number) {
-                warnings.push(SumoWarning::new("flow", &flow.id, error.to_string()));
+            let stops = self.stops_of(&flow.way, &flow.stops);
+            let stops = self.stops(net, (&flow.id, flow.begin), &stops, &route, &mut warnings)?;
+            let (arrivals, from, until) = (flow.arrivals, flow.begin, flow.end);
+            let flow_here = Flow { arrivals, stops, from, until, ..Flow::new(route, per_hour) };
+            match schedule.add_flow_of(&flow.id, flow_here, choice, flow.number) {
+                Ok(()) => schedule.name_line(&flow.line),
+                Err(error) => warnings.push(SumoWarning::new("flow", &flow.id, error.to_string())),
             }
+        }
+        for person in &self.persons {
+            schedule.add_person(self.itinerary(net, person)?);
         }
         warnings.sort();
         Ok((schedule, warnings))
+    }
+
+    /// The stops of a way and one's own.
+    fn stops_of(&self, way: &SumoWay, own: &[SumoStop]) -> Vec<SumoStop> {
+        let of_route = self.route_stops.iter().filter(|(id, _)| *way == SumoWay::Route(id.clone()));
+        of_route.map(|(_, stop)| stop).chain(own).cloned().collect()
     }
 }
 

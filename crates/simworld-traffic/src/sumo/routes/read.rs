@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 use std::io::BufRead;
 
-use super::{Distribution, SumoDemand, SumoFlow, SumoType, SumoVehicle, SumoWay};
+use super::{
+    Distribution, SumoBusStop, SumoDemand, SumoFlow, SumoPerson, SumoStage, SumoStop, SumoType, SumoVehicle,
+    SumoWay,
+};
 use crate::sumo::xml::{self, Element, Visit};
 use crate::sumo::{SumoError, SumoWarning};
 
@@ -23,6 +26,8 @@ struct State {
     demand: SumoDemand,
     warnings: BTreeSet<SumoWarning>,
     open: Open,
+    /// The route with a name that is being read.
+    route: Option<String>,
     /// Routes without a name of their own.
     unnamed: usize,
 }
@@ -36,6 +41,7 @@ enum Open {
     Flow,
     Types,
     Routes,
+    Person,
     /// One that was left out.
     Ignored,
 }
@@ -66,9 +72,22 @@ impl Visit for State {
                 self.demand.flows.push(SumoFlow::of(element, way)?);
                 self.open = Open::Flow;
             }
-            "stop" => self.warn("stop", element, "has no counterpart: nobody stops there"),
-            "person" | "personFlow" | "container" | "containerFlow" => {
+            "stop" => self.stop(element)?,
+            "busStop" => self.demand.bus_stops.push(SumoBusStop::of(element)?),
+            "person" => self.person(element)?,
+            "walk" | "ride" if matches!(self.open, Open::Person) => {
+                let is_walk = element.name() == "walk";
+                let stage = if is_walk { SumoStage::walk(element)? } else { SumoStage::ride(element)? };
+                if let Some(person) = self.demand.persons.last_mut() {
+                    person.stages.push(stage);
+                }
+            }
+            "personFlow" | "container" | "containerFlow" => {
+                self.open = Open::Ignored;
                 self.warn("person", element, "has no counterpart: it was left out");
+            }
+            "personTrip" | "transport" | "tranship" => {
+                self.warn("person", element, "has a stage without counterpart: it was left out");
             }
             _ if depth == 1 => self.warn("element", element, "has no counterpart: it was left out"),
             _ => {}
@@ -97,7 +116,12 @@ impl Visit for State {
                     return Err(missing(name, &last.id));
                 }
             }
-            "vTypeDistribution" | "routeDistribution" => {}
+            "route" => {
+                self.route = None;
+                return Ok(());
+            }
+            "vTypeDistribution" | "routeDistribution" | "person" | "personFlow" | "container"
+            | "containerFlow" => {}
             _ => return Ok(()),
         }
         self.open = Open::None;
@@ -151,7 +175,7 @@ impl State {
                     distribution.choices.push((id, weight));
                 }
             }
-            Open::Ignored => {}
+            Open::Ignored | Open::Person => {}
             Open::None | Open::Types => {
                 element.text("id")?;
                 self.add_route(element, edges);
@@ -165,7 +189,49 @@ impl State {
         let unnamed = self.unnamed;
         let id = element.get("id").map_or_else(|| format!("!{unnamed}"), std::borrow::Cow::into_owned);
         self.demand.routes.push((id.clone(), edges));
+        self.route = Some(id.clone());
         id
+    }
+
+    /// A stop of whatever is being read.
+    fn stop(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
+        if matches!(self.open, Open::Ignored) {
+            return Ok(());
+        }
+        if element.get("triggered").is_some_and(|value| value != "false") {
+            self.warn("stop", element, "waits for nobody: it lasts as long as its duration says");
+        }
+        let stop = SumoStop::of(element)?;
+        let demand = &mut self.demand;
+        let own = match self.open {
+            Open::Vehicle => demand.vehicles.last_mut().map(|vehicle| &mut vehicle.stops),
+            Open::Flow => demand.flows.last_mut().map(|flow| &mut flow.stops),
+            _ => None,
+        };
+        if let Some(stops) = own {
+            stops.push(stop);
+        } else if let (Open::Person, Some(person)) = (&self.open, demand.persons.last_mut()) {
+            person.stages.push(SumoStage::Stop(stop));
+        } else if let Some(route) = &self.route {
+            demand.route_stops.push((route.clone(), stop));
+        } else {
+            self.warn("stop", element, "is nobody's: it was left out");
+        }
+        Ok(())
+    }
+
+    fn person(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
+        if self.demand.persons.len() as u64 >= MOST {
+            return Err(SumoError::TooMuch { what: "persons", limit: MOST });
+        }
+        self.open = Open::Ignored;
+        let Some(depart) = time(element, "depart")? else {
+            self.warn("person", element, "departs with a vehicle: it was left out");
+            return Ok(());
+        };
+        self.demand.persons.push(SumoPerson { id: element.text("id")?, depart, stages: Vec::new() });
+        self.open = Open::Person;
+        Ok(())
     }
 
     fn vehicle(&mut self, element: &Element<'_>) -> Result<(), SumoError> {
@@ -190,7 +256,9 @@ impl State {
         }
         let way = way(element)?.unwrap_or_else(no_way);
         let vehicle_type = element.get("type").map(std::borrow::Cow::into_owned);
-        self.demand.vehicles.push(SumoVehicle { id: element.text("id")?, vehicle_type, depart, way });
+        let line = element.get("line").unwrap_or_default().into_owned();
+        let id = element.text("id")?;
+        self.demand.vehicles.push(SumoVehicle { id, vehicle_type, depart, way, stops: Vec::new(), line });
         self.open = Open::Vehicle;
         Ok(())
     }
