@@ -102,6 +102,23 @@ fn cars_pull_out_of_parking_strips_and_into_them() {
     drive_from_kerb_to_kerb(section.with_parking(2.2), DrivingSide::Left, (lane + 2.2) * 0.5);
 }
 
+/// Who departs close before a junction, in a lane that does not lead on, gets out of the way of others all the same.
+#[test]
+fn on_broad_streets_nobody_is_stuck_between_two_lanes() {
+    let network = town(CrossSection::two_way(3, 3).with_parking(2.2), DrivingSide::Right);
+    let (router, legs) = (Router::new(&network), legs(&network));
+    let mut traffic = traffic(network, 200);
+    for index in 0..60 {
+        let (from, to) = (legs[(index * 5 + 2) % legs.len()], legs[(index * 7 + 11) % legs.len()]);
+        let Some(route) = router.quickest(from, to).filter(|route| route.0.len() > 1) else { continue };
+        let kerbs = Kerbs { from: Some(30.0 + index as f64), to: None };
+        traffic.insert_between(route, VehicleKind::Car.into(), 0.0, kerbs).expect("places are sound");
+    }
+    let counters = watching::drive(&mut traffic, 5000, |_| false);
+    assert_eq!((counters.long_waits, counters.forced_stops, traffic.outside()), (0, 0, 0), "{counters:?}");
+    assert!(counters.arrived > 50, "{counters:?}");
+}
+
 #[test]
 fn where_there_is_no_strip_they_stop_in_the_lane() {
     drive_from_kerb_to_kerb(CrossSection::two_way(2, 2), DrivingSide::Right, 0.0);

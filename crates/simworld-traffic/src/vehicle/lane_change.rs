@@ -36,7 +36,7 @@ impl Default for Mobil {
 
 /// Sideways speed of a change, m/s, and its bound as a share of the speed ahead.
 const SIDEWAYS: f64 = 1.2;
-const STEEPNESS: f64 = 0.25;
+pub(super) const STEEPNESS: f64 = 0.25;
 /// With less than this to its new lane's middle a body is out of its old lane, m.
 const OUT: f64 = 0.5;
 /// The drivers of a lane look beside once in so many steps.

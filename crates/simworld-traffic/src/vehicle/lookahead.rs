@@ -3,7 +3,7 @@
 use super::Idm;
 use super::following::{Ahead, CarFollowing, Leader};
 use super::junction::horizon;
-use super::lane_change::{CHANGE_ROOM, Ghost, first_block, first_ghost};
+use super::lane_change::{CHANGE_ROOM, Ghost, STEEPNESS, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::otherwise::Otherwise;
 use super::part::Part;
@@ -203,6 +203,12 @@ impl View<'_> {
         let is_near = to_end <= horizon(vehicle.v);
         match vehicle.next {
             EXIT => {}
+            // Who stands between two lanes would never come out of there: first it comes into its own.
+            NONE if vehicle.shift != 0.0 => {
+                let early = self.before_change(lane, to_end);
+                let way = f64::from(vehicle.shift.abs()) / STEEPNESS + 1.0;
+                self.stop_in(early.max(way).min(to_end), self.idm.gap);
+            }
             NONE => self.stop_in(self.before_change(lane, to_end), self.idm.gap),
             _ if is_near => self.stop_in(to_end, self.idm.gap),
             _ => {}
