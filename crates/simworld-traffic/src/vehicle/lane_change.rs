@@ -342,15 +342,29 @@ impl Part {
         if f64::from(vehicle.shift.abs()) <= OUT {
             return None;
         }
-        let old = old_lane(tracks, lane, vehicle)?;
-        let s = vehicle.s * stretch(tracks, lane, old);
-        let old = tracks.layout.local(old);
+        let track = old_lane(tracks, lane, vehicle)?;
+        let s = vehicle.s * stretch(tracks, lane, track);
+        let old = tracks.layout.local(track);
         let queue = self.slabs.queue(old);
         let leader = queue.partition_point(|other| other.s >= s).checked_sub(1).map(|rank| &queue[rank]);
         let leader = leader.map(|leader| (leader.s - leader.length() - s, leader.v));
         // Another may be on its way out of the same lane.
         let ghost = first_ghost(self.ghosts(old), s);
-        [leader, ghost].into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
+        // Or its front has left the lane and its rear has not.
+        let (end, leavers) = (tracks.length[track as usize], self.leavers(tracks, track));
+        let leaver = leavers.map(|(rear, v)| (end - s + rear, v)).filter(|(gap, _)| *gap > -vehicle.length());
+        [leader, ghost].into_iter().flatten().chain(leaver).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Those whose front has left a lane by a junction and whose rear has not: where that is, from the end of the lane, m and
+    /// negative; and their speeds.
+    fn leavers(&self, tracks: &Tracks, lane: Track) -> impl Iterator<Item = (f64, f64)> {
+        tracks.network.lanes[lane as usize].outgoing.iter().filter_map(|way| {
+            let track = tracks.lanes as Track + way.0;
+            let last = self.slabs.queue(tracks.layout.local(track)).last()?;
+            let rear = last.s - last.length();
+            (rear < 0.0).then_some((rear, last.v))
+        })
     }
 }
 
