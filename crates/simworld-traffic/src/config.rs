@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::crowd::AnticipationVelocity;
 use crate::pedestrian::People;
-use crate::vehicle::{Mobil, VehicleKind, VehicleType, standard_types};
+use crate::vehicle::{Gaps, Mobil, VehicleKind, VehicleType, standard_types};
 use crate::{ControlError, DrivingConditions, Leg, NoWay};
 
 /// How much traffic there is, and how it behaves.
@@ -22,6 +22,8 @@ pub struct TrafficConfig {
     pub types: Vec<VehicleType>,
     /// Lane changes.
     pub mobil: Mobil,
+    /// Giving way.
+    pub gaps: Gaps,
     /// Road and weather at the start.
     pub conditions: DrivingConditions,
     /// What drivers do whose way is closed and who find no other.
@@ -49,6 +51,7 @@ impl Default for TrafficConfig {
             pedestrians: 80,
             types: standard_types(),
             mobil: Mobil::default(),
+            gaps: Gaps::default(),
             conditions: DrivingConditions::default(),
             no_way: NoWay::default(),
             lateral_acceleration: 2.5,
@@ -210,6 +213,7 @@ impl TrafficConfig {
             }
         }
         self.conditions.validate()?;
+        self.gaps.validate()?;
         self.types.iter().enumerate().try_for_each(|(index, row)| row.validate(index))
     }
 

@@ -186,6 +186,9 @@ pub enum Control {
     Priority,
     /// Nothing to say: a bend, or the end of a road.
     None,
+    /// Stop signs: the right of way says, and whoever comes by a road of lower class than another stops at its line first;
+    /// everybody does where all are of one class.
+    Stop,
 }
 
 /// The round end of a street in which vehicles turn.
@@ -299,6 +302,17 @@ pub struct RoadNetwork {
 }
 
 impl RoadNetwork {
+    /// Whether who comes from a lane has a stop sign at its end.
+    pub fn stops_at(&self, lane: LaneId) -> bool {
+        let place = &self.intersections[self.lanes[lane.index()].to.index()];
+        let class = |road: &RoadId| self.roads[road.index()].class;
+        let own = class(&self.lanes[lane.index()].road);
+        let is_above = |road: &RoadId| class(road) > own;
+        let is_other = |road: &RoadId| class(road) != own;
+        place.control == Control::Stop
+            && (place.roads.iter().any(is_above) || !place.roads.iter().any(is_other))
+    }
+
     /// The number of signal groups, the length of [`Scene::signals`](crate::scene::Scene::signals). After a repair some may
     /// be nobody's.
     pub fn signal_groups(&self) -> usize {

@@ -41,8 +41,9 @@ impl Zone {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Conflict {
     pub(crate) way: u32,
-    /// Whether one gives way to it while both may go.
+    /// Whether one gives way to it while both may go, and the least gap before who comes on it that one takes then, s.
     pub(crate) yields: bool,
+    pub(crate) critical: f32,
     /// Whether both end in the same lane.
     pub(crate) merges: bool,
     pub(crate) own: Zone,
@@ -58,10 +59,12 @@ pub(crate) fn conflicts(network: &RoadNetwork, config: &TrafficConfig) -> Ragged
         let conflict = |id: &ConnectionId| {
             let other = &network.connections[id.index()];
             let merges = own.to == other.to;
+            let yields = own.yields_to.binary_search(id).is_ok();
             let (mine, theirs) = (&traces[index], &traces[id.index()]);
             Conflict {
                 way: id.0,
-                yields: own.yields_to.binary_search(id).is_ok(),
+                yields,
+                critical: if yields { config.gaps.critical(network, own, other) as f32 } else { 0.0 },
                 merges,
                 own: mine.zone(theirs, near, merges),
                 other: theirs.zone(mine, near, merges),

@@ -63,7 +63,7 @@ impl CarFollowing {
         if let Some(leader) = leader {
             ahead.see(self, driver, v, &leader, dt);
         }
-        ahead.respond(self, driver, v, free, dt)
+        ahead.respond(self, driver, v, (free, free), dt)
     }
 
     /// The gap at which one follows at constant speed, m, by Krauss without imperfection; infinite at the desired speed.
@@ -125,16 +125,25 @@ impl Ahead {
         self.bound = self.bound.min(bound);
     }
 
-    /// The acceleration by the IDM, m/s².
+    /// The acceleration by the IDM, m/s², with the speeds that the road and its bends allow.
     #[inline]
-    pub(crate) fn respond_by_idm(&self, driver: &Idm, v: f64, free: f64) -> f64 {
-        driver.respond(v, free, self.pressure)
+    pub(crate) fn respond_by_idm(&self, driver: &Idm, v: f64, (free, bend): (f64, f64)) -> f64 {
+        let following = driver.respond(v, free, self.pressure);
+        if bend < free { following.min(driver.alone(v, bend)) } else { following }
     }
 
     /// The acceleration by any model, m/s².
-    pub(crate) fn respond(&self, model: &CarFollowing, driver: &Idm, v: f64, free: f64, dt: f64) -> f64 {
+    pub(crate) fn respond(
+        &self,
+        model: &CarFollowing,
+        driver: &Idm,
+        v: f64,
+        allowed: (f64, f64),
+        dt: f64,
+    ) -> f64 {
+        let free = allowed.0.min(allowed.1);
         let wanted = match model {
-            CarFollowing::Idm => driver.respond(v, free, self.pressure),
+            CarFollowing::Idm => self.respond_by_idm(driver, v, allowed),
             CarFollowing::Krauss { .. } => {
                 let road = ((free - v) / dt).clamp(-driver.deceleration, driver.acceleration);
                 road.min(self.bound)

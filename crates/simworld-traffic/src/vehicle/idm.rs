@@ -65,11 +65,16 @@ impl Idm {
     /// The acceleration under such a pressure.
     #[inline]
     pub(crate) fn respond(&self, v: f64, free: f64, pressure: f64) -> f64 {
+        let interaction = self.acceleration * pressure * pressure;
+        (self.alone(v, free) - interaction).max(-self.emergency_deceleration)
+    }
+
+    /// The acceleration with nobody ahead: above its free speed a vehicle brakes comfortably, however far above.
+    #[inline]
+    pub(crate) fn alone(&self, v: f64, free: f64) -> f64 {
         let ratio = v / free;
         let square = ratio * ratio;
-        // Above its free speed a vehicle brakes comfortably, however far above.
-        let road = (self.acceleration * (1.0 - square * square)).max(-self.deceleration);
-        (road - self.acceleration * pressure * pressure).max(-self.emergency_deceleration)
+        (self.acceleration * (1.0 - square * square)).max(-self.deceleration)
     }
 
     /// The gap at which one follows at constant speed, m; infinite at the desired speed.

@@ -7,7 +7,7 @@ use super::lane_change::{CHANGE_ROOM, Ghost, STEEPNESS, first_block, first_ghost
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::otherwise::Otherwise;
 use super::part::Part;
-use super::precedence::Precedence;
+use super::precedence::{HURRY, Precedence};
 use super::tracks::{Obstacle, Track, Tracks};
 
 /// Where a vehicle stops before a line, m.
@@ -22,8 +22,9 @@ pub(super) struct Lane<'a> {
     way: Option<usize>,
     /// Its length, m.
     end: f64,
-    /// The speed that the law and its bends allow, m/s.
+    /// The speeds that the law and its bends allow, m/s.
     limit: f64,
+    bend: f64,
     /// Bodies that have not quite left it, from back to front.
     ghosts: &'a [Ghost],
 }
@@ -31,8 +32,10 @@ pub(super) struct Lane<'a> {
 impl<'a> Lane<'a> {
     pub(super) fn new(part: &'a Part, scene: &'a Scene<'a>, track: Track, ghosts: &'a [Ghost]) -> Self {
         let tracks = scene.tracks;
-        let (end, limit) = (tracks.length[track as usize], tracks.speed[track as usize]);
-        Self { part, scene, track, way: tracks.connection(track), end, limit, ghosts }
+        let (end, bend) = (tracks.length[track as usize], tracks.speed[track as usize]);
+        let way = tracks.connection(track);
+        let limit = way.map_or(bend, |way| tracks.speed[tracks.lane_after(way) as usize]);
+        Self { part, scene, track, way, end, limit, bend, ghosts }
     }
 
     /// Those who are on a way out of it, or have their rear there: front and rear along the way, m, and speed, m/s.
@@ -93,6 +96,9 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         ahead: Ahead::NOTHING,
         factor: f64::from(vehicle.factor) * config.conditions.speed,
         free: kind.free_speed(config, vehicle.factor, lane.limit),
+        bend: kind.free_speed(config, vehicle.factor, lane.bend),
+        most: f64::INFINITY,
+        takes_gap: false,
     };
     if let Some(leader) = leader {
         let gap = leader.s - leader.length() - vehicle.s;
@@ -130,14 +136,10 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
     if !lane.scene.sight.obstacles.is_empty() {
         view.beware(&lane.scene.sight, lane.track, vehicle.s, idm.gap);
     }
-    let mut acceleration = match &view.otherwise {
-        None => view.ahead.respond_by_idm(idm, vehicle.v, view.free),
-        Some(otherwise) => {
-            let is_crossing = vehicle.holding != NONE && vehicle.v > STANDING;
-            let is_pressed = lane.way.is_some() || vehicle.shift != 0.0 || is_crossing;
-            otherwise.respond(lane.scene, vehicle, &view.ahead, (view.free, view.gap), is_pressed)
-        }
-    };
+    let mut acceleration = view.respond(lane, vehicle).min(view.most);
+    if view.takes_gap {
+        acceleration = acceleration.max((acceleration * HURRY).min(idm.acceleration * HURRY));
+    }
     if vehicle.v < STANDING && view.gap < idm.gap {
         // Standing close is standing: no creeping on rounding.
         acceleration = acceleration.min(0.0);
@@ -157,9 +159,28 @@ struct View<'a> {
     /// The driver's share of the limits.
     factor: f64,
     free: f64,
+    /// The speed that bends and what is beyond them allow now.
+    bend: f64,
+    /// The most that one accelerates, to let somebody go first, m/s².
+    most: f64,
+    /// Whether one turns in a gap in the stream of others.
+    takes_gap: bool,
 }
 
 impl View<'_> {
+    /// The acceleration. One slows down for a bend as if alone, and follows as on a straight road: who wants no more than the
+    /// speed that he has would keep twice the gap, and hardly anybody would come round.
+    #[inline]
+    fn respond(&self, lane: &Lane<'_>, vehicle: &Vehicle) -> f64 {
+        let allowed = (self.free, self.bend);
+        let Some(otherwise) = &self.otherwise else {
+            return self.ahead.respond_by_idm(self.idm, self.v, allowed);
+        };
+        let is_crossing = vehicle.holding != NONE && vehicle.v > STANDING;
+        let is_pressed = lane.way.is_some() || vehicle.shift != 0.0 || is_crossing;
+        otherwise.respond(lane.scene, vehicle, &self.ahead, allowed, self.gap, is_pressed)
+    }
+
     #[inline]
     fn see(&mut self, leader: Leader) {
         self.gap = self.gap.min(leader.gap);
@@ -195,7 +216,7 @@ impl View<'_> {
     /// Must have a speed so far ahead, braking comfortably.
     fn slow_to(&mut self, speed: f64, distance: f64) {
         let allowed = (speed * speed + 2.0 * self.idm.deceleration * distance.max(0.0)).sqrt();
-        self.free = self.free.min(allowed.max(0.5));
+        self.bend = self.bend.min(allowed.max(0.5));
     }
 
     /// On a lane without leave to cross: its end, and those who have left it but for their rear.
@@ -256,8 +277,10 @@ impl View<'_> {
     /// Lets those go first whose leave is older; `at` is where one is on the way, negative before it.
     fn mind_older(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, way: usize, at: f64) {
         let gap = self.idm.gap;
+        self.takes_gap = lane.scene.tracks.ways[way].turns_by_gaps;
         lane.part.mind_older(lane.scene, vehicle, (way, at), |precedence| match precedence {
             Precedence::Stop { distance } => self.stop_in(distance, gap),
+            Precedence::Slow { acceleration } => self.most = self.most.min(acceleration),
             Precedence::Follow { gap, speed } => self.follow(gap, speed),
         });
     }

@@ -6,6 +6,7 @@ mod controls;
 mod deadlock;
 mod entry;
 mod following;
+mod gaps;
 mod halts;
 mod idm;
 mod join;
@@ -33,6 +34,7 @@ mod types;
 
 pub(crate) use controls::FreeVehicle;
 pub use following::{CarFollowing, Leader};
+pub use gaps::Gaps;
 pub(crate) use halts::{Halt, Order, Then};
 #[cfg(feature = "validation")]
 pub(crate) use idm::advance;

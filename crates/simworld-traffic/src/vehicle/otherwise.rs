@@ -42,19 +42,20 @@ impl<'a> Otherwise<'a> {
         gap - self.row.driver.gap < NEAR * v * self.interval
     }
 
-    /// His acceleration, m/s²; `gap` is that to the nearest thing ahead. Who is pressed decides at once.
+    /// His acceleration, m/s², with the speeds that the road and its bends allow; `gap` is that to the nearest thing ahead. Who is pressed decides at once.
     #[inline(never)]
     pub(super) fn respond(
         &self,
         scene: &Scene<'_>,
         vehicle: &Vehicle,
         ahead: &Ahead,
-        (free, gap): (f64, f64),
+        allowed: (f64, f64),
+        gap: f64,
         is_pressed: bool,
     ) -> f64 {
         let VehicleType { model, driver, perception, .. } = self.row;
         let v = vehicle.v;
-        let mut wanted = ahead.respond(model, driver, v, free, self.interval);
+        let mut wanted = ahead.respond(model, driver, v, allowed, self.interval);
         if let CarFollowing::Krauss { .. } = model {
             wanted = model.dawdle(driver, v, wanted, scene.draw("dawdle", vehicle.id));
         }

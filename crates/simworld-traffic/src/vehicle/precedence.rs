@@ -14,9 +14,12 @@ use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::Part;
 use super::tracks::Track;
 
-/// Time that one wants between clearing a conflict and the arrival of who has priority, s; and of who has not.
-const MARGIN: f64 = 1.0;
-const MARGIN_OF_EQUALS: f64 = 0.5;
+/// Time that one wants between clearing a conflict and the arrival of who has no priority, s.
+const MARGIN: f64 = 0.5;
+/// Time by which one delays who has priority, at most, s: the gaps of the manual leave no more than that.
+const DELAYS: f64 = 1.0;
+/// Time from leave to the line of one who is about to stop at it, s. A gap is taken to begin with it.
+const START: f64 = 1.2;
 /// Vehicles with priority are looked for within this distance, m.
 const SIGHT: f64 = 90.0;
 /// Braking with which one who is overtaken in the order could stop at its line, m/s².
@@ -24,9 +27,14 @@ const EASILY: f64 = 2.0;
 /// Acceleration with which others are expected to clear the way, and to come, m/s².
 const CLEARS: f64 = 1.0;
 const COMES: f64 = 1.5;
-/// One relies on somebody else being gone while one could still stop with this, m/s², in the time that follows, s.
-const RELIES: f64 = 2.5;
-const RELIES_FOR: f64 = 0.5;
+/// One relies on somebody else being gone as long as one could still stop with this share of one's hardest braking, in so much
+/// time before it, s, and so far before, m.
+const RELIES: f64 = 0.6;
+const RELIES_FOR: f64 = 0.2;
+const RELIES_UP_TO: f64 = 1.0;
+
+/// Who turns in a gap accelerates so much harder than else.
+pub(super) const HURRY: f64 = 1.3;
 
 /// Whether one leave is older than another; numbers begin anew after the last.
 pub(super) fn is_before(one: u32, other: u32) -> bool {
@@ -81,19 +89,37 @@ impl Asker {
         square.max(0.0).sqrt().min(self.speed)
     }
 
-    /// Whether it could go after a holder without standing in the junction.
+    /// Whether it could go after a holder without standing in the junction. Who gives way lets it come by first.
     fn goes_after(&self, holder: &Holder, conflict: &Conflict, speed: f64) -> bool {
-        holder.clears(conflict, speed) <= self.time(conflict.own.enter())
+        let has_come = holder.front >= 0.0 || !conflict.yields;
+        has_come && holder.clears(conflict, speed) <= self.time(conflict.own.enter())
     }
 
-    /// Whether it would be gone before one who comes in that time at that speed.
-    fn goes_before(&self, conflict: &Conflict, comes: f64, v: f64) -> bool {
+    /// Whether it would be gone before another, and takes the gap before it.
+    fn goes_before(&self, conflict: &Conflict, comer: &Comer) -> bool {
         let gone = conflict.own.passed() + self.length;
         // Where both end in one lane the other must come down to one's own speed.
-        let excess = if conflict.merges { (v - self.speed_at(gone)).max(0.0) } else { 0.0 };
-        let slowed = excess * excess / (2.0 * EASILY * v.max(1.0));
-        let margin = if conflict.yields { MARGIN } else { MARGIN_OF_EQUALS };
-        self.time(gone) + slowed + margin <= comes
+        let excess = if conflict.merges { (comer.v - self.speed_at(gone)).max(0.0) } else { 0.0 };
+        let slowed = excess * excess / (2.0 * EASILY * comer.v.max(1.0));
+        let margin = if conflict.yields { -DELAYS } else { MARGIN };
+        let has_gap =
+            !conflict.yields || self.time(0.0) + f64::from(conflict.critical) - START <= comer.time(0.0);
+        has_gap && self.time(gone) + slowed + margin <= comer.time(conflict.other.enter())
+    }
+}
+
+/// Somebody before its line, who may go at once.
+struct Comer {
+    /// To its line, m.
+    distance: f64,
+    v: f64,
+    /// The speed to which it may go, m/s.
+    limit: f64,
+}
+
+impl Comer {
+    fn time(&self, station: f64) -> f64 {
+        time_over(self.distance + station, self.v, COMES, self.limit.max(self.v))
     }
 }
 
@@ -117,7 +143,7 @@ impl Part {
             distance,
             v: vehicle.v,
             length: vehicle.length(),
-            acceleration: row.driver.acceleration,
+            acceleration: row.driver.acceleration * if tracks.ways[way].turns_by_gaps { HURRY } else { 1.0 },
             speed: row.free_speed(scene.config, vehicle.factor, tracks.speed[tracks.lanes + way]),
         };
         tracks.conflicts[way].iter().all(|conflict| {
@@ -148,9 +174,8 @@ impl Part {
                 return;
             }
             let could_stop = holder.front < 0.0 && holder.v * holder.v <= -2.0 * EASILY * holder.front;
-            let way = conflict.other.enter() - holder.front;
-            let comes = time_over(way, holder.v, COMES, holder.v.max(limit));
-            fits = could_stop && asker.goes_before(conflict, comes, holder.v);
+            let comer = Comer { distance: -holder.front, v: holder.v, limit };
+            fits = could_stop && asker.goes_before(conflict, &comer);
             if fits {
                 overtaken.push((tracks.layout.local(from) as u32, holder.rank));
             }
@@ -165,10 +190,8 @@ impl Part {
         if rival.v < STANDING && rival.stood > 3.0 {
             return false; // it cannot go, or lets one go
         }
-        let way = end - rival.s + conflict.other.enter();
         let limit = tracks.speed[tracks.ways[conflict.way as usize].from as usize];
-        let comes = time_over(way, rival.v, COMES, rival.v.max(limit));
-        !asker.goes_before(conflict, comes, rival.v)
+        !asker.goes_before(conflict, &Comer { distance: end - rival.s, v: rival.v, limit })
     }
 
     /// The first without leave on the way to a way that its signal lets go, and where its lane ends.
@@ -229,7 +252,9 @@ impl Part {
         mut mind: impl FnMut(Precedence),
     ) {
         let tracks = scene.tracks;
-        let acceleration = scene.config.vehicle_type(vehicle.row).driver.acceleration;
+        let driver = &scene.config.vehicle_type(vehicle.row).driver;
+        let hardest = RELIES * driver.emergency_deceleration;
+        let sure = vehicle.v * (vehicle.v / (2.0 * hardest) + RELIES_FOR) + RELIES_UP_TO;
         for conflict in tracks.conflicts[way].iter().filter(|other| scene.junctions.is_held(other.way)) {
             let to_zone = conflict.own.enter() - front;
             if to_zone > horizon(vehicle.v) {
@@ -245,11 +270,13 @@ impl Part {
                     let ends = (tracks.length[tracks.lanes + way], conflict.other_length(scene));
                     mind(Precedence::Follow { gap: ends.0 - front - (ends.1 - rear), speed: holder.v });
                 } else if rear < conflict.other.passed() && to_zone > -0.5 {
-                    let sure = vehicle.v * (vehicle.v / (2.0 * RELIES) + RELIES_FOR) + 1.0;
-                    let own = scene.tracks.speed[tracks.lanes + way].max(vehicle.v);
-                    let comes = time_over(to_zone, vehicle.v, acceleration, own);
-                    if to_zone < sure || holder.clears(conflict, speed) > comes {
+                    // So that it is gone when one could no longer stop for it.
+                    let time = holder.clears(conflict, speed);
+                    let arrives = 2.0 * (to_zone - sure - vehicle.v * time) / (time * time).max(1e-9);
+                    if to_zone < sure || arrives < -EASILY {
                         mind(Precedence::Stop { distance: to_zone });
+                    } else if arrives < driver.acceleration {
+                        mind(Precedence::Slow { acceleration: arrives });
                     }
                 }
             });
@@ -262,6 +289,8 @@ impl Part {
 pub(super) enum Precedence {
     /// To stop so far ahead, m.
     Stop { distance: f64 },
+    /// To accelerate by no more than this, m/s².
+    Slow { acceleration: f64 },
     /// To follow it, m and m/s.
     Follow { gap: f64, speed: f64 },
 }

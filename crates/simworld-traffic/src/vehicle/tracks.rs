@@ -50,6 +50,10 @@ pub(crate) struct Way {
     pub(crate) signal: u32,
     /// Whether it turns across oncoming traffic.
     pub(crate) crosses_oncoming: bool,
+    /// Whether a stop sign stands before it.
+    pub(crate) stops: bool,
+    /// Whether it turns and gives way.
+    pub(crate) turns_by_gaps: bool,
 }
 
 /// The network as drivers see it.
@@ -201,6 +205,8 @@ fn way(network: &RoadNetwork, connection: &Connection) -> Way {
         to: connection.to.0,
         signal: connection.signal.map_or(NONE, |group| group.index() as u32),
         crosses_oncoming: connection.turn == network.driving_side.turn_across(),
+        stops: network.stops_at(connection.from),
+        turns_by_gaps: connection.turn != Turn::Straight && !connection.yields_to.is_empty(),
     }
 }
 

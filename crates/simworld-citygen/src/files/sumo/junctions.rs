@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, CrossingId, IntersectionId};
-use simworld_core::net::{Control, RoadNetwork, Turn, polyline};
+use simworld_core::net::{Control, Intersection, RoadNetwork, Turn, polyline};
 use simworld_core::ops;
 
 use super::edges::{
@@ -146,6 +146,8 @@ impl Junction {
         let kind = match place.control {
             Control::Signals => "traffic_light",
             _ if place.roads.len() < 2 && self.links.is_empty() => "dead_end",
+            Control::Stop if is_of_one_class(network, place) => "allway_stop",
+            Control::Stop => "priority_stop",
             _ => "priority",
         };
         let incoming = self.incoming_lanes(network, edges);
@@ -311,4 +313,10 @@ fn around(path: &[Point2], width: f64) -> Vec<Point2> {
     let mut outline = polyline::offset(path, -width * 0.5);
     outline.extend(polyline::reversed(&polyline::offset(path, width * 0.5)));
     outline
+}
+
+fn is_of_one_class(network: &RoadNetwork, place: &Intersection) -> bool {
+    let mut classes = place.roads.iter().map(|road| network.roads[road.index()].class);
+    let first = classes.next();
+    classes.all(|class| Some(class) == first)
 }

@@ -1,4 +1,4 @@
-//! Who may go at which junction: signals stand where the map has them, elsewhere the right of way says.
+//! Who may go at which junction: signals and stop signs stand where the map has them, elsewhere the right of way says.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use simworld_core::net::{Control, StreetPlan};
 use crate::osm::place::Place;
 use crate::osm::tags::Key;
 
-/// A signal nearer to a junction than this governs it, m: it may be drawn at the stop line.
+/// A signal or sign nearer to a junction than this governs it, m: it may be drawn at the stop line.
 const REACH: f64 = 30.0;
 
 /// The controls of all junctions of three streets and more.
@@ -24,12 +24,18 @@ pub(super) fn controls(plan: &StreetPlan, place: &Place) -> BTreeMap<usize, Cont
         junctions().map(|node| (cell(plan.nodes[node]), node)).collect();
     cells.sort_unstable();
     for (node, tags) in place.raw.tagged_nodes() {
-        if !tags.is(Key::Highway, "traffic_signals") {
-            continue;
-        }
+        let sign = match () {
+            () if tags.is(Key::Highway, "traffic_signals") => Control::Signals,
+            () if tags.is(Key::Highway, "stop") => Control::Stop,
+            () => continue,
+        };
         let Some(at) = place.point(node) else { continue };
         if let Some(junction) = nearest(plan, &cells, at) {
-            controls.insert(junction, Control::Signals);
+            // Of both at one junction the signals say.
+            let control = controls.entry(junction).or_insert(sign);
+            if *control != Control::Signals {
+                *control = sign;
+            }
         }
     }
     controls

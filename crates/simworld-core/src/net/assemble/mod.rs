@@ -230,6 +230,13 @@ impl NetworkBuilder {
         self.settled.push(intersection);
     }
 
+    /// Puts [stop signs](Control::Stop) at an intersection.
+    pub fn set_stop(&mut self, intersection: IntersectionId) {
+        if let Some(place) = self.network.intersections.get_mut(intersection.index()) {
+            place.control = Control::Stop;
+        }
+    }
+
     /// Says that two ways touch, and which of them, if any, gives way while both may go.
     pub fn add_conflict(&mut self, a: ConnectionId, b: ConnectionId, gives_way: Option<ConnectionId>) {
         for (own, other) in [(a, b), (b, a)] {

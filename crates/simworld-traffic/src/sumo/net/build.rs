@@ -107,6 +107,9 @@ impl Build {
             }
             let outline = junction.outline.points.clone();
             let place = self.builder.add_intersection(junction.center, junction.height, outline);
+            if matches!(junction.kind.as_str(), "priority_stop" | "allway_stop") {
+                self.builder.set_stop(place);
+            }
             if junctions.insert(junction.id.as_str(), place).is_some() {
                 return Err(SumoError::Twice { element: "junction", id: junction.id.clone() });
             }
