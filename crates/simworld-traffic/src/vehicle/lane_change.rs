@@ -6,6 +6,7 @@
 //! who is before it in either.
 
 use serde::{Deserialize, Serialize};
+use simworld_core::net::DrivingSide;
 
 use super::VehicleKind;
 use super::closures::Closures;
@@ -136,7 +137,11 @@ impl Part {
             return false; // too near to get round it, or where it is to stand
         }
         let makes_way = scene.sirens.is_heard(lane, vehicle.s) && !scene.sirens.is_on(vehicle.id);
-        let must = lost || block.is_some() || makes_way || asked.is_some();
+        // Nobody halts where he would bar a lane for all, if he can help it.
+        let to_kerb =
+            vehicle.halt.is_finite() && !tracks.outermost[lane as usize] && !lost && block.is_none();
+        let must = lost || block.is_some() || makes_way || asked.is_some() || to_kerb;
+        let kerb_is_left = tracks.network.driving_side == DrivingSide::Left;
         let to_end = tracks.length[lane as usize] - vehicle.s;
         if !must && to_end < BEFORE_LINE * vehicle.v + 10.0 {
             return false;
@@ -149,7 +154,8 @@ impl Part {
         let sides = tracks.beside[lane as usize].into_iter();
         for target in sides.filter(|target| *target != NONE && tracks.may_use(*target, kind)) {
             let is_left = tracks.beside[lane as usize][0] == target;
-            if asked.is_some_and(|wish| is_left != (wish == LaneWish::Left)) {
+            let is_wrong = asked.is_some_and(|wish| is_left != (wish == LaneWish::Left));
+            if is_wrong || (to_kerb && asked.is_none() && is_left != kerb_is_left) {
                 continue;
             }
             let blocked = first_block(self.ghosts(tracks.layout.local(target)), vehicle.s);

@@ -109,7 +109,11 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         }
     }
     if vehicle.halt.is_finite() {
-        view.stop_in(f64::from(vehicle.halt) - vehicle.s, idm.gap);
+        // Far enough before it that one can still come to the kerb.
+        let to_halt = f64::from(vehicle.halt) - vehicle.s;
+        let is_at_kerb =
+            lane.scene.tracks.outermost.get(lane.track as usize).is_none_or(|is_outer| *is_outer);
+        view.stop_in(if is_at_kerb { to_halt } else { view.before_change(lane, to_halt) }, idm.gap);
     }
     let to_end = lane.end - vehicle.s;
     match lane.way {
