@@ -19,6 +19,8 @@ const HEARD: f64 = 90.0;
 /// It keeps a junction free that it reaches within this time, s, or from this near, m.
 const KEEPS_FREE: f64 = 8.0;
 const NEAR: f64 = 25.0;
+/// Who has stood for so long before a junction waits for something else than those who cross it, s: they need not wait then.
+const IN_VAIN: f64 = 8.0;
 /// It passes a red light no faster than this, m/s; ours, 20 km/h.
 const SLOW: f64 = 20.0 / 3.6;
 /// It goes on at red only from so near to the line that it sees the junction, m; from there on it does.
@@ -144,7 +146,8 @@ impl VehicleManager {
             }
             // Who stands before it has to go first: then nobody waits for it in vain.
             let is_next = rank == 0 || queue[rank - 1].holding == queue[rank - 1].next;
-            if is_lane && is_next && to_end < (KEEPS_FREE * vehicle.v).max(NEAR) {
+            let is_about_to = vehicle.stood < IN_VAIN && to_end < (KEEPS_FREE * vehicle.v).max(NEAR);
+            if is_lane && is_next && is_about_to {
                 sirens.ways.push(vehicle.next);
             }
             true
