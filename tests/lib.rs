@@ -1,5 +1,7 @@
 //! What several tests of the whole share.
 
+pub mod traffic;
+
 use simworld_citygen::City;
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{Assembly, RunConfig, assemble, make_city};

@@ -77,8 +77,13 @@ impl VehicleManager {
     }
 
     /// The lane for room on which the first of a lane has long waited.
-    fn waits_for(&self, tracks: &Tracks, config: &TrafficConfig, first: &Vehicle) -> Option<Track> {
-        if first.next >= EXIT || first.holding != NONE || first.halt.is_finite() {
+    pub(super) fn waits_for(
+        &self,
+        tracks: &Tracks,
+        config: &TrafficConfig,
+        first: &Vehicle,
+    ) -> Option<Track> {
+        if first.next >= EXIT || first.holding == first.next || first.halt.is_finite() {
             return None;
         }
         let signal = tracks.ways[first.next as usize].signal;
@@ -91,7 +96,7 @@ impl VehicleManager {
     fn has_room(&self, tracks: &Tracks, config: &TrafficConfig, way: u32, vehicle: &Vehicle) -> bool {
         let lane = tracks.lane_after(way as usize);
         let last = self.queue(tracks, lane).last().map_or_else(Tail::default, Tail::of);
-        is_room(tracks, config, &self.junctions, (lane, &last), vehicle)
+        is_room(tracks, config, (&self.junctions, &self.storage), (lane, &last), vehicle)
     }
 
     fn undo(

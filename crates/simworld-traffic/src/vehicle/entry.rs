@@ -54,7 +54,7 @@ impl VehicleManager {
         let departure = &Departure { factor, ..*departure };
         let (length, idm) = (row.length, &row.driver);
         let leads_on = |lane: &Track| {
-            next.is_none_or(|next| tracks.way_to(&self.closures, *lane, next, row.kind).is_some())
+            next.is_none_or(|next| tracks.way_to(&self.closures, *lane, next, None, row.kind).is_some())
         };
         let room = |lane: Track| {
             let last = self.queue(tracks, lane).last();
@@ -126,9 +126,10 @@ impl VehicleManager {
         let next =
             route.map_or(NONE, |route| route_way(tracks, &self.closures, route, &path, lane, row.kind));
         let vehicle = Vehicle::new(row, departure.row, departure.factor, id, s);
+        let vehicle = Vehicle { v, next, shift, ..vehicle };
+        self.storage.add(lane, &vehicle, config);
         let place = tracks.layout.place(lane);
-        let slabs = &mut self.parts[place.part as usize].slabs;
-        slabs.insert(place.local as usize, rank, Vehicle { v, next, shift, ..vehicle }, path);
+        self.parts[place.part as usize].slabs.insert(place.local as usize, rank, vehicle, path);
         self.sirens.switch(id, row.siren);
         self.entered.push(id);
         id
@@ -174,12 +175,16 @@ impl VehicleManager {
         if vehicle.holding != NONE {
             self.junctions.clear_way(vehicle.holding, vehicle.is_long());
         }
+        if tracks.connection(track).is_none() {
+            self.storage.take(track, &vehicle, config);
+        }
         // The room that it was to take behind the junction is free again, unless it is there already.
         let before_lane = vehicle.holding != NONE
             && (tracks.connection(track).is_some() || vehicle.holding == vehicle.next);
         if before_lane {
             self.junctions.arrive(tracks.lane_after(vehicle.holding as usize), &vehicle, config);
         }
+        self.end_trails(id);
         self.whereabouts.set(id as usize, NONE);
         Some((track, vehicle, path))
     }
@@ -223,6 +228,9 @@ pub(super) fn route_way(
     match route.0.get(path.leg as usize + 1) {
         None => EXIT,
         // A lane that does not lead on is one to leave.
-        Some(next) => tracks.way_to(closures, lane, *next, kind).unwrap_or(NONE),
+        Some(next) => {
+            let after = route.0.get(path.leg as usize + 2).copied();
+            tracks.way_to(closures, lane, *next, after, kind).unwrap_or(NONE)
+        }
     }
 }

@@ -162,6 +162,7 @@ impl VehicleManager {
             Some(route) => route_way(tracks, &self.closures, route, &path, lane, row.kind),
             None => self.choose((tracks, config), streams, &mut Vec::new(), &vehicle, &mut path, lane),
         };
+        self.storage.add(lane, &vehicle, config);
         let at = tracks.layout.place(lane);
         let part = &mut self.parts[at.part as usize];
         part.slabs.insert(at.local as usize, rank, vehicle, path);

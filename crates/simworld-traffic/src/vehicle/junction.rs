@@ -7,11 +7,14 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::net::Aspect;
 
+use super::clusters::{TOO_LONG, Wish};
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
 use super::sirens::{SEES as SIREN_SEES, may_pass_red};
+use super::storage::Storage;
 use super::tally::Tally;
 use super::tracks::{Track, Tracks, Way};
+use super::trailing::{Trail, is_too_short};
 use crate::TrafficConfig;
 
 /// Braking that drivers accept to stop at yellow, m/s².
@@ -23,8 +26,11 @@ const FRESH: f64 = 0.6;
 /// A vehicle nearer to its stop line than this stands at it, m.
 const AT_LINE: f64 = 1.5;
 
+/// Drivers come to a stand with a little more than the least gap, and a rear must be out of the junction by some way, m.
+const SETTLES: f64 = 0.8;
+
 /// Parts of a metre in which room is counted: what comes and goes adds up to nothing again.
-const TICKS: f64 = 1024.0;
+pub(super) const TICKS: f64 = 1024.0;
 
 /// Who has leave to cross, and who is on the way to each lane and over each crossing. Only the part of an intersection reads
 /// and grants leave there in the second phase of a step; in the third everybody takes away what has ended.
@@ -94,6 +100,11 @@ impl Junctions {
         self.long_holders.take(way as usize, u32::from(is_long));
     }
 
+    /// A vehicle on a way, with its rear where others cannot see it yet, shares the junction with nobody there.
+    pub(super) fn share_with_nobody(&self, way: u32) {
+        self.long_holders.add(way as usize, 1);
+    }
+
     /// A vehicle is on its lane, or will not come.
     pub(super) fn arrive(&self, lane: Track, vehicle: &Vehicle, config: &TrafficConfig) {
         self.inbound.take(lane as usize, ticks(vehicle, config));
@@ -101,8 +112,12 @@ impl Junctions {
 
     /// Claims the crossings that a vehicle with leave has not passed; `front` is where it is on its way, negative before it.
     pub(super) fn claim(&self, tracks: &Tracks, vehicle: &Vehicle, front: f64) {
-        let rear = front - vehicle.length();
-        for strip in tracks.strips[vehicle.holding as usize].iter().filter(|strip| rear < strip.end) {
+        self.claim_behind(tracks, vehicle.holding, front - vehicle.length());
+    }
+
+    /// Claims the crossings on a way beyond a rear.
+    pub(super) fn claim_behind(&self, tracks: &Tracks, way: u32, rear: f64) {
+        for strip in tracks.strips[way as usize].iter().filter(|strip| rear < strip.end) {
             self.claims.add(strip.crossing as usize, 1);
         }
     }
@@ -209,6 +224,10 @@ impl Part {
                 let Vehicle { stood, id, .. } = *vehicle;
                 requests.push(Request { stood, id, lane: local as u32, rank: rank as u32 });
             } else if vehicle.holding != vehicle.next {
+                if is_too_short(end, vehicle) {
+                    let Vehicle { stood, id, .. } = *vehicle;
+                    requests.push(Request { stood, id, lane: local as u32, rank: rank as u32 });
+                }
                 break; // its rear is still in the junction behind it
             }
         }
@@ -230,8 +249,19 @@ impl Part {
             if before.is_some_and(|before| stays(before) || before.next == NONE) {
                 continue; // one's turn comes after those before
             }
+            if vehicle.stood > TOO_LONG && rank == 0 {
+                self.work.wishes.extend(wants_permit(scene, &vehicle));
+            }
             let track = self.layout(scene.tracks).tracks[lane];
             if may_enter(self, scene, track, &vehicle, &mut overtaken) {
+                if let Some(wish) = wants_permit(scene, &vehicle) {
+                    self.work.wishes.push(wish);
+                    continue;
+                }
+                if vehicle.holding != NONE {
+                    let path = &self.slabs.paths(lane)[rank];
+                    self.work.trails.push(Trail::new(&vehicle, path, track));
+                }
                 self.leaves = self.leaves.wrapping_add(1);
                 let granted = &mut self.slabs.queue_mut(lane)[rank];
                 (granted.holding, granted.granted) = (vehicle.next, self.leaves);
@@ -315,6 +345,14 @@ fn at_yellow(config: &TrafficConfig, vehicle: &Vehicle) -> f64 {
     COMFORTABLE.min(config.vehicle_type(vehicle.row).driver.emergency_deceleration * 0.6)
 }
 
+/// The wish of one who would enter a short lane between junctions and has no permit.
+fn wants_permit(scene: &Scene<'_>, vehicle: &Vehicle) -> Option<Wish> {
+    let lane = scene.tracks.lane_after(vehicle.next as usize);
+    let cluster = scene.tracks.clusters.of(scene.tracks, lane, vehicle)?;
+    let has_permit = scene.permits.iter().any(|permit| permit.is_for(vehicle.id, cluster));
+    (!has_permit).then(|| Wish::new(cluster, vehicle))
+}
+
 /// Whether a vehicle may enter without room behind the junction, because it is in a lock.
 fn may_pass(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
     scene.passes.binary_search(&vehicle.id).is_ok()
@@ -322,29 +360,38 @@ fn may_pass(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
 
 /// Whether the lane behind the junction has room, so that the junction is not blocked.
 fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
-    let lane = scene.tracks.lane_after(way);
-    is_room(scene.tracks, scene.config, scene.junctions, (lane, scene.tail(lane)), vehicle)
+    let tracks = scene.tracks;
+    let lane = tracks.lane_after(way);
+    // Where nobody meets one's way or crosses it, as on a bend, one drives up to whoever is there.
+    let is_alone =
+        tracks.conflicts[way].is_empty() && tracks.tight[way].is_empty() && tracks.strips[way].is_empty();
+    if is_alone && !tracks.clusters.has(lane) {
+        return true;
+    }
+    is_room(scene.tracks, scene.config, (scene.junctions, scene.storage), (lane, scene.tail(lane)), vehicle)
 }
 
 /// Whether a lane with such a last vehicle has room for another.
 pub(super) fn is_room(
     tracks: &Tracks,
     config: &TrafficConfig,
-    junctions: &Junctions,
+    (junctions, storage): (&Junctions, &Storage),
     (lane, last): (Track, &Tail),
     vehicle: &Vehicle,
 ) -> bool {
-    let (inbound, room) = (junctions.inbound(lane), f64::from(ticks(vehicle, config)) / TICKS);
+    let (inbound, room) = (junctions.inbound(lane), f64::from(ticks(vehicle, config)) / TICKS + SETTLES);
     if last.is_none() {
         // An empty lane takes one vehicle even if it is longer than the lane.
         return inbound <= 0.0 || inbound + room <= tracks.length[lane as usize];
     }
     // What moves will have moved on by the time one gets there.
-    let rear = last.rear + if last.v > STANDING { last.v * 2.0 } else { 0.0 };
-    rear - inbound >= room
+    let moves = if last.v > STANDING { last.v * 2.0 } else { 0.0 };
+    // Unless all of them fit there when they stand, one's rear may stay in the junction.
+    let fits = || storage.taken(lane) + inbound + room <= tracks.length[lane as usize];
+    last.rear - inbound >= room || (last.rear + moves - inbound >= room && fits())
 }
 
 /// Room on a lane that a vehicle takes when it stands, in ticks.
-fn ticks(vehicle: &Vehicle, config: &TrafficConfig) -> u32 {
+pub(super) fn ticks(vehicle: &Vehicle, config: &TrafficConfig) -> u32 {
     ((vehicle.length() + config.vehicle_type(vehicle.row).driver.gap) * TICKS).ceil() as u32
 }

@@ -11,7 +11,8 @@ use simworld_core::net::DrivingSide;
 use super::VehicleKind;
 use super::closures::Closures;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle, VehicleManager};
-use super::part::Part;
+use super::part::{Part, Tail};
+use super::patience::PATIENCE;
 use super::tracks::{Obstacle, Track, Tracks};
 use crate::Leg;
 use crate::takeover::LaneWish;
@@ -38,11 +39,13 @@ impl Default for Mobil {
 /// Sideways speed of a change, m/s, and its bound as a share of the speed ahead.
 const SIDEWAYS: f64 = 1.2;
 pub(super) const STEEPNESS: f64 = 0.25;
-/// With less than this to its new lane's middle a body is out of its old lane, m.
+/// With less than this to its new lane's middle a body is out of its old lane, m: less where lanes are narrow, so that this
+/// wide a body passes.
 const OUT: f64 = 0.5;
+const PASSES: f64 = 2.0;
 /// The drivers of a lane look beside once in so many steps.
 const EVERY: u64 = 5;
-/// Nobody changes nearer to the junction behind, whose drivers look at whole lanes, m.
+/// Nobody changes with a rear nearer to the junction behind, m.
 const CLEAR: f64 = 12.0;
 /// A change of lanes takes so much of the road even at a walk, m: four metres aside at the greatest steepness.
 pub(super) const CHANGE_ROOM: f64 = 4.0 / STEEPNESS + 1.0;
@@ -63,7 +66,15 @@ pub(crate) struct Ghost {
     length: f64,
     v: f64,
     /// Whether it stays: a blocked stretch.
-    is_fixed: bool,
+    pub(super) is_fixed: bool,
+}
+
+impl Ghost {
+    /// How those see it who come from the junction behind.
+    pub(super) fn as_tail(&self) -> Tail {
+        let Self { rear, length, v, .. } = *self;
+        Tail { rear, v, length: length as f32, ..Tail::default() }
+    }
 }
 
 /// Who is before and behind a place in a lane.
@@ -87,8 +98,8 @@ impl Part {
             let step = sideways(vehicle.v) * scene.at.dt;
             let left = f64::from(vehicle.shift.abs()) - step;
             vehicle.shift = if left <= 0.0 { 0.0 } else { (left as f32).copysign(vehicle.shift) };
-            if left > OUT
-                && let Some(old) = old_lane(scene.tracks, lane, vehicle)
+            if let Some(old) = old_lane(scene.tracks, lane, vehicle)
+                && left > out(scene.tracks, lane, old)
             {
                 let station = vehicle.s * stretch(scene.tracks, lane, old);
                 let old = scene.tracks.layout.local(old) as u32;
@@ -150,9 +161,14 @@ impl Part {
         let path = &self.slabs.paths(local)[rank];
         let own = || VehicleManager::next_leg(tracks, scene.routes, &vehicle, path);
         let wanted = scene.controls.next_leg(vehicle.id).or_else(own);
+        let after = scene.routes.get(path.route as usize);
+        let after = after.and_then(|route| route.0.get(path.leg as usize + 2)).copied();
         let mut best: Option<(f64, Track, u32, usize)> = None;
         let sides = tracks.beside[lane as usize].into_iter();
-        for target in sides.filter(|target| *target != NONE && tracks.may_use(*target, kind)) {
+        // Where only a lane for others leads on, one takes it rather than stand for good.
+        let may_use =
+            |target: Track| tracks.may_use(target, kind) || (lost && vehicle.stood > PATIENCE * 0.5);
+        for target in sides.filter(|target| *target != NONE && may_use(*target)) {
             let is_left = tracks.beside[lane as usize][0] == target;
             let is_wrong = asked.is_some_and(|wish| is_left != (wish == LaneWish::Left));
             if is_wrong || (to_kerb && asked.is_none() && is_left != kerb_is_left) {
@@ -173,8 +189,9 @@ impl Part {
             let way = if vehicle.next == EXIT {
                 Some(EXIT)
             } else {
-                wanted
-                    .and_then(|leg| tracks.way_to(scene.closures, target, leg, kind).or_else(|| towards(leg)))
+                wanted.and_then(|leg| {
+                    tracks.way_to(scene.closures, target, leg, after, kind).or_else(|| towards(leg))
+                })
             };
             // Who drives it may leave the lane of its route.
             let Some(way) = way.or(asked.map(|_| NONE)) else { continue };
@@ -294,6 +311,8 @@ impl Part {
         // It still stands in its old lane: to the right of the new one if it goes left.
         vehicle.shift = if to_left { -apart } else { apart };
         path.before = target;
+        scene.storage.take(lane, &vehicle, scene.config);
+        scene.storage.add(target, &vehicle, scene.config);
         scene.whereabouts.set(vehicle.id as usize, target);
         self.work.ghosts.push(Ghost::of(&vehicle, from as u32, station));
         sort(&mut self.work.ghosts);
@@ -345,10 +364,10 @@ impl Part {
         lane: Track,
         vehicle: &Vehicle,
     ) -> Option<(f64, f64)> {
-        if f64::from(vehicle.shift.abs()) <= OUT {
+        let track = old_lane(tracks, lane, vehicle)?;
+        if f64::from(vehicle.shift.abs()) <= out(tracks, lane, track) {
             return None;
         }
-        let track = old_lane(tracks, lane, vehicle)?;
         let s = vehicle.s * stretch(tracks, lane, track);
         let old = tracks.layout.local(track);
         let queue = self.slabs.queue(old);
@@ -384,11 +403,16 @@ fn stretch(tracks: &Tracks, from: Track, to: Track) -> f64 {
     tracks.length[to as usize] / tracks.length[from as usize]
 }
 
+/// How far from the junction behind a rear must be for a change, m; less on lanes that would leave no room for it.
+pub(super) fn clear(lane: f64, vehicle: &Vehicle) -> f64 {
+    (lane - vehicle.length() - CHANGE_ROOM - 2.5).clamp(1.0, CLEAR)
+}
+
 /// Whole in its lane, with no leave to cross, clear of the junction behind and not yet at the line before it.
 fn may_change(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> bool {
     vehicle.shift == 0.0
         && vehicle.holding == NONE
-        && vehicle.s - vehicle.length() > CLEAR
+        && vehicle.s - vehicle.length() > clear(tracks.length[lane as usize], vehicle)
         && tracks.length[lane as usize] - vehicle.s > CHANGE_ROOM
 }
 
@@ -412,6 +436,11 @@ fn staying(scene: &Scene<'_>, queue: &[Vehicle], rank: usize, lane: Track) -> (f
     (now, gain)
 }
 
+/// How near to the middle of its new lane a body must be to be out of the old one, m.
+fn out(tracks: &Tracks, lane: Track, old: Track) -> f64 {
+    (tracks.apart(lane, old) - PASSES).clamp(0.0, OUT)
+}
+
 /// The lane that a vehicle has not quite left.
 fn old_lane(tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> Option<Track> {
     let [left, right] = tracks.beside[lane as usize];
@@ -431,7 +460,7 @@ fn leads_towards(
     let side = usize::from(tracks.beside[lane as usize][1] == target);
     let mut next = tracks.beside[target as usize][side];
     while next != NONE {
-        if tracks.way_to(closures, next, leg, kind).is_some() {
+        if tracks.way_to(closures, next, leg, None, kind).is_some() {
             return true;
         }
         next = tracks.beside[next as usize][side];

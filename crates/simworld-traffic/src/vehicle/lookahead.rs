@@ -3,7 +3,7 @@
 use super::Idm;
 use super::following::{Ahead, CarFollowing, Leader};
 use super::junction::horizon;
-use super::lane_change::{CHANGE_ROOM, Ghost, STEEPNESS, first_block, first_ghost};
+use super::lane_change::{CHANGE_ROOM, Ghost, STEEPNESS, clear, first_block, first_ghost};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::otherwise::Otherwise;
 use super::part::Part;
@@ -105,7 +105,7 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         view.see(Leader { gap, speed: leader.v, acceleration: f64::from(leader.acceleration) });
         if leader.halt.is_finite() && leader.v < STANDING {
             // Far enough behind that one can pass it on the lane beside.
-            view.stop_in(view.before_change(lane, gap - idm.gap), idm.gap);
+            view.stop_in(view.before_change(lane, vehicle, gap - idm.gap), idm.gap);
         }
     }
     if vehicle.halt.is_finite() {
@@ -129,7 +129,7 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         view.follow(gap, speed);
         if let Some(gap) = first_block(lane.ghosts, vehicle.s) {
             // Early enough that one can still pass on the lane beside.
-            view.stop_in(view.before_change(lane, gap - idm.gap), idm.gap);
+            view.stop_in(view.before_change(lane, vehicle, gap - idm.gap), idm.gap);
         }
     }
     if vehicle.shift != 0.0
@@ -208,8 +208,12 @@ impl View<'_> {
 
     /// Where one who must change lanes waits for a gap: so far from the end of its lane that a change still has room, if it can
     /// still stop there.
-    fn before_change(&self, lane: &Lane<'_>, to_end: f64) -> f64 {
+    fn before_change(&self, lane: &Lane<'_>, vehicle: &Vehicle, to_end: f64) -> f64 {
         let early = to_end - CHANGE_ROOM - 1.0;
+        // Where one may not change there is nothing to wait for.
+        if vehicle.s + early - vehicle.length() < clear(lane.end, vehicle) {
+            return to_end;
+        }
         // Harder than comfortably, so that who has begun to brake for it does not think better of it half way.
         let stopping = self.v * self.v / self.idm.emergency_deceleration;
         let beside = lane.scene.tracks.beside.get(lane.track as usize);
@@ -230,11 +234,11 @@ impl View<'_> {
             EXIT => {}
             // Who stands between two lanes would never come out of there: first it comes into its own.
             NONE if vehicle.shift != 0.0 => {
-                let early = self.before_change(lane, to_end);
+                let early = self.before_change(lane, vehicle, to_end);
                 let way = f64::from(vehicle.shift.abs()) / STEEPNESS + 1.0;
                 self.stop_in(early.max(way).min(to_end), self.idm.gap);
             }
-            NONE => self.stop_in(self.before_change(lane, to_end), self.idm.gap),
+            NONE => self.stop_in(self.before_change(lane, vehicle, to_end), self.idm.gap),
             _ if is_near => self.stop_in(to_end, self.idm.gap),
             _ => {}
         }

@@ -16,6 +16,7 @@ use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
 use super::closures::Closures;
+use super::clusters::{Permit, Wish};
 use super::controls::{Controls, hasty};
 use super::deadlock::Waits;
 use super::entry::route_way;
@@ -24,9 +25,11 @@ use super::junction::Junctions;
 use super::part::{Part, Tail, Transfer};
 use super::sirens::Sirens;
 use super::slabs::Slabs;
+use super::storage::Storage;
 use super::tally::Tally;
 use super::threads::each;
 use super::tracks::{Obstacle, Track, Tracks};
+use super::trailing::Trail;
 use super::types::{TypeIndex, VehicleType, is_long};
 use crate::{Counters, Leg, Route, TrafficConfig, Trip};
 
@@ -157,6 +160,11 @@ pub(crate) struct Scene<'a> {
     pub(crate) at: Moment,
     pub(crate) routes: &'a [Route],
     pub(crate) junctions: &'a Junctions,
+    pub(crate) storage: &'a Storage,
+    /// Those whose rear is on a way that they hold beside another.
+    pub(crate) trails: &'a [Trail],
+    /// Who may enter short lanes between junctions.
+    pub(crate) permits: &'a [Permit],
     pub(crate) whereabouts: &'a Tally,
     /// The last vehicle of each lane, by part and number in the part.
     pub(crate) tails: &'a [Vec<Tail>],
@@ -225,6 +233,11 @@ impl Scene<'_> {
 pub(crate) struct VehicleManager {
     pub(super) parts: Vec<Part>,
     pub(super) junctions: Junctions,
+    pub(super) storage: Storage,
+    pub(super) trails: Vec<Trail>,
+    pub(super) permits: Vec<Permit>,
+    #[serde(skip)]
+    pub(super) wishes: Vec<Wish>,
     /// The track of each vehicle by its number; [`NONE`] for numbers that nobody has.
     pub(super) whereabouts: Tally,
     pub(super) routes: Vec<Route>,
@@ -266,6 +279,7 @@ impl VehicleManager {
         Self {
             parts: slabs.enumerate().map(|(number, slabs)| Part::new(number, slabs)).collect(),
             junctions: Junctions::new(tracks),
+            storage: Storage::new(tracks.lanes),
             ..Self::default()
         }
     }
@@ -301,6 +315,9 @@ impl VehicleManager {
             at,
             routes: &self.routes,
             junctions: &self.junctions,
+            storage: &self.storage,
+            trails: &self.trails,
+            permits: &self.permits,
             whereabouts: &self.whereabouts,
             tails: &self.tails,
             passes: &self.passes,
@@ -402,6 +419,7 @@ impl VehicleManager {
             std::mem::swap(&mut part.work.handed, handed);
         }
         self.parts = parts;
+        self.give_permits(tracks, config, at.dt);
         self.sum_up(tracks, counters);
         self.serve_halts(tracks, config, at.now + at.dt, counters);
         self.pull_in(tracks, at.dt);
@@ -427,6 +445,7 @@ impl VehicleManager {
             part.work.used_passes.drain(..).for_each(|id| passes.retain(|pass| *pass != id));
         }
         self.parts = parts;
+        self.follow_trails(tracks);
         self.lose_patience(tracks, counters);
         // By number: parts are no matter of those who watch.
         self.ended[begin..].sort_by_key(|trip| trip.id);
@@ -472,6 +491,6 @@ impl VehicleManager {
     pub(crate) fn bytes(&self) -> usize {
         let parts: usize = self.parts.iter().map(Part::bytes).sum();
         let tails: usize = self.tails.iter().map(|tails| tails.capacity() * size_of::<Tail>()).sum();
-        parts + tails + self.whereabouts.len() * 4 + self.junctions.bytes()
+        parts + tails + self.whereabouts.len() * 4 + self.junctions.bytes() + self.storage.bytes()
     }
 }

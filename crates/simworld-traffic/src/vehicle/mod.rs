@@ -1,6 +1,7 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
 mod closures;
+mod clusters;
 mod conflicts;
 mod controls;
 mod deadlock;
@@ -27,9 +28,11 @@ mod saved;
 mod sirens;
 mod slabs;
 mod spawn;
+mod storage;
 mod tally;
 mod threads;
 mod tracks;
+mod trailing;
 mod types;
 
 pub(crate) use controls::FreeVehicle;

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::clusters::Wish;
 use super::controls::obey;
 use super::entry::trip;
 use super::idm::advance;
-use super::junction::Request;
+use super::junction::{Request, ticks};
 use super::lane_change::Ghost;
 use super::layout::PartLayout;
 use super::lookahead::{self, Lane};
@@ -13,12 +14,13 @@ use super::manager::{EXIT, NONE, Path, STANDING, Scene, Vehicle};
 use super::sirens::passes_red;
 use super::slabs::Slabs;
 use super::tracks::{Track, Tracks};
+use super::trailing::Trail;
 use crate::{Counters, Trip, TripEnd};
 
 /// Standing longer than this is counted, s.
 const LONG: f64 = 180.0;
 /// A rear so far into its lane has cleared the junction behind it, m.
-const CLEARED: f64 = 0.3;
+pub(super) const CLEARED: f64 = 0.3;
 /// No vehicle is so long, m.
 const LONGEST: f64 = 60.0;
 
@@ -86,7 +88,13 @@ pub(crate) struct Work {
     pub(super) ended: Vec<Trip>,
     /// Ways that are to be cleared in the third phase, by whom.
     cleared: Vec<(u32, bool)>,
+    /// Lanes that were left in this step, and the room that is free there, in ticks.
+    left: Vec<(Track, u32)>,
     pub(super) counters: Counters,
+    /// Who began to trail in this step.
+    pub(super) trails: Vec<Trail>,
+    /// Who wants to enter a cluster of junctions.
+    pub(super) wishes: Vec<Wish>,
     /// Lanes whose first has lost patience.
     pub(super) stuck: Vec<Track>,
     /// Who entered by a pass.
@@ -146,6 +154,8 @@ impl Part {
         self.shift(scene);
         self.change_lanes(scene);
         self.show_tails(self.layout(scene.tracks).lanes);
+        self.show_ghosts();
+        self.show_trails(scene);
     }
 
     fn show_tails(&mut self, lanes: usize) {
@@ -158,6 +168,29 @@ impl Part {
             let Some(last) = self.slabs.queue(lane).last() else { continue };
             tails[lane] = Tail::of(last);
             shown.push(lane as u32);
+        }
+    }
+
+    /// Shows bodies that have not quite left a lane, where nobody is behind them.
+    fn show_ghosts(&mut self) {
+        let Work { tails, shown, ghosts, .. } = &mut self.work;
+        for ghost in ghosts.iter().filter(|ghost| !ghost.is_fixed) {
+            let tail = ghost.as_tail();
+            if tail.rear < tails[ghost.lane as usize].rear {
+                tails[ghost.lane as usize] = tail;
+                shown.push(ghost.lane);
+            }
+        }
+    }
+
+    /// Shows the rears of those whose front may be elsewhere as the ends of their lanes.
+    fn show_trails(&mut self, scene: &Scene<'_>) {
+        for (lane, tail) in scene.trails.iter().map(Trail::shown) {
+            let place = scene.tracks.layout.place(lane);
+            if place.part == self.number {
+                self.work.tails[place.local as usize] = tail;
+                self.work.shown.push(place.local);
+            }
         }
     }
 
@@ -260,6 +293,9 @@ impl Part {
             let end = scene.tracks.length[track as usize];
             while self.slabs.queue(local).first().is_some_and(|front| front.s >= end) {
                 let Some((vehicle, path)) = self.slabs.remove(local, 0) else { break };
+                if local < layout.lanes {
+                    self.work.left.push((track, ticks(&vehicle, scene.config)));
+                }
                 if local >= layout.lanes {
                     self.hand_over(scene, track, vehicle, path);
                 } else if vehicle.next == EXIT {
@@ -314,6 +350,9 @@ impl Part {
     /// The third phase: those handed over join their lanes, junctions are cleared, claims counted.
     pub(super) fn settle(&mut self, scene: &Scene<'_>) {
         self.receive(scene);
+        for (lane, ticks) in self.work.left.drain(..) {
+            scene.storage.take_ticks(lane, ticks);
+        }
         for (way, is_long) in self.work.cleared.drain(..) {
             scene.junctions.clear_way(way, is_long);
         }
@@ -342,6 +381,7 @@ impl Part {
         for transfer in scene.handed.iter().filter_map(|from| from.get(number)).flatten() {
             let Transfer { lane, mut vehicle, mut path } = *transfer;
             scene.junctions.arrive(lane, &vehicle, scene.config);
+            scene.storage.add(lane, &vehicle, scene.config);
             path.leg += 1;
             vehicle.next = scene.choose(&mut weights, &vehicle, &mut path, lane);
             vehicle.halt = scene.halts.on(scene.tracks, scene.config, &vehicle, lane);

@@ -7,7 +7,7 @@ use super::tracks::{Track, Tracks};
 use crate::{Counters, Leg};
 
 /// Who stands in a lane that does not lead on for so long looks for another way, s.
-const PATIENCE: f64 = 40.0;
+pub(super) const PATIENCE: f64 = 40.0;
 
 impl VehicleManager {
     /// Those who have stood too long in a lane that does not lead on take a way that does, and their route anew from there.

@@ -18,6 +18,9 @@ impl VehicleManager {
         self.parts.len() == tracks.layout.parts.len()
             && self.parts.iter().zip(&tracks.layout.parts).all(is_part)
             && self.junctions.fits(tracks)
+            && self.storage.len() == tracks.lanes
+            && self.trails_fit(tracks)
+            && self.permits_fit()
             && self.whereabouts.iter().all(|track| track == NONE || (track as usize) < tracks.count())
             && self.routes.iter().all(|route| route.validate(&tracks.network).is_ok())
             && self.passes.is_sorted()

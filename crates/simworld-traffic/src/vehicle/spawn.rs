@@ -81,6 +81,7 @@ impl VehicleManager {
             vehicle.next = self.choose(mind, streams, &mut weights, &vehicle, &mut path, *track);
             self.whereabouts.push(*track);
             self.sirens.switch(index as u32, config.vehicle_type(*row).siren);
+            self.storage.add(*track, &vehicle, config);
             self.push(tracks, *track, vehicle, path);
         }
         taken.len() as u32

@@ -8,6 +8,7 @@ use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline
 use simworld_core::ops::{self, wrap_angle};
 
 use super::closures::Closures;
+use super::clusters::Clusters;
 use super::conflicts::{Conflict, conflicts};
 use super::layout::Layout;
 use super::manager::NONE;
@@ -86,6 +87,8 @@ pub(crate) struct Tracks {
     pub(crate) router: Router,
     /// The crossings on each connection, in the order in which it meets them.
     pub(crate) strips: Ragged<Strip>,
+    /// The short lanes between junctions near one another.
+    pub(super) clusters: Clusters,
     /// Which part of the network each track belongs to.
     pub(crate) layout: Layout,
 }
@@ -118,6 +121,7 @@ impl Tracks {
             outermost: lanes::outermost(&network),
             exits: network.lanes.iter().map(|lane| exits(&network, lane)).collect(),
             router: Router::new(&network),
+            clusters: Clusters::new(&network, config),
             layout: Layout::new(&network),
             network,
         }
@@ -144,19 +148,27 @@ impl Tracks {
         (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
     }
 
-    /// The way from a lane to an open lane of a leg, if one leads there; best to one on which the kind may drive.
+    /// The way from a lane to an open lane of a leg, if one leads there; best to one on which the kind may drive, and from which
+    /// the leg `after` that is reached.
     pub(crate) fn way_to(
         &self,
         closures: &Closures,
         lane: Track,
         leg: Leg,
+        after: Option<Leg>,
         kind: VehicleKind,
     ) -> Option<u32> {
         let leads_there =
             |exit: &&(u32, Leg)| exit.1 == leg && !closures.has(self.lane_after(exit.0 as usize));
         let ways = self.exits[lane as usize].iter().filter(leads_there).map(|exit| exit.0);
         let first = ways.clone().next()?;
-        Some(ways.clone().find(|way| self.may_use(self.ways[*way as usize].to, kind)).unwrap_or(first))
+        let open = ways.filter(|way| self.may_use(self.ways[*way as usize].to, kind));
+        // Of several lanes there, the one from which the leg after that is reached.
+        let leads_on = |way: &u32| {
+            let exits = &self.exits[self.ways[*way as usize].to as usize];
+            after.is_none_or(|after| exits.iter().any(|exit| exit.1 == after))
+        };
+        Some(open.clone().find(leads_on).or_else(|| open.clone().next()).unwrap_or(first))
     }
 
     pub(crate) fn path(&self, track: Track) -> &[Point2] {

@@ -1,0 +1,156 @@
+//! Junctions so near one another that a vehicle between two of them stands in both: one at a time goes in there.
+//!
+//! A vehicle on a lane that is too short for it keeps others out of the junction behind while it waits for the one before it.
+//! Several of them may wait for one another in a ring, each with its rear in the way of the next, and nobody can go back. Such
+//! lanes join junctions to a cluster, and whoever is to enter one of them needs the permit of the cluster, of which there is one.
+//! Whoever has it waits for nobody who waits for him: all others who are in the cluster have room behind it.
+
+use petgraph::unionfind::UnionFind;
+use serde::{Deserialize, Serialize};
+use simworld_core::net::RoadNetwork;
+
+use super::manager::{NONE, Vehicle, VehicleManager};
+use super::tracks::{Track, Tracks};
+use super::trailing::{SPARE, is_too_short};
+use super::types::is_long;
+use crate::TrafficConfig;
+
+/// Who has a permit and does not use it for so long loses it, s; one who had waited too long keeps it until it is its turn at the
+/// signal.
+const EXPIRES: f64 = 5.0;
+const EXPIRES_LATE: f64 = 90.0;
+/// Who has stood for so long asks for the permit before it could go, s: else those whose green comes when it is free have it
+/// for good.
+pub(super) const TOO_LONG: f64 = 60.0;
+
+/// The cluster that each lane is in which is too short for some type of vehicle, or [`NONE`].
+#[derive(Clone, Debug)]
+pub(crate) struct Clusters {
+    by_lane: Vec<u32>,
+    /// On a lane shorter than this even those who fit there need the permit: a car would have to wait for them, m.
+    short: f64,
+}
+
+impl Clusters {
+    pub(super) fn new(network: &RoadNetwork, config: &TrafficConfig) -> Self {
+        let lengths = || config.types.iter().map(|row| row.length);
+        let longest = lengths().fold(0.0, f64::max);
+        let car = lengths().filter(|length| !is_long(*length)).fold(0.0, f64::max);
+        Self { by_lane: joined(network, longest + SPARE), short: car + SPARE }
+    }
+
+    /// Whether a lane is in a cluster.
+    #[inline]
+    pub(super) fn has(&self, lane: Track) -> bool {
+        self.by_lane[lane as usize] != NONE
+    }
+
+    /// The cluster whose permit a vehicle needs for a lane; `None` if it needs none.
+    #[inline]
+    pub(super) fn of(&self, tracks: &Tracks, lane: Track, vehicle: &Vehicle) -> Option<u32> {
+        let cluster = self.by_lane[lane as usize];
+        let length = tracks.length[lane as usize];
+        (cluster != NONE && (length < self.short || is_too_short(length, vehicle))).then_some(cluster)
+    }
+}
+
+/// The clusters that lanes shorter than that make of the junctions, by lane.
+fn joined(network: &RoadNetwork, short: f64) -> Vec<u32> {
+    let mut sets: UnionFind<u32> = UnionFind::new(network.intersections.len());
+    for lane in network.lanes.iter().filter(|lane| lane.length < short) {
+        sets.union(lane.from.0, lane.to.0);
+    }
+    let cluster = |lane: &simworld_core::net::Lane| {
+        if lane.length < short { sets.find(lane.from.0) } else { NONE }
+    };
+    network.lanes.iter().map(cluster).collect()
+}
+
+/// One who wants to enter a cluster and could.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wish {
+    cluster: u32,
+    stood: f64,
+    id: u32,
+    /// The way by which it would enter.
+    way: u32,
+}
+
+impl Wish {
+    pub(super) fn new(cluster: u32, vehicle: &Vehicle) -> Self {
+        Self { cluster, stood: vehicle.stood, id: vehicle.id, way: vehicle.next }
+    }
+}
+
+/// The permit of a cluster, and who has it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Permit {
+    id: u32,
+    cluster: u32,
+    is_used: bool,
+    /// How long it has not been used, s.
+    unused: f64,
+}
+
+impl Permit {
+    pub(super) fn is_for(&self, id: u32, cluster: u32) -> bool {
+        self.id == id && self.cluster == cluster
+    }
+}
+
+impl VehicleManager {
+    /// Takes permits back from those who are out of their clusters or do not go, and gives what is free to those who have waited
+    /// longest.
+    pub(super) fn give_permits(&mut self, tracks: &Tracks, config: &TrafficConfig, dt: f64) {
+        let mut permits = std::mem::take(&mut self.permits);
+        permits.retain_mut(|permit| {
+            let Some((track, vehicle, _)) = self.find(tracks, permit.id) else { return false };
+            let has_leave = vehicle.holding == vehicle.next && (vehicle.next as usize) < tracks.ways.len();
+            let here = match tracks.connection(track) {
+                Some(way) => tracks.lane_after(way),
+                None => track,
+            };
+            let is_inside = |lane: Track| tracks.clusters.of(tracks, lane, vehicle) == Some(permit.cluster);
+            if is_inside(here) || (has_leave && is_inside(tracks.lane_after(vehicle.next as usize))) {
+                (permit.is_used, permit.unused) = (true, 0.0);
+                return true;
+            }
+            permit.unused += dt;
+            let expires = if vehicle.stood > TOO_LONG { EXPIRES_LATE } else { EXPIRES };
+            !permit.is_used && permit.unused < expires
+        });
+        for part in &mut self.parts {
+            self.wishes.append(&mut part.work.wishes);
+        }
+        self.wishes.sort_unstable_by(|a, b| {
+            a.cluster.cmp(&b.cluster).then(b.stood.total_cmp(&a.stood)).then(a.id.cmp(&b.id))
+        });
+        self.wishes.dedup_by_key(|wish| wish.cluster);
+        let wishes = std::mem::take(&mut self.wishes);
+        for Wish { cluster, id, way, .. } in &wishes {
+            let (cluster, id) = (*cluster, *id);
+            // One who has long waited for room behind the cluster may wait for somebody before it: he comes in if he leaves him
+            // his way.
+            let lacks_room = |id: u32| {
+                let first = self.find(tracks, id).map(|(_, vehicle, _)| vehicle);
+                first.is_some_and(|first| {
+                    let meets =
+                        || tracks.conflicts[first.next as usize].iter().any(|other| other.way == *way);
+                    self.waits_for(tracks, config, first).is_some() && !meets()
+                })
+            };
+            let is_taken = |permit: &Permit| permit.cluster == cluster && !lacks_room(permit.id);
+            if !permits.iter().any(is_taken) {
+                permits.push(Permit { id, cluster, is_used: false, unused: 0.0 });
+            }
+        }
+        self.permits = permits;
+        self.wishes = wishes;
+        self.wishes.clear();
+    }
+
+    /// Whether saved permits are of this network.
+    pub(super) fn permits_fit(&self) -> bool {
+        self.permits.iter().all(|permit| (permit.id as usize) < self.numbers() && permit.unused.is_finite())
+    }
+}
