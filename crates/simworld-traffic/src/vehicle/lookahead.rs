@@ -113,7 +113,7 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         let to_halt = f64::from(vehicle.halt) - vehicle.s;
         let is_at_kerb =
             lane.scene.tracks.outermost.get(lane.track as usize).is_none_or(|is_outer| *is_outer);
-        view.stop_in(if is_at_kerb { to_halt } else { view.before_change(lane, to_halt) }, idm.gap);
+        view.stop_in(if is_at_kerb { to_halt } else { view.before_change(lane, vehicle, to_halt) }, idm.gap);
     }
     let to_end = lane.end - vehicle.s;
     match lane.way {
