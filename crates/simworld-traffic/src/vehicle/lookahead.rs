@@ -2,8 +2,9 @@
 
 use super::Idm;
 use super::following::{Ahead, CarFollowing, Leader};
+use super::ghosts::{Ghost, first_block, first_ghost};
 use super::junction::horizon;
-use super::lane_change::{CHANGE_ROOM, Ghost, STEEPNESS, clear, first_block, first_ghost};
+use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
 use super::manager::{EXIT, NONE, STANDING, Scene, Sight, Vehicle};
 use super::otherwise::Otherwise;
 use super::part::Part;
@@ -84,36 +85,12 @@ pub(super) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], rests: bool, acc
 /// The acceleration of a vehicle, m/s².
 #[inline]
 pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&Vehicle>) -> f64 {
-    let config = lane.scene.config;
-    let kind = config.vehicle_type(vehicle.row);
-    let idm = &kind.driver;
-    let mut view = View {
-        idm,
-        otherwise: kind.drives_otherwise().then(|| Otherwise::new(lane.scene, kind, vehicle.id)),
-        s: vehicle.s,
-        v: vehicle.v,
-        gap: f64::INFINITY,
-        ahead: Ahead::NOTHING,
-        factor: f64::from(vehicle.factor) * config.conditions.speed,
-        free: kind.free_speed(config, vehicle.factor, lane.limit),
-        bend: kind.free_speed(config, vehicle.factor, lane.bend),
-        most: f64::INFINITY,
-        takes_gap: false,
-    };
+    let mut view = View::new(lane, vehicle);
     if let Some(leader) = leader {
-        let gap = leader.s - leader.length() - vehicle.s;
-        view.see(Leader { gap, speed: leader.v, acceleration: f64::from(leader.acceleration) });
-        if leader.halt.is_finite() && leader.v < STANDING {
-            // Far enough behind that one can pass it on the lane beside.
-            view.stop_in(view.before_change(lane, vehicle, gap - idm.gap), idm.gap);
-        }
+        view.mind_leader(lane, vehicle, leader);
     }
     if vehicle.halt.is_finite() {
-        // Far enough before it that one can still come to the kerb.
-        let to_halt = f64::from(vehicle.halt) - vehicle.s;
-        let is_at_kerb =
-            lane.scene.tracks.outermost.get(lane.track as usize).is_none_or(|is_outer| *is_outer);
-        view.stop_in(if is_at_kerb { to_halt } else { view.before_change(lane, vehicle, to_halt) }, idm.gap);
+        view.halt(lane, vehicle);
     }
     let to_end = lane.end - vehicle.s;
     match lane.way {
@@ -123,32 +100,8 @@ pub(super) fn acceleration(lane: &Lane<'_>, vehicle: &Vehicle, leader: Option<&V
         }
         None => view.enter_junction(lane, vehicle, to_end, leader.is_none()),
     }
-    if !lane.ghosts.is_empty()
-        && let Some((gap, speed)) = first_ghost(lane.ghosts, vehicle.s)
-    {
-        view.follow(gap, speed);
-        if let Some(gap) = first_block(lane.ghosts, vehicle.s) {
-            // Early enough that one can still pass on the lane beside.
-            view.stop_in(view.before_change(lane, vehicle, gap - idm.gap), idm.gap);
-        }
-    }
-    if vehicle.shift != 0.0
-        && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene.tracks, lane.track, vehicle)
-    {
-        view.follow(gap, speed);
-    }
-    if !lane.scene.sight.obstacles.is_empty() {
-        view.beware(&lane.scene.sight, lane.track, vehicle.s, idm.gap);
-    }
-    let mut acceleration = view.respond(lane, vehicle).min(view.most);
-    if view.takes_gap {
-        acceleration = acceleration.max((acceleration * HURRY).min(idm.acceleration * HURRY));
-    }
-    if vehicle.v < STANDING && view.gap < idm.gap {
-        // Standing close is standing: no creeping on rounding.
-        acceleration = acceleration.min(0.0);
-    }
-    acceleration
+    view.mind_bodies(lane, vehicle);
+    view.respond(lane, vehicle)
 }
 
 /// How near the nearest thing ahead is, what is ahead as the model sees it, and the speed that the road allows.
@@ -171,11 +124,45 @@ struct View<'a> {
     takes_gap: bool,
 }
 
+impl<'a> View<'a> {
+    /// An empty road.
+    #[inline]
+    fn new(lane: &Lane<'a>, vehicle: &Vehicle) -> Self {
+        let config = lane.scene.config;
+        let kind = config.vehicle_type(vehicle.row);
+        Self {
+            idm: &kind.driver,
+            otherwise: kind.drives_otherwise().then(|| Otherwise::new(lane.scene, kind, vehicle.id)),
+            s: vehicle.s,
+            v: vehicle.v,
+            gap: f64::INFINITY,
+            ahead: Ahead::NOTHING,
+            factor: f64::from(vehicle.factor) * config.conditions.speed,
+            free: kind.free_speed(config, vehicle.factor, lane.limit),
+            bend: kind.free_speed(config, vehicle.factor, lane.bend),
+            most: f64::INFINITY,
+            takes_gap: false,
+        }
+    }
+}
+
 impl View<'_> {
-    /// The acceleration. One slows down for a bend as if alone, and follows as on a straight road: who wants no more than the
-    /// speed that he has would keep twice the gap, and hardly anybody would come round.
+    /// The acceleration, m/s².
     #[inline]
     fn respond(&self, lane: &Lane<'_>, vehicle: &Vehicle) -> f64 {
+        let mut acceleration = self.follow_model(lane, vehicle).min(self.most);
+        if self.takes_gap {
+            acceleration = acceleration.max((acceleration * HURRY).min(self.idm.acceleration * HURRY));
+        }
+        // Standing close is standing: no creeping on rounding.
+        let stands_close = vehicle.v < STANDING && self.gap < self.idm.gap;
+        if stands_close { acceleration.min(0.0) } else { acceleration }
+    }
+
+    /// What the model of the driver asks for. One slows down for a bend as if alone, and follows as on a straight road: who wants
+    /// no more than the speed that he has would keep twice the gap, and hardly anybody would come round.
+    #[inline]
+    fn follow_model(&self, lane: &Lane<'_>, vehicle: &Vehicle) -> f64 {
         let allowed = (self.free, self.bend);
         let Some(otherwise) = &self.otherwise else {
             return self.ahead.respond_by_idm(self.idm, self.v, allowed);
@@ -183,6 +170,50 @@ impl View<'_> {
         let is_crossing = vehicle.holding != NONE && vehicle.v > STANDING;
         let is_pressed = lane.way.is_some() || vehicle.shift != 0.0 || is_crossing;
         otherwise.respond(lane.scene, vehicle, &self.ahead, allowed, self.gap, is_pressed)
+    }
+
+    /// Whoever is next ahead in the queue.
+    #[inline]
+    fn mind_leader(&mut self, lane: &Lane<'_>, vehicle: &Vehicle, leader: &Vehicle) {
+        let gap = leader.s - leader.length() - vehicle.s;
+        self.see(Leader { gap, speed: leader.v, acceleration: f64::from(leader.acceleration) });
+        if leader.halt.is_finite() && leader.v < STANDING {
+            // Far enough behind that one can pass it on the lane beside.
+            let idm_gap = self.idm.gap;
+            self.stop_in(self.before_change(lane, vehicle, gap - idm_gap), idm_gap);
+        }
+    }
+
+    /// Stops where it is to halt, or far enough before that it can still come to the kerb.
+    fn halt(&mut self, lane: &Lane<'_>, vehicle: &Vehicle) {
+        let to_halt = f64::from(vehicle.halt) - vehicle.s;
+        let outermost = lane.scene.tracks.outermost.get(lane.track as usize);
+        let is_at_kerb = outermost.is_none_or(|is_outer| *is_outer);
+        let distance = if is_at_kerb { to_halt } else { self.before_change(lane, vehicle, to_halt) };
+        self.stop_in(distance, self.idm.gap);
+    }
+
+    /// Bodies ahead that are in no queue of one's own.
+    #[inline]
+    fn mind_bodies(&mut self, lane: &Lane<'_>, vehicle: &Vehicle) {
+        if !lane.ghosts.is_empty()
+            && let Some((gap, speed)) = first_ghost(lane.ghosts, vehicle.s)
+        {
+            self.follow(gap, speed);
+            if let Some(gap) = first_block(lane.ghosts, vehicle.s) {
+                // Early enough that one can still pass on the lane beside.
+                let idm_gap = self.idm.gap;
+                self.stop_in(self.before_change(lane, vehicle, gap - idm_gap), idm_gap);
+            }
+        }
+        if vehicle.shift != 0.0
+            && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene.tracks, lane.track, vehicle)
+        {
+            self.follow(gap, speed);
+        }
+        if !lane.scene.sight.obstacles.is_empty() {
+            self.beware(&lane.scene.sight, lane.track, vehicle.s, self.idm.gap);
+        }
     }
 
     #[inline]
