@@ -173,7 +173,8 @@ pub fn distance_between(a: &[Point2], b: &[Point2]) -> f64 {
 pub fn crossing(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<(f64, f64)> {
     let (r, s, between) = (b - a, d - c, c - a);
     let det = r.perp(&s);
-    if det.abs() < 1e-12 {
+    // Of long pieces on one line the rounding alone is more than any fixed bound.
+    if det.abs() <= 1e-12 * r.norm() * s.norm() {
         return None;
     }
     let (t, u) = (between.perp(&s) / det, between.perp(&r) / det);
@@ -192,6 +193,19 @@ mod tests {
 
     fn bend() -> Vec<Point2> {
         vec![Point2::new(0.0, 0.0), Point2::new(10.0, 0.0), Point2::new(10.0, 5.0)]
+    }
+
+    #[test]
+    fn pieces_of_one_line_do_not_cross() {
+        // A street of a grid and its continuation a hundred metres on, as grown: parallel up to rounding.
+        let own = (
+            Point2::new(-35.65763186605226, -31.365062766772482),
+            Point2::new(-130.535107203236, -114.82091256303485),
+        );
+        let other = (Point2::new(0.0, 0.0), Point2::new(103.10529204596709, 90.6931780763319));
+        assert_eq!(crossing(own.0, own.1, other.0, other.1), None);
+        let across = Point2::new(10.0, 30.0);
+        assert!(crossing(other.0, other.1, across, Point2::new(30.0, 10.0)).is_some());
     }
 
     #[test]
