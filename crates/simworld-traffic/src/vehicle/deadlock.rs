@@ -1,20 +1,19 @@
 //! Locks: rings of lanes, each full, whose first vehicles wait for room in the next; and how they are undone.
 //!
 //! A lane whose first vehicle has stood for long and finds no room behind the junction waits for that lane. Every lane
-//! waits for one at most, so that rings are found by following. A ring is undone by whichever of its first vehicles has
-//! another way with room, which it takes; if none has, all of them may enter their junctions at once without room behind: as
+//! waits for one at most, so that rings are found by following. A ring is undone by those of its first vehicles that have
+//! another way with room, which they take; if none has, all of them may enter their junctions at once without room behind: as
 //! all go, each makes the room of the one behind it. Nobody jumps, and all other rules of crossing hold.
 
 use super::junction::is_room;
-use super::manager::{EXIT, NONE, Vehicle, VehicleManager};
+use super::manager::{EXIT, NONE, STANDING, Vehicle, VehicleManager};
 use super::part::Tail;
 use super::tracks::{Track, Tracks};
 use crate::{Counters, Leg, TrafficConfig};
 
-/// Who has stood for so long may be in a lock, s: longer than a red light.
-const LOCKED: f64 = 45.0;
-/// Where no signal makes wait, s.
-const LOCKED_WITHOUT_SIGNAL: f64 = 15.0;
+/// Who has stood for so long may be in a lock, s. Whatever the signals show: where each of a ring waits for room behind a lane
+/// that stands, nobody goes.
+const LOCKED: f64 = 12.0;
 /// Locks are looked for so often, s.
 const EVERY: f64 = 1.0;
 
@@ -86,10 +85,10 @@ impl VehicleManager {
         if first.next >= EXIT || first.holding == first.next || first.halt.is_finite() {
             return None;
         }
-        let signal = tracks.ways[first.next as usize].signal;
-        let long = if signal == NONE { LOCKED_WITHOUT_SIGNAL } else { LOCKED };
-        let is_stuck = first.stood > long && !self.has_room(tracks, config, first.next, first);
-        is_stuck.then(|| tracks.lane_after(first.next as usize))
+        let after = tracks.lane_after(first.next as usize);
+        let stands = self.queue(tracks, after).last().is_some_and(|last| last.v < STANDING);
+        let is_stuck = first.stood > LOCKED && stands && !self.has_room(tracks, config, first.next, first);
+        is_stuck.then_some(after)
     }
 
     /// Whether there is room for a vehicle behind a way.
@@ -108,15 +107,17 @@ impl VehicleManager {
         counters: &mut Counters,
     ) {
         let mut lane = ring;
+        let mut leave = 0;
         loop {
-            if self.turn_elsewhere(tracks, config, lane) {
-                counters.rerouted += 1;
-                return;
-            }
+            leave += u64::from(self.turn_elsewhere(tracks, config, lane));
             lane = waits.after(lane);
             if lane == ring {
                 break;
             }
+        }
+        counters.rerouted += leave;
+        if leave > 0 {
+            return;
         }
         loop {
             let first = self.queue(tracks, lane).first().map_or(NONE, |first| first.id);
