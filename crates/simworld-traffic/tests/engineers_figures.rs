@@ -78,6 +78,19 @@ fn actuated_greens_end_as_they_should() {
 }
 
 #[test]
+fn who_enters_a_roundabout_finds_gaps() {
+    holds("roundabout");
+}
+
+#[test]
+fn who_comes_by_the_minor_road_takes_the_gaps_of_the_manual() {
+    let figures = figures("gap acceptance");
+    let minor: Vec<&Figure> = figures.iter().filter(|figure| figure.name.contains("minor road")).collect();
+    let off: Vec<&&Figure> = minor.iter().filter(|figure| !figure.is_ok()).collect();
+    assert!(minor.len() >= 12 && off.is_empty(), "off: {off:#?}");
+}
+
+#[test]
 fn policies_that_look_do_better_under_uneven_demand() {
     holds("uneven demand");
 }

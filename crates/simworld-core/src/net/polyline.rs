@@ -197,15 +197,18 @@ mod tests {
 
     #[test]
     fn pieces_of_one_line_do_not_cross() {
-        // A street of a grid and its continuation a hundred metres on, as grown: parallel up to rounding.
-        let own = (
-            Point2::new(-35.65763186605226, -31.365062766772482),
-            Point2::new(-130.535107203236, -114.82091256303485),
-        );
-        let other = (Point2::new(0.0, 0.0), Point2::new(103.10529204596709, 90.6931780763319));
-        assert_eq!(crossing(own.0, own.1, other.0, other.1), None);
-        let across = Point2::new(10.0, 30.0);
-        assert!(crossing(other.0, other.1, across, Point2::new(30.0, 10.0)).is_some());
+        // A street and its continuation farther on, turned: parallel but for rounding, whatever their length.
+        for step in 1..2000 {
+            let along = ops::sin_cos(f64::from(step) * 0.0031);
+            let at = |station: f64| Point2::new(along.1, along.0) * station;
+            for length in [1.0, 137.3, 5000.0] {
+                let (own, other) = ((at(-3.0 * length), at(-1.1 * length)), (at(0.0), at(1.7 * length)));
+                assert_eq!(crossing(own.0, own.1, other.0, other.1), None, "step {step}, {length} m");
+            }
+        }
+        let own = (Point2::new(0.0, 0.0), Point2::new(100.0, 90.0));
+        let across = (Point2::new(10.0, 30.0), Point2::new(30.0, 10.0));
+        assert!(crossing(own.0, own.1, across.0, across.1).is_some());
     }
 
     #[test]

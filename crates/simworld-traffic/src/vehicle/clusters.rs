@@ -7,7 +7,7 @@
 
 use petgraph::unionfind::UnionFind;
 use serde::{Deserialize, Serialize};
-use simworld_core::net::RoadNetwork;
+use simworld_core::net::{Lane, RoadNetwork};
 
 use super::manager::{NONE, Vehicle, VehicleManager};
 use super::tracks::{Track, Tracks};
@@ -56,13 +56,13 @@ impl Clusters {
 
 /// The clusters that lanes shorter than that make of the junctions, by lane.
 fn joined(network: &RoadNetwork, short: f64) -> Vec<u32> {
+    // Who is in a roundabout goes first all the way: it comes out again without a permit.
+    let joins = |lane: &Lane| lane.length < short && !network.roads[lane.road.index()].roundabout;
     let mut sets: UnionFind<u32> = UnionFind::new(network.intersections.len());
-    for lane in network.lanes.iter().filter(|lane| lane.length < short) {
+    for lane in network.lanes.iter().filter(|lane| joins(lane)) {
         sets.union(lane.from.0, lane.to.0);
     }
-    let cluster = |lane: &simworld_core::net::Lane| {
-        if lane.length < short { sets.find(lane.from.0) } else { NONE }
-    };
+    let cluster = |lane: &Lane| if joins(lane) { sets.find(lane.from.0) } else { NONE };
     network.lanes.iter().map(cluster).collect()
 }
 

@@ -386,8 +386,10 @@ pub(super) fn is_room(
     }
     // What moves will have moved on by the time one gets there.
     let moves = if last.v > STANDING { last.v * 2.0 } else { 0.0 };
-    // Unless all of them fit there when they stand, one's rear may stay in the junction.
-    let fits = || storage.taken(lane) + inbound + room <= tracks.length[lane as usize];
+    // Unless all of them fit there when they stand, one's rear may stay in the junction; in a roundabout who goes first does not
+    // stand, and its lanes are too short for two.
+    let fits =
+        || tracks.is_in_ring(lane) || storage.taken(lane) + inbound + room <= tracks.length[lane as usize];
     last.rear - inbound >= room || (last.rear + moves - inbound >= room && fits())
 }
 

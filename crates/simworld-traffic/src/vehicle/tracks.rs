@@ -143,6 +143,12 @@ impl Tracks {
         self.ways[connection].to
     }
 
+    /// Whether a lane is in a roundabout.
+    pub(super) fn is_in_ring(&self, lane: Track) -> bool {
+        let road = self.network.lanes[lane as usize].road;
+        self.network.roads[road.index()].roundabout
+    }
+
     /// Distance between the middles of two lanes side by side, m.
     pub(crate) fn apart(&self, a: Track, b: Track) -> f64 {
         (self.network.lanes[a as usize].width + self.network.lanes[b as usize].width) * 0.5
