@@ -244,9 +244,9 @@ impl Part {
             let (lane, rank) = (request.lane as usize, request.rank as usize);
             let queue = self.slabs.queue(lane);
             let vehicle = queue[rank];
-            let before = rank.checked_sub(1).map(|rank| &queue[rank]);
-            let stays = |before: &Vehicle| before.next != EXIT && before.holding != before.next;
-            if before.is_some_and(|before| stays(before) || before.next == NONE) {
+            // Who leaves the network at the end of the lane needs no leave, and hides nobody who does.
+            let before = queue[..rank].iter().rev().find(|before| before.next != EXIT);
+            if before.is_some_and(|before| before.holding != before.next || before.next == NONE) {
                 continue; // one's turn comes after those before
             }
             if vehicle.stood > TOO_LONG && rank == 0 {
