@@ -6,4 +6,5 @@ pub mod episode;
 pub mod executor;
 pub mod language;
 pub mod mind;
+pub mod model;
 pub mod observer;
