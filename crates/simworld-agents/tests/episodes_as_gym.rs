@@ -10,7 +10,7 @@ use simworld_agents::observer::GpsObserver;
 use simworld_core::command::Command;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::seam::{EnvError, ParallelEnv, Space};
+use simworld_core::seam::{EnvError, Options, ParallelEnv, Space};
 use simworld_core::seed::Seed;
 
 fn build(task: &ConeHunt, seed: Seed) -> Result<Episode<ConeHunt>, EpisodeError> {
@@ -33,7 +33,7 @@ fn say(who: EntityId, intent: Intent) -> BTreeMap<EntityId, Intent> {
 #[test]
 fn a_seed_gives_the_whole_trajectory() {
     let trajectory = |gym: &mut GymEpisode<ConeHunt, GpsObserver>, seed| {
-        let mut trace = vec![format!("{:?}", gym.reset(seed).expect("it resets"))];
+        let mut trace = vec![format!("{:?}", gym.reset(seed, &Options::new()).expect("it resets"))];
         let mut actions = say(FIRST, words("go to (5, 5)"));
         for _ in 0..50 {
             trace.push(format!("{:?}", gym.step(&std::mem::take(&mut actions)).expect("it steps")));
@@ -51,15 +51,15 @@ fn a_seed_gives_the_whole_trajectory() {
 #[test]
 fn termination_and_truncation_are_told_apart() {
     let mut timed = gym(ConeHunt { truncates_at: Some(4), ..ConeHunt::default() });
-    timed.reset(Some(Seed(1))).expect("it resets");
+    timed.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let last = (0..4).map(|_| timed.step(&BTreeMap::new()).expect("it steps")).last().expect("four steps");
     assert!(last.values().all(|transition| transition.truncated && !transition.terminated));
     assert!(matches!(timed.step(&BTreeMap::new()), Err(EnvError::NotReset)));
-    timed.reset(None).expect("it resets again");
+    timed.reset(None, &Options::new()).expect("it resets again");
     timed.step(&BTreeMap::new()).expect("and goes on");
 
     let mut hunt = gym(ConeHunt::default());
-    hunt.reset(Some(Seed(1))).expect("it resets");
+    hunt.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let end = (0..900).find_map(|_| {
         let step = hunt.step(&BTreeMap::new()).expect("it steps");
         step.values().any(|transition| transition.terminated || transition.truncated).then_some(step)
@@ -71,7 +71,7 @@ fn termination_and_truncation_are_told_apart() {
 #[test]
 fn rewards_come_to_those_who_earned_them() {
     let mut gym = gym(ConeHunt::default());
-    gym.reset(Some(Seed(1))).expect("it resets");
+    gym.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let step = gym.step(&say(SECOND, Intent::call("cheer"))).expect("it steps");
     assert_eq!((step[&FIRST].reward, step[&SECOND].reward), (0.0, 10.0));
 }
@@ -80,7 +80,7 @@ fn rewards_come_to_those_who_earned_them() {
 fn actions_outside_the_space_change_nothing() {
     let mut gym = gym(ConeHunt::default());
     assert!(matches!(gym.step(&BTreeMap::new()), Err(EnvError::NotReset)), "not before a reset");
-    gym.reset(Some(Seed(1))).expect("it resets");
+    gym.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let (_, Space::Text { max_length }) = gym.spaces(FIRST) else { panic!("actions are words") };
     assert_eq!(gym.spaces(FIRST), gym.spaces(FIRST));
     for actions in [say(FIRST, words(&"a".repeat(max_length + 1))), say(EntityId::new(0, 0), words("stop"))] {
@@ -96,9 +96,13 @@ fn who_leaves_the_world_is_told_so_once() {
         episode.submit(Command::Remove { id: SECOND });
         Ok(episode)
     });
-    gym.reset(Some(Seed(1))).expect("it resets");
+    gym.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let step = gym.step(&BTreeMap::new()).expect("it steps");
     assert!(step[&SECOND].terminated && !step[&FIRST].terminated);
     let step = gym.step(&BTreeMap::new()).expect("it steps");
     assert_eq!(step.keys().copied().collect::<Vec<_>>(), [FIRST]);
+    assert!(
+        matches!(gym.step(&say(SECOND, words("stop"))), Err(EnvError::Action { .. })),
+        "who is gone is refused"
+    );
 }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::net::{LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
-use simworld_core::seam::{EnvError, ParallelEnv, Space, SpaceValue};
+use simworld_core::seam::{EnvError, Options, ParallelEnv, Space, SpaceValue};
 use simworld_core::seed::Seed;
-use simworld_core::testing::check_parallel_env;
+use simworld_core::testing::{EnvCheck, check_parallel_env};
 use simworld_traffic::learn::{AverageSpeed, PressureReward, QueueReward, SignalEnv, SignalEnvConfig};
 use simworld_traffic::{Flow, Leg, Route, TrafficConfig};
 
@@ -22,16 +22,22 @@ fn grid(config: SignalEnvConfig) -> SignalEnv {
         .expect("the settings are in range")
 }
 
+/// What everybody sees at the start of the episode of that seed.
+fn begin(env: &mut SignalEnv, seed: u64) -> BTreeMap<EntityId, SpaceValue> {
+    let start = env.reset(Some(Seed(seed)), &Options::new()).expect("it resets");
+    start.into_iter().map(|(id, (seen, _))| (id, seen)).collect()
+}
+
 #[test]
 fn it_keeps_the_contract_of_environments() {
-    check_parallel_env(|| grid(config(60.0)), 40);
+    check_parallel_env(|_| grid(config(60.0)), &EnvCheck::new(40));
 }
 
 #[test]
 fn an_episode_is_truncated_when_its_time_is_over() {
     let mut env = grid(config(30.0));
     assert!(matches!(env.step(&BTreeMap::new()), Err(EnvError::NotReset)));
-    env.reset(Some(Seed(1))).expect("it resets");
+    env.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     for step in 1..=6 {
         let transitions = env.step(&BTreeMap::new()).expect("it steps");
         assert_eq!(transitions.len(), env.agents().count());
@@ -43,7 +49,7 @@ fn an_episode_is_truncated_when_its_time_is_over() {
 #[test]
 fn unknown_agents_and_stages_are_refused_and_nothing_is_done() {
     let mut env = grid(config(60.0));
-    let seen = env.reset(Some(Seed(1))).expect("it resets");
+    let seen = env.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let first = *seen.keys().next().expect("a grid has signals");
     for (who, action) in [
         (EntityId::new(999, 0), SpaceValue::Discrete(0)),
@@ -60,7 +66,7 @@ fn unknown_agents_and_stages_are_refused_and_nothing_is_done() {
 #[test]
 fn the_observation_is_that_of_sumo_rl() {
     let mut env = grid(config(600.0));
-    let mut seen = env.reset(Some(Seed(3))).expect("it resets");
+    let mut seen = begin(&mut env, 3);
     for _ in 0..40 {
         for (id, seen) in &seen {
             let (SpaceValue::Box(seen), Some(junction)) = (seen, env.junction(*id)) else { panic!("boxes") };
@@ -87,10 +93,10 @@ fn the_observation_is_that_of_sumo_rl() {
 #[test]
 fn an_action_is_carried_out_after_the_shortest_green() {
     let mut env = grid(SignalEnvConfig { min_green: 20.0, ..config(600.0) });
-    env.reset(Some(Seed(1))).expect("it resets");
+    env.reset(Some(Seed(1)), &Options::new()).expect("it resets");
     let id = env.agents().next().expect("a grid has signals");
     let before = env.junction(id).expect("it is an agent").stage;
-    let wish = BTreeMap::from([(id, SpaceValue::Discrete(1 - before as u64))]);
+    let wish = BTreeMap::from([(id, SpaceValue::Discrete(1 - before as i64))]);
     let mut changed = None;
     for step in 1..=12 {
         env.step(&wish).expect("it steps");
@@ -107,7 +113,7 @@ fn an_action_is_carried_out_after_the_shortest_green() {
 fn a_longest_green_is_enforced_if_asked_for() {
     let stages = |enforce_max_green| {
         let mut env = grid(SignalEnvConfig { enforce_max_green, max_green: 15.0, ..config(120.0) });
-        env.reset(Some(Seed(1))).expect("it resets");
+        env.reset(Some(Seed(1)), &Options::new()).expect("it resets");
         let id = env.agents().next().expect("a grid has signals");
         let first = env.junction(id).expect("it is an agent").stage;
         (0..24).any(|_| {
@@ -119,8 +125,8 @@ fn a_longest_green_is_enforced_if_asked_for() {
 }
 
 /// Total reward of an episode on a crossroads, one road busier than the other, when the stage is chosen so.
-fn total(mut env: SignalEnv, choose: impl Fn(u64, &[f64]) -> u64) -> f64 {
-    let mut seen = env.reset(Some(Seed(4))).expect("it resets");
+fn total(mut env: SignalEnv, choose: impl Fn(i64, &[f64]) -> i64) -> f64 {
+    let mut seen = begin(&mut env, 4);
     let mut sum = 0.0;
     for step in 0.. {
         let act = |seen: &SpaceValue| {
@@ -149,9 +155,9 @@ fn every_reward_prefers_the_longest_queue_to_a_clock_under_uneven_demand() {
     let config = SignalEnvConfig { flows, seconds: 1200.0, ..SignalEnvConfig::default() };
     let env = || SignalEnv::new(Arc::clone(&network), config.clone()).expect("the settings are in range");
     let (seen, _) = env().spaces(EntityId::new(0, 0));
-    assert_eq!(seen, Space::Box { low: 0.0, high: 1.0, shape: vec![2 + 1 + 8] });
-    let longest = |_: u64, seen: &[f64]| u64::from(seen[7] + seen[9] > seen[8] + seen[10]);
-    let clock = |step: u64, _: &[f64]| (step / 6) % 2;
+    assert_eq!(seen, Space::bounded(0.0, 1.0, vec![2 + 1 + 8]));
+    let longest = |_: i64, seen: &[f64]| i64::from(seen[7] + seen[9] > seen[8] + seen[10]);
+    let clock = |step: i64, _: &[f64]| (step / 6) % 2;
     let makes: [fn(SignalEnv) -> SignalEnv; 4] = [
         |env| env,
         |env| env.with_reward(AverageSpeed),

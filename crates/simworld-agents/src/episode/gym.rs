@@ -7,7 +7,8 @@ use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
 use simworld_core::seam::{
-    EnvError, Observer, ParallelEnv, ParallelStep, Space, SpaceError, SpaceValue, Task, Transition,
+    EnvError, Info, Observer, Options, ParallelEnv, ParallelStart, ParallelStep, Space, SpaceError,
+    SpaceValue, Task, Transition,
 };
 use simworld_core::seed::Seed;
 
@@ -19,19 +20,22 @@ const LONGEST_SENTENCE: usize = 2000;
 /// Makes an episode for a seed.
 type Build<T> = Box<dyn FnMut(Seed) -> Result<Episode<T>, EpisodeError>>;
 
-/// A parallel environment over episodes that a closure builds, one a reset. The episode's own minds do nothing
-/// unless the closure gives them something to do; actions come from the caller.
+/// A parallel environment over episodes that a closure builds, one a reset; options there are none. The episode's own minds
+/// do nothing unless the closure gives them something to do; actions come from the caller. Who left the world is gone
+/// until the next reset, also if its body comes back, and its actions are refused.
 pub struct GymEpisode<T: Task, O: Observer> {
     build: Build<T>,
     observer: O,
     episode: Option<Episode<T>>,
+    /// Those whose episode goes on.
+    present: Vec<EntityId>,
     seed: Seed,
 }
 
 impl<T: Task, O: Observer<Observation: Default>> GymEpisode<T, O> {
     /// An environment whose episodes come from `build` and whose agents perceive by `observer`.
     pub fn new(observer: O, build: impl FnMut(Seed) -> Result<Episode<T>, EpisodeError> + 'static) -> Self {
-        Self { build: Box::new(build), observer, episode: None, seed: Seed(0) }
+        Self { build: Box::new(build), observer, episode: None, present: Vec::new(), seed: Seed(0) }
     }
 
     /// The episode under way.
@@ -44,7 +48,7 @@ impl<T: Task, O: Observer<Observation: Default>> GymEpisode<T, O> {
         let episode = self.episode.as_ref().ok_or(EnvError::NotReset)?;
         let world = episode.simulation().world();
         let mut all = BTreeMap::new();
-        for id in episode.agents().iter().filter(|id| world.entity(**id).is_some()) {
+        for id in self.present.iter().filter(|id| world.entity(**id).is_some()) {
             let mut observation = O::Observation::default();
             let observed = self.observer.observe(world, *id, &mut observation);
             observed.map_err(|error| EnvError::Simulation(error.to_string()))?;
@@ -52,24 +56,26 @@ impl<T: Task, O: Observer<Observation: Default>> GymEpisode<T, O> {
         }
         Ok(all)
     }
+}
 
-    /// An action of a stranger, or one that is too long, is refused before anything happens.
-    fn check_actions(&self, actions: &BTreeMap<EntityId, Intent>) -> Result<(), EnvError> {
-        let episode = self.episode.as_ref().ok_or(EnvError::NotReset)?;
-        for (who, intent) in actions {
-            let text = match intent {
-                Intent::Words(words) => words.clone(),
-                Intent::Call { .. } => intent.to_string(),
-            };
-            let checked = if episode.agents().contains(who) {
-                action_space().check(&SpaceValue::Text(text))
-            } else {
-                Err(SpaceError { path: who.to_string(), reason: "is no agent of this episode".to_owned() })
-            };
-            checked.map_err(|source| EnvError::Action { who: *who, source })?;
-        }
-        Ok(())
+/// An action of a stranger, or one that is too long, is refused before anything happens.
+fn check_actions(present: &[EntityId], actions: &BTreeMap<EntityId, Intent>) -> Result<(), EnvError> {
+    for (who, intent) in actions {
+        let text = match intent {
+            Intent::Words(words) => words.clone(),
+            Intent::Call { .. } => intent.to_string(),
+        };
+        let checked = if present.contains(who) {
+            action_space().check(&SpaceValue::Text(text))
+        } else {
+            Err(SpaceError {
+                path: who.to_string(),
+                reason: "is no agent of this episode, or no more".to_owned(),
+            })
+        };
+        checked.map_err(|source| EnvError::Action { who: *who, source })?;
     }
+    Ok(())
 }
 
 const fn action_space() -> Space {
@@ -80,41 +86,52 @@ impl<T: Task, O: Observer<Observation: Default>> ParallelEnv for GymEpisode<T, O
     type Observation = O::Observation;
     type Action = Intent;
 
-    fn reset(&mut self, seed: Option<Seed>) -> Result<BTreeMap<EntityId, Self::Observation>, EnvError> {
+    fn reset(
+        &mut self,
+        seed: Option<Seed>,
+        options: &Options,
+    ) -> Result<ParallelStart<Self::Observation>, EnvError> {
+        EnvError::refuse_unknown(options, &[])?;
         // Without a seed every episode differs from the last, and all follow from the first.
         self.seed = seed.unwrap_or_else(|| self.seed.stream("gym/next").seed());
         let episode = (self.build)(self.seed).map_err(|error| EnvError::Simulation(error.to_string()))?;
+        self.present = episode.agents().to_vec();
         self.episode = Some(episode);
-        self.observe_all()
+        let seen = self.observe_all()?;
+        self.present.retain(|id| seen.contains_key(id));
+        Ok(seen.into_iter().map(|(id, seen)| (id, (seen, Info::new()))).collect())
     }
 
     fn step(
         &mut self,
         actions: &BTreeMap<EntityId, Intent>,
     ) -> Result<ParallelStep<Self::Observation>, EnvError> {
-        self.check_actions(actions)?;
-        let episode = self.episode.as_mut().ok_or(EnvError::NotReset)?;
-        if episode.is_over() {
+        let Some(episode) = self.episode.as_mut().filter(|episode| !episode.is_over()) else {
+            return Err(EnvError::NotReset);
+        };
+        // Nobody is left, although the task would go on.
+        if self.present.is_empty() {
             return Err(EnvError::NotReset);
         }
-        let acted: Vec<bool> =
-            episode.agents().iter().map(|id| episode.simulation().world().entity(*id).is_some()).collect();
+        check_actions(&self.present, actions)?;
         for (who, intent) in actions {
             episode.submit(Command::Intend { who: *who, intent: intent.clone() });
         }
         let outcome = episode.step().map_err(|error| EnvError::Simulation(error.to_string()))?.clone();
-        let ids = episode.agents().to_vec();
+        let rewards: BTreeMap<EntityId, f64> =
+            episode.agents().iter().copied().zip(outcome.rewards.iter().copied()).collect();
         let mut observations = self.observe_all()?;
-        let transition = |(index, id): (usize, &EntityId)| {
+        let transition = |id: &EntityId| {
             let seen = observations.remove(id);
             // Who left the world in this step is told so once, and perceives nothing; then it is gone for good.
             let terminated = outcome.terminated || seen.is_none();
             let (observation, truncated) = (seen.unwrap_or_default(), outcome.truncated);
-            let reward = outcome.rewards.get(index).copied().unwrap_or(0.0);
-            (*id, Transition { observation, reward, terminated, truncated, info: BTreeMap::new() })
+            let reward = rewards.get(id).copied().unwrap_or(0.0);
+            (*id, Transition { observation, reward, terminated, truncated, info: Info::new() })
         };
-        let present = ids.iter().enumerate().filter(|(index, _)| acted[*index]);
-        Ok(present.map(transition).collect())
+        let transitions: ParallelStep<Self::Observation> = self.present.iter().map(transition).collect();
+        self.present.retain(|id| !transitions[id].is_last());
+        Ok(transitions)
     }
 
     fn spaces(&self, _agent: EntityId) -> (Space, Space) {

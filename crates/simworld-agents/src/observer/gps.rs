@@ -59,7 +59,7 @@ impl Observer for GpsObserver {
     }
 
     fn space(&self) -> Option<Space> {
-        Some(Space::Box { low: -1e7, high: 1e7, shape: vec![5] })
+        Some(Space::bounded(-1e7, 1e7, vec![5]))
     }
 }
 

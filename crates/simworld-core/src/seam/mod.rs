@@ -26,7 +26,8 @@ pub use dynamics::{Dynamics, DynamicsError};
 pub use embodiment::{BodyState, Embodiment, EmbodimentError};
 pub use executor::{Executor, ExecutorError, Progress};
 pub use gym::{
-    Autoreset, Env, EnvError, ParallelEnv, ParallelStep, Space, SpaceError, SpaceValue, Transition,
+    Autoreset, Bounds, Env, EnvError, Info, Options, ParallelEnv, ParallelStart, ParallelStep, Space,
+    SpaceError, SpaceValue, Transition, hash_info,
 };
 pub use observer::{ObserveError, Observer};
 pub use plan::{Condition, Goal, Plan, PlanStep, Which};

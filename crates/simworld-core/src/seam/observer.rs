@@ -52,7 +52,7 @@ pub enum ObserveError {
 ///         Ok(())
 ///     }
 ///
-///     fn space(&self) -> Option<Space> { Some(Space::Discrete { n: 1000 }) }
+///     fn space(&self) -> Option<Space> { Some(Space::discrete(1000)) }
 /// }
 /// ```
 pub trait Observer {

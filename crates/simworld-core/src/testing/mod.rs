@@ -20,7 +20,7 @@ use crate::seam::{
 };
 use crate::seed::Seed;
 
-pub use gym::check_parallel_env;
+pub use gym::{EnvCheck, Seeds, check_env, check_parallel_env};
 pub use network::numbered_in_order;
 
 /// Everything, in the plane.

@@ -6,7 +6,10 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use simworld_core::id::{EntityId, IntersectionId};
 use simworld_core::net::RoadNetwork;
-use simworld_core::seam::{EnvError, ParallelEnv, ParallelStep, Space, SpaceError, SpaceValue, Transition};
+use simworld_core::seam::{
+    EnvError, Info, Options, ParallelEnv, ParallelStart, ParallelStep, Space, SpaceError, SpaceValue,
+    Transition,
+};
 use simworld_core::seed::Seed;
 use simworld_core::value::Value;
 
@@ -160,7 +163,7 @@ impl SignalEnv {
 
     fn transition(&mut self, plan: usize, truncated: bool) -> Transition<SpaceValue> {
         let junction = &self.watch.junctions[plan];
-        let info = BTreeMap::from([
+        let info = Info::from([
             ("waited".to_owned(), Value::Number(junction.waited())),
             ("queued".to_owned(), Value::Number(f64::from(junction.queued()))),
             ("average_speed".to_owned(), Value::Number(junction.average_speed())),
@@ -176,14 +179,20 @@ impl SignalEnv {
 }
 
 fn action_space(junction: &JunctionState) -> Space {
-    Space::Discrete { n: junction.stages as u64 }
+    Space::discrete(junction.stages as u64)
 }
 
 impl ParallelEnv for SignalEnv {
     type Observation = SpaceValue;
     type Action = SpaceValue;
 
-    fn reset(&mut self, seed: Option<Seed>) -> Result<BTreeMap<EntityId, SpaceValue>, EnvError> {
+    /// There are no options.
+    fn reset(
+        &mut self,
+        seed: Option<Seed>,
+        options: &Options,
+    ) -> Result<ParallelStart<SpaceValue>, EnvError> {
+        EnvError::refuse_unknown(options, &[])?;
         // Without a seed every episode differs from the last, and all follow from the first.
         self.seed = seed.unwrap_or_else(|| self.seed.stream("gym/next").seed());
         for wish in &self.wishes.stages {
@@ -194,7 +203,7 @@ impl ParallelEnv for SignalEnv {
         self.watch.look(&traffic, self.config.min_green);
         self.traffic = Some(traffic);
         self.reward.reset(self.watch.junctions.len());
-        let seen = |id: EntityId| Some((id, self.observer.observe(self.junction(id)?)));
+        let seen = |id: EntityId| Some((id, (self.observer.observe(self.junction(id)?), Info::new())));
         Ok(self.agents().filter_map(seen).collect())
     }
 

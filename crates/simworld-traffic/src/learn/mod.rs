@@ -11,7 +11,7 @@
 //! use std::sync::Arc;
 //! use simworld_core::id::RoadId;
 //! use simworld_core::net::{LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
-//! use simworld_core::seam::{ParallelEnv, SpaceValue};
+//! use simworld_core::seam::{Options, ParallelEnv, SpaceValue};
 //! use simworld_core::seed::Seed;
 //! use simworld_traffic::learn::{SignalEnv, SignalEnvConfig};
 //! use simworld_traffic::{Flow, Leg, Route};
@@ -24,8 +24,9 @@
 //! let config = SignalEnvConfig { flows: flows.to_vec(), seconds: 900.0, ..SignalEnvConfig::default() };
 //! let mut env = SignalEnv::new(network, config)?;
 //!
-//! let mut run = |choose: &dyn Fn(usize, &[f64]) -> u64| -> Result<f64, Box<dyn std::error::Error>> {
-//!     let mut seen = env.reset(Some(Seed(1)))?;
+//! let mut run = |choose: &dyn Fn(usize, &[f64]) -> i64| -> Result<f64, Box<dyn std::error::Error>> {
+//!     let start = env.reset(Some(Seed(1)), &Options::new())?;
+//!     let mut seen: BTreeMap<_, _> = start.into_iter().map(|(id, (seen, _))| (id, seen)).collect();
 //!     let mut reward = 0.0;
 //!     for step in 0.. {
 //!         let actions: BTreeMap<_, _> = seen.iter().map(|(id, seen)| {
@@ -41,8 +42,8 @@
 //! };
 //! // Two stages of equal length, and the one whose lanes have the longer queue: the last four entries are
 //! // queues, and stage 1 is that of roads 0 and 2.
-//! let fixed = run(&|step, _| (step as u64 / 6) % 2)?;
-//! let longest = run(&|_, seen| u64::from(seen[7] + seen[9] > seen[8] + seen[10]))?;
+//! let fixed = run(&|step, _| (step as i64 / 6) % 2)?;
+//! let longest = run(&|_, seen| i64::from(seen[7] + seen[9] > seen[8] + seen[10]))?;
 //! assert!(longest > fixed, "{longest} against {fixed}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -21,7 +21,7 @@ pub struct DensityAndQueue;
 impl SignalObserver for DensityAndQueue {
     fn space(&self, junction: &JunctionState) -> Space {
         let entries = junction.stages + 1 + 2 * junction.incoming.len();
-        Space::Box { low: 0.0, high: 1.0, shape: vec![entries] }
+        Space::bounded(0.0, 1.0, vec![entries])
     }
 
     fn observe(&self, junction: &JunctionState) -> SpaceValue {
