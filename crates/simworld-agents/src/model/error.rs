@@ -50,7 +50,7 @@ pub enum ModelError {
     },
     /// The key is missing or wrong (status 401 or 403).
     #[error(
-        "the model's server does not accept the key (status {status}): {}",
+        "the model's server does not accept the key (status {status}): {body}; {}",
         match variable {
             Some(name) => format!("put a valid one into the environment variable {name}"),
             None => "name the environment variable that holds one in the configuration".into(),
@@ -61,10 +61,13 @@ pub enum ModelError {
         status: u16,
         /// The environment variable that the key was taken from, if any.
         variable: Option<String>,
+        /// The beginning of what the server says.
+        body: String,
     },
-    /// The environment variable that shall hold the key is not set, or not one line of visible ASCII.
+    /// The environment variable that shall hold the key does not.
     #[error(
-        "the environment variable {variable} holds no key: set it to one line of ASCII, or name none in the configuration"
+        "the environment variable {variable} holds no key: set it to one line of at least 8 visible ASCII characters, \
+         or name no variable in the configuration"
     )]
     NoKey {
         /// Its name.
@@ -122,10 +125,12 @@ pub enum ModelError {
     Budget {
         /// Whose budget.
         whose: String,
-        /// The most that the request could cost, with its unit.
-        needed: String,
-        /// What is left, with its unit.
-        left: String,
+        /// The most that the request could take.
+        needed: u64,
+        /// What is left.
+        left: u64,
+        /// Of what: micro-cents or tokens.
+        unit: String,
     },
     /// Nothing is known of what the model costs.
     #[error("the model {model:?} has no price: add one to the prices, zero if it is your own")]
@@ -153,6 +158,9 @@ pub enum ModelError {
         /// What is wrong, and how to mend it.
         reason: String,
     },
+    /// A request that no server could answer; it was not sent.
+    #[error("the request cannot be sent: {0}")]
+    Request(String),
     /// A configuration that cannot work.
     #[error("the model's configuration: {0}")]
     Config(String),

@@ -5,17 +5,37 @@
 //! there. Requests and replies are kept as JSON (they hold schemas and arguments of any shape); they are no part of a
 //! snapshot.
 
+mod clock;
 mod error;
 mod key;
+mod ledger;
+mod lines;
+mod log;
+mod meter;
+#[cfg(feature = "http")]
+mod openai;
+mod pace;
+mod reckon;
 mod reply;
 mod request;
+mod retry;
 mod scripted;
+mod tape;
 
+pub use clock::{Clock, ManualClock, WallClock};
 pub use error::ModelError;
 pub use key::RequestKey;
+pub use ledger::{Account, Budget, Ledger, MicroCents, Price};
+pub use log::{LogLine, Logged, ModelLog};
+pub use meter::{Metered, Tariff};
+#[cfg(feature = "http")]
+pub use openai::{LimitField, OpenAiChat, OpenAiConfig, PlainKey, SchemaMode, StreamUsage};
+pub use pace::{Pace, Paced};
 pub use reply::{ChatReply, Finish, ToolCall, Usage};
 pub use request::{ChatRequest, Image, Message, Part, Role, Schema, Tool, ToolChoice};
+pub use retry::{Retried, RetryConfig};
 pub use scripted::Scripted;
+pub use tape::{NoModel, Recorded, Tape};
 
 /// Answers chat requests: a server, a script, a recording, or another model behind a wrapper.
 ///
