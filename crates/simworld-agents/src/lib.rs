@@ -8,3 +8,5 @@ pub mod language;
 pub mod mind;
 pub mod model;
 pub mod observer;
+#[cfg(feature = "thought")]
+pub mod thought;

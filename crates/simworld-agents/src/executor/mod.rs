@@ -17,7 +17,7 @@ use std::sync::Arc;
 use blocks::{Entered, Place};
 use navigate::{Arrival, Navigation};
 use serde::{Deserialize, Serialize};
-use sight::sees;
+pub(crate) use sight::sees;
 pub(crate) use sight::{crosses, eyes, hides, looked_at};
 use simworld_core::action::Action;
 use simworld_core::hash::StateHasher;

@@ -1,6 +1,7 @@
 //! Function calls to orders.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 use simworld_core::action::StepDirection;
 use simworld_core::id::EntityId;
@@ -42,6 +43,8 @@ pub(super) const CALLS: &[(&str, &[&str])] = &[
     ("wave", &["to"]),
     ("point", &["at"]),
     ("take_photo", &["of?"]),
+    ("look", &["angle"]),
+    ("walk_on", &[]),
 ];
 
 /// Arguments being read.
@@ -84,6 +87,8 @@ pub(super) fn read(
         "turn" => {
             Ok(Clause::Turn { angle: call.number("angle", -std::f64::consts::TAU, std::f64::consts::TAU)? })
         }
+        "look" => Ok(Clause::LookUp { angle: call.number("angle", -FRAC_PI_2, FRAC_PI_2)? }),
+        "walk_on" => Ok(Clause::Forward),
         "change_speed" => Ok(Clause::Speed { speed: call.number("speed", 0.1, 50.0)? }),
         _ => Ok(Clause::Photo { of: call.optional_thing("of")?, times: 1 }),
     }

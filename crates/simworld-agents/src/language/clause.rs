@@ -96,6 +96,9 @@ pub(super) enum Test {
     Snowing,
     Dark,
     Elapsed(f64),
+    /// One that refers to nothing that has to be found first.
+    #[cfg(feature = "thought")]
+    Stated(simworld_core::seam::Condition),
     Not(Box<Self>),
     Both(Box<Self>, Box<Self>),
     Either(Box<Self>, Box<Self>),

@@ -71,11 +71,7 @@ impl<'a> Draft<'a> {
             _ if scene.attached(me.id, Role::Ridden).is_some() => Posture::Riding,
             _ => Posture::Standing,
         };
-        let supports = match me.kind {
-            EntityKind::Dog => ActionSet::dog(),
-            kind if kind.is_vehicle() => ActionSet::vehicle(),
-            _ => ActionSet::humanoid(),
-        };
+        let supports = abilities(me.kind);
         Self {
             level: me.position().z,
             kind: me.kind,
@@ -434,6 +430,15 @@ impl<'a> Draft<'a> {
 
     fn on_level(&self, point: Point2) -> Point3 {
         Point3::new(point.x, point.y, self.level)
+    }
+}
+
+/// What a body of that kind can ever do.
+pub(crate) fn abilities(kind: EntityKind) -> ActionSet {
+    match kind {
+        EntityKind::Dog => ActionSet::dog(),
+        kind if kind.is_vehicle() => ActionSet::vehicle(),
+        _ => ActionSet::humanoid(),
     }
 }
 

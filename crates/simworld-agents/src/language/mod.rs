@@ -24,12 +24,18 @@ mod relate;
 mod resolve;
 mod speech;
 mod spelling;
+#[cfg(feature = "thought")]
+mod structured;
 mod tests_of;
 mod things;
 mod verbs;
 
 use draft::Draft;
+#[cfg(feature = "thought")]
+pub(crate) use draft::abilities;
 use names::Names;
+#[cfg(feature = "thought")]
+pub(crate) use paint::name_of_color;
 use parser::{Parser, shortened};
 use resolve::View;
 use simworld_core::geometry::yaw_of;
@@ -37,6 +43,8 @@ use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
 use simworld_core::seam::{Plan, PlanError, Planner};
+#[cfg(feature = "thought")]
+pub(crate) use structured::{Order, plan_orders};
 
 /// The longest sentence that is read, in characters.
 const LONGEST_SENTENCE: usize = 2000;

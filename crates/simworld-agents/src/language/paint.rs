@@ -79,6 +79,14 @@ impl Paint {
     }
 }
 
+/// The word for a colour in linear-light sRGB.
+#[cfg(feature = "thought")]
+pub(crate) fn name_of_color(linear: [f32; 3]) -> &'static str {
+    let paint = Paint::of(linear);
+    // Every paint has a word.
+    PAINTS.iter().find(|(_, named)| *named == paint).map_or("", |(words, _)| words[0])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -297,6 +297,8 @@ impl<'a> Draft<'a> {
             Test::Snowing => Condition::Snowing,
             Test::Dark => Condition::Dark,
             Test::Elapsed(seconds) => Condition::Elapsed(*seconds),
+            #[cfg(feature = "thought")]
+            Test::Stated(condition) => condition.clone(),
             Test::Not(test) => Condition::Not(Box::new(self.condition(test)?)),
             Test::Both(one, other) => Condition::All(vec![self.condition(one)?, self.condition(other)?]),
             Test::Either(one, other) => Condition::Any(vec![self.condition(one)?, self.condition(other)?]),

@@ -62,6 +62,14 @@ pub enum PlanError {
         /// The unknown id.
         id: EntityId,
     },
+    /// A model answered, and its answer is no plan, not even after it was told why.
+    #[error("no plan can be made of the model's answer: {fault}")]
+    Answer {
+        /// What is wrong with it.
+        fault: String,
+        /// Its beginning.
+        answer: String,
+    },
     /// The mind behind the planner failed.
     #[error("{0}")]
     Backend(String),

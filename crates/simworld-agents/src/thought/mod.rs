@@ -1,0 +1,19 @@
+//! Minds and planners that think with a language or vision model.
+//!
+//! Everything here asks a [`Reasoner`] a [`Question`] with a schema that is made for this body and what it knows, and checks
+//! the answer against that schema, whatever the server made of it. What others wrote or said stands in the prompts as
+//! data; the schema is made without it, so no text in the world changes what an agent can do. An answer that cannot be used
+//! is shown to the model once more with what is wrong, and is then a typed error: it never becomes "do nothing".
+
+mod checks;
+mod known;
+mod menu;
+mod planner;
+mod prompts;
+mod reasoner;
+pub mod schema;
+
+pub use known::{Sight, ViewConfig, ViewConfigError};
+pub use planner::{Answered, Fallback, ModelPlanner};
+pub use prompts::{Prompt, PromptError, Prompts};
+pub use reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
