@@ -7,6 +7,10 @@ default:
 setup:
     apt-get install -y mesa-vulkan-drivers libvulkan1
 
+# llama.cpp for the tests of models: then SIMWORLD_MODEL_SERVER=target/model-server just test
+model-server:
+    ci/model-server
+
 # What CI checks before it tests: format, lints, docs, dependency direction.
 check:
     cargo fmt --all --check
