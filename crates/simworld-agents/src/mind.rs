@@ -1,5 +1,6 @@
 //! Minds: what decides. A rule, a policy or a model; all speak in intents.
 
+use simworld_core::event::Event;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
@@ -31,6 +32,10 @@ pub trait Mind<T: ?Sized> {
         out: &mut Vec<Intent>,
     ) -> Result<(), MindError>;
 
+    /// Called once a step, before [`decide`](Self::decide), with everything that happened in the last step: how its plans went,
+    /// what was said to it. Nothing by default.
+    fn notice(&mut self, _events: &[Event], _who: EntityId) {}
+
     /// The inner state as bytes for a snapshot; empty by default.
     fn save(&self) -> Vec<u8> {
         Vec::new()
@@ -51,6 +56,10 @@ impl<T: ?Sized, M: Mind<T> + ?Sized> Mind<T> for Box<M> {
         out: &mut Vec<Intent>,
     ) -> Result<(), MindError> {
         (**self).decide(task, scene, who, out)
+    }
+
+    fn notice(&mut self, events: &[Event], who: EntityId) {
+        (**self).notice(events, who);
     }
 
     fn save(&self) -> Vec<u8> {

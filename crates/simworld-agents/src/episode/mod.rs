@@ -193,6 +193,7 @@ impl<T: Task> Episode<T> {
         self.decided.clear();
         for agent in self.agents.iter_mut().filter(|agent| world.entity(agent.id).is_some()) {
             self.wanted.clear();
+            agent.mind.notice(world.events(), agent.id);
             agent.mind.decide(&self.task, world, agent.id, &mut self.wanted)?;
             let intents = self.wanted.drain(..).map(|intent| Command::Intend { who: agent.id, intent });
             self.decided.extend(intents);

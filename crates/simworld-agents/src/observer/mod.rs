@@ -2,8 +2,10 @@
 
 mod gps;
 mod scene_graph;
+mod senses;
 mod text;
 
 pub use gps::{GpsFix, GpsObserver};
 pub use scene_graph::{Oneself, SceneGraph, SceneGraphObserver, Sighting};
+pub use senses::{Describe, Feedback, Sense, Senses};
 pub use text::tokens_in;

@@ -12,30 +12,7 @@ impl SceneGraph {
     /// Takes down what the events of a step say about the agent: what failed and why, plans that ended, words said to it.
     /// An observation clears it, so call it after [`observe`](simworld_core::seam::Observer::observe).
     pub fn hear(&mut self, events: &[Event], who: EntityId) {
-        for event in events {
-            let line = match &event.kind {
-                EventKind::ActionFailed { who: actor, action, reason } if *actor == who => {
-                    format!("{action} failed: {reason}")
-                }
-                EventKind::PlanDone { who: actor } if *actor == who => "plan done".to_owned(),
-                EventKind::PlanFailed { who: actor, reason } if *actor == who => {
-                    format!("plan failed: {reason}")
-                }
-                EventKind::IntentRefused { who: actor, reason } if *actor == who => {
-                    format!("refused: {reason}")
-                }
-                EventKind::Said { who: speaker, to, words } if *to == who => {
-                    format!("{speaker} said to you: {words:?}")
-                }
-                EventKind::Gesture { who: other, gesture, to: Some(to) } if *to == who => {
-                    format!("{other} does this at you: {gesture}")
-                }
-                EventKind::Contact { a, b, .. } if *a == who => format!("you touched {b}"),
-                EventKind::Contact { a, b, .. } if *b == who => format!("you touched {a}"),
-                _ => continue,
-            };
-            self.feedback.push(line);
-        }
+        self.feedback.extend(events.iter().filter_map(|event| feedback_line(event, who)));
     }
 
     /// The things in sight as lines for a prompt, nearest first, at most `budget` characters; what is left out is
@@ -113,6 +90,29 @@ impl SceneGraph {
     }
 }
 
+/// What an event says about an agent: what failed and why, plans that ended, words said to it; one line.
+pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
+    let line = match &event.kind {
+        EventKind::ActionFailed { who: actor, action, reason } if *actor == who => {
+            format!("{action} failed: {reason}")
+        }
+        EventKind::PlanDone { who: actor } if *actor == who => "plan done".to_owned(),
+        EventKind::PlanFailed { who: actor, reason } if *actor == who => format!("plan failed: {reason}"),
+        EventKind::IntentRefused { who: actor, reason } if *actor == who => format!("refused: {reason}"),
+        EventKind::Said { who: speaker, to, words } if *to == who => {
+            format!("{speaker} said to you: {words:?}")
+        }
+        EventKind::Gesture { who: other, gesture, to: Some(to) } if *to == who => {
+            format!("{other} does this at you: {gesture}")
+        }
+        EventKind::Contact { a, b, .. } if *a == who => format!("you touched {b}"),
+        EventKind::Contact { a, b, .. } if *b == who => format!("you touched {a}"),
+        _ => return None,
+    };
+    // A reason may quote a name that holds line breaks.
+    Some(line.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
 /// An estimate of the tokens of a text that rather exceeds what byte-pair tokenisers of language models make of English:
 /// one for every four letters or begun four, one for every three digits, one for every other sign but blanks.
 pub fn tokens_in(text: &str) -> usize {
@@ -142,7 +142,8 @@ impl std::fmt::Display for Sighting {
             write!(notes, ", {} by {carrier}", format!("{role:?}").to_lowercase())?;
         }
         let (id, kind, label) = (self.id, self.kind, &self.label);
-        let name = if label == kind.as_str() { String::new() } else { format!(" \"{label}\"") };
+        // Quoted with its quotes and line breaks escaped: no name looks like two things in sight.
+        let name = if label == kind.as_str() { String::new() } else { format!(" {label:?}") };
         write!(f, "{id} {kind}{name}: {:.1} m, {:.0}° to the {side}{notes}", self.distance, degrees.abs())
     }
 }

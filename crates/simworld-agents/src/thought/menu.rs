@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value as Json, json};
 use simworld_core::action::{ActionKind, ActionSet};
+use simworld_core::intent::Intent;
 use simworld_core::value::Value;
 
 use super::checks;
@@ -287,6 +288,15 @@ impl<'a> Menu<'a> {
         schema
     }
 
+    /// The schema of one call with words before it, or of one of the branches that are given beside the calls.
+    pub(super) fn deed_schema(&self, beside: Vec<Json>) -> Json {
+        let mut branches = self.leaves();
+        branches.extend(beside);
+        let mut schema = object([("because", words(WORDS)), ("deed", any_of(branches))]);
+        schema["$defs"] = json!(self.definitions());
+        schema
+    }
+
     fn leaves(&self) -> Vec<Json> {
         self.entries.iter().map(|entry| defined(entry.act)).collect()
     }
@@ -351,6 +361,11 @@ impl<'a> Menu<'a> {
                 Order::Call { name, args }
             }
         })
+    }
+
+    /// The intent of a call that conforms to [`deed_schema`](Self::deed_schema).
+    pub(super) fn intent(&self, deed: &Json) -> Result<Intent, String> {
+        self.call(deed).map(|(name, args)| Intent::Call { name: name.to_owned(), args })
     }
 
     fn call(&self, step: &Json) -> Result<(&'static str, BTreeMap<String, Value>), String> {

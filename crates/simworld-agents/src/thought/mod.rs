@@ -7,13 +7,22 @@
 
 mod checks;
 mod known;
+mod memory;
 mod menu;
+mod mood;
+mod persona;
 mod planner;
 mod prompts;
+mod react;
 mod reasoner;
+mod relevance;
 pub mod schema;
 
 pub use known::{Sight, ViewConfig, ViewConfigError};
+pub use memory::{Memory, MemoryConfig, MemoryConfigError, Record, RecordKind, RingMemory};
+pub use mood::{MentalState, Mood};
+pub use persona::{Character, Persona};
 pub use planner::{Answered, Fallback, ModelPlanner};
 pub use prompts::{Prompt, PromptError, Prompts};
+pub use react::{Ending, ReactConfig, ReactConfigError, ReactMind, Turn};
 pub use reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
