@@ -6,7 +6,7 @@ use serde::Deserialize;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
-use simworld_core::scene::{EntityDesc, EntityKind, Place, Shape, World};
+use simworld_core::scene::{EntityDesc, EntityKind, Place, Scene, Shape, World};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -43,12 +43,16 @@ impl City {
         let things: BTreeMap<String, Thing> =
             toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
         let mut world = World::new();
-        // A crossroads far away lends its signals, all of them red at first.
-        let mut plan = StreetPlan::crossroads(100.0);
-        for node in &mut plan.nodes {
-            node.x += 3000.0;
+        let roads_of = |plan: &StreetPlan| RoadNetwork::derive(plan, &NetworkConfig::default());
+        let mut plan = StreetPlan::grid(3, 3, 100.0);
+        if name != "town" {
+            // A crossroads far away lends its signals, all of them red at first.
+            plan = StreetPlan::crossroads(100.0);
+            for node in &mut plan.nodes {
+                node.x += 3000.0;
+            }
         }
-        let roads = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("crossroads are sound");
+        let roads = roads_of(&plan).expect("the streets are sound");
         world.set_roads(std::sync::Arc::new(roads));
         let mut ids = BTreeMap::new();
         for (key, thing) in things {
@@ -56,6 +60,13 @@ impl City {
             ids.insert(key, id);
         }
         Self { world, me: ids["me"], ids }
+    }
+
+    /// Who is spoken to: the city's dog in what is said to dogs, else "me".
+    pub(crate) fn spoken_to(&self, family: &str) -> EntityId {
+        let is_dog = |id: &&EntityId| self.world.entity(**id).is_some_and(|thing| thing.kind == EntityKind::Dog);
+        let dog = self.ids.values().find(is_dog).filter(|_| family == "dog");
+        dog.copied().unwrap_or(self.me)
     }
 
     /// What the thing is called in the tables; its label, if it came later.

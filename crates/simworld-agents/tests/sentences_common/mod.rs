@@ -1,4 +1,4 @@
-//! The three cities of `tests/sentences`, the notation of plans, and the score of what people say in them.
+//! The three cities and the town of `tests/sentences`, the notation of plans, and the score of what people say in them.
 #![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests; each file uses its own part")]
 
 pub(crate) mod city;
@@ -13,8 +13,10 @@ use simworld_core::intent::Intent;
 use simworld_core::seam::{Plan, PlanError, Planner};
 use simworld_core::value::Value;
 
-/// The cities in which people speak.
+/// The cities in which people speak to a walker.
 pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
+/// Those, and the town in which they speak to a driver.
+pub(crate) const PLACES: [&str; 4] = ["harbour", "oldtown", "campus", "town"];
 
 /// One thing that is said, and what it means.
 pub(crate) struct Said {
@@ -28,7 +30,13 @@ pub(crate) struct Said {
 
 /// Everything that is said in a city.
 pub(crate) fn said_in(city: &str) -> Vec<Said> {
-    let path = format!("{}/tests/sentences/{city}.sentences.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut said = if city == "town" { Vec::new() } else { said_in_file(&format!("{city}.sentences")) };
+    said.extend(said_in_file(&format!("{city}.paraphrases")));
+    said
+}
+
+fn said_in_file(name: &str) -> Vec<Said> {
+    let path = format!("{}/tests/sentences/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let families: BTreeMap<String, BTreeMap<String, String>> =
         toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
@@ -50,7 +58,7 @@ pub(crate) fn said_in(city: &str) -> Vec<Said> {
 /// What is made of one sentence.
 pub(crate) fn understand(planner: &mut GrammarPlanner, city: &City, said: &Said) -> Result<Plan, PlanError> {
     let intent = if said.family == "call" { call(&said.words) } else { Intent::Words(said.words.clone()) };
-    planner.plan(&intent, &city.world, city.me)
+    planner.plan(&intent, &city.world, city.spoken_to(&said.family))
 }
 
 /// `name(key = "text", key = 1.5)`.

@@ -138,6 +138,7 @@ fn condition(when: &Condition, city: &City) -> String {
         Condition::Elapsed(seconds) => format!("elapsed {seconds}"),
         Condition::Not(inner) => format!("not {}", condition(inner, city)),
         Condition::All(all) => all.iter().map(|one| condition(one, city)).collect::<Vec<_>>().join(" and "),
+        Condition::Any(none) if none.is_empty() => "never".into(),
         Condition::Any(any) => any.iter().map(|one| condition(one, city)).collect::<Vec<_>>().join(" or "),
         other => format!("{other:?}"),
     }
