@@ -4,6 +4,7 @@
 pub mod delivery;
 pub mod episode;
 pub mod executor;
+mod lanes;
 pub mod language;
 pub mod mind;
 pub mod model;

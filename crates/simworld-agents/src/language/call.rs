@@ -9,7 +9,7 @@ use simworld_core::seam::PlanError;
 use simworld_core::value::Value;
 
 use super::clause::{Clause, Grip, Manner, Pace, Reference, Target, Vehicle};
-use super::lexer::lex_speech;
+use super::hearing::lex_speech;
 use super::names::Names;
 use super::parser::{Parser, shortened};
 use super::resolve::View;

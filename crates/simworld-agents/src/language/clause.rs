@@ -2,9 +2,10 @@
 
 use simworld_core::action::StepDirection;
 use simworld_core::id::EntityId;
-use simworld_core::net::Aspect;
+use simworld_core::net::{Aspect, Turn};
 use simworld_core::scene::Relation;
 
+use super::compass::Compass;
 use super::lexicon::Category;
 use super::paint::Paint;
 
@@ -12,7 +13,15 @@ use super::paint::Paint;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Clause {
     /// Goes somewhere; `side` is where beside it.
-    Go { to: Reference, side: Option<Relation>, pace: Pace, within: Option<f64> },
+    Go { to: Reference, side: Option<Spot>, pace: Pace, within: Option<f64> },
+    /// Goes so far in a direction, m.
+    Walk { course: Course, distance: f64, pace: Pace },
+    /// Goes by a thing and a little beyond it.
+    Past { what: Reference, pace: Pace },
+    /// Goes once round a thing.
+    Around { what: Reference, pace: Pace },
+    /// Goes half of the way to a thing, or to the middle between two.
+    Halfway { from: Option<Reference>, to: Reference, pace: Pace },
     /// Crosses the nearest road.
     Cross,
     /// Walks on and does not stop by itself.
@@ -38,7 +47,7 @@ pub(super) enum Clause {
     /// Gets on a scooter or into a car, and goes somewhere in or on it; to enter a building is to go to its door.
     Board { what: Reference, to: Option<Reference> },
     /// Goes somewhere by car.
-    Drive { to: Reference },
+    Drive { to: Reference, pace: Pace },
     /// Gets off or out.
     Alight { from: Vehicle },
     /// Takes a step.
@@ -47,6 +56,16 @@ pub(super) enum Clause {
     Turn { angle: f64 },
     /// Turns towards something.
     Face { what: Reference },
+    /// Turns to a direction of the compass.
+    FaceCompass(Compass),
+    /// Drives on to a junction, the nth from here, and takes a turn there.
+    TurnAt { turn: Turn, nth: u32, lights: Lights },
+    /// Drives once round the block.
+    Block,
+    /// Stops at the kerb, at a place if one is given.
+    Park { at: Option<(Reference, Option<Spot>)> },
+    /// Does something and stays there for a while, s; where it is about several things, at each of them.
+    Stay { body: Box<Self>, seconds: f64 },
     /// Raises (or, below zero, lowers) the gaze, radians.
     LookUp { angle: f64 },
     /// Points at something.
@@ -99,9 +118,38 @@ pub(super) enum Test {
     /// One that refers to nothing that has to be found first.
     #[cfg(feature = "thought")]
     Stated(simworld_core::seam::Condition),
+    /// Never: what is done goes on until somebody says otherwise.
+    Never,
     Not(Box<Self>),
     Both(Box<Self>, Box<Self>),
     Either(Box<Self>, Box<Self>),
+}
+
+/// Which junctions count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lights {
+    /// Those with signals.
+    Only,
+    /// All of them.
+    Any,
+}
+
+/// Where beside a thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Spot {
+    /// On a side of it as it stands.
+    Beside(Relation),
+    /// On a side of it by the compass.
+    Compass(Compass),
+}
+
+/// In which direction one goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Course {
+    /// By the compass.
+    Compass(Compass),
+    /// As one is turned.
+    Relative(StepDirection),
 }
 
 /// How fast one goes.
@@ -176,6 +224,8 @@ pub(super) enum Stands {
     NearestTo(Box<Reference>, bool),
     /// On a side of the agent.
     Side(Side),
+    /// In a direction from a thing or, without one, from the agent.
+    Compass(Compass, Option<Box<Reference>>),
 }
 
 /// A side of the agent, as it will be turned by then.
@@ -229,6 +279,8 @@ pub(super) enum Choice {
     Farthest,
     /// The nth, counted from the nearest, from 1.
     Nth(u32),
+    /// The one farthest in a direction.
+    Compass(Compass),
     /// The one with the most or, with `false`, the least of a measure.
     Most(Measure, bool),
 }
@@ -286,7 +338,7 @@ impl Clause {
         | Self::Sit { on: Some(what) }
         | Self::Photo { of: Some(what), .. }) = self
         else {
-            return None;
+            return if let Self::Stay { body, .. } = self { body.plural() } else { None };
         };
         (what.count != Count::One).then_some(what)
     }

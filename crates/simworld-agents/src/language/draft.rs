@@ -4,11 +4,13 @@ use simworld_core::action::{Action, ActionKind, ActionSet};
 use simworld_core::geometry::{Point2, Point3, heading};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
-use simworld_core::scene::{EntityKind, EntityRef, Relation, Role};
+use simworld_core::scene::{EntityKind, EntityRef, Role};
 use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 
-use super::clause::{Clause, Pace, Reference, Target, Test, Vehicle};
+use super::clause::{Clause, Pace, Reference, Spot, Target, Test, Vehicle};
+use super::compass::Compass;
 use super::lexicon::{class, is_animate};
+use super::relate::spot_on_side;
 use super::resolve::{Purpose, View};
 
 /// How near one comes to a thing, or to its door, m: well within reach of an arm.
@@ -16,7 +18,7 @@ const AT_THING: f64 = 1.0;
 /// How near one comes to somebody, m: the near end of "social distance" (Hall 1966), within reach of two arms.
 const AT_PERSON: f64 = 1.2;
 /// How near one comes to a point, m.
-const AT_POINT: f64 = 0.5;
+pub(super) const AT_POINT: f64 = 0.5;
 /// The gap one keeps from somebody whom one follows, m.
 const FOLLOWING: f64 = 2.0;
 /// Room for a body between itself and what it stands before, m.
@@ -49,7 +51,9 @@ pub(super) enum Load {
 pub(super) struct Draft<'a> {
     pub(super) view: View<'a>,
     level: f64,
-    kind: EntityKind,
+    pub(super) kind: EntityKind,
+    /// Half the length of the body, m.
+    pub(super) half_length: f64,
     supports: ActionSet,
     plan: Plan,
     pub(super) posture: Posture,
@@ -58,6 +62,8 @@ pub(super) struct Draft<'a> {
     /// What one will stand beside, and where one went last.
     pub(super) beside: Option<EntityId>,
     there: Option<(Goal, f64)>,
+    /// What was let go of last, and to whom it was given: "carry it there and leave it" says one thing twice.
+    pub(super) delivered: Option<(EntityId, Option<EntityId>)>,
     /// What one is in or on.
     pub(super) mount: Option<EntityId>,
 }
@@ -75,6 +81,8 @@ impl<'a> Draft<'a> {
         Self {
             level: me.position().z,
             kind: me.kind,
+            half_length: me.info.shape.size().x * 0.5,
+            delivered: None,
             supports,
             plan: Plan::default(),
             posture,
@@ -112,6 +120,18 @@ impl<'a> Draft<'a> {
     fn add_one(&mut self, clause: &Clause) -> Result<(), PlanError> {
         match clause {
             Clause::Go { to, side, pace, within } => self.go(to, *side, *pace, *within),
+            Clause::Walk { course, distance, pace } => self.walk(*course, *distance, *pace),
+            Clause::Past { what, pace } => self.pass(what, *pace),
+            Clause::Around { what, pace } => self.around(what, *pace),
+            Clause::Halfway { from, to, pace } => self.halfway(from.as_ref(), to, *pace),
+            Clause::TurnAt { turn, nth, lights } => self.turn_at(*turn, *nth, *lights),
+            Clause::Block => self.round_the_block(),
+            Clause::Park { at } => self.park(at.as_ref()),
+            Clause::Stay { body, seconds } => {
+                self.add_one(body)?;
+                self.push(PlanStep::Wait { seconds: *seconds });
+                Ok(())
+            }
             Clause::Cross => self.cross(),
             Clause::Forward => self.act(Action::MoveForward { speed: WALKING }),
             Clause::Follow { whom, pace } => self.follow(whom, *pace),
@@ -130,18 +150,20 @@ impl<'a> Draft<'a> {
                 Ok(())
             }
             Clause::Board { what, to } => self.board(what).and_then(|()| self.go_on_to(to.as_ref())),
-            Clause::Drive { to } => self.drive(to),
+            Clause::Drive { to, pace } => self.drive(to, *pace),
             Clause::Alight { from } => self.alight(*from),
             Clause::Step { direction, distance } => {
                 self.get_up()?;
                 self.act(Action::Step { direction: *direction, distance: *distance })
             }
+            Clause::Turn { angle } if self.drives() => self.turn_driving(*angle),
             Clause::Turn { angle } => {
                 self.get_up()?;
                 self.view.heading += angle;
                 self.act(Action::Rotate { angle: wrap_angle(*angle) })
             }
             Clause::Face { what } => self.face(what),
+            Clause::FaceCompass(compass) => self.face_compass(*compass),
             Clause::LookUp { angle } if *angle > 0.0 => self.act(Action::LookUp { angle: *angle }),
             Clause::LookUp { angle } => self.act(Action::LookDown { angle: -angle }),
             Clause::Point { at } => {
@@ -151,14 +173,17 @@ impl<'a> Draft<'a> {
                 Ok(())
             }
             Clause::Wave { to } => {
+                self.can(ActionKind::WaveHand)?;
                 let to = self.find(to, Purpose::Any)?.id;
                 self.act(Action::WaveHand { to })
             }
             Clause::Say { to, words } => {
+                self.can(ActionKind::Converse)?;
                 let with = self.go_to_somebody(to, "talk to")?;
                 self.act(Action::Converse { with, words: words.clone() })
             }
             Clause::Argue { with } => {
+                self.can(ActionKind::Argue)?;
                 let with = self.go_to_somebody(with, "argue with")?;
                 self.act(Action::Argue { with })
             }
@@ -211,6 +236,10 @@ impl<'a> Draft<'a> {
         let result = self.add_all(clauses);
         let inner = std::mem::replace(&mut self.plan.steps, outer);
         result.map(|()| inner)
+    }
+
+    pub(super) fn last_step(&self) -> Option<&PlanStep> {
+        self.plan.steps.last()
     }
 
     pub(super) fn steps_so_far(&self) -> usize {
@@ -271,7 +300,7 @@ impl<'a> Draft<'a> {
     pub(super) fn go(
         &mut self,
         to: &Reference,
-        side: Option<Relation>,
+        side: Option<Spot>,
         pace: Pace,
         within: Option<f64>,
     ) -> Result<(), PlanError> {
@@ -286,12 +315,13 @@ impl<'a> Draft<'a> {
             }
             (_, side) => {
                 let entity = self.find(to, Purpose::Any)?;
-                let beside = side.and_then(|side| spot_on_side(&entity, side));
+                let beside = side.and_then(|side| spot_on_side(&entity, side, self.room()));
                 if let Some(spot) = beside {
                     (Goal::Point(spot), AT_POINT)
                 } else {
-                    self.beside = Some(entity.id);
-                    (Goal::Entity(entity.id), reach_of(&entity))
+                    let reach = reach_of(&entity);
+                    self.beside = Some(entity.id).filter(|_| within.is_none_or(|within| within <= reach));
+                    (Goal::Entity(entity.id), reach)
                 }
             }
         };
@@ -307,7 +337,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    fn navigate(&mut self, to: Goal, within: f64, speed: Option<f64>) -> Result<(), PlanError> {
+    pub(super) fn navigate(&mut self, to: Goal, within: f64, speed: Option<f64>) -> Result<(), PlanError> {
         if self.posture != Posture::Aboard {
             self.get_up()?;
         }
@@ -348,6 +378,21 @@ impl<'a> Draft<'a> {
         if way.norm() > 1e-6 {
             self.view.heading = heading(&way);
         }
+        self.push(PlanStep::Face { to });
+        Ok(())
+    }
+
+    /// How far from a thing the middle of the body comes to stand, m.
+    fn room(&self) -> f64 {
+        if self.drives() { ROOM + self.half_length } else { ROOM }
+    }
+
+    /// Towards a place so far away that the direction stays the same wherever one stands.
+    fn face_compass(&mut self, compass: Compass) -> Result<(), PlanError> {
+        const FAR: f64 = 1000.0;
+        self.can(ActionKind::Rotate)?;
+        self.view.heading = compass.heading();
+        let to = Goal::Point(self.on_level(self.view.from + compass.step() * FAR));
         self.push(PlanStep::Face { to });
         Ok(())
     }
@@ -428,7 +473,7 @@ impl<'a> Draft<'a> {
         self.act(action)
     }
 
-    fn on_level(&self, point: Point2) -> Point3 {
+    pub(super) fn on_level(&self, point: Point2) -> Point3 {
         Point3::new(point.x, point.y, self.level)
     }
 }
@@ -446,24 +491,11 @@ fn reach_of(entity: &EntityRef<'_>) -> f64 {
     if entity.kind == EntityKind::Person { AT_PERSON } else { AT_THING }
 }
 
-const fn speed_of(pace: Pace) -> Option<f64> {
+pub(super) const fn speed_of(pace: Pace) -> Option<f64> {
     match pace {
         Pace::Usual => None,
         Pace::Run => Some(RUNNING),
         Pace::Slow => Some(STROLLING),
         Pace::At(speed) => Some(speed),
     }
-}
-
-/// A spot on that side of a thing, at arm's length; `None` for relations that name no side.
-fn spot_on_side(entity: &EntityRef<'_>, side: Relation) -> Option<Point3> {
-    let half = entity.info.shape.size() * 0.5;
-    let local = match side {
-        Relation::InFrontOf => Point3::new(half.x + ROOM, 0.0, 0.0),
-        Relation::Behind => Point3::new(-half.x - ROOM, 0.0, 0.0),
-        Relation::LeftOf => Point3::new(0.0, half.y + ROOM, 0.0),
-        Relation::RightOf => Point3::new(0.0, -half.y - ROOM, 0.0),
-        _ => return None,
-    };
-    Some(entity.pose * local)
 }

@@ -2,7 +2,6 @@
 
 use simworld_core::id::EntityId;
 
-use super::politeness::HESITATIONS;
 use super::verbs::base_form;
 
 /// The smallest piece of a sentence.
@@ -32,25 +31,6 @@ pub(super) struct Lexeme {
     pub(super) lemma: Option<String>,
     pub(super) start: usize,
     pub(super) end: usize,
-}
-
-/// As [`lex`], without the sounds that people make while they think, and the commas after them.
-pub(super) fn lex_speech(text: &str) -> Vec<Lexeme> {
-    let mut lexemes = lex(text);
-    let is_sound =
-        |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if HESITATIONS.contains(&word.as_str()));
-    while let Some(at) = lexemes.iter().position(is_sound) {
-        lexemes.remove(at);
-        let is_comma = |at: usize| matches!(lexemes.get(at), Some(Lexeme { token: Token::Comma, .. }));
-        let (before, after) = (at.checked_sub(1).is_some_and(is_comma), is_comma(at));
-        if after {
-            lexemes.remove(at);
-        }
-        if before {
-            lexemes.remove(at - 1);
-        }
-    }
-    lexemes
 }
 
 /// Reads the tokens of a text, in order.

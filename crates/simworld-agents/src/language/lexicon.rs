@@ -5,10 +5,6 @@ use simworld_core::seam::Which;
 
 use super::clause::{Measure, Side};
 use super::lexer::{Lexeme, Token};
-use super::verbs::{VERBS, Verb};
-
-/// No verb has more words.
-const LONGEST_VERB: usize = 6;
 
 /// A class of things that people have words for.
 #[derive(Debug, PartialEq)]
@@ -140,6 +136,13 @@ pub(super) const CATEGORIES: &[Category] = &[
             "citizen",
             "guy",
             "lady",
+            "boy",
+            "girl",
+            "child",
+            "kid",
+            "gentleman",
+            "stranger",
+            "bystander",
         ],
         &[EntityKind::Person],
     ),
@@ -185,17 +188,18 @@ pub(super) const DETERMINERS: &[&str] = &[
 ];
 
 /// Words that say which of several.
-pub(super) const NEAREST: &[&str] = &["nearest", "closest", "nearby", "near by"];
+pub(super) const NEAREST: &[&str] = &["nearest", "closest", "nearby", "near by", "nearer", "closer"];
 /// The contrary.
-pub(super) const FARTHEST: &[&str] = &["farthest", "furthest", "most distant", "last", "final"];
+pub(super) const FARTHEST: &[&str] =
+    &["farthest", "furthest", "most distant", "last", "final", "farther", "further", "remotest"];
 /// Words that compare.
 pub(super) const MOSTS: &[(&[&str], (Measure, bool))] = &[
-    (&["tallest", "highest"], (Measure::Height, true)),
-    (&["shortest", "lowest"], (Measure::Height, false)),
-    (&["biggest", "largest", "big", "large"], (Measure::Volume, true)),
-    (&["smallest", "tiniest", "small", "little", "tiny"], (Measure::Volume, false)),
-    (&["heaviest"], (Measure::Mass, true)),
-    (&["lightest"], (Measure::Mass, false)),
+    (&["tallest", "highest", "taller", "higher"], (Measure::Height, true)),
+    (&["shortest", "lowest", "shorter", "lower"], (Measure::Height, false)),
+    (&["biggest", "largest", "big", "large", "bigger", "larger"], (Measure::Volume, true)),
+    (&["smallest", "tiniest", "small", "little", "tiny", "smaller"], (Measure::Volume, false)),
+    (&["heaviest", "heavier"], (Measure::Mass, true)),
+    (&["lightest", "lighter"], (Measure::Mass, false)),
 ];
 /// Sides of the agent.
 pub(super) const SIDES: &[(&[&str], Side)] = &[
@@ -278,6 +282,11 @@ pub(super) const COPULAS: &[&str] = &[
     "that are",
     "which are",
     "right",
+    "thats standing",
+    "that sits",
+    "which sits",
+    "over",
+    "just",
 ];
 
 /// How many tokens at the start of `lexemes` are the words of the phrase; `None` if they are others.
@@ -290,21 +299,6 @@ pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
         }
     }
     Some(count)
-}
-
-/// As [`longest`], with the first word in any form of the verb: "sitting down".
-pub(super) fn longest_verb(lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
-    let plain = longest(lexemes, VERBS);
-    let lemma = lexemes.first().and_then(|lexeme| lexeme.lemma.clone());
-    let inflected = lemma.and_then(|lemma| {
-        let mut base = lexemes[..lexemes.len().min(LONGEST_VERB)].to_vec();
-        base[0].token = Token::Word(lemma);
-        longest(&base, VERBS)
-    });
-    match (plain, inflected) {
-        (Some(plain), Some(inflected)) if inflected.1 <= plain.1 => Some(plain),
-        (plain, inflected) => inflected.or(plain),
-    }
 }
 
 /// As [`fits`], with the last word in the singular or the plural.
@@ -373,9 +367,6 @@ mod tests {
         let mut words: Vec<&str> = CATEGORIES.iter().flat_map(|category| category.words).copied().collect();
         words.sort_unstable();
         assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
-        let mut verbs: Vec<&str> = VERBS.iter().flat_map(|(phrases, _)| *phrases).copied().collect();
-        verbs.sort_unstable();
-        assert!(verbs.windows(2).all(|pair| pair[0] != pair[1]), "{verbs:?}");
     }
 
     #[test]

@@ -9,7 +9,10 @@
 
 mod call;
 mod clause;
+mod compass;
 mod draft;
+mod driving;
+mod hearing;
 mod lexer;
 mod lexicon;
 mod motion;
@@ -21,14 +24,19 @@ mod parser;
 mod politeness;
 mod reference;
 mod relate;
+mod requests;
 mod resolve;
 mod speech;
 mod spelling;
 #[cfg(feature = "thought")]
 mod structured;
+mod tails;
 mod tests_of;
 mod things;
+mod unknown;
 mod verbs;
+mod ways;
+mod weather;
 
 use draft::Draft;
 #[cfg(feature = "thought")]
@@ -117,6 +125,7 @@ impl Planner for GrammarPlanner {
             range: RANGE,
             it: None,
             them: None,
+            gone: Vec::new(),
             policy: self.policy,
         };
         let names = Names::new(scene, from, RANGE);
@@ -130,7 +139,7 @@ impl Planner for GrammarPlanner {
                 });
             }
             Intent::Words(words) => {
-                let mut lexemes = lexer::lex_speech(words);
+                let mut lexemes = hearing::hear(words, me.info.name.as_deref());
                 spelling::correct(&mut lexemes, &|| names.words());
                 Parser::new(words, &lexemes, &names, &view).sentence()?
             }

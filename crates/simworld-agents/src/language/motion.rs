@@ -3,10 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::action::StepDirection;
+use simworld_core::net::Turn;
 use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Pace, Reference, Target};
+use super::clause::{Clause, Course, Pace, Reference, Spot, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{RELATIONS, longest, longest_phrase};
 use super::numbers;
@@ -42,6 +43,20 @@ const DIRECTIONS: &[(&[&str], StepDirection)] = &[
     (&["right", "to the right", "to your right", "rightwards"], StepDirection::Right),
 ];
 
+/// Going between two places again and again.
+const TO_AND_FRO: &[&str] = &[
+    "back and forth between",
+    "to and fro between",
+    "back and forth from",
+    "and forth between",
+    "and forth from",
+    "up and down between",
+    "and down between",
+    "backwards and forwards between",
+    "backward and forward between",
+    "and forwards between",
+];
+
 #[derive(Clone, Copy)]
 enum Sense {
     Left,
@@ -58,17 +73,36 @@ const SENSES: &[(&[&str], Sense)] = &[
 impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
         let pace = self.pace(pace)?;
+        if let Some(clauses) = self.straight_at_junction() {
+            return Ok(clauses);
+        }
+        if let Some(clauses) = self.by_the_compass(pace)? {
+            return Ok(clauses);
+        }
         if self.begins_step() {
             return self.step().map(|step| vec![step]);
         }
-        if self.eat_any(&["back and forth between", "to and fro between", "back and forth from"]) {
+        if self.eat_any(TO_AND_FRO) {
             return self.back_and_forth(pace);
         }
-        self.eat_any(&["straight", "directly", "over", "back", "up", "down", "away", "on", "all the way"]);
-        if longest_phrase(self.rest(), &["around", "past", "along"]).is_some() && !self.peeks("around here") {
-            return Err(
-                self.not_understood("going around, past or along things is not understood: say where to")
-            );
+        self.eat_any(&[
+            "straight",
+            "directly",
+            "over",
+            "back",
+            "up",
+            "down",
+            "away",
+            "on",
+            "all the way",
+            "along",
+            "right",
+            "across",
+            "out",
+            "off",
+        ]);
+        if let Some(clauses) = self.special_way(pace)? {
+            return Ok(clauses);
         }
         let pace = self.pace(pace)?;
         let returns = self.lexemes[start..self.at]
@@ -81,6 +115,7 @@ impl Parser<'_> {
         if self.ends_clause() && self.continues() {
             return Ok(vec![Clause::Forward]);
         }
+        let within = self.within()?;
         self.eat_any(&[
             "to",
             "too",
@@ -100,26 +135,46 @@ impl Parser<'_> {
             "out to",
             "right up to",
             "straight to",
+            "as far as",
+            "all the way to",
+            "all the way up to",
+            "by",
+            "round to",
+            "along to",
+            "across to",
+            "off to",
+            "back into",
+            "inside",
+            "with",
+            "until",
+            "until you reach",
+            "until you get to",
         ]);
         let stood =
             self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("stand".to_owned()));
-        let side = if stood { Some(Relation::NextTo) } else { self.side() };
+        if let Some((compass, to)) = self.compass_side()? {
+            return Ok(vec![Clause::Go { to, side: Some(Spot::Compass(compass)), pace, within }]);
+        }
+        let side = self.side().or(if stood { Some(Relation::NextTo) } else { None }).map(Spot::Beside);
         let to = self.reference(0)?;
         let pace = self.pace(pace)?;
-        Ok(vec![Clause::Go { to, side, pace, within: None }])
+        self.after_place(Clause::Go { to, side, pace, within }, pace)
     }
 
-    /// Whether what follows says how long to go on, or nothing follows "keep walking".
+    /// Whether what follows says how long to go on.
+    pub(super) fn goes_on(&self) -> bool {
+        longest_phrase(self.rest(), &["until", "till", "while", "for", "as long as"]).is_some()
+    }
+
+    /// As [`goes_on`](Self::goes_on), or nothing follows "keep walking".
     fn continues(&self) -> bool {
-        let going = ["until", "till", "while", "for", "as long as"];
-        longest_phrase(self.rest(), &going).is_some()
-            || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
+        self.goes_on() || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
     }
 
     fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
         let one = self.reference(0)?;
-        self.eat_any(&["and", "to"]);
-        let other = self.reference(0)?;
+        let (one, other) =
+            if self.eat_any(&["and", "to"]) { (one, self.reference(0)?) } else { Self::pair(&one) };
         let go = |to| Clause::Go { to, side: None, pace, within: None };
         let times = numbers::times(self.rest());
         self.at += times.map_or(0, |(_, count)| count);
@@ -186,7 +241,7 @@ impl Parser<'_> {
     }
 
     /// "next to", "behind" and so on before a place.
-    fn side(&mut self) -> Option<Relation> {
+    pub(super) fn side(&mut self) -> Option<Relation> {
         let (relation, count) = longest(self.rest(), RELATIONS)?;
         self.at += count;
         Some(relation)
@@ -226,14 +281,20 @@ impl Parser<'_> {
         let mut distance = 0.5;
         let number_at = self.at;
         self.eat_any(&["by", "for"]);
+        let mut in_metres = false;
         if let Some((number, count)) = numbers::number(self.rest()) {
             self.at += count;
+            in_metres = longest_phrase(self.rest(), &["metres", "metre", "meters", "meter", "m"]).is_some();
             self.eat_any(LENGTHS);
             distance = number;
         } else {
             self.at = number_at;
         }
         direction = direction.or_else(|| self.direction());
+        if in_metres && distance > LONGEST_STEP && distance <= 10_000.0 {
+            let course = Course::Relative(direction.unwrap_or(StepDirection::Forward));
+            return Ok(Clause::Walk { course, distance, pace: Pace::Usual });
+        }
         if !(distance > 0.0 && distance <= LONGEST_STEP) {
             self.at = number_at;
             return Err(self.not_understood("step more than 0 and at most 10 metres"));
@@ -264,6 +325,11 @@ impl Parser<'_> {
             angle = if in_radians { number } else { number.to_radians() };
         }
         sense = sense.or_else(|| self.sense());
+        if sense.is_none()
+            && let Some(compass) = self.compass()
+        {
+            return Ok(Clause::FaceCompass(compass));
+        }
         let Some(sense) = sense else { return Err(self.not_understood("say left, right or around")) };
         if !(angle > 0.0 && angle <= 2.0 * PI) {
             self.at = number_at;
@@ -274,6 +340,10 @@ impl Parser<'_> {
             Sense::Right => -angle,
             Sense::Around => PI,
         };
+        if let Some((nth, lights)) = self.junction() {
+            let turn = if angle > 0.0 { Turn::Left } else { Turn::Right };
+            return Ok(Clause::TurnAt { turn, nth, lights });
+        }
         Ok(Clause::Turn { angle })
     }
 
@@ -290,6 +360,9 @@ impl Parser<'_> {
         }
         if self.eat_any(&["the right", "your right", "right"]) {
             return Ok(Clause::Turn { angle: -FRAC_PI_2 });
+        }
+        if let Some(compass) = self.compass() {
+            return Ok(Clause::FaceCompass(compass));
         }
         Ok(Clause::Face { what: self.reference(0)? })
     }
@@ -312,7 +385,10 @@ impl Parser<'_> {
         if longest(self.rest(), SENSES).is_some() {
             return self.turn();
         }
-        self.eat_any(&["over", "at", "to", "towards"]);
+        if let Some(compass) = self.compass() {
+            return Ok(Clause::FaceCompass(compass));
+        }
+        self.eat_any(&["over", "at", "to", "towards", "over at", "over to", "back at"]);
         Ok(Clause::Face { what: self.reference(0)? })
     }
 }

@@ -3,12 +3,12 @@
 use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Count, Grip, Manner, Pace, Reference, Stands, Target, Test, Vehicle};
+use super::clause::{Clause, Count, Grip, Manner, Pace, Reference, Spot, Stands, Target, Test, Vehicle};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase, longest_verb};
+use super::lexicon::{Category, RELATIONS, category, fits, longest, longest_phrase};
 use super::numbers::{self, MOMENT};
 use super::parser::{Parser, UNDERSTOOD};
-use super::verbs::Verb;
+use super::verbs::{Verb, longest_verb};
 
 /// The longest wait, s.
 pub(super) const LONGEST_WAIT: f64 = 86_400.0;
@@ -21,9 +21,16 @@ impl Parser<'_> {
     pub(super) fn order(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_fillers();
         let start = self.at;
+        if let Some(laps) = self.laps()? {
+            return Ok(laps);
+        }
         let Some((verb, count)) = self.verb_here() else {
             return self.order_without_verb();
         };
+        if self.goes_to_do(count) {
+            self.at += count;
+            return self.order();
+        }
         self.at += count;
         self.verb = Some(verb);
         // "Wave twice at Carol"; at the end of an order it may be about more than this one.
@@ -33,10 +40,23 @@ impl Parser<'_> {
             self.at -= times.take().map_or(0, |(_, count)| count);
         }
         let mut clauses = self.objects(verb, start)?;
-        if let Some((times, _)) = times {
+        if let Some((times, _)) = times.filter(|(times, _)| *times > 1) {
             clauses = vec![Clause::Repeat { times, body: clauses }];
         }
         Ok(clauses)
+    }
+
+    /// "Go sit down", "come and have a look": going is only the way to it.
+    fn goes_to_do(&self, count: usize) -> bool {
+        const PLACES: &[&str] = &["back", "past", "round", "around", "point", "report"];
+        let is_go = count == 1 && (self.peeks("go") || self.peeks("come"));
+        let after = &self.rest()[count.min(self.rest().len())..];
+        let is_noun = category(after).is_some() || self.names.exact(after).is_some();
+        is_go
+            && longest_verb(after).is_some()
+            && longest_phrase(after, PLACES).is_none()
+            && !is_noun
+            && longest(after, RELATIONS).is_none()
     }
 
     fn verb_here(&self) -> Option<(Verb, usize)> {
@@ -59,8 +79,15 @@ impl Parser<'_> {
                     | Verb::Alight
             )
         };
-        let Some(verb) = self.verb.filter(has_objects) else { return Err(refused) };
-        let is_phrase = longest_phrase(self.rest(), BEGINNINGS).is_some();
+        // "... and then on to the taxi" goes on going, whatever was done in between.
+        let moves = longest_phrase(
+            self.rest(),
+            &["on to", "onto", "over to", "back to", "across to", "back here", "back"],
+        )
+        .is_some();
+        let last = if moves { Some(Verb::Go) } else { self.verb };
+        let Some(verb) = last.filter(has_objects) else { return Err(refused) };
+        let is_phrase = moves || longest_phrase(self.rest(), BEGINNINGS).is_some();
         let start = self.at;
         self.eat_any(match verb {
             Verb::Look | Verb::Wave | Verb::Point => &["at", "to"][..],
@@ -86,6 +113,8 @@ impl Parser<'_> {
             Verb::Cross => {
                 self.eat_any(&["the", "this", "over"]);
                 self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
+                self.eat_any(&["to the other side", "over", "at the crossing", "at the crosswalk"]);
+                self.eat_any(&["of the street", "of the road", "of the crossing"]);
                 one(Clause::Cross)
             }
             Verb::Follow => {
@@ -99,11 +128,15 @@ impl Parser<'_> {
             Verb::PutDown => self.drop(Manner::PutDown),
             Verb::Buy => self.buy(),
             Verb::Sit => self.sit(),
+            Verb::StandUp if self.is_place() => self.go(Pace::Usual, start),
             Verb::StandUp => {
                 self.tail_place(&["from"])?; // from which seat is no choice
                 one(Clause::StandUp)
             }
             Verb::Stop => self.stop(),
+            Verb::Park => self.park(),
+            Verb::Pass => self.past(Pace::Usual),
+            Verb::Circle => self.round(Pace::Usual),
             Verb::Wait => self.wait(),
             Verb::Board => self.board(),
             Verb::Drive => self.drive(),
@@ -140,14 +173,39 @@ impl Parser<'_> {
         }
     }
 
+    /// "Stand behind the statue", "stand halfway between": where to stand, and not to get up.
+    fn is_place(&self) -> bool {
+        const PLACES: &[&str] = &[
+            "at",
+            "halfway",
+            "midway",
+            "half way",
+            "north",
+            "south",
+            "east",
+            "west",
+            "to the north",
+            "to the south",
+            "to the east",
+            "to the west",
+        ];
+        longest(self.rest(), RELATIONS).is_some() || longest_phrase(self.rest(), PLACES).is_some()
+    }
+
     fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&["me to", "us to", "yourself to"]) {
+        if self.eat_any(&["me to", "us to", "yourself to", "me over to", "us over to", "yourself over to"]) {
             return self.go(Pace::Usual, start);
+        }
+        if let Some(clauses) = self.turn_to_take() {
+            return Ok(clauses);
         }
         let taken = self.lexemes[start..self.at].iter().map(|lexeme| &lexeme.token);
         let grip = if taken.eq([&Token::Word("take".to_owned())]) { Grip::LiftOrRide } else { Grip::Lift };
-        self.eat_any(&["me", "us"]);
+        self.eat_any(&["me", "us", "yourself"]);
         if self.counts_steps() {
+            if let Some(clauses) = self.by_the_compass(Pace::Usual)? {
+                return Ok(clauses);
+            }
             return self.step().map(|step| vec![step]);
         }
         let photos = numbers::number(self.rest()).filter(|(number, _)| *number >= 1.0 && *number <= 100.0);
@@ -179,6 +237,9 @@ impl Parser<'_> {
 
     fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
         let first = self.reference(0)?;
+        if let Some(clauses) = self.gesture(&first) {
+            return Ok(clauses);
+        }
         if self.eat_any(&["to", "over to"]) {
             return Ok(vec![Clause::Give { what: Some(first), to: self.reference(0)? }]);
         }
@@ -186,6 +247,21 @@ impl Parser<'_> {
             return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
         }
         Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
+    }
+
+    /// "Give Ben a wave".
+    fn gesture(&mut self, to: &Reference) -> Option<Vec<Clause>> {
+        let start = self.at;
+        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
+        self.at += number.map_or(0, |(_, count)| count);
+        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
+        if number.is_none() || !self.eat_any(&["wave", "waves", "wave of your hand"]) {
+            self.at = start;
+            return None;
+        }
+        let wave = Clause::Wave { to: to.clone() };
+        let times = number.map_or(1, |(number, _)| number as u32);
+        Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])
     }
 
     fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
@@ -253,6 +329,9 @@ impl Parser<'_> {
         if self.peeks("for") || self.peeks("until") || self.peeks("till") || self.peek_time().is_some() {
             return self.wait();
         }
+        if let Some(clauses) = self.short_of()? {
+            return Ok(clauses);
+        }
         if self.eat_any(&["at", "by", "near", "next to"]) {
             let to = self.reference(0)?;
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
@@ -266,15 +345,29 @@ impl Parser<'_> {
             "that",
             "what you are doing",
             "everything",
+            "the car",
+            "the vehicle",
+            "the taxi",
+            "the bus",
+            "the truck",
+            "the van",
+            "driving",
+            "moving around",
+            "right there",
+            "right here",
+            "dead",
         ]);
         Ok(vec![Clause::Stop])
     }
 
     fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
-        self.eat_any(&["here", "there"]);
-        if self.peeks("until") || self.peeks("till") {
-            self.at += 1;
+        self.eat_any(&["here", "there", "right here", "right there", "where you are"]);
+        if self.eat_any(&["until", "till", "up until"]) {
             return Ok(vec![Clause::Until { test: self.test()?, body: Vec::new() }]);
+        }
+        if self.eat_any(&["while", "as long as", "so long as"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         let mut clauses = Vec::new();
         if let Some((relation, count)) = longest(self.rest(), RELATIONS)
@@ -283,7 +376,7 @@ impl Parser<'_> {
             self.at += count;
             let to = self.reference(0)?;
             let side = Some(relation);
-            clauses.push(Clause::Go { to, side, pace: Pace::Usual, within: None });
+            clauses.push(Clause::Go { to, side: side.map(Spot::Beside), pace: Pace::Usual, within: None });
         }
         let is_for = self.eat_any(&["for", "for about", "for at least"]);
         self.eat_any(&["about"]);
@@ -348,15 +441,6 @@ impl Parser<'_> {
             self.reference(0)?
         };
         Ok(vec![Clause::Board { what, to: self.tail_place(&["to", "over to", "back to"])? }])
-    }
-
-    fn drive(&mut self) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&["to", "over to", "towards", "back to"]) {
-            return Ok(vec![Clause::Drive { to: self.reference(0)? }]);
-        }
-        let what = self.reference(0)?;
-        let to = self.tail_place(&["to", "over to", "towards", "back to"])?;
-        Ok(vec![Clause::Board { what, to }])
     }
 
     fn alight(&mut self) -> Clause {

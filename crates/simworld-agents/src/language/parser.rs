@@ -16,12 +16,14 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{Category, fits, longest_phrase, longest_verb};
+use super::lexicon::{Category, fits, longest_phrase};
 use super::names::Names;
 use super::numbers;
 use super::politeness::{FILLERS, JOINTS, NEGATIONS};
+use super::requests;
 use super::resolve::View;
-use super::verbs::Verb;
+use super::tails::over_and_over;
+use super::verbs::{Verb, longest_verb};
 
 /// What is understood, in one line, for answers.
 pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop off, put down, give, buy, sit down, stand up, \
@@ -29,6 +31,60 @@ pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop o
      \"and\" or \"then\"";
 /// How deep conditions and repetitions may nest.
 const DEEPEST: u32 = 4;
+/// What begins a condition.
+pub(super) const IF: &[&str] = &[
+    "if",
+    "in case",
+    "provided that",
+    "provided",
+    "in the event that",
+    "in the event",
+    "assuming",
+    "assuming that",
+    "supposing",
+    "supposing that",
+    "on condition that",
+    "only if",
+    "but only if",
+    "if and only if",
+];
+/// What begins an order that goes on.
+const GOES_ON: &[&str] = &[
+    "keep",
+    "keep on",
+    "continue",
+    "continue to",
+    "go on",
+    "carry on",
+    "dont stop",
+    "do not stop",
+    "never stop",
+    "dont quit",
+];
+/// Being somewhere, which one has to go to first: "once you are at the bench, sit down".
+const REACHING: &[&str] = &[
+    "you reach",
+    "you have reached",
+    "youve reached",
+    "you get to",
+    "you have got to",
+    "you are at",
+    "youre at",
+    "you arrive at",
+    "you have arrived at",
+    "youve arrived at",
+    "you come to",
+    "you are next to",
+    "youre next to",
+    "you are beside",
+    "youre beside",
+    "you are near",
+    "youre near",
+    "you make it to",
+    "reaching",
+    "arriving at",
+    "getting to",
+];
 
 /// Reads a sentence from left to right.
 pub(super) struct Parser<'a> {
@@ -68,6 +124,8 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_joints();
+        // "To the museum, then to the school" leaves the verb out.
+        self.verb = longest_phrase(self.rest(), &["to", "over to", "back to", "on to"]).map(|_| Verb::Go);
         let clauses = self.orders(Extent::Sentence)?;
         if clauses.is_empty() { Err(self.not_understood(UNDERSTOOD)) } else { Ok(clauses) }
     }
@@ -84,6 +142,7 @@ impl<'a> Parser<'a> {
             }
             let start = self.at;
             self.skip_fillers();
+            self.at += requests::coda(self.rest());
             let joined = self.skip_joints();
             let goes_on = longest_verb(self.rest()).is_some() || self.begins_block();
             if self.at < self.lexemes.len() && !joined && !goes_on {
@@ -116,15 +175,47 @@ impl<'a> Parser<'a> {
     }
 
     fn begins_block(&self) -> bool {
-        const BLOCKS: &[&str] =
-            &["if", "unless", "when", "until", "keep", "repeat", "before", "after", "while"];
+        const BLOCKS: &[&str] = &[
+            "if",
+            "unless",
+            "when",
+            "until",
+            "keep",
+            "repeat",
+            "before",
+            "after",
+            "while",
+            "every",
+            "having",
+            "should",
+            "at the next",
+            "dont stop",
+        ];
         longest_phrase(self.rest(), BLOCKS).is_some()
     }
 
-    /// One order or block, without what follows it.
+    /// One order or block, without what follows it. What is no order as it stands may be a request in other words.
     fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_fillers();
-        if longest_phrase(self.rest(), NEGATIONS).is_some() && longest_verb(self.rest()).is_none() {
+        let start = self.at;
+        let refused = match self.plain_statement() {
+            Ok(clauses) => return Ok(clauses),
+            Err(refused) => refused,
+        };
+        for beginning in requests::beginnings(&self.lexemes[start..]) {
+            self.at = start + beginning;
+            if let Ok(clauses) = self.plain_statement() {
+                return Ok(clauses);
+            }
+        }
+        self.at = start;
+        Err(refused)
+    }
+
+    fn plain_statement(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let goes_on = longest_phrase(self.rest(), GOES_ON).is_some();
+        if !goes_on && longest_phrase(self.rest(), NEGATIONS).is_some() && longest_verb(self.rest()).is_none()
+        {
             return Err(self.not_understood("that says what not to do: say what to do"));
         }
         if self.depth >= DEEPEST {
@@ -140,8 +231,32 @@ impl<'a> Parser<'a> {
     }
 
     fn block(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        if self.eat_any(&["if", "in case", "provided that", "provided"]) {
+        if self.eat_any(IF)
+            || self.peeks("should") && longest_verb(&self.rest()[1..]).is_none() && self.eat_any(&["should"])
+        {
             return self.either(false).map(Some);
+        }
+        if let Some((seconds, count)) = self.peek_interval() {
+            self.at += count;
+            self.skip_joints();
+            let body = self.statement()?;
+            return Ok(Some(vec![over_and_over(body, seconds)]));
+        }
+        if let Some(clauses) = self.at_junction()? {
+            return Ok(Some(clauses));
+        }
+        if self.eat_any(&[
+            "having",
+            "start by",
+            "begin by",
+            "start off by",
+            "begin with",
+            "finish by",
+            "end by",
+            "finish off by",
+            "continue by",
+        ]) {
+            return self.statement().map(Some);
         }
         if self.eat_any(&["unless", "if not"]) {
             return self.either(true).map(Some);
@@ -163,7 +278,17 @@ impl<'a> Parser<'a> {
             self.at = start;
             return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
         }
-        if self.eat_any(&["when", "whenever", "once", "as soon as", "after"]) {
+        if self.eat_any(&[
+            "when",
+            "whenever",
+            "once",
+            "as soon as",
+            "after",
+            "upon",
+            "the moment",
+            "right after",
+            "immediately after",
+        ]) {
             return self.afterwards().map(Some);
         }
         if self.eat_any(&["before"]) {
@@ -173,12 +298,11 @@ impl<'a> Parser<'a> {
             clauses.extend(later);
             return Ok(Some(clauses));
         }
-        if self.eat_any(&["keep", "keep on", "continue", "continue to", "go on", "carry on", "dont stop"])
-            && !self.ends_clause()
-        {
+        let start = self.at;
+        if self.eat_any(GOES_ON) && !self.ends_clause() && longest_verb(self.rest()).is_some() {
             return self.keep().map(Some);
         }
-        let start = self.at;
+        self.at = start;
         self.eat_any(&["repeat", "repeat this", "do this", "do the following", "repeat the following"]);
         if let Some((times, count)) = numbers::times(self.rest()) {
             self.at += count;
@@ -213,6 +337,13 @@ impl<'a> Parser<'a> {
     /// After "when": a test to wait for, or an order that comes first.
     fn afterwards(&mut self) -> Result<Vec<Clause>, PlanError> {
         let start = self.at;
+        if self.eat_any(REACHING) {
+            let to = self.reference(0)?;
+            self.skip_joints();
+            let mut clauses = vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }];
+            clauses.extend(self.statement()?);
+            return Ok(clauses);
+        }
         if let Ok(test) = self.test() {
             self.skip_joints();
             let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
@@ -233,96 +364,6 @@ impl<'a> Parser<'a> {
             body = vec![Clause::Forward];
         }
         Ok(body)
-    }
-
-    /// What follows an order and says how often, how long or when.
-    fn tails(&mut self, clauses: &mut Vec<Clause>, group: usize) -> Result<(), PlanError> {
-        loop {
-            let start = self.at;
-            self.eat_any(&["again and again", "over and over", "over and over again", "repeatedly"]);
-            self.skip_fillers();
-            let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
-            let goes_on = || {
-                const AFTER_COMMA: &[&str] = &["until", "till", "unless", "but first", "but before that"];
-                longest_phrase(&self.rest()[1..], AFTER_COMMA).is_some()
-            };
-            if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
-                self.at += usize::from(comma) + count;
-                repeat(clauses, group, times, comma);
-            } else if comma && !goes_on() || !self.tail(clauses, comma)? {
-                self.at = start;
-                return Ok(());
-            }
-        }
-    }
-
-    fn tail(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {
-        self.at += usize::from(comma);
-        let Some(last) = clauses.last() else { return Ok(false) };
-        if self.eat_any(&["until", "till"]) {
-            let test = self.test()?;
-            let body = match (clauses.pop(), &test) {
-                // Whoever walks until he is somewhere goes there.
-                (Some(Clause::Forward), Test::Near { what, .. }) => {
-                    let (to, pace) = (what.clone(), Pace::Usual);
-                    vec![Clause::Go { to, side: None, pace, within: None }]
-                }
-                (last, _) => body_of(last),
-            };
-            clauses.push(Clause::Until { test, body });
-        } else if self.eat_any(&["while", "as long as"]) {
-            let test = Test::Not(Box::new(self.test()?));
-            let body = body_of(clauses.pop());
-            clauses.push(Clause::Until { test, body });
-        } else if self.eat_any(&["if", "provided that", "in case", "provided"]) {
-            let test = self.test()?;
-            let then = clauses.pop().into_iter().collect();
-            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
-        } else if self.eat_any(&["unless"]) {
-            let test = Test::Not(Box::new(self.test()?));
-            let then = clauses.pop().into_iter().collect();
-            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
-        } else if self.eat_any(&["when", "once", "as soon as"]) {
-            let test = self.test()?;
-            clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
-        } else if self.eat_any(&["before"]) {
-            clauses.extend(self.order()?);
-        } else if self.eat_any(&[
-            "after",
-            "but first",
-            "but before that",
-            "but first of all",
-            "but beforehand",
-        ]) {
-            let earlier = self.order()?;
-            let at = clauses.len() - 1;
-            clauses.splice(at..at, earlier);
-        } else if let Some((seconds, count)) = self.peek_for() {
-            // "Towards the museum for ten seconds" is on the way; "to the museum for ten seconds" is there.
-            let earlier = &self.lexemes[self.at.saturating_sub(6)..self.at];
-            let towards = earlier
-                .iter()
-                .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
-            let rests = !towards
-                && matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
-            self.at += count;
-            if rests {
-                clauses.push(Clause::Wait { seconds });
-            } else {
-                let body = body_of(clauses.pop());
-                clauses.push(Clause::Until { test: Test::Elapsed(seconds), body });
-            }
-        } else {
-            return Ok(false);
-        }
-        Ok(true)
-    }
-
-    /// "For ten seconds".
-    fn peek_for(&self) -> Option<(f64, usize)> {
-        let words = longest_phrase(self.rest(), &["for", "for about", "during", "for at least"])?;
-        let (seconds, count) = numbers::duration(&self.rest()[words..])?;
-        (seconds > 0.0 && seconds <= super::orders::LONGEST_WAIT).then_some((seconds, words + count))
     }
 
     // ---- the cursor ----
@@ -348,6 +389,8 @@ impl<'a> Parser<'a> {
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
             || [JOINTS, FILLERS, TAILS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
             || numbers::times(self.rest()).is_some()
+            || self.peek_interval().is_some()
+            || requests::coda(self.rest()) > 0
     }
 
     /// Passes what joins orders, with the politeness around it; whether there was any.
@@ -383,26 +426,6 @@ impl<'a> Parser<'a> {
             fragment: shortened(&self.words[start..]),
             hint: hint.to_owned(),
         }
-    }
-}
-
-/// The last order, or all of the group if the last one is not a thing that one does twice in a row.
-fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
-    let last_alone = !all && clauses.last().is_some_and(Clause::is_repeatable);
-    let from = if last_alone { clauses.len() - 1 } else { group.min(clauses.len()) };
-    let body: Vec<Clause> = clauses.drain(from..).collect();
-    match &body[..] {
-        [Clause::Photo { of, times: 1 }] => clauses.push(Clause::Photo { of: of.clone(), times }),
-        _ => clauses.push(Clause::Repeat { times, body }),
-    }
-}
-
-/// What goes on until something happens: waiting needs no order, and a step forward is the first of many.
-fn body_of(clause: Option<Clause>) -> Vec<Clause> {
-    match clause {
-        None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
-        Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],
-        Some(clause) => vec![clause],
     }
 }
 

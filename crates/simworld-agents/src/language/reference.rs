@@ -10,25 +10,51 @@ use super::lexicon::{
 use super::names::Guess;
 use super::numbers;
 use super::parser::{Parser, shortened};
-use super::politeness::{FILLERS, JOINTS};
 
 /// How many things may be described by one another: "the bench near the tree near ...".
 const DEEPEST: u32 = 4;
 /// Coordinates beyond this are outside every world, m.
 const FARTHEST_POINT: f64 = 1.0e7;
-/// Words that end a phrase whose words are not known.
-const BOUNDARIES: &[&str] = &[
-    "to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless",
-    "when", "from", "of", "or", "that", "while", "before", "after",
+/// Between a superlative and what it chooses from.
+const OF_SEVERAL: &[&str] = &["of the", "of these", "of those", "of all the", "of all"];
+/// What is said of anything that is about.
+const YOU_SEE: &[&str] = &[
+    "you see",
+    "that you see",
+    "you can see",
+    "that you can see",
+    "you find",
+    "that you find",
+    "you can find",
+    "you come to",
+    "you come across",
+    "you spot",
+    "there is",
+    "in sight",
 ];
 const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
 const INDEFINITE: &[&str] = &["a", "an", "any", "some", "one of the", "one of", "another"];
 
-impl<'a> Parser<'a> {
+impl Parser<'_> {
     /// A thing or a place.
     pub(super) fn reference(&mut self, depth: u32) -> Result<Reference, PlanError> {
         self.eat_any(&["the point", "point", "the position", "position", "coordinates", "the coordinates"]);
         let start = self.at;
+        if !self.peeks_place() && self.eat_any(&["where", "wherever"]) {
+            let there = self.reference(depth)?;
+            self.eat_any(&[
+                "is",
+                "are",
+                "stands",
+                "sits",
+                "waits",
+                "is standing",
+                "is sitting",
+                "is waiting",
+                "happens to be",
+            ]);
+            return Ok(there);
+        }
         if let Some(them) = self.somebody() {
             return Ok(them);
         }
@@ -58,9 +84,10 @@ impl<'a> Parser<'a> {
     /// "The bench or the chair" leaves open which.
     fn or_another(&mut self, reference: &Reference) -> Result<(), PlanError> {
         let start = self.at;
-        if !self.eat_any(&["or"]) {
+        if !self.eat_any(&["or", "or else", "or maybe", "or perhaps"]) {
             return Ok(());
         }
+        self.eat_any(&["to", "at", "on"]);
         let Ok(other) = self.reference(0) else {
             self.at = start;
             return Ok(());
@@ -107,12 +134,17 @@ impl<'a> Parser<'a> {
                 reference.traits.free = true;
             } else if self.names_follow() {
                 return;
+            } else if let Some(choice) = self.compass_choice() {
+                reference.choice = choice;
             } else if let Some(((measure, most), words)) = longest(self.rest(), MOSTS) {
                 reference.choice = Choice::Most(measure, most);
                 self.at += words;
             } else if let Some((paint, words)) = self.peek_paint() {
                 reference.traits.paint = Some(paint);
                 self.at += words;
+            } else if reference.choice != Choice::Open && self.eat_any(OF_SEVERAL) {
+                // "The smaller of the two boxes".
+                self.at += numbers::count(self.rest()).map_or(0, |(_, words)| words);
             } else if self.eat_any(&["parked"]) {
                 reference.traits.parked = true;
             } else {
@@ -213,6 +245,8 @@ impl<'a> Parser<'a> {
                 }
                 let anchor = self.reference(depth + 1)?;
                 reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
+            } else if self.eat_any(YOU_SEE) {
+                // "The first chair you see" is the nearest.
             } else if reference.relation.is_none()
                 && let Some(relation) = self.relation(depth)?
             {
@@ -222,6 +256,11 @@ impl<'a> Parser<'a> {
                 return Ok(());
             }
         }
+    }
+
+    /// "Where you are" is a place of its own.
+    fn peeks_place(&self) -> bool {
+        longest_phrase(self.rest(), &["where you", "where we", "where i"]).is_some()
     }
 
     /// Pronouns, ids and coordinates.
@@ -318,74 +357,15 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn misspelt(&mut self) -> Result<Target, PlanError> {
-        let phrase = self.unknown_phrase();
-        if phrase.is_empty() {
-            return Err(self.not_understood("say what: a thing, a place, a name, #id or (x, y)"));
-        }
-        // "The library door": the longest beginning that is part of a name.
-        let known = (1..phrase.len())
-            .rev()
-            .find_map(|count| self.names.part(&phrase[..count]).map(|guess| (guess, count)));
-        let (guess, phrase) = match (self.names.guess(phrase), known) {
-            (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
-            (guess, _) => (guess, phrase),
-        };
-        let said = shortened(&self.words[phrase[0].start..phrase[phrase.len() - 1].end]);
-        match guess {
-            Guess::Named(ids) => {
-                self.at += phrase.len();
-                Ok(Target::Named(ids))
-            }
-            Guess::Category(category) => {
-                self.at += phrase.len();
-                Ok(Target::Any(category))
-            }
-            Guess::Ambiguous(labels) => {
-                let near = format!("it could be {}: say which", labels.join(" or "));
-                Err(PlanError::NotFound { wanted: said, near })
-            }
-            Guess::Nothing(similar) => {
-                let near = self.view.surroundings();
-                let near = match similar {
-                    Some(similar) => format!("did you mean {similar:?}? {near}"),
-                    None => near,
-                };
-                Err(PlanError::NotFound { wanted: said, near })
-            }
-        }
-    }
-
-    /// Whether an order could go on or end here, so that no noun does.
-    fn ends_phrase(&self) -> bool {
-        [JOINTS, BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
-    }
-
-    /// The words up to where something known goes on.
-    fn unknown_phrase(&self) -> &'a [Lexeme] {
-        let rest = self.rest();
-        let ends = |at: &usize| {
-            let here = &rest[*at..];
-            !matches!(here[0].token, Token::Word(_) | Token::Number(_))
-                || [JOINTS, FILLERS, BOUNDARIES, COPULAS]
-                    .iter()
-                    .any(|words| longest_phrase(here, words).is_some())
-                || longest(here, RELATIONS).is_some()
-        };
-        let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());
-        if end == 0
-            && matches!(rest.first(), Some(Lexeme { token: Token::Word(_), .. }))
-            && !self.ends_phrase()
-        {
-            end = 1;
-        }
-        &rest[..end]
-    }
-
     /// How the thing stands to another, if that is said.
     pub(super) fn relation(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
         let start = self.at;
         self.eat_any(COPULAS);
+        if depth < DEEPEST
+            && let Some(stands) = self.by_compass(depth)?
+        {
+            return Ok(Some(stands));
+        }
         let side = longest(self.rest(), SIDES);
         let relation = longest(self.rest(), RELATIONS);
         if let Some((side, count)) =
@@ -429,6 +409,12 @@ impl<'a> Parser<'a> {
         !is_to || is_door
     }
 
+    /// The two that a plural stands for: "between the two trees".
+    pub(super) fn pair(both: &Reference) -> (Reference, Reference) {
+        let nth = |nth| Reference { choice: Choice::Nth(nth), count: Count::One, ..both.clone() };
+        (nth(1), nth(2))
+    }
+
     /// "Between the hospital and the museum", "between the two trees".
     fn between(&mut self, depth: u32) -> Result<Stands, PlanError> {
         let one = self.reference(depth + 1)?;
@@ -437,8 +423,8 @@ impl<'a> Parser<'a> {
             let other = self.reference(depth + 1)?;
             return Ok(Stands::Between(Box::new(one), Box::new(other)));
         }
-        let nth = |nth| Box::new(Reference { choice: Choice::Nth(nth), count: Count::One, ..one.clone() });
-        Ok(Stands::Between(nth(1), nth(2)))
+        let (one, other) = Self::pair(&one);
+        Ok(Stands::Between(Box::new(one), Box::new(other)))
     }
 
     pub(super) fn text_from(&self, start: usize) -> String {

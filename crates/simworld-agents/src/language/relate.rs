@@ -2,11 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2, direction};
+use simworld_core::geometry::{Aabb, Point2, Point3, direction};
 use simworld_core::scene::{EntityRef, Relation};
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Reference, Side, Stands, Target};
+use super::clause::{Choice, Reference, Side, Spot, Stands, Target};
+use super::compass::Compass;
 use super::resolve::{Purpose, Ranked, View, sort};
 
 /// Everything that stands in a relation to a thing is within this gap of it, m (see [`Relation::Near`]).
@@ -17,6 +18,8 @@ const LOOSELY_NEXT: f64 = 8.0;
 const PART: f64 = 15.0;
 /// How many things that fit a description are looked at for something beside them, nearest first.
 const MOST_ANCHORS: usize = 256;
+/// How far things in a direction of the compass are looked for, m.
+const IN_DIRECTION: f64 = 300.0;
 /// How far things to the left and right are looked for, m.
 const BESIDE_ME: f64 = 150.0;
 /// Half the width of what counts as ahead or behind, as the sine of the angle: 45°.
@@ -32,6 +35,7 @@ impl View<'_> {
     ) -> Result<Vec<Ranked>, PlanError> {
         match relation {
             Stands::Side(side) => Ok(self.on_side(reference, *side, purpose)),
+            Stands::Compass(compass, of) => self.in_direction(reference, *compass, of.as_deref(), purpose),
             Stands::Between(one, other) => self.between(reference, one, other, purpose),
             Stands::NearestTo(anchor, nearest) => {
                 let anchor = self.find(anchor, Purpose::Any)?;
@@ -166,6 +170,30 @@ impl View<'_> {
         found
     }
 
+    /// In a direction from a thing, the nearest to that first; without one from the agent.
+    fn in_direction(
+        &self,
+        reference: &Reference,
+        compass: Compass,
+        of: Option<&Reference>,
+        purpose: Purpose,
+    ) -> Result<Vec<Ranked>, PlanError> {
+        let anchor = of.map(|of| self.find(of, Purpose::Any)).transpose()?;
+        let from = anchor.as_ref().map_or(self.from, EntityRef::planar);
+        let mut found = self.around(reference, from, IN_DIRECTION.min(self.range), purpose);
+        for (rank, id) in &mut found {
+            let lies = self.scene.entity(*id).filter(|entity| compass.holds(from, entity.planar()));
+            *rank = match (&anchor, lies) {
+                (Some(anchor), Some(entity)) => gap(anchor, &entity),
+                (None, Some(_)) => *rank,
+                (_, None) => f64::INFINITY,
+            };
+        }
+        found.retain(|(rank, id)| rank.is_finite() && anchor.as_ref().is_none_or(|anchor| anchor.id != *id));
+        sort(&mut found);
+        Ok(found)
+    }
+
     /// What fits within a distance of a point, the nearest to the agent first.
     fn around(&self, reference: &Reference, point: Point2, reach: f64, purpose: Purpose) -> Vec<Ranked> {
         let mut found: Vec<Ranked> = Vec::new();
@@ -184,4 +212,27 @@ impl View<'_> {
 fn gap(anchor: &EntityRef<'_>, entity: &EntityRef<'_>) -> f64 {
     let to_middle = anchor.info.shape.planar_distance(anchor.pose, &entity.planar());
     to_middle.min(entity.info.shape.planar_distance(entity.pose, &anchor.planar()))
+}
+
+/// A spot on that side of a thing, with room for a body; `None` for relations that name no side.
+pub(super) fn spot_on_side(entity: &EntityRef<'_>, side: Spot, room: f64) -> Option<Point3> {
+    let half = entity.info.shape.size() * 0.5;
+    let relation = match side {
+        Spot::Beside(relation) => relation,
+        Spot::Compass(compass) => {
+            let step = compass.step();
+            let corners = entity.obb().footprint().map(|corner| (corner - entity.planar()).dot(&step));
+            let edge = corners.into_iter().fold(0.0, f64::max);
+            let spot = entity.planar() + step * (edge + room);
+            return Some(Point3::new(spot.x, spot.y, entity.position().z));
+        }
+    };
+    let local = match relation {
+        Relation::InFrontOf => Point3::new(half.x + room, 0.0, 0.0),
+        Relation::Behind => Point3::new(-half.x - room, 0.0, 0.0),
+        Relation::LeftOf => Point3::new(0.0, half.y + room, 0.0),
+        Relation::RightOf => Point3::new(0.0, -half.y - room, 0.0),
+        _ => return None,
+    };
+    Some(entity.pose * local)
 }

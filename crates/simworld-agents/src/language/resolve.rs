@@ -9,6 +9,7 @@ use simworld_core::seam::PlanError;
 
 use super::AmbiguityPolicy;
 use super::clause::{Choice, Count, Measure, Reference, Target};
+use super::compass::Compass;
 use super::paint::Paint;
 
 /// How far one looks first, m; then three times as far, until enough is found.
@@ -30,7 +31,7 @@ pub(super) enum Purpose {
 }
 
 /// A scene as the agent sees it from where it will be at this point of the plan.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct View<'a> {
     pub(super) scene: &'a dyn Scene,
     pub(super) who: EntityId,
@@ -45,6 +46,8 @@ pub(super) struct View<'a> {
     pub(super) it: Option<EntityId>,
     /// Who "him", "her" and "them" stand for.
     pub(super) them: Option<EntityId>,
+    /// What one has given away or put down by then: where it is, it is not taken from again.
+    pub(super) gone: Vec<EntityId>,
     /// What to do if several things fit.
     pub(super) policy: AmbiguityPolicy,
 }
@@ -55,7 +58,11 @@ pub(super) type Ranked = (f64, EntityId);
 impl<'a> View<'a> {
     /// The entity that a phrase means.
     pub(super) fn find(&self, reference: &Reference, purpose: Purpose) -> Result<EntityRef<'a>, PlanError> {
-        let candidates = self.candidates(reference, purpose)?;
+        let mut candidates = self.candidates(reference, purpose)?;
+        if candidates.is_empty() && !self.gone.is_empty() {
+            // Nothing else is left to take up.
+            candidates = Self { gone: Vec::new(), ..self.clone() }.candidates(reference, purpose)?;
+        }
         let Some(best) = candidates.first() else { return Err(self.not_found(reference, purpose)) };
         self.check_choice(reference, &candidates)?;
         let chosen = match self.policy {
@@ -93,7 +100,7 @@ impl<'a> View<'a> {
         let [best, second, ..] = candidates else { return Ok(()) };
         let open = match reference.choice {
             // A superlative without a single best is open under every policy.
-            Choice::Most(..) => same(best.0, second.0),
+            Choice::Most(..) | Choice::Compass(_) => same(best.0, second.0),
             _ if self.policy != AmbiguityPolicy::Ask || reference.indefinite => false,
             Choice::Open => Self::is_plain(reference) && second.0 <= best.0 + EITHER,
             Choice::Nearest => same(best.0, second.0),
@@ -137,6 +144,7 @@ impl<'a> View<'a> {
                 found = found.get(nth.saturating_sub(1) as usize).copied().into_iter().collect();
             }
             Choice::Most(measure, most) => self.rank_by(&mut found, measure, most),
+            Choice::Compass(compass) => self.rank_along(&mut found, compass),
             Choice::Open | Choice::Nearest => {}
         }
         Ok(found)
@@ -155,6 +163,17 @@ impl<'a> View<'a> {
             *rank = if most { -value } else { value };
         }
         found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    }
+
+    /// The farthest in a direction first.
+    fn rank_along(&self, found: &mut [Ranked], compass: Compass) {
+        let step = compass.step();
+        for (rank, id) in found.iter_mut() {
+            let Some(entity) = self.scene.entity(*id) else { continue };
+            // To the centimetre, so that things in a row stand level.
+            *rank = -((entity.planar() - self.origin).dot(&step) * 100.0).round() * 0.01;
+        }
+        sort(found);
     }
 
     /// Without regard to relations, the nearest first.
@@ -183,7 +202,7 @@ impl<'a> View<'a> {
     fn of_class(&self, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
         let (enough, first) = match (reference.choice, reference.count) {
             (_, Count::All) => (usize::MAX, ALL_WITHIN),
-            (Choice::Farthest | Choice::Most(..), _) => (usize::MAX, self.range),
+            (Choice::Farthest | Choice::Most(..) | Choice::Compass(_), _) => (usize::MAX, self.range),
             (Choice::Nth(nth), _) => (nth as usize, FIRST_LOOK),
             (_, Count::Exactly(count)) => (count as usize, FIRST_LOOK),
             _ => (1, FIRST_LOOK),
@@ -239,6 +258,7 @@ impl<'a> View<'a> {
             && (!traits.parked || entity.info.attributes.get("parked") == Some(&true.into()))
             && (!traits.free || self.is_free(entity, Purpose::Seat) && self.is_free(entity, Purpose::Item))
             && self.is_free(entity, purpose)
+            && !(purpose == Purpose::Item && self.gone.contains(&entity.id))
     }
 
     pub(super) fn distance(&self, entity: &EntityRef<'_>) -> f64 {

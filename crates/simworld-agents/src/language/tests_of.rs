@@ -17,9 +17,6 @@ pub(super) const NEXT_TO_ME: f64 = 3.0;
 /// How near "is there a chair nearby" means, m.
 pub(super) const NEARBY: f64 = 30.0;
 
-/// What makes a condition of the weather, and whether it is to hold.
-type Weather = (fn() -> Test, bool);
-
 const ASPECTS: &[(&[&str], Aspect)] = &[
     (&["green", "go", "walk"], Aspect::Green),
     (&["yellow", "amber", "orange"], Aspect::Yellow),
@@ -98,9 +95,34 @@ const ARRIVES: &[&str] = &[
     "shows up",
     "comes near you",
     "arrive",
+    "come",
+    "turn up",
+    "show up",
+    "come back",
+    "come near",
+    "returns",
+    "return",
+    "is back",
+    "walks up",
+    "comes up to you",
+    "gets to you",
+    "reach you",
+    "comes over",
+    "has come",
+    "joins you",
 ];
-const APPEARS: &[&str] =
-    &["comes into view", "appears", "comes into sight", "becomes visible", "is visible", "is in sight"];
+const APPEARS: &[&str] = &[
+    "comes into view",
+    "come into view",
+    "appear",
+    "can be seen",
+    "is in view",
+    "appears",
+    "comes into sight",
+    "becomes visible",
+    "is visible",
+    "is in sight",
+];
 const BECOMES_FREE: &[&str] = &["becomes free", "gets free", "becomes available", "frees up"];
 const OPENS: &[(&[&str], bool)] = &[(&["opens"], true), (&["closes", "shuts"], false)];
 
@@ -155,77 +177,6 @@ impl Parser<'_> {
         ))
     }
 
-    fn weather(&mut self) -> Option<Test> {
-        const RULES: &[(&[&str], Weather)] = &[
-            (
-                &[
-                    "it is raining",
-                    "its raining",
-                    "it rains",
-                    "it starts raining",
-                    "it starts to rain",
-                    "there is rain",
-                    "the rain starts",
-                    "it begins to rain",
-                ],
-                (|| Test::Raining, true),
-            ),
-            (
-                &[
-                    "it is not raining",
-                    "it stops raining",
-                    "the rain stops",
-                    "it isnt raining",
-                    "it is dry",
-                    "its dry",
-                    "its not raining",
-                    "it has stopped raining",
-                    "it doesnt rain",
-                ],
-                (|| Test::Raining, false),
-            ),
-            (
-                &["it is snowing", "its snowing", "it snows", "it starts snowing", "it starts to snow"],
-                (|| Test::Snowing, true),
-            ),
-            (&["it is not snowing", "it stops snowing", "it isnt snowing"], (|| Test::Snowing, false)),
-            (
-                &[
-                    "it is dark",
-                    "its dark",
-                    "it gets dark",
-                    "it is night",
-                    "night falls",
-                    "its night",
-                    "the sun sets",
-                    "it becomes dark",
-                    "the sun goes down",
-                    "the sun is down",
-                ],
-                (|| Test::Dark, true),
-            ),
-            (
-                &[
-                    "it is light",
-                    "it is day",
-                    "it is daytime",
-                    "the sun rises",
-                    "its day",
-                    "it is not dark",
-                    "it isnt dark",
-                    "the sun is up",
-                    "the sun comes up",
-                    "it gets light",
-                    "it is bright",
-                ],
-                (|| Test::Dark, false),
-            ),
-        ];
-        let ((make, holds), count): (Weather, usize) = longest(self.rest(), RULES)?;
-        self.at += count;
-        Some(if holds { make() } else { Test::Not(Box::new(make())) })
-    }
-
     fn light(&mut self) -> Option<Test> {
         if !self.eat_any(LIGHTS) {
             return None;
@@ -243,6 +194,17 @@ impl Parser<'_> {
     fn seen(&mut self) -> Result<Option<Test>, PlanError> {
         const SEE: &[&str] = &[
             "you see",
+            "you have spotted",
+            "youve seen",
+            "youve spotted",
+            "you catch a glimpse of",
+            "you get to see",
+            "you should see",
+            "you happen to see",
+            "you make out",
+            "you can make out",
+            "you can spot",
+            "you sight",
             "you can see",
             "you spot",
             "you notice",
@@ -274,8 +236,16 @@ impl Parser<'_> {
 
     fn there_is(&mut self) -> Result<Option<Test>, PlanError> {
         const IS: &[&str] = &["there is", "theres", "there are", "you find that there is"];
-        const NOT: &[&str] =
-            &["there is no", "theres no", "there are no", "there isnt", "there arent", "there is not"];
+        const NOT: &[&str] = &[
+            "there is no",
+            "theres no",
+            "there are no",
+            "there isnt",
+            "there arent",
+            "there is not",
+            "there are not",
+            "there is not a",
+        ];
         let not = self.eat_any(NOT);
         if !not && !self.eat_any(IS) {
             return Ok(None);
@@ -409,13 +379,26 @@ impl Parser<'_> {
         if let Some(test) = self.light_of(&what) {
             return Ok(Some(test));
         }
-        if !self.eat_any(&["is", "are", "gets", "stands", "becomes"]) {
+        if !self.eat_any(&[
+            "is",
+            "are",
+            "gets",
+            "stands",
+            "becomes",
+            "be",
+            "should be",
+            "happens to be",
+            "has become",
+        ]) {
             return Ok(None);
         }
+        // "Is not free" is a state of its own, "is not near you" is not.
+        let negated =
+            longest(self.rest(), STATES).is_none() && self.eat_any(&["not", "no longer", "not yet"]);
         let Some((state, count)) = longest(self.rest(), STATES) else { return Ok(None) };
         self.at += count;
         let not = |test: Test| Test::Not(Box::new(test));
-        Ok(Some(match state {
+        let test = match state {
             State::Free => not(Test::InUse(what)),
             State::InUse => Test::InUse(what),
             State::Open => Test::Open(what),
@@ -423,7 +406,8 @@ impl Parser<'_> {
             State::Near => Test::Near { what, within: NEAR_ME },
             State::Next => Test::Near { what, within: NEXT_TO_ME },
             State::Seen => Test::Sees(what),
-        }))
+        };
+        Ok(Some(if negated { not(test) } else { test }))
     }
 
     /// "The light at the bus stop is green".

@@ -1,6 +1,7 @@
 //! Orders to a plan: taking, giving, sitting, riding, doors and shops.
 
-use simworld_core::action::Action;
+use simworld_core::action::{Action, ActionKind};
+use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
 use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
 use simworld_core::value::Value;
@@ -41,6 +42,7 @@ impl<'a> Draft<'a> {
     }
 
     fn take(&mut self, what: &Reference) -> Result<(), PlanError> {
+        self.can(ActionKind::PickUp)?;
         let item = self.find(what, Purpose::Item)?;
         if self.held == Some(Load::Thing(item.id)) || self.carried == Some(item.id) {
             return Ok(());
@@ -77,6 +79,10 @@ impl<'a> Draft<'a> {
         at: Option<&Reference>,
         manner: Manner,
     ) -> Result<(), PlanError> {
+        let is_there = at.is_none_or(|at| matches!(at.target, Target::There | Target::Here));
+        if is_there && self.is_done(what, None) {
+            return Ok(());
+        }
         // What one has in hand is what "it" is about here, whatever was spoken of since.
         let in_hand = self.held.is_some() || self.carried.is_some();
         if let Some(what) = what.filter(|what| !(in_hand && what.target == Target::It)) {
@@ -106,6 +112,7 @@ impl<'a> Draft<'a> {
         }
         let receiver = self.beside.and_then(|id| self.view.scene.entity(id));
         if let Some(receiver) = receiver.filter(|receiver| self.held.is_some() && takes(receiver)) {
+            self.let_out(self.held, Some(receiver.id));
             self.held = None;
             return self.act(Action::Give { to: receiver.id });
         }
@@ -118,6 +125,9 @@ impl<'a> Draft<'a> {
         if !takes(&receiver) {
             let near = format!("a {} takes nothing: {}", receiver.kind, self.view.surroundings());
             return Err(PlanError::NotFound { wanted: format!("{:?} to give things to", to.text), near });
+        }
+        if self.is_done(what, Some(receiver.id)) {
+            return Ok(());
         }
         let to = Reference::to(Target::Id(receiver.id), to.text.clone());
         if let Some(what) = what.filter(|what| !self.is_in_hand(what)) {
@@ -133,14 +143,36 @@ impl<'a> Draft<'a> {
             || self.held.is_none() && self.carried.is_some();
         if heavy {
             self.view.it = self.carried.take();
+            self.let_out(self.view.it.map(Load::Thing), None);
             return self.act(Action::PutDownHeavy);
         }
-        match self.held.take() {
+        let held = self.held.take();
+        self.let_out(held, None);
+        match held {
             Some(Load::Thing(item)) => self.view.it = Some(item),
             Some(Load::Bought) => {}
             None => return Err(self.nothing_in_hand("thing")),
         }
         self.act(Action::DropOff)
+    }
+
+    /// Remembers what left the hands: it stands elsewhere by then than the scene shows.
+    fn let_out(&mut self, load: Option<Load>, to: Option<EntityId>) {
+        if let Some(Load::Thing(item)) = load {
+            self.view.gone.push(item);
+            self.delivered = Some((item, to));
+        }
+    }
+
+    /// Whether the words say again what was done by the last order: "carry it there and leave it there".
+    fn is_done(&self, what: Option<&Reference>, to: Option<EntityId>) -> bool {
+        let Some((item, receiver)) = self.delivered else { return false };
+        let same = what.is_none_or(|what| what.target == Target::It);
+        self.held.is_none()
+            && self.carried.is_none()
+            && same
+            && self.view.it == Some(item)
+            && (to.is_none() || to == receiver)
     }
 
     fn nothing_in_hand(&self, wanted: &str) -> PlanError {
@@ -160,6 +192,7 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn sit(&mut self, on: Option<&Reference>) -> Result<(), PlanError> {
+        self.can(ActionKind::SitDown)?;
         let seat = match on {
             Some(reference) => self.find(reference, Purpose::Seat)?,
             None => self.any_seat()?,
@@ -184,6 +217,7 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn board(&mut self, what: &Reference) -> Result<(), PlanError> {
+        self.can(ActionKind::EnterCar)?;
         let vehicle = self.find(what, Purpose::Any)?;
         let action = match vehicle.kind {
             EntityKind::Scooter => Action::RideScooter { scooter: vehicle.id },
@@ -207,14 +241,15 @@ impl<'a> Draft<'a> {
     }
 
     /// Goes by what one is in or on, or else by the nearest car.
-    pub(super) fn drive(&mut self, to: &Reference) -> Result<(), PlanError> {
-        if !matches!(self.posture, Posture::Aboard | Posture::Riding) {
+    pub(super) fn drive(&mut self, to: &Reference, pace: Pace) -> Result<(), PlanError> {
+        if !self.drives() && !matches!(self.posture, Posture::Aboard | Posture::Riding) {
             self.board(&Reference { indefinite: true, ..Reference::nearest(class("car")) })?;
         }
-        self.go(to, None, Pace::Usual, None)
+        self.go(to, None, pace, None)
     }
 
     pub(super) fn door(&mut self, what: Option<&Reference>, open: bool) -> Result<(), PlanError> {
+        self.can(ActionKind::OpenDoor)?;
         let nearest = Reference { indefinite: true, ..Reference::nearest(class("door")) };
         let door = self.find(what.unwrap_or(&nearest), Purpose::Any)?;
         let is_door =
@@ -234,6 +269,7 @@ impl<'a> Draft<'a> {
             matches!(place.info.attributes.get(SELLS), Some(Value::Text(sells))
                 if sells.split(',').any(|sold| sold.trim() == goods))
         };
+        self.can(ActionKind::Buy)?;
         let not_sold = |near: String| PlanError::NotFound { wanted: format!("{goods} to buy"), near };
         let place = if let Some(at) = at {
             self.find(at, Purpose::Any)?
@@ -296,6 +332,7 @@ impl<'a> Draft<'a> {
             Test::Raining => Condition::Raining,
             Test::Snowing => Condition::Snowing,
             Test::Dark => Condition::Dark,
+            Test::Never => Condition::Any(Vec::new()),
             Test::Elapsed(seconds) => Condition::Elapsed(*seconds),
             #[cfg(feature = "thought")]
             Test::Stated(condition) => condition.clone(),

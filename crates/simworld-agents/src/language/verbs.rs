@@ -1,4 +1,10 @@
-//! What one can be told to do, in many words, and the words around it.
+//! What one can be told to do, in many words.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use super::lexer::{Lexeme, Token};
+use super::lexicon::fits;
 
 /// What one can be told to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,360 +45,104 @@ pub(super) enum Verb {
     Faster,
     Slower,
     SetSpeed,
+    Park,
+    Pass,
+    Circle,
 }
 
-/// Verbs with their words; the longest that fits is taken.
-pub(super) const VERBS: &[(&[&str], Verb)] = &[
-    (
-        &[
-            "go",
-            "got to",
-            "goto",
-            "see",
-            "go see",
-            "go and see",
-            "walk",
-            "head",
-            "navigate",
-            "move",
-            "come",
-            "travel",
-            "proceed",
-            "get to",
-            "get back to",
-            "make your way",
-            "go back",
-            "come back",
-            "return",
-            "find",
-            "approach",
-            "visit",
-            "reach",
-            "inspect",
-            "meet",
-            "march",
-            "wander",
-            "locate",
-            "get over to",
-            "get yourself to",
-            "advance",
-            "pay a visit to",
-            "check out",
-            "look for",
-            "search for",
-            "seek",
-            "head for",
-            "make for",
-            "stand next to",
-            "stand by",
-            "stand near",
-            "stand beside",
-            "stand at",
-            "stand behind",
-            "stand in front of",
-            "find your way",
-            "get close to",
-            "get near",
-            "get nearer to",
-        ],
-        Verb::Go,
-    ),
-    (&["run", "hurry", "rush", "sprint", "jog", "dash", "race"], Verb::Run),
-    (&["stroll", "amble", "saunter"], Verb::Stroll),
-    (
-        &[
-            "follow",
-            "pursue",
-            "tail",
-            "chase",
-            "go after",
-            "walk after",
-            "run after",
-            "walk behind",
-            "accompany",
-            "shadow",
-            "trail",
-        ],
-        Verb::Follow,
-    ),
-    (&["cross", "cross over", "walk across", "go across"], Verb::Cross),
-    (
-        &[
-            "pick up",
-            "pick",
-            "take",
-            "grab",
-            "fetch",
-            "collect",
-            "get",
-            "lift",
-            "carry",
-            "lift up",
-            "take hold of",
-            "get hold of",
-            "retrieve",
-            "grasp",
-            "seize",
-            "bring me",
-        ],
-        Verb::Take,
-    ),
-    (&["deliver", "bring", "transport"], Verb::Deliver),
-    (&["give", "hand", "hand over", "pass", "offer"], Verb::Give),
-    (&["drop off", "drop", "leave", "release", "let go of", "let go"], Verb::Drop),
-    (&["put down", "set down", "put", "place", "lay down", "lay"], Verb::PutDown),
-    (&["buy", "purchase", "order", "buy yourself", "get yourself", "pay for"], Verb::Buy),
-    (
-        &[
-            "sit down",
-            "sit",
-            "take a seat",
-            "have a seat",
-            "be seated",
-            "seat yourself",
-            "take a rest",
-            "grab a seat",
-        ],
-        Verb::Sit,
-    ),
-    (&["stand up", "stand", "get up", "rise", "get to your feet", "get on your feet"], Verb::StandUp),
-    (
-        &[
-            "stop",
-            "halt",
-            "freeze",
-            "stand still",
-            "stay",
-            "stay here",
-            "stay there",
-            "stop there",
-            "remain",
-            "stay put",
-            "stay where you are",
-            "remain where you are",
-            "dont move",
-            "hold still",
-            "remain here",
-            "remain there",
-        ],
-        Verb::Stop,
-    ),
-    (&["wait", "pause", "rest", "hang on", "hold on", "stand by for", "wait around"], Verb::Wait),
-    (
-        &[
-            "ride",
-            "get on",
-            "get onto",
-            "get in",
-            "get into",
-            "enter",
-            "board",
-            "mount",
-            "hop on",
-            "hop in",
-            "climb into",
-            "climb in",
-            "jump into",
-            "jump in",
-            "jump on",
-            "hop into",
-            "hop onto",
-            "climb on",
-            "step into",
-            "get inside",
-            "go into",
-            "go inside",
-            "walk into",
-        ],
-        Verb::Board,
-    ),
-    (&["drive"], Verb::Drive),
-    (
-        &[
-            "get off",
-            "get out",
-            "get out of",
-            "exit",
-            "dismount",
-            "alight",
-            "hop off",
-            "hop out",
-            "step out of",
-            "climb out",
-            "climb out of",
-            "jump out",
-            "leave the car",
-            "leave the vehicle",
-            "step off",
-            "get down from",
-            "get down",
-            "climb off",
-        ],
-        Verb::Alight,
-    ),
-    (&["step"], Verb::Step),
-    (&["reverse", "back up"], Verb::Reverse),
-    (&["turn", "rotate", "pivot", "spin"], Verb::Turn),
-    (
-        &[
-            "look at",
-            "look towards",
-            "look",
-            "gaze at",
-            "stare at",
-            "watch",
-            "look over at",
-            "glance at",
-            "observe",
-            "look toward",
-            "have a look at",
-            "take a look at",
-            "gaze",
-        ],
-        Verb::Look,
-    ),
-    (
-        &[
-            "face",
-            "turn towards",
-            "turn toward",
-            "turn to face",
-            "turn to",
-            "rotate towards",
-            "turn around to face",
-            "keep an eye on",
-        ],
-        Verb::Face,
-    ),
-    (
-        &[
-            "point at",
-            "point to",
-            "point towards",
-            "point",
-            "point out",
-            "indicate",
-            "gesture at",
-            "point toward",
-        ],
-        Verb::Point,
-    ),
-    (
-        &[
-            "wave",
-            "wave at",
-            "wave to",
-            "wave your hand at",
-            "wave your hand to",
-            "wave hello to",
-            "wave goodbye to",
-        ],
-        Verb::Wave,
-    ),
-    (
-        &[
-            "talk to",
-            "talk with",
-            "speak to",
-            "speak with",
-            "chat with",
-            "chat to",
-            "have a chat with",
-            "converse with",
-            "have a conversation with",
-            "have a word with",
-            "address",
-            "discuss with",
-            "talk",
-            "speak",
-            "chat",
-            "strike up a conversation with",
-        ],
-        Verb::Talk,
-    ),
-    (&["greet", "welcome", "say hello to", "say hi to", "salute"], Verb::Greet),
-    (&["say", "shout", "whisper"], Verb::Say),
-    (&["tell", "ask", "inform"], Verb::Tell),
-    (
-        &[
-            "argue with",
-            "quarrel with",
-            "disagree with",
-            "have an argument with",
-            "argue",
-            "fight with",
-            "quarrel",
-            "row with",
-        ],
-        Verb::Argue,
-    ),
-    (&["open", "open up", "push open", "pull open"], Verb::Open),
-    (&["close", "shut"], Verb::Close),
-    (
-        &[
-            "take a photo",
-            "take a picture",
-            "take photo",
-            "photograph",
-            "take a photograph",
-            "snap a photo",
-            "snap a picture",
-            "take a snapshot",
-            "shoot a photo",
-            "take photos",
-            "take pictures",
-            "snap",
-            "take a pic",
-            "take a selfie",
-            "capture a photo",
-            "take another photo",
-        ],
-        Verb::Photo,
-    ),
-    (
-        &[
-            "speed up",
-            "go faster",
-            "walk faster",
-            "move faster",
-            "faster",
-            "accelerate",
-            "hurry up",
-            "pick up the pace",
-        ],
-        Verb::Faster,
-    ),
-    (
-        &[
-            "slow down",
-            "go slower",
-            "walk slower",
-            "move slower",
-            "slower",
-            "decelerate",
-            "walk more slowly",
-            "go more slowly",
-            "move more slowly",
-        ],
-        Verb::Slower,
-    ),
-    (
-        &[
-            "set your speed to",
-            "change your speed to",
-            "set the speed to",
-            "change speed to",
-            "change the speed to",
-            "set speed to",
-            "adjust your speed to",
-            "walk at",
-            "move at",
-            "go at",
-            "run at",
-        ],
-        Verb::SetSpeed,
-    ),
-];
+impl Verb {
+    const ALL: &'static [Self] = &[
+        Self::Go,
+        Self::Run,
+        Self::Stroll,
+        Self::Follow,
+        Self::Cross,
+        Self::Take,
+        Self::Deliver,
+        Self::Give,
+        Self::Drop,
+        Self::PutDown,
+        Self::Buy,
+        Self::Sit,
+        Self::StandUp,
+        Self::Stop,
+        Self::Wait,
+        Self::Board,
+        Self::Drive,
+        Self::Alight,
+        Self::Step,
+        Self::Reverse,
+        Self::Turn,
+        Self::Look,
+        Self::Face,
+        Self::Point,
+        Self::Wave,
+        Self::Talk,
+        Self::Greet,
+        Self::Say,
+        Self::Tell,
+        Self::Argue,
+        Self::Open,
+        Self::Close,
+        Self::Photo,
+        Self::Faster,
+        Self::Slower,
+        Self::SetSpeed,
+        Self::Park,
+        Self::Pass,
+        Self::Circle,
+    ];
+}
+
+/// Each verb with its phrases, a line each: `Go = go, walk, ...`.
+const TABLE: &str = include_str!("verbs.txt");
+
+/// No verb has more words.
+const LONGEST: usize = 8;
+
+/// The phrases of all verbs by their first word, so that few are looked at.
+static VERBS: LazyLock<BTreeMap<&'static str, Vec<(&'static str, Verb)>>> = LazyLock::new(|| {
+    let mut verbs: BTreeMap<&str, Vec<(&str, Verb)>> = BTreeMap::new();
+    for (verb, phrase) in phrases() {
+        verbs.entry(first_word(phrase)).or_default().push((phrase, verb));
+    }
+    verbs
+});
+
+/// Every phrase of every verb.
+pub(super) fn phrases() -> impl Iterator<Item = (Verb, &'static str)> {
+    TABLE.lines().filter_map(|line| line.split_once(" = ")).flat_map(|(name, phrases)| {
+        let verb = Verb::ALL.iter().copied().find(|verb| format!("{verb:?}") == name);
+        phrases.split(", ").filter_map(move |phrase| Some((verb?, phrase)))
+    })
+}
+
+fn first_word(phrase: &str) -> &str {
+    phrase.split_once(' ').map_or(phrase, |(first, _)| first)
+}
+
+/// The verb with the most words at the start of `lexemes`, with their number; its first word may be in any form:
+/// "sitting down".
+pub(super) fn longest_verb(lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
+    let first = lexemes.first()?;
+    let Token::Word(said) = &first.token else { return None };
+    let plain = longest_from(said, lexemes);
+    let inflected = first.lemma.as_deref().and_then(|lemma| longest_from(lemma, lexemes));
+    match (plain, inflected) {
+        (Some(plain), Some(inflected)) if inflected.1 <= plain.1 => Some(plain),
+        (plain, inflected) => inflected.or(plain),
+    }
+}
+
+/// As [`longest_verb`], with another first word than the one that is said.
+fn longest_from(first: &str, lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
+    let after = &lexemes[1..lexemes.len().min(LONGEST)];
+    let hits = VERBS.get(first)?.iter().filter_map(|(phrase, verb)| match phrase.split_once(' ') {
+        Some((_, rest)) => fits(after, rest).map(|count| (*verb, count + 1)),
+        None => Some((*verb, 1)),
+    });
+    hits.max_by_key(|(_, count)| *count)
+}
 
 /// The base form of an inflected verb, if the word is one: "sitting", "walked", "goes".
 pub(super) fn base_form(word: &str) -> Option<String> {
@@ -422,14 +172,15 @@ pub(super) fn base_form(word: &str) -> Option<String> {
         ("found", "find"),
         ("came", "come"),
         ("made", "make"),
+        ("kept", "keep"),
+        ("led", "lead"),
+        ("held", "hold"),
         ("lying", "lie"),
     ];
     if word == "lets" {
         return None; // "let us"
     }
-    let is_verb = |stem: &str| {
-        VERBS.iter().any(|(phrases, _)| phrases.iter().any(|phrase| phrase.split(' ').next() == Some(stem)))
-    };
+    let is_verb = |stem: &str| VERBS.contains_key(stem);
     if let Some((_, base)) = IRREGULAR.iter().find(|(form, _)| *form == word) {
         return (*base != word).then(|| (*base).to_owned());
     }
@@ -467,5 +218,17 @@ mod tests {
         }
         assert_eq!(base_form("bench"), None);
         assert_eq!(base_form("thing"), None);
+    }
+
+    #[test]
+    fn every_line_is_of_a_verb_and_no_phrase_of_two() {
+        assert_eq!(TABLE.lines().count(), Verb::ALL.len());
+        let mut all: Vec<&str> = phrases().map(|(_, phrase)| phrase).collect();
+        assert!(all.iter().all(|phrase| phrase.split(' ').count() <= LONGEST));
+        for verb in Verb::ALL {
+            assert!(phrases().any(|(other, _)| other == *verb), "{verb:?} has no words");
+        }
+        all.sort_unstable();
+        assert!(all.windows(2).all(|pair| pair[0] != pair[1]), "{all:?}");
     }
 }

@@ -64,7 +64,8 @@ impl City {
 
     /// Who is spoken to: the city's dog in what is said to dogs, else "me".
     pub(crate) fn spoken_to(&self, family: &str) -> EntityId {
-        let is_dog = |id: &&EntityId| self.world.entity(**id).is_some_and(|thing| thing.kind == EntityKind::Dog);
+        let is_dog =
+            |id: &&EntityId| self.world.entity(**id).is_some_and(|thing| thing.kind == EntityKind::Dog);
         let dog = self.ids.values().find(is_dog).filter(|_| family == "dog");
         dog.copied().unwrap_or(self.me)
     }

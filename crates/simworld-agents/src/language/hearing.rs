@@ -1,0 +1,175 @@
+//! What is heard before it is read: sounds of thinking, contractions and forms of address are put aside.
+
+use super::lexer::{Lexeme, Token, lex};
+use super::lexicon::{category, longest_phrase};
+use super::politeness::HESITATIONS;
+use super::verbs::longest_verb;
+
+/// Contractions of a verb and "not".
+const NEGATED: &[(&str, &str)] = &[("isnt", "is"), ("arent", "are"), ("wasnt", "was"), ("aint", "is")];
+/// Words with "'s" that stand in the tables as they are.
+const WHOLE: &[&str] =
+    &["its", "thats", "lets", "theres", "whos", "hes", "shes", "whats", "heres", "wheres", "hows", "todays"];
+/// What somebody or something may be: before it "'s" is "is", and not whose.
+const STATES: &[&str] = &[
+    "here",
+    "there",
+    "green",
+    "red",
+    "yellow",
+    "amber",
+    "free",
+    "taken",
+    "occupied",
+    "empty",
+    "open",
+    "closed",
+    "shut",
+    "near",
+    "nearby",
+    "close",
+    "next",
+    "visible",
+    "in sight",
+    "in view",
+    "in use",
+    "available",
+    "busy",
+    "locked",
+    "unlocked",
+    "not",
+    "arrived",
+    "back",
+    "sitting",
+    "standing",
+    "gone",
+];
+
+/// The tokens of what is said to somebody of that name.
+pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
+    let mut lexemes = lex_speech(text);
+    if let Some(name) = name {
+        drop_address(&mut lexemes, &lex(name));
+    }
+    lexemes
+}
+
+/// As [`lex`], without the sounds that people make while they think, and with contractions in full.
+pub(super) fn lex_speech(text: &str) -> Vec<Lexeme> {
+    let mut lexemes = lex(text);
+    while let Some(at) = (0..lexemes.len()).find(|at| is_sound(&lexemes, *at)) {
+        lexemes.remove(at);
+        let (before, after) =
+            (at.checked_sub(1).is_some_and(|at| is_comma(&lexemes, at)), is_comma(&lexemes, at));
+        if after {
+            lexemes.remove(at);
+        }
+        if before {
+            lexemes.remove(at - 1);
+        }
+    }
+    in_full(&lexemes, text)
+}
+
+fn is_comma(lexemes: &[Lexeme], at: usize) -> bool {
+    matches!(lexemes.get(at), Some(Lexeme { token: Token::Comma, .. }))
+}
+
+/// Sounds, and "like" or "you know" between commas.
+fn is_sound(lexemes: &[Lexeme], at: usize) -> bool {
+    let Token::Word(word) = &lexemes[at].token else { return false };
+    // "Ummm" is one however long it is drawn.
+    let mut short = word.clone();
+    short.dedup_letters();
+    let between = at > 0 && is_comma(lexemes, at - 1) && is_comma(lexemes, at + 1);
+    HESITATIONS.contains(&short.as_str()) || HESITATIONS.contains(&word.as_str()) || between && word == "like"
+}
+
+trait Drawn {
+    /// Makes one letter of several that are the same.
+    fn dedup_letters(&mut self);
+}
+
+impl Drawn for String {
+    fn dedup_letters(&mut self) {
+        let mut last = None;
+        self.retain(|letter| last.replace(letter) != Some(letter));
+    }
+}
+
+/// "Isn't" is "is not", and "Ben's here" is "Ben is here".
+fn in_full(lexemes: &[Lexeme], text: &str) -> Vec<Lexeme> {
+    let mut full = Vec::with_capacity(lexemes.len());
+    for (at, lexeme) in lexemes.iter().enumerate() {
+        let Token::Word(word) = &lexeme.token else {
+            full.push(lexeme.clone());
+            continue;
+        };
+        let parts = if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
+            Some(((*verb).to_owned(), "not"))
+        } else {
+            owner(word, lexeme, text).filter(|_| is_state(&lexemes[at + 1..])).map(|owner| (owner, "is"))
+        };
+        match parts {
+            Some((one, other)) => full.extend([one, other.to_owned()].map(|word| Lexeme {
+                token: Token::Word(word),
+                lemma: None,
+                ..lexeme.clone()
+            })),
+            None => full.push(lexeme.clone()),
+        }
+    }
+    full
+}
+
+/// The word before "'s".
+fn owner(word: &str, lexeme: &Lexeme, text: &str) -> Option<String> {
+    let written = &text[lexeme.start..lexeme.end];
+    let is_contracted = written.ends_with("'s") || written.ends_with("’s");
+    (is_contracted && !WHOLE.contains(&word)).then(|| word[..word.len() - 1].to_owned())
+}
+
+fn is_state(rest: &[Lexeme]) -> bool {
+    longest_phrase(rest, STATES).is_some_and(|count| category(&rest[count..]).is_none())
+}
+
+/// Takes the listener's own name out where it stands apart: "Rex, come here", "stay, Rex".
+fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
+    let mut at = 0;
+    while !name.is_empty() && at < lexemes.len() {
+        let end = at + name.len();
+        let same =
+            lexemes.get(at..end).is_some_and(|said| said.iter().zip(name).all(|(a, b)| a.token == b.token));
+        let is_mark = |at: usize| matches!(lexemes[at].token, Token::Comma | Token::Break);
+        let begins = at == 0 || is_mark(at - 1);
+        let ends = end >= lexemes.len() || is_mark(end) || at == 0 && longest_verb(&lexemes[end..]).is_some();
+        if same && begins && ends && lexemes.len() > name.len() {
+            lexemes.drain(at..end);
+        } else {
+            at += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str, name: Option<&str>) -> String {
+        let word = |lexeme: &Lexeme| match &lexeme.token {
+            Token::Word(word) => word.clone(),
+            Token::Comma => ",".to_owned(),
+            other => format!("{other:?}"),
+        };
+        hear(text, name).iter().map(word).collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn what_means_nothing_is_put_aside() {
+        assert_eq!(words("ummm, could you, like, sit", None), "could you sit");
+        assert_eq!(words("if Ben's here and it isn't dark", None), "if ben is here and it is not dark");
+        assert_eq!(words("go to the library's red door", None), "go to the librarys red door");
+        assert_eq!(words("Rex, follow Ben", Some("Rex")), ", follow ben");
+        assert_eq!(words("follow Rex", Some("Rex")), "follow rex");
+    }
+}

@@ -1,0 +1,181 @@
+//! What follows an order and says how often, how long, when and on what condition.
+
+use simworld_core::action::StepDirection;
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Pace, Test};
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{longest, longest_phrase};
+use super::numbers;
+use super::parser::{IF, Parser};
+use super::requests;
+
+impl Parser<'_> {
+    /// What follows an order and says how often, how long or when.
+    pub(super) fn tails(&mut self, clauses: &mut Vec<Clause>, group: usize) -> Result<(), PlanError> {
+        loop {
+            let start = self.at;
+            self.eat_any(&["again and again", "over and over", "over and over again", "repeatedly"]);
+            self.skip_fillers();
+            self.at += requests::coda(self.rest());
+            let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+            let goes_on = || {
+                const AFTER_COMMA: &[&str] = &[
+                    "until",
+                    "till",
+                    "unless",
+                    "but first",
+                    "but before that",
+                    "but only if",
+                    "only if",
+                    "if and only if",
+                    "but not if",
+                    "but not before",
+                ];
+                longest_phrase(&self.rest()[1..], AFTER_COMMA).is_some()
+            };
+            if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
+                self.at += usize::from(comma) + count;
+                repeat(clauses, group, times, comma);
+            } else if comma && !goes_on() || !self.tail(clauses, comma)? {
+                self.at = start;
+                return Ok(());
+            }
+        }
+    }
+
+    fn tail(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {
+        self.at += usize::from(comma);
+        let Some(last) = clauses.last() else { return Ok(false) };
+        if let Some((seconds, count)) = self.peek_interval() {
+            self.at += count;
+            let last = clauses.pop().into_iter().collect();
+            clauses.push(over_and_over(last, seconds));
+        } else if self.eat_any(&["until", "till", "up until"]) {
+            let test = self.test()?;
+            if let Some(Clause::Until { test: Test::Never, body }) = clauses.last() {
+                let body = body.clone();
+                clauses.pop();
+                clauses.push(Clause::Until { test, body });
+                return Ok(true);
+            }
+            let body = match (clauses.pop(), &test) {
+                // Whoever walks until he is somewhere goes there.
+                (Some(Clause::Forward), Test::Near { what, .. }) => {
+                    let (to, pace) = (what.clone(), Pace::Usual);
+                    vec![Clause::Go { to, side: None, pace, within: None }]
+                }
+                (last, _) => body_of(last),
+            };
+            clauses.push(Clause::Until { test, body });
+        } else if self.eat_any(&["while", "as long as"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            let body = body_of(clauses.pop());
+            clauses.push(Clause::Until { test, body });
+        } else if self.eat_any(IF) {
+            let test = self.test()?;
+            let then = clauses.pop().into_iter().collect();
+            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
+        } else if self.eat_any(&["unless", "but not if"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            let then = clauses.pop().into_iter().collect();
+            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
+        } else if self.eat_any(&["when", "once", "as soon as"]) {
+            let test = self.test()?;
+            clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
+        } else if self.eat_any(&["before"]) {
+            clauses.extend(self.order()?);
+        } else if self.eat_any(&[
+            "after",
+            "but first",
+            "but before that",
+            "but first of all",
+            "but beforehand",
+        ]) {
+            let earlier = self.order()?;
+            let at = clauses.len() - 1;
+            clauses.splice(at..at, earlier);
+        } else if let Some((seconds, count)) = self.peek_for() {
+            // "Towards the museum for ten seconds" is on the way; "to the museum for ten seconds" is there.
+            let earlier = &self.lexemes[self.at.saturating_sub(6)..self.at];
+            let towards = earlier
+                .iter()
+                .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
+            let rests = !towards
+                && matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
+            self.at += count;
+            if let Some(Clause::Until { test: test @ Test::Never, .. }) = clauses.last_mut() {
+                *test = Test::Elapsed(seconds);
+            } else if rests && clauses.last_mut().is_some_and(|last| last.plural().is_some()) {
+                let body = clauses.pop().map(Box::new);
+                clauses.extend(body.map(|body| Clause::Stay { body, seconds }));
+            } else if rests {
+                clauses.push(Clause::Wait { seconds });
+            } else {
+                let body = body_of(clauses.pop());
+                clauses.push(Clause::Until { test: Test::Elapsed(seconds), body });
+            }
+        } else {
+            return Ok(false);
+        }
+        Ok(true)
+    }
+
+    /// "For ten seconds".
+    fn peek_for(&self) -> Option<(f64, usize)> {
+        let words = longest_phrase(self.rest(), &["for", "for about", "during", "for at least"])?;
+        let (seconds, count) = numbers::duration(&self.rest()[words..])?;
+        (seconds > 0.0 && seconds <= super::orders::LONGEST_WAIT).then_some((seconds, words + count))
+    }
+
+    /// "Every five seconds", "once a minute".
+    pub(super) fn peek_interval(&self) -> Option<(f64, usize)> {
+        const UNITS: &[(&[&str], f64)] =
+            &[(&["second"], 1.0), (&["minute"], 60.0), (&["hour"], 3600.0), (&["half minute"], 30.0)];
+        const EVERY: &[&str] =
+            &["every", "once every", "each", "once each", "at intervals of", "once a", "once an", "once per"];
+        let words = longest_phrase(self.rest(), EVERY)?;
+        let after = &self.rest()[words..];
+        let (seconds, count) = match longest(after, UNITS) {
+            Some(unit) => unit,
+            // "Every bit" is no time, and a bare number is no interval.
+            None => numbers::duration(after).filter(|(_, count)| *count > 1)?,
+        };
+        (seconds > 0.0 && seconds <= super::orders::LONGEST_WAIT).then_some((seconds, words + count))
+    }
+}
+
+/// The last order, or all of the group if the last one is not a thing that one does twice in a row.
+fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
+    let last_alone = !all && clauses.last().is_some_and(Clause::is_repeatable);
+    let from = if last_alone { clauses.len() - 1 } else { group.min(clauses.len()) };
+    let body: Vec<Clause> = clauses.drain(from..).collect();
+    match &body[..] {
+        [Clause::Until { test: Test::Never, body }] => {
+            clauses.push(Clause::Repeat { times, body: body.clone() });
+        }
+        _ if times == 1 => clauses.extend(body),
+        [Clause::Photo { of, times: 1 }] => clauses.push(Clause::Photo { of: of.clone(), times }),
+        _ => clauses.push(Clause::Repeat { times, body }),
+    }
+}
+
+/// What goes on until something happens: waiting needs no order, and a step forward is the first of many.
+fn body_of(clause: Option<Clause>) -> Vec<Clause> {
+    match clause {
+        None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
+        Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],
+        Some(clause) => vec![clause],
+    }
+}
+
+/// The same again and again, with so many seconds after each.
+pub(super) fn over_and_over(mut body: Vec<Clause>, seconds: f64) -> Clause {
+    // What was to be done for a while or until something holds is done so at these intervals.
+    if let [Clause::Until { test, body: inner }] = &mut body[..] {
+        inner.push(Clause::Wait { seconds });
+        return Clause::Until { test: test.clone(), body: std::mem::take(inner) };
+    }
+    body.push(Clause::Wait { seconds });
+    Clause::Until { test: Test::Never, body }
+}

@@ -1,0 +1,83 @@
+//! Noun phrases whose words are not known: misspelt, part of a name, or nothing that is here.
+
+use simworld_core::seam::PlanError;
+
+use super::clause::Target;
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
+use super::names::Guess;
+use super::parser::{Parser, shortened};
+use super::politeness::{FILLERS, JOINTS};
+
+/// Words that end a phrase whose words are not known.
+const BOUNDARIES: &[&str] = &[
+    "to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless",
+    "when", "from", "of", "or", "that", "while", "before", "after",
+];
+
+impl<'a> Parser<'a> {
+    /// What such a phrase means, if one thing only can be meant.
+    pub(super) fn misspelt(&mut self) -> Result<Target, PlanError> {
+        let phrase = self.unknown_phrase();
+        if phrase.is_empty() {
+            return Err(self.not_understood("say what: a thing, a place, a name, #id or (x, y)"));
+        }
+        // "The library door": the longest beginning that is part of a name.
+        let known = (1..phrase.len())
+            .rev()
+            .find_map(|count| self.names.part(&phrase[..count]).map(|guess| (guess, count)));
+        let (guess, phrase) = match (self.names.guess(phrase), known) {
+            (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
+            (guess, _) => (guess, phrase),
+        };
+        let said = shortened(&self.words[phrase[0].start..phrase[phrase.len() - 1].end]);
+        match guess {
+            Guess::Named(ids) => {
+                self.at += phrase.len();
+                Ok(Target::Named(ids))
+            }
+            Guess::Category(category) => {
+                self.at += phrase.len();
+                Ok(Target::Any(category))
+            }
+            Guess::Ambiguous(labels) => {
+                let near = format!("it could be {}: say which", labels.join(" or "));
+                Err(PlanError::NotFound { wanted: said, near })
+            }
+            Guess::Nothing(similar) => {
+                let near = self.view.surroundings();
+                let near = match similar {
+                    Some(similar) => format!("did you mean {similar:?}? {near}"),
+                    None => near,
+                };
+                Err(PlanError::NotFound { wanted: said, near })
+            }
+        }
+    }
+
+    /// Whether an order could go on or end here, so that no noun does.
+    fn ends_phrase(&self) -> bool {
+        [JOINTS, BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
+    }
+
+    /// The words up to where something known goes on.
+    fn unknown_phrase(&self) -> &'a [Lexeme] {
+        let rest = self.rest();
+        let ends = |at: &usize| {
+            let here = &rest[*at..];
+            !matches!(here[0].token, Token::Word(_) | Token::Number(_))
+                || [JOINTS, FILLERS, BOUNDARIES, COPULAS]
+                    .iter()
+                    .any(|words| longest_phrase(here, words).is_some())
+                || longest(here, RELATIONS).is_some()
+        };
+        let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());
+        if end == 0
+            && matches!(rest.first(), Some(Lexeme { token: Token::Word(_), .. }))
+            && !self.ends_phrase()
+        {
+            end = 1;
+        }
+        &rest[..end]
+    }
+}
