@@ -46,7 +46,6 @@ use names::Names;
 pub(crate) use paint::name_of_color;
 use parser::{Parser, shortened};
 use resolve::View;
-use simworld_core::geometry::yaw_of;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
@@ -115,20 +114,8 @@ impl GrammarPlanner {
 impl Planner for GrammarPlanner {
     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
-        let from = me.planar();
-        let view = View {
-            scene,
-            who,
-            from,
-            origin: from,
-            heading: yaw_of(me.pose),
-            range: RANGE,
-            it: None,
-            them: None,
-            gone: Vec::new(),
-            policy: self.policy,
-        };
-        let names = Names::new(scene, from, RANGE);
+        let view = View::new(scene, &me, self.policy);
+        let names = Names::new(scene, me.planar(), RANGE);
         let clauses = match intent {
             Intent::Words(words) if words.chars().count() > LONGEST_SENTENCE => {
                 let hint = format!("say it in at most {LONGEST_SENTENCE} characters");

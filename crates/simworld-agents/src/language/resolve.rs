@@ -2,15 +2,15 @@
 
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2};
+use simworld_core::geometry::{Aabb, Point2, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::PlanError;
 
-use super::AmbiguityPolicy;
 use super::clause::{Choice, Count, Measure, Reference, Target};
 use super::compass::Compass;
 use super::paint::Paint;
+use super::{AmbiguityPolicy, RANGE};
 
 /// How far one looks first, m; then three times as far, until enough is found.
 const FIRST_LOOK: f64 = 30.0;
@@ -56,6 +56,23 @@ pub(super) struct View<'a> {
 pub(super) type Ranked = (f64, EntityId);
 
 impl<'a> View<'a> {
+    /// As the agent stands when the sentence is said.
+    pub(super) fn new(scene: &'a dyn Scene, me: &EntityRef<'_>, policy: AmbiguityPolicy) -> Self {
+        let from = me.planar();
+        Self {
+            scene,
+            who: me.id,
+            from,
+            origin: from,
+            heading: yaw_of(me.pose),
+            range: RANGE,
+            it: None,
+            them: None,
+            gone: Vec::new(),
+            policy,
+        }
+    }
+
     /// The entity that a phrase means.
     pub(super) fn find(&self, reference: &Reference, purpose: Purpose) -> Result<EntityRef<'a>, PlanError> {
         let mut candidates = self.candidates(reference, purpose)?;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use simworld_core::geometry::yaw_of;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 use simworld_core::seam::{Condition, Plan, PlanError};
@@ -30,19 +29,8 @@ pub(crate) enum Order {
 /// The plan of orders that are given in this sequence.
 pub(crate) fn plan_orders(orders: &[Order], scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
     let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
-    let from = me.planar();
-    let view = View {
-        scene,
-        who,
-        from,
-        origin: from,
-        heading: yaw_of(me.pose),
-        range: RANGE,
-        it: None,
-        them: None,
-        policy: AmbiguityPolicy::Nearest,
-    };
-    let names = Names::new(scene, from, RANGE);
+    let view = View::new(scene, &me, AmbiguityPolicy::Nearest);
+    let names = Names::new(scene, me.planar(), RANGE);
     let clauses = clauses(orders, &names, &view)?;
     let mut draft = Draft::new(view, &me);
     draft.add_all(&clauses)?;
