@@ -9,5 +9,7 @@ pub mod language;
 pub mod mind;
 pub mod model;
 pub mod observer;
+#[cfg(feature = "remote")]
+pub mod remote;
 #[cfg(feature = "thought")]
 pub mod thought;
