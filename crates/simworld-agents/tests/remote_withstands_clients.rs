@@ -62,7 +62,8 @@ fn misbehave(kind: u64, server: &Running, seed: Seed) {
         if text { (server.unrealcv, Framing::UnrealCv) } else { (server.typed, Framing::Typed) };
     let Some(mut socket) = connect(address) else { return };
     let hello: Vec<u8> = SIGNATURE.iter().copied().chain([1, 0]).collect();
-    if !text && kind != 0 && socket.write_all(&framing.frame(&hello)).is_err() {
+    let says_hello = !matches!(kind, 0 | 5);
+    if !text && says_hello && socket.write_all(&framing.frame(&hello)).is_err() {
         return;
     }
     let mut noise = |length: usize| -> Vec<u8> { (0..length).map(|_| rng.below(256) as u8).collect() };
@@ -105,7 +106,8 @@ fn misbehave(kind: u64, server: &Running, seed: Seed) {
 fn a_thousand_broken_clients_leave_nothing_behind() {
     let _alone = ALONE.lock();
     let (threads, sockets) = (count("/proc/self/task"), count("/proc/self/fd"));
-    let config = ServerConfig { limits: impatient(), pace: Pace::RealTime(1.0), ..ServerConfig::on_free_ports() };
+    let config =
+        ServerConfig { limits: impatient(), pace: Pace::RealTime(1.0), ..ServerConfig::on_free_ports() };
     let server = serve(config);
     let next = std::sync::atomic::AtomicU64::new(0);
     thread::scope(|scope| {
@@ -211,10 +213,12 @@ fn who_comes_too_many_or_guesses_is_turned_away() {
     assert!(matches!(&error, ClientError::Hello(_)), "{error}");
     assert!(error.to_string().contains("2 clients already"), "{error}");
     drop(kept);
-    becomes("there is room again", || connect(server.unrealcv).is_some_and(|mut socket| {
-        let mut greeting = [0; 20];
-        socket.read_exact(&mut greeting).is_ok() && greeting[8..].starts_with(b"connected")
-    }));
+    becomes("there is room again", || {
+        connect(server.unrealcv).is_some_and(|mut socket| {
+            let mut greeting = [0; 20];
+            socket.read_exact(&mut greeting).is_ok() && greeting[8..].starts_with(b"connected")
+        })
+    });
     thread::sleep(Duration::from_millis(100));
     let mut guesser = Unreal::connect(server.unrealcv);
     for _ in 0..3 {
