@@ -151,26 +151,19 @@ fn a_connection_that_the_server_closed_meanwhile_costs_no_answer() {
     assert_eq!(model.chat(&request("2")).unwrap().text, "two");
 }
 
-/// One agent's whole stack, from the outside in.
-fn stack(
-    server: &FaultServer,
-    agent: &str,
-    ledger: &Ledger,
-    tape: &Arc<Tape>,
-    log: &Arc<ModelLog>,
-) -> impl ChatModel + use<> {
-    let clock = Arc::new(ManualClock::new());
-    let tariff = Tariff {
-        prices: BTreeMap::from([("m".into(), Price { prompt: 1_000_000, completion: 1_000_000 })]),
-        model: "m".into(),
-        most_completion: 100,
+fn models(tape: Tape, log: &Path) -> Models {
+    let config = ModelsConfig {
+        retry: RetryConfig { attempts: 3, ..RetryConfig::default() },
+        requests_per_minute: Some(600),
+        tariff: Tariff {
+            prices: BTreeMap::from([("m".into(), Price { prompt: 1_000_000, completion: 1_000_000 })]),
+            model: "m".into(),
+            ..Tariff::default()
+        },
+        ..ModelsConfig::default()
     };
-    let paced = Paced::new(client(server), Arc::new(Pace::new(Some(600), None, clock.clone())));
-    let metered = Metered::new(paced, agent, tariff, ledger.clone());
-    let retry = RetryConfig { attempts: 3, ..RetryConfig::default() };
-    let stream = Seed(5).stream("test/retry").named(agent);
-    let retried = Retried::new(metered, retry, stream, clock.clone()).unwrap();
-    Logged::new(Recorded::new(retried, agent, tape.clone()), agent, log.clone(), clock)
+    let models = Models::new(config, Seed(5), Arc::new(ManualClock::new()));
+    models.with_tape(tape).with_log(ModelLog::create(log).unwrap())
 }
 
 /// A server that fails two times of three, differently each time, and answers with the question.
@@ -194,12 +187,11 @@ fn moody() -> FaultServer {
 fn nothing_is_lost_and_a_replay_gives_the_same() {
     const AGENTS: [&str; 4] = ["ann", "bob", "cid", "dan"];
     let folder = tempfile::tempdir().unwrap();
-    let run = |tape: Tape, log: &Path, server: &FaultServer, ledger: &Ledger| {
-        let (tape, log) = (Arc::new(tape), Arc::new(ModelLog::create(log).unwrap()));
+    let run = |models: &Models, server: &FaultServer| {
         std::thread::scope(|scope| {
             let threads: Vec<_> = AGENTS
                 .map(|agent| {
-                    let mut model = stack(server, agent, ledger, &tape, &log);
+                    let mut model = models.agent(agent, client(server)).unwrap();
                     // two of three questions are the same ones again
                     scope.spawn(move || {
                         (0..40)
@@ -213,8 +205,8 @@ fn nothing_is_lost_and_a_replay_gives_the_same() {
     };
     let (tape, log) = (folder.path().join("tape.jsonl"), folder.path().join("log.jsonl"));
     let server = moody();
-    let ledger = Ledger::default();
-    let answers = run(Tape::record(&tape).unwrap(), &log, &server, &ledger);
+    let first = models(Tape::record(&tape).unwrap(), &log);
+    let answers = run(&first, &server);
 
     let answered = answers.iter().flatten().filter(|answer| answer.is_ok()).count();
     assert!((40..140).contains(&answered), "both happen: {answered} of 160 were answered");
@@ -226,7 +218,7 @@ fn nothing_is_lost_and_a_replay_gives_the_same() {
         }
     }
     // every attempt is booked, and what came back is paid for
-    let total = ledger.total();
+    let total = first.ledger().total();
     assert_eq!(total.answered, answered as u64);
     assert_eq!(total.answered + total.failed, server.heard().len() as u64);
     assert_eq!(total.cost, 14 * total.answered);
@@ -242,8 +234,9 @@ fn nothing_is_lost_and_a_replay_gives_the_same() {
 
     // without a server, bit for bit
     let nobody = FaultServer::answering([]);
-    let again =
-        run(Tape::replay(&tape).unwrap(), &folder.path().join("again.jsonl"), &nobody, &Ledger::default());
+    let second = models(Tape::replay(&tape).unwrap(), &folder.path().join("again.jsonl"));
+    let again = run(&second, &nobody);
+    assert_eq!(second.ledger().total(), Account::default(), "a replay costs nothing");
     assert!(nobody.heard().is_empty());
     assert_eq!(serde_json::to_vec(&answers).unwrap(), serde_json::to_vec(&again).unwrap());
 }

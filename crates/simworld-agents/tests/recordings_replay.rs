@@ -47,10 +47,11 @@ fn identical_requests_keep_their_order() {
     assert_ne!(recorded[0], recorded[2]);
 
     let tape = Arc::new(Tape::replay(&path).unwrap());
-    let replayed = ask(&mut Recorded::new(NoModel, "ann", tape.clone()), &PROMPTS);
+    let replayed = ask(&mut Recorded::new(NoModel, "ann", tape), &PROMPTS);
     assert_eq!(serde_json::to_vec(&replayed).unwrap(), serde_json::to_vec(&recorded).unwrap());
 
-    // the same in another order: each question has its own answers
+    // in another order: each question has its own answers
+    let tape = Arc::new(Tape::replay(&path).unwrap());
     let mut model = Recorded::new(NoModel, "ann", tape);
     assert_eq!(ask(&mut model, &["d", "a", "b", "a"]), [8, 0, 1, 2].map(|index| recorded[index].clone()));
 }

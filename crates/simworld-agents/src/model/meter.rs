@@ -2,19 +2,62 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use super::ledger::{Held, Outcome};
 use super::reckon::most_prompt;
 use super::{ChatModel, ChatReply, ChatRequest, Ledger, ModelError, Price, Usage};
 
 /// What one agent's model costs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Tariff {
     /// The price of each model by name.
     pub prices: BTreeMap<String, Price>,
+    /// Models that stand in no line of `prices`.
+    pub unpriced: Unpriced,
     /// The model where a request names none.
     pub model: String,
     /// The most tokens of an answer where a request sets no limit: the model's own.
     pub most_completion: u32,
+}
+
+impl Default for Tariff {
+    fn default() -> Self {
+        Self {
+            prices: BTreeMap::new(),
+            unpriced: Unpriced::Refused,
+            model: "default".into(),
+            most_completion: 4096,
+        }
+    }
+}
+
+/// What becomes of requests to a model without a price.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Unpriced {
+    /// They are not sent.
+    #[default]
+    Refused,
+    /// They cost nothing: the model is one's own. Tokens are booked all the same.
+    Free,
+}
+
+impl Tariff {
+    /// The tariff of a model of one's own.
+    pub fn free() -> Self {
+        Self { unpriced: Unpriced::Free, ..Self::default() }
+    }
+
+    fn price(&self, request: &ChatRequest) -> Result<Price, ModelError> {
+        let model = request.model.as_ref().unwrap_or(&self.model);
+        match (self.prices.get(model), self.unpriced) {
+            (Some(price), _) => Ok(*price),
+            (None, Unpriced::Free) => Ok(Price::default()),
+            (None, Unpriced::Refused) => Err(ModelError::NoPrice { model: model.clone() }),
+        }
+    }
 }
 
 /// Books an agent's requests in a [`Ledger`].
@@ -39,10 +82,7 @@ impl<M: ChatModel> Metered<M> {
         request: &ChatRequest,
         ask: impl FnOnce(&mut M) -> Result<ChatReply, ModelError>,
     ) -> Result<ChatReply, ModelError> {
-        let model = request.model.as_ref().unwrap_or(&self.tariff.model);
-        let Some(price) = self.tariff.prices.get(model).copied() else {
-            return Err(ModelError::NoPrice { model: model.clone() });
-        };
+        let price = self.tariff.price(request)?;
         let completion = request.max_tokens.unwrap_or(self.tariff.most_completion).into();
         let most = Usage { prompt: most_prompt(request), completion };
         let held = Held { tokens: most.total(), cost: price.of(most) };
@@ -94,7 +134,12 @@ mod tests {
 
     fn tariff() -> Tariff {
         let price = Price { prompt: 1_000_000, completion: 2_000_000 };
-        Tariff { prices: BTreeMap::from([("m".to_owned(), price)]), model: "m".into(), most_completion: 10 }
+        Tariff {
+            prices: BTreeMap::from([("m".to_owned(), price)]),
+            model: "m".into(),
+            most_completion: 10,
+            ..Tariff::default()
+        }
     }
 
     fn metered(agent: &str, ledger: &Ledger) -> Metered<Scripted> {
@@ -183,5 +228,8 @@ mod tests {
         request.model = Some("dear".into());
         assert_eq!(model.chat(&request), Err(ModelError::NoPrice { model: "dear".into() }));
         assert!(model.inner.asked().is_empty());
+        model.tariff.unpriced = Unpriced::Free;
+        model.chat(&request).unwrap();
+        assert_eq!((ledger.total().cost, ledger.total().usage), (0, USAGE));
     }
 }

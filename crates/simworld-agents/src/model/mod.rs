@@ -12,6 +12,7 @@ mod ledger;
 mod lines;
 mod log;
 mod meter;
+mod models;
 #[cfg(feature = "http")]
 mod openai;
 mod pace;
@@ -27,7 +28,8 @@ pub use error::ModelError;
 pub use key::RequestKey;
 pub use ledger::{Account, Budget, Ledger, MicroCents, Price};
 pub use log::{LogLine, Logged, ModelLog};
-pub use meter::{Metered, Tariff};
+pub use meter::{Metered, Tariff, Unpriced};
+pub use models::{Models, ModelsConfig};
 #[cfg(feature = "http")]
 pub use openai::{LimitField, OpenAiChat, OpenAiConfig, PlainKey, SchemaMode, StreamUsage};
 pub use pace::{Pace, Paced};

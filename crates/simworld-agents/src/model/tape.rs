@@ -19,8 +19,17 @@ type Asked = (String, RequestKey);
 
 /// What was recorded, and where what is new goes; agents share it.
 pub struct Tape {
-    answers: Mutex<BTreeMap<Asked, Vec<Answer>>>,
+    reels: Mutex<BTreeMap<Asked, Reel>>,
     mode: Mode,
+}
+
+/// What one agent got for one request.
+#[derive(Default)]
+struct Reel {
+    /// How often it was asked, since the tape was opened.
+    asked: u64,
+    /// What the file held.
+    answers: Vec<Answer>,
 }
 
 enum Mode {
@@ -44,7 +53,7 @@ impl Tape {
     /// # Errors
     /// [`ModelError::Store`] if the file is there already or cannot be made.
     pub fn record(path: &Path) -> Result<Self, ModelError> {
-        Ok(Self { answers: Mutex::default(), mode: Mode::Record(Lines::create(path)?) })
+        Ok(Self { reels: Mutex::default(), mode: Mode::Record(Lines::create(path)?) })
     }
 
     /// Gives what a file holds, and [`ModelError::NotRecorded`] for everything else. No model is asked.
@@ -52,8 +61,8 @@ impl Tape {
     /// # Errors
     /// [`ModelError::Store`] if the file cannot be read, with the line.
     pub fn replay(path: &Path) -> Result<Self, ModelError> {
-        let answers = in_order(path, Lines::read(path)?)?;
-        Ok(Self { answers: Mutex::new(answers), mode: Mode::Replay })
+        let reels = in_order(path, Lines::read(path)?)?;
+        Ok(Self { reels: Mutex::new(reels), mode: Mode::Replay })
     }
 
     /// Gives what a file holds, and asks and records the rest. Failures are given as they were recorded, too.
@@ -62,16 +71,17 @@ impl Tape {
     /// [`ModelError::Store`] if the file cannot be read or written.
     pub fn replay_or_record(path: &Path) -> Result<Self, ModelError> {
         let (entries, lines) = Lines::open(path)?;
-        let answers = in_order(lines.path(), entries)?;
-        Ok(Self { answers: Mutex::new(answers), mode: Mode::ReplayOrRecord(lines) })
+        let reels = in_order(lines.path(), entries)?;
+        Ok(Self { reels: Mutex::new(reels), mode: Mode::ReplayOrRecord(lines) })
     }
 
-    fn recorded(&self, agent: &str, key: RequestKey, nth: u64) -> Option<Answer> {
-        if matches!(self.mode, Mode::Record(_)) {
-            return None;
-        }
-        let answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
-        answers.get(&(agent.to_owned(), key))?.get(usize::try_from(nth).ok()?).cloned()
+    /// How often that was asked before, and what the file has for it.
+    fn next(&self, agent: &str, key: RequestKey) -> (u64, Option<Answer>) {
+        let mut reels = self.reels.lock().unwrap_or_else(PoisonError::into_inner);
+        let reel = reels.entry((agent.to_owned(), key)).or_default();
+        let nth = reel.asked;
+        reel.asked += 1;
+        (nth, usize::try_from(nth).ok().and_then(|nth| reel.answers.get(nth).cloned()))
     }
 
     fn keep(&self, agent: &str, key: RequestKey, nth: u64, answer: &Answer) -> Result<(), ModelError> {
@@ -84,10 +94,10 @@ impl Tape {
     }
 }
 
-fn in_order(path: &Path, entries: Vec<Entry>) -> Result<BTreeMap<Asked, Vec<Answer>>, ModelError> {
-    let mut answers: BTreeMap<Asked, Vec<Answer>> = BTreeMap::new();
+fn in_order(path: &Path, entries: Vec<Entry>) -> Result<BTreeMap<Asked, Reel>, ModelError> {
+    let mut reels: BTreeMap<Asked, Reel> = BTreeMap::new();
     for entry in entries {
-        let known = answers.entry((entry.agent, entry.key)).or_default();
+        let known = &mut reels.entry((entry.agent, entry.key)).or_default().answers;
         if known.len() as u64 != entry.nth {
             return Err(ModelError::Store {
                 path: path.display().to_string(),
@@ -102,7 +112,7 @@ fn in_order(path: &Path, entries: Vec<Entry>) -> Result<BTreeMap<Asked, Vec<Answ
         }
         known.push(entry.answer);
     }
-    Ok(answers)
+    Ok(reels)
 }
 
 /// One agent's model on a [`Tape`].
@@ -112,21 +122,18 @@ pub struct Recorded<M> {
     inner: M,
     agent: String,
     tape: Arc<Tape>,
-    asked: BTreeMap<RequestKey, u64>,
 }
 
 impl<M: ChatModel> Recorded<M> {
     /// Records or replays an agent; its name must be its own on this tape, and the same in a replay.
     pub fn new(inner: M, agent: impl Into<String>, tape: Arc<Tape>) -> Self {
-        Self { inner, agent: agent.into(), tape, asked: BTreeMap::new() }
+        Self { inner, agent: agent.into(), tape }
     }
 
     fn taped(&mut self, request: &ChatRequest, ask: impl FnOnce(&mut M) -> Answer) -> (Answer, Source) {
         let key = request.key();
-        let count = self.asked.entry(key).or_default();
-        let nth = *count;
-        *count += 1;
-        if let Some(answer) = self.tape.recorded(&self.agent, key, nth) {
+        let (nth, recorded) = self.tape.next(&self.agent, key);
+        if let Some(answer) = recorded {
             return (answer, Source::Tape);
         }
         if matches!(self.tape.mode, Mode::Replay) {

@@ -29,7 +29,7 @@ use super::{ChatModel, ChatReply, ChatRequest, ModelError};
 /// The most bytes that are read of what a server says about a failure.
 const ERROR_BODY: u64 = 64 * 1024;
 
-/// A model behind an OpenAI-compatible server.
+/// A model behind an OpenAI-compatible server. Clones share their connections: give each agent one.
 ///
 /// ```no_run
 /// use simworld_agents::model::{ChatModel, ChatRequest, Message, OpenAiChat, OpenAiConfig};
@@ -42,6 +42,7 @@ const ERROR_BODY: u64 = 64 * 1024;
 /// println!("{}", reply.text);
 /// # Ok::<(), simworld_agents::model::ModelError>(())
 /// ```
+#[derive(Clone)]
 pub struct OpenAiChat {
     agent: Agent,
     url: String,
