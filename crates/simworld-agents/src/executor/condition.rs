@@ -15,7 +15,7 @@ use super::sees;
 const SIGHT: f64 = 60.0;
 
 /// Whether it holds, so many seconds after it was first asked.
-pub(super) fn holds(condition: &Condition, scene: &dyn Scene, me: &EntityRef<'_>, elapsed: f64) -> bool {
+pub(crate) fn holds(condition: &Condition, scene: &dyn Scene, me: &EntityRef<'_>, elapsed: f64) -> bool {
     let again = |inner: &Condition| holds(inner, scene, me, elapsed);
     match condition {
         Condition::Signal { light, shows } => shown(scene, *light) == Some(*shows),

@@ -15,6 +15,8 @@ mod sight;
 use std::sync::Arc;
 
 use blocks::{Entered, Place};
+#[cfg(feature = "thought")]
+pub(crate) use condition::holds;
 use navigate::{Arrival, Navigation};
 use serde::{Deserialize, Serialize};
 pub(crate) use sight::sees;

@@ -1,10 +1,12 @@
 //! Senses beside the camera: the scene as a graph of things and relations, and the position as a receiver gives it.
 
+mod frame;
 mod gps;
 mod scene_graph;
 mod senses;
 mod text;
 
+pub use frame::Frame;
 pub use gps::{GpsFix, GpsObserver};
 pub use scene_graph::{Oneself, SceneGraph, SceneGraphObserver, Sighting};
 pub use senses::{Describe, Feedback, Sense, Senses};

@@ -9,7 +9,7 @@ use simworld_core::scene::{EntityKind, Place};
 use simworld_core::seam::{Condition, Which};
 
 use super::known::{Known, Use};
-use super::schema::{any_of, defined, integer, list, object, one_of};
+use super::schema::{any_of, defined, integer, list, object, one_of, whole};
 
 /// The name of the definition that stands for any condition.
 pub(super) const TOP: &str = "check";
@@ -67,7 +67,7 @@ pub(super) fn definitions(known: &Known) -> BTreeMap<String, Json> {
 
 /// The condition of an answer that conforms.
 pub(super) fn read(given: &Json, known: &Known) -> Result<Condition, String> {
-    let tenths = |name: &str| given[name].as_i64().map(|tenths| tenths as f64 / 10.0).ok_or(unread(name));
+    let tenths = |name: &str| whole(&given[name]).map(|tenths| tenths as f64 / 10.0).ok_or(unread(name));
     let thing = || thing(&given["what"], known);
     let which = || which(&given["what"], known);
     let parts = || {

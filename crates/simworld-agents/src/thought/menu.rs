@@ -9,7 +9,7 @@ use simworld_core::value::Value;
 
 use super::checks;
 use super::known::{Known, Use};
-use super::schema::{any_of, defined, integer, list, object, one_of, words};
+use super::schema::{any_of, defined, integer, list, object, one_of, whole, words};
 use crate::language::Order;
 
 /// How far away a point may be that is gone to, decimetres in each axis.
@@ -349,7 +349,7 @@ impl<'a> Menu<'a> {
                 otherwise: self.orders(&step["otherwise"])?,
             },
             "repeat" => {
-                let times = step["times"].as_u64().and_then(|times| u32::try_from(times).ok());
+                let times = whole(&step["times"]).and_then(|times| u32::try_from(times).ok());
                 Order::Repeat {
                     times: times.ok_or("times must be a whole number")?,
                     orders: self.orders(&step["steps"])?,
@@ -390,9 +390,9 @@ impl<'a> Menu<'a> {
                 args.insert("at".to_owned(), place.id.into());
                 sold.as_str().into()
             }
-            Arg::Pace if given.as_i64()? == 0 => return Some(()),
-            Arg::East | Arg::North | Arg::Pace | Arg::Tenths(..) => (given.as_i64()? as f64 / 10.0).into(),
-            Arg::Degrees(..) => (given.as_i64()? as f64).to_radians().into(),
+            Arg::Pace if whole(given)? == 0 => return Some(()),
+            Arg::East | Arg::North | Arg::Pace | Arg::Tenths(..) => (whole(given)? as f64 / 10.0).into(),
+            Arg::Degrees(..) => (whole(given)? as f64).to_radians().into(),
             Arg::Way | Arg::Words => given.as_str()?.into(),
         };
         args.insert(key.to_owned(), value);

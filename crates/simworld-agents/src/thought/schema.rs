@@ -81,13 +81,20 @@ pub fn value_in(text: &str) -> Result<Value, Mismatch> {
         .map_err(|error| Mismatch { path: String::new(), reason: format!("is no JSON: {error}") })
 }
 
+/// A whole number, also where it is written as `-0`, `5.0` or `5e1`, which JSON schemas take for whole.
+pub fn whole(number: &Value) -> Option<i64> {
+    /// From here on a float has no neighbour that differs by one.
+    const EXACT: f64 = 9_007_199_254_740_992.0;
+    let float = |number: f64| (number.fract() == 0.0 && number.abs() < EXACT).then_some(number as i64);
+    number.as_i64().or_else(|| number.as_f64().and_then(float))
+}
+
 /// Checks an answer against a schema made of what this module makes.
 ///
 /// # Errors
 /// The first place where it departs; of alternatives told apart by a field of one value, that of the one it names.
 pub fn check(answer: &Value, schema: &Value) -> Result<(), Mismatch> {
-    let whole = schema;
-    Checker { whole }.check(answer, schema, &mut String::new(), 0)
+    Checker { whole: schema }.check(answer, schema, &mut String::new(), 0)
 }
 
 struct Checker<'a> {
@@ -243,7 +250,7 @@ fn check_text(answer: &Value, schema: &Value, path: &str) -> Result<(), Mismatch
 fn check_integer(answer: &Value, schema: &Value, path: &str) -> Result<(), Mismatch> {
     let bound = |name: &str, otherwise| schema.get(name).and_then(Value::as_i64).unwrap_or(otherwise);
     let (low, high) = (bound("minimum", i64::MIN), bound("maximum", i64::MAX));
-    match answer.as_i64() {
+    match whole(answer) {
         Some(number) if (low..=high).contains(&number) => Ok(()),
         _ => wrong(path, format!("must be a whole number from {low} to {high}")),
     }
@@ -331,6 +338,15 @@ mod tests {
         );
         assert!(value_in(r#"{"steps": 9E490}"#).is_err() && value_in("go").is_err());
         assert!(value_in(r"{} {}").is_err(), "of two answers neither is meant");
+    }
+
+    #[test]
+    fn whole_numbers_may_be_written_as_others() {
+        for (written, number) in
+            [("-0", Some(0)), ("5.0", Some(5)), ("5e1", Some(50)), ("5.5", None), ("1e300", None)]
+        {
+            assert_eq!(whole(&value_in(&format!("[{written}]")).unwrap()[0]), number, "{written}");
+        }
     }
 
     #[test]
