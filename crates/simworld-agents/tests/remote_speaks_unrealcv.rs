@@ -195,7 +195,6 @@ fn cameras_are_worn_and_show_pictures() {
         horizontal_fov: 0.6,
         width: 8,
         height: 6,
-        ..CameraPlace::default()
     };
     let server = serve(ServerConfig { camera: first, ..ServerConfig::on_free_ports() });
     let mut client = Unreal::connect(server.unrealcv);

@@ -6,12 +6,12 @@ use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::ops::ControlFlow;
-use std::thread::JoinHandle;
-use std::time::Duration;
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
 
 use simworld_agents::remote::{
-    Decoder, Eye, Framing, Picture, PictureKind, Report, Server, ServerConfig, SimulationStage, StageError,
-    Stopper, View,
+    Decoder, Eye, Framing, Limits, Picture, PictureKind, Report, Server, ServerConfig, SimulationStage,
+    StageError, Stopper, View,
 };
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Aabb, Point2, Point3, Vector3, pose_facing};
@@ -168,6 +168,41 @@ pub fn replay(recording: &Recording) -> Recording {
         recording.confirm(*tick, *digest).expect("the same state");
     }
     again.recording().clone()
+}
+
+/// Limits that tests do not have to wait long for.
+pub fn impatient() -> Limits {
+    Limits {
+        clients: 8,
+        hello_seconds: 0.3,
+        frame_seconds: 0.3,
+        write_seconds: 0.3,
+        idle_seconds: 30.0,
+        ..Limits::default()
+    }
+}
+
+/// Waits until something is so, at most ten seconds.
+pub fn becomes(what: &str, is_so: impl Fn() -> bool) {
+    let start = now();
+    while !is_so() {
+        assert!(start.elapsed() < Duration::from_secs(10), "it never came to be that {what}");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// The time now.
+#[expect(clippy::disallowed_methods, reason = "how long clients wait is outside the simulation")]
+pub fn now() -> Instant {
+    Instant::now()
+}
+
+/// A socket that waits for nothing longer than 200 ms.
+pub fn connect(address: SocketAddr) -> Option<TcpStream> {
+    let socket = TcpStream::connect(address).ok()?;
+    socket.set_write_timeout(Some(Duration::from_millis(200))).ok()?;
+    socket.set_read_timeout(Some(Duration::from_millis(200))).ok()?;
+    Some(socket)
 }
 
 /// A client of `UnrealCV`, byte by byte as its Python client is.
