@@ -1,5 +1,7 @@
 //! Which server, which model, and how long to wait.
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 use ureq::http::Uri;
 
@@ -17,6 +19,9 @@ pub struct OpenAiConfig {
     pub key_variable: Option<String>,
     /// Whether a key may travel without TLS.
     pub plain_key: PlainKey,
+    /// A file of certificates (PEM) that are trusted instead of Mozilla's: a server with an authority of its own. Only for
+    /// https.
+    pub root_certificates: Option<PathBuf>,
     /// The most time until the connection stands, s; 0.001 to 86,400.
     pub connect_timeout: f64,
     /// The most time from the request to the last byte of its answer, s; 0.001 to 86,400.
@@ -38,6 +43,7 @@ impl Default for OpenAiConfig {
             model: "default".into(),
             key_variable: None,
             plain_key: PlainKey::LoopbackOnly,
+            root_certificates: None,
             connect_timeout: 10.0,
             timeout: 120.0,
             max_reply: 8 * 1024 * 1024,

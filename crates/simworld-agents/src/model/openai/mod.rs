@@ -8,6 +8,8 @@ mod config;
 mod fault;
 mod key;
 mod sse;
+#[cfg(feature = "https")]
+mod tls;
 mod transport;
 mod wire;
 
@@ -54,14 +56,15 @@ impl OpenAiChat {
     /// A client for the server of the configuration; nothing is sent yet.
     ///
     /// # Errors
-    /// [`ModelError::Config`] if the configuration cannot work, [`ModelError::NoKey`] if the variable it names holds no key.
+    /// [`ModelError::Config`] if the configuration cannot work, [`ModelError::NoKey`] if the variable it names holds no key,
+    /// [`ModelError::Store`] if the file of certificates cannot be read.
     pub fn new(config: OpenAiConfig) -> Result<Self, ModelError> {
         let uri = config.checked()?;
         let key = config.key_variable.as_deref().map(ApiKey::from_variable).transpose()?.map(Arc::new);
         if key.is_some() {
             config.check_key_is_safe(&uri)?;
         }
-        let agent = agent(&config, &uri, key.clone());
+        let agent = agent(&config, &uri, key.clone())?;
         let url = format!("{}/chat/completions", config.base_url.trim_end_matches('/'));
         Ok(Self { agent, url, config, key })
     }
@@ -153,7 +156,7 @@ impl std::fmt::Debug for OpenAiChat {
     }
 }
 
-fn agent(config: &OpenAiConfig, uri: &Uri, key: Option<Arc<ApiKey>>) -> Agent {
+fn agent(config: &OpenAiConfig, uri: &Uri, key: Option<Arc<ApiKey>>) -> Result<Agent, ModelError> {
     let mut builder = Agent::config_builder()
         .http_status_as_error(false)
         .max_redirects(0)
@@ -164,6 +167,16 @@ fn agent(config: &OpenAiConfig, uri: &Uri, key: Option<Arc<ApiKey>>) -> Agent {
         // a proxy of the environment reaches its own loopback, not ours
         builder = builder.proxy(None);
     }
+    #[cfg(not(feature = "https"))]
+    if config.root_certificates.is_some() {
+        return Err(ModelError::Config(
+            "root_certificates is for https: build with the feature `https`".into(),
+        ));
+    }
+    #[cfg(feature = "https")]
+    {
+        builder = builder.tls_config(tls::config(config.root_certificates.as_deref())?);
+    }
     let connector = DefaultConnector::new().chain(KeyedConnector::new(key));
-    Agent::with_parts(builder.build(), connector, DefaultResolver::default())
+    Ok(Agent::with_parts(builder.build(), connector, DefaultResolver::default()))
 }
