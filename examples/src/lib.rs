@@ -11,4 +11,6 @@ pub mod bodies;
 pub mod city;
 pub mod delivery;
 pub mod experiment;
+pub mod minds;
 pub mod traffic;
+pub mod wayfinding;

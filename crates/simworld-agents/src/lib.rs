@@ -1,14 +1,17 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+pub mod asynchronous;
 pub mod delivery;
 pub mod episode;
 pub mod executor;
+pub mod gym;
 mod lanes;
 pub mod language;
 pub mod mind;
 pub mod model;
 pub mod observer;
+mod panics;
 #[cfg(feature = "remote")]
 pub mod remote;
 #[cfg(feature = "thought")]

@@ -47,6 +47,16 @@ pub trait Mind<T: ?Sized> {
     }
 }
 
+/// A mind that wants nothing: for bodies that are told from outside what to do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Silent;
+
+impl<T: ?Sized> Mind<T> for Silent {
+    fn decide(&mut self, _: &T, _: &dyn Scene, _: EntityId, _: &mut Vec<Intent>) -> Result<(), MindError> {
+        Ok(())
+    }
+}
+
 impl<T: ?Sized, M: Mind<T> + ?Sized> Mind<T> for Box<M> {
     fn decide(
         &mut self,

@@ -119,6 +119,16 @@ impl<T: Task> Episode<T> {
         self.conclude(stepped)
     }
 
+    /// One step in which no mind is asked: what was [submitted](Self::submit) takes effect, and nothing else from outside.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), but for minds.
+    pub fn step_without_minds(&mut self) -> Result<&Outcome, EpisodeError> {
+        self.check_running()?;
+        let stepped = self.step_inside();
+        self.conclude(stepped)
+    }
+
     /// One step without minds: what they wanted, and whatever else came from outside, is taken from the recording.
     ///
     /// # Errors
@@ -129,8 +139,7 @@ impl<T: Task> Episode<T> {
         for command in recording.commands_at(tick) {
             self.simulation.submit(command.clone());
         }
-        let stepped = self.step_inside();
-        self.conclude(stepped)
+        self.step_without_minds()
     }
 
     /// Asks for a change from outside, beside the minds; it takes effect in the next step and is recorded.
@@ -141,6 +150,11 @@ impl<T: Task> Episode<T> {
     /// Whether the task came to an end, ran out of time, or something failed.
     pub fn is_over(&self) -> bool {
         self.outcome.terminated || self.outcome.truncated || self.failed
+    }
+
+    /// How the last step ended.
+    pub fn outcome(&self) -> &Outcome {
+        &self.outcome
     }
 
     /// The task.
@@ -222,16 +236,11 @@ impl<T: Task> Episode<T> {
     /// Intents that the task does not answer are planned at once.
     fn route_intents(&mut self) {
         self.intents.clear();
-        self.intents.extend_from_slice(self.simulation.world().intents());
         let calls = self.task.calls();
-        let mut index = 0;
-        while index < self.intents.len() {
-            let for_task =
-                matches!(&self.intents[index].1, Intent::Call { name, .. } if calls.contains(&name.as_str()));
-            if for_task {
-                index += 1;
+        for (who, intent) in self.simulation.world().intents().to_vec() {
+            if matches!(&intent, Intent::Call { name, .. } if calls.contains(&name.as_str())) {
+                self.intents.push((who, intent));
             } else {
-                let (who, intent) = self.intents.remove(index);
                 self.plan(who, &intent);
             }
         }
