@@ -29,7 +29,7 @@ struct Arguments {
     #[arg(long, default_value_t = 2)]
     seeds: u64,
     /// Steps of all environments together, for each seed.
-    #[arg(long, default_value_t = 40_000)]
+    #[arg(long, default_value_t = 12_000)]
     steps: usize,
     /// Environments that are stepped together.
     #[arg(long, default_value = "8")]
