@@ -17,7 +17,7 @@ use simworld_core::scene::{Scene, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_physics::{PhysicsConfig, PhysicsDynamics, VehicleClass};
-use simworld_traffic::control::Driver;
+use simworld_core::control::Driver;
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 

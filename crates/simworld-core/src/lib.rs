@@ -6,6 +6,7 @@ pub mod asset;
 pub mod camera;
 pub mod clock;
 pub mod command;
+pub mod control;
 pub mod environment;
 pub mod evaluation;
 pub mod event;

@@ -5,7 +5,6 @@ pub mod assignment;
 mod closure;
 mod conditions;
 mod config;
-pub mod control;
 pub mod crowd;
 mod demand;
 mod dynamics;

@@ -4,12 +4,12 @@
 use std::sync::Arc;
 
 use proptest::prelude::*;
+use simworld_core::control::{Driver, Pid};
 use simworld_core::geometry::{Point2, Point3, Twist, Vector2, Vector3, pose_facing};
 use simworld_core::hash::StateHash;
 use simworld_core::id::LaneId;
 use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
-use simworld_traffic::control::{Driver, Pid};
 use simworld_traffic::crowd::{AnticipationVelocity, Crowd, Person, Walls, Wish};
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{

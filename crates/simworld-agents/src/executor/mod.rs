@@ -1,7 +1,7 @@
 //! The rule-based executor: plans become primitive actions on the waypoint graph.
 //!
 //! Navigation takes the shortest way over sidewalks and crossings, starts to cross only on walk, passes people on the
-//! right, and looks for another way when it gets stuck. An action on an object counts as done when the world shows its
+//! right, and looks for another way when it gets stuck. Vehicles keep to lanes, limits and lights (see `drive`). An action on an object counts as done when the world shows its
 //! effect. Conditions, repetitions and guards are looked at in every step.
 
 mod act;
@@ -9,6 +9,7 @@ mod avoid;
 mod blocks;
 mod condition;
 mod crossing;
+mod drive;
 mod navigate;
 mod sight;
 
@@ -17,6 +18,7 @@ use std::sync::Arc;
 use blocks::{Entered, Place};
 #[cfg(feature = "thought")]
 pub(crate) use condition::holds;
+use drive::{Driving, vehicle_of};
 use navigate::{Arrival, Navigation};
 use serde::{Deserialize, Serialize};
 pub(crate) use sight::sees;
@@ -25,7 +27,7 @@ use simworld_core::action::Action;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::net::{Route, RouteScratch, WaypointGraph};
-use simworld_core::scene::Scene;
+use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::{Executor, ExecutorError, Goal, Plan, PlanStep, Progress};
 use thiserror::Error;
 
@@ -116,6 +118,8 @@ enum Stage {
     Fresh,
     /// On the way.
     Navigating(Navigation),
+    /// On the way in a vehicle.
+    Driving(Driving),
     /// The action was told; its effect is looked for in the next step.
     Acted,
     /// Waiting, with the number of steps left.
@@ -160,6 +164,22 @@ impl RuleExecutor {
     /// Whether it has nothing to do.
     pub fn is_idle(&self) -> bool {
         self.state.place.is_empty()
+    }
+
+    /// On foot, or by whatever one is or sits in.
+    fn go(
+        &mut self,
+        scene: &dyn Scene,
+        me: &EntityRef<'_>,
+        to: Goal,
+        within: f64,
+        speed: Option<f64>,
+        out: &mut Vec<Action>,
+    ) -> Arrival {
+        match vehicle_of(scene, me) {
+            Some(vehicle) => self.drive(scene, me, &vehicle, (to, within), speed, out),
+            None => self.navigate(scene, me, to, within, speed.unwrap_or(self.config.speed), out),
+        }
     }
 
     /// Goes on to what comes next.
@@ -212,20 +232,16 @@ impl Executor for RuleExecutor {
             Entered::End => return Ok(Progress::Done),
         };
         Ok(match step {
-            PlanStep::Navigate { to, within, speed } => {
-                let wanted = speed.unwrap_or(self.config.speed);
-                match self.navigate(scene, &me, to, within, wanted, out) {
-                    Arrival::Underway => Progress::Running,
-                    Arrival::There => {
-                        self.tell_speed(0.0, out);
-                        self.next_step()
-                    }
-                    Arrival::Lost(reason) => self.fail(reason, out),
+            PlanStep::Navigate { to, within, speed } => match self.go(scene, &me, to, within, speed, out) {
+                Arrival::Underway => Progress::Running,
+                Arrival::There => {
+                    self.tell_speed(0.0, out);
+                    self.next_step()
                 }
-            }
+                Arrival::Lost(reason) => self.fail(reason, out),
+            },
             PlanStep::Follow { whom, gap, speed } => {
-                let wanted = speed.unwrap_or(self.config.speed);
-                match self.navigate(scene, &me, Goal::Entity(whom), gap, wanted, out) {
+                match self.go(scene, &me, Goal::Entity(whom), gap, speed, out) {
                     Arrival::Underway => Progress::Running,
                     Arrival::There => {
                         self.state.stage = Stage::Fresh;

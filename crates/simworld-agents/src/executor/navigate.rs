@@ -12,7 +12,7 @@ use simworld_core::seam::Goal;
 use super::{RuleExecutor, Stage, avoid, crossing};
 
 /// A goal that moves farther than this is looked for anew on the roads, m.
-const FOLLOWED: f64 = 10.0;
+pub(super) const FOLLOWED: f64 = 10.0;
 /// A waypoint counts as passed within this distance, m.
 const PASSED: f64 = 0.7;
 /// Heading errors below this are left alone, radians.
@@ -57,10 +57,10 @@ pub(super) struct Navigation {
 }
 
 /// Where a goal is by now.
-struct Destination {
-    point: Point2,
+pub(super) struct Destination {
+    pub(super) point: Point2,
     /// How far it still is, m.
-    distance: f64,
+    pub(super) distance: f64,
     /// The thing itself, if one goes up to it and not to its door.
     thing: Option<EntityId>,
 }
@@ -316,7 +316,7 @@ fn trimmed<'a>(
 
 impl Destination {
     /// Where a goal is, seen from `here`; `None` if it is gone.
-    fn of(scene: &dyn Scene, goal: Goal, here: Point2) -> Option<Self> {
+    pub(super) fn of(scene: &dyn Scene, goal: Goal, here: Point2) -> Option<Self> {
         let at = |point: Point2| Self { point, distance: (point - here).norm(), thing: None };
         match goal {
             Goal::Point(point) => Some(at(point.xy())),

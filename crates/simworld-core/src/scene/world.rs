@@ -14,7 +14,7 @@ use slots::{check_pose, check_twist};
 pub use snapshot::WorldSnapshot;
 
 use super::quadtree::Quadtree;
-use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Scene};
+use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Role, Scene};
 use crate::action::Action;
 use crate::asset::{Asset, AssetError, Catalogue};
 use crate::clock::Clock;
@@ -280,14 +280,26 @@ impl World {
         self.events.push(Event { tick: self.clock.tick(), kind });
     }
 
-    /// Tells a body to act this step: actions on objects take effect at once, all are passed on to the bodies.
+    /// Tells a body to act this step: actions on objects take effect at once, all are passed on to the bodies. Pedals and
+    /// wheel that somebody moves who sits in a vehicle are those of the vehicle, and so is the order to stop.
     ///
     /// # Errors
     /// The action is impossible, with the reason.
     pub fn actuate(&mut self, who: EntityId, action: Action) -> Result<(), super::InteractionError> {
         self.interact(who, &action)?;
-        self.actuations.push((who, action));
+        let body = self.driven_by(who, &action).unwrap_or(who);
+        self.actuations.push((body, action));
         Ok(())
+    }
+
+    /// The vehicle that the action moves if it is done by who sits in it.
+    fn driven_by(&self, who: EntityId, action: &Action) -> Option<EntityId> {
+        let drives = matches!(
+            action,
+            Action::Throttle { .. } | Action::Brake { .. } | Action::Steer { .. } | Action::Stop
+        );
+        let bond = self.entity(who)?.attachment.filter(|bond| drives && bond.role == Role::Aboard)?;
+        Some(bond.parent)
     }
 
     pub(crate) fn intend(&mut self, who: EntityId, intent: Intent) -> Result<(), WorldError> {

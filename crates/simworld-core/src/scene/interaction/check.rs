@@ -23,7 +23,7 @@ pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result
         Action::PutDownHeavy => has(scene, who, Role::Carried, "put down", "carrying nothing").map(drop),
         Action::GetOffScooter => has(scene, who, Role::Ridden, "get off", "on foot").map(drop),
         Action::StandUp => hangs_by(scene, who, Role::Seated, "stand up", "standing"),
-        Action::ExitCar => hangs_by(scene, who, Role::Aboard, "get out", "not in a vehicle"),
+        Action::ExitCar => get_out(scene, who),
         Action::OpenDoor { door } => turn_door(scene, who, *door, true),
         Action::CloseDoor { door } => turn_door(scene, who, *door, false),
         Action::Give { to } => give(scene, who, *to),
@@ -145,6 +145,21 @@ fn hangs_by(
 ) -> Result<(), InteractionError> {
     let bond = find(scene, who)?.attachment.filter(|bond| bond.role == role);
     bond.map(drop).ok_or(InteractionError::Busy { who, verb, state })
+}
+
+/// Nobody gets out of a vehicle that moves.
+fn get_out(scene: &dyn Scene, who: EntityId) -> Result<(), InteractionError> {
+    /// Faster than this it moves, m/s: a slow walk.
+    const MOVING: f64 = 1.0;
+    hangs_by(scene, who, Role::Aboard, "get out", "not in a vehicle")?;
+    let vehicle = find(scene, who)?.attachment.and_then(|bond| scene.entity(bond.parent));
+    match vehicle.filter(|vehicle| vehicle.twist.ground_speed() > MOVING) {
+        Some(vehicle) => {
+            let (id, label) = (vehicle.id, vehicle.label().to_owned());
+            Err(InteractionError::State { id, label, state: "moving: stop it first" })
+        }
+        None => Ok(()),
+    }
 }
 
 fn is_set(entity: &EntityRef<'_>, key: &str) -> bool {

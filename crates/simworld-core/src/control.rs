@@ -3,16 +3,16 @@
 //! Car following decides what a vehicle should do; these controllers decide which pedals do it. They serve vehicles with
 //! physical bodies; the fast bodies on lanes need none.
 
+use crate::action::Action;
+use crate::geometry::{Point2, Pose, planar, yaw_of};
+use crate::net::polyline;
+use crate::ops::{atan2, wrap_angle};
 use serde::{Deserialize, Serialize};
-use simworld_core::action::Action;
-use simworld_core::geometry::{Point2, Pose, planar, yaw_of};
-use simworld_core::net::polyline;
-use simworld_core::ops::{atan2, wrap_angle};
 
 /// A proportional-integral-derivative controller with a clamped integral.
 ///
 /// ```
-/// use simworld_traffic::control::Pid;
+/// use simworld_core::control::Pid;
 /// let mut cruise = Pid::new(0.5, 0.1, 0.0, 1.0);
 /// assert_eq!(cruise.update(2.0, 0.1), 0.5 * 2.0 + 0.1 * 0.2);
 /// ```
@@ -108,7 +108,7 @@ impl Driver {
         let target = polyline::at(path, near.station + ahead).0 - here;
         let bearing = wrap_angle(atan2(target.y, target.x) - yaw_of(pose));
         // Pure pursuit (Coulter 1992): the arc through the target; the PID takes out what is left beside the path.
-        let arc = atan2(2.0 * self.wheelbase * simworld_core::ops::sin(bearing), target.norm().max(1.0));
+        let arc = atan2(2.0 * self.wheelbase * crate::ops::sin(bearing), target.norm().max(1.0));
         let correction = self.wheel.update(-near.lateral, dt) / (1.0 + speed);
         (arc + correction).clamp(-self.lock, self.lock)
     }
@@ -116,8 +116,8 @@ impl Driver {
 
 #[cfg(test)]
 mod tests {
-    use simworld_core::geometry::{Point3, direction, pose_facing};
-    use simworld_core::ops::tan;
+    use crate::geometry::{Point3, direction, pose_facing};
+    use crate::ops::tan;
 
     use super::*;
 
@@ -148,7 +148,7 @@ mod tests {
         let mut path = vec![Point2::new(0.0, 0.0), Point2::new(40.0, 0.0)];
         path.extend((1..=10).map(|i| {
             let angle = f64::from(i) * 0.157;
-            let (sin, cos) = simworld_core::ops::sin_cos(angle);
+            let (sin, cos) = crate::ops::sin_cos(angle);
             Point2::new(40.0 + 8.0 * sin, 8.0 - 8.0 * cos)
         }));
         path.push(Point2::new(48.0, 60.0));

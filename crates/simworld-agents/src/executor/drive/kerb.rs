@@ -1,0 +1,110 @@
+//! Where to stop: the free place at the kerb nearest to where one wants to be.
+
+use std::ops::ControlFlow;
+
+use simworld_core::geometry::{Aabb, Point2, direction};
+use simworld_core::id::{EntityId, LaneId};
+use simworld_core::net::{LaneKind, RoadNetwork, polyline};
+use simworld_core::scene::Scene;
+
+use crate::lanes::{OnLane, lane};
+
+/// Room between the vehicle and the kerb, m.
+const TO_KERB: f64 = 0.3;
+/// Room before and behind a parked vehicle, m.
+const GAP: f64 = 1.0;
+/// How far from where one wants to be one looks for a place, m.
+const NEARBY: f64 = 60.0;
+/// Nobody parks so near a junction, m.
+const JUNCTION: f64 = 6.0;
+
+/// A place to stop: on the lane, and how far to its right, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Berth {
+    pub(super) on: OnLane,
+    pub(super) aside: f64,
+}
+
+/// The free place nearest to a place on a lane for a vehicle of that size; in the lane itself if the kerb is taken.
+pub(super) fn berth(
+    scene: &dyn Scene,
+    network: &RoadNetwork,
+    who: &[EntityId],
+    on: &OnLane,
+    size: (f64, f64),
+) -> Berth {
+    let aside = to_the_right(network, on, size.1);
+    let length = lane(network, on.lane).length;
+    let (low, high) = (JUNCTION.min(length * 0.5), (length - JUNCTION - size.0 * 0.5).max(length * 0.5));
+    let step = size.0 * 0.5;
+    let mut shift = 0.0;
+    while shift <= NEARBY {
+        for station in [on.station + shift, on.station - shift] {
+            let place = OnLane { station: station.clamp(low, high), ..*on };
+            if is_free(scene, network, who, &place, aside, size) {
+                return Berth { on: place, aside };
+            }
+        }
+        shift += step;
+    }
+    Berth { on: OnLane { station: on.station.clamp(low, high), ..*on }, aside: 0.0 }
+}
+
+/// How far to the right of the middle of the lane a vehicle stands at the kerb, m: on the strip for parked vehicles where
+/// there is one, else at the edge of the lane, so that no cycle lane is blocked.
+fn to_the_right(network: &RoadNetwork, on: &OnLane, width: f64) -> f64 {
+    let own = lane(network, on.lane);
+    let road = &network.roads[own.road.index()];
+    let at = polyline::at(&own.path, on.station).0;
+    let forward = road.forward.contains(&on.lane);
+    let Some(near) = polyline::closest(&road.centerline, &at) else { return 0.0 };
+    // Positive to the right of the way one goes.
+    let (middle, kerb) =
+        if forward { (-near.lateral, road.right_kerb) } else { (near.lateral, road.left_kerb) };
+    let is_beside = |offset: f64| if forward { -offset > middle } else { offset > middle };
+    let mut strips = road.strips.iter().filter(|strip| is_beside(strip.offset));
+    let parks = strips.clone().any(|strip| strip.kind == LaneKind::Parking);
+    let outermost = own.width * 0.5 + middle + 0.5 >= kerb || strips.next().is_none();
+    let edge = if parks || outermost { kerb - middle } else { own.width * 0.5 };
+    (edge - width * 0.5 - TO_KERB).max(0.0)
+}
+
+/// The middle of the vehicle there, and the way it looks.
+pub(super) fn pose(network: &RoadNetwork, id: LaneId, station: f64, aside: f64) -> (Point2, f64) {
+    let (point, heading) = polyline::at(&lane(network, id).path, station);
+    let ahead = direction(heading);
+    (point + simworld_core::geometry::Vector2::new(ahead.y, -ahead.x) * aside, heading)
+}
+
+fn is_free(
+    scene: &dyn Scene,
+    network: &RoadNetwork,
+    who: &[EntityId],
+    on: &OnLane,
+    aside: f64,
+    size: (f64, f64),
+) -> bool {
+    let (middle, heading) = pose(network, on.lane, on.station, aside);
+    let (ahead, reach) = (direction(heading), size.0 * 0.5 + GAP);
+    let mut free = true;
+    let _ = scene.visit(&Aabb::column_around(middle, reach), &mut |other| {
+        if who.contains(&other.id) || other.attachment.is_some() || !other.kind.is_solid() {
+            return ControlFlow::Continue(());
+        }
+        let corners = other.obb().footprint().map(|corner| {
+            let offset = corner - middle;
+            (offset.dot(&ahead), ahead.perp(&offset))
+        });
+        let span = |of: fn(&(f64, f64)) -> f64| {
+            corners
+                .iter()
+                .map(of)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+        };
+        let (along, across) = (span(|c| c.0), span(|c| c.1));
+        let half = size.1 * 0.5 + 0.1;
+        free = along.1 < -reach || along.0 > reach || across.1 < -half || across.0 > half;
+        if free { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    free
+}

@@ -1,0 +1,252 @@
+//! Sentences are driven: by a person at the wheel of a car, and by a car that drives itself, as bodies on their own tyres,
+//! in lane, within the limits, at green, round what stands in the way and to the kerb.
+
+use std::sync::Arc;
+
+use simworld_agents::executor::RuleExecutor;
+use simworld_agents::language::GrammarPlanner;
+use simworld_core::action::Action;
+use simworld_core::command::Command;
+use simworld_core::geometry::{Point2, Point3, direction, pose_facing, yaw_of};
+use simworld_core::id::EntityId;
+use simworld_core::intent::Intent;
+use simworld_core::net::{
+    Aspect, NetworkConfig, RoadNetwork, StreetPlan, WaypointConfig, WaypointGraph, polyline,
+};
+use simworld_core::scene::{EntityDesc, EntityKind, Place, Role, Scene, Shape, World};
+use simworld_core::seam::{Executor, Planner, Progress};
+use simworld_core::seed::Seed;
+use simworld_core::simulation::Simulation;
+use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, VehicleClass};
+use simworld_traffic::{TrafficConfig, TrafficDynamics};
+
+const RED: [f32; 3] = [0.55, 0.03, 0.02];
+
+/// A town of nine blocks, a red car at the kerb of its southern street, and a person beside it.
+struct Town {
+    world: World,
+    network: Arc<RoadNetwork>,
+    person: EntityId,
+    car: EntityId,
+    hospital: EntityId,
+}
+
+impl Town {
+    fn new() -> Self {
+        let network = RoadNetwork::derive(&StreetPlan::grid(4, 4, 120.0), &NetworkConfig::default());
+        let network = Arc::new(network.expect("a grid is sound"));
+        let mut world = World::new();
+        world.set_roads(Arc::clone(&network));
+        let mut put = |desc: EntityDesc| world.spawn(desc).expect("a sound entity");
+        let at = |x, y, yaw| pose_facing(Point3::new(x, y, 0.0), yaw);
+        let car =
+            EntityDesc::new(EntityKind::Car, at(50.0, -2.2, 0.0), Shape::cuboid(4.3, 1.8, 1.5)).colored(RED);
+        let car = put(car);
+        let person = Shape::Capsule { radius: 0.25, height: 1.8 };
+        let person = put(EntityDesc::new(EntityKind::Person, at(40.0, -6.0, 0.0), person));
+        let mut house =
+            EntityDesc::new(EntityKind::Building, at(300.0, 260.0, 0.0), Shape::cuboid(20.0, 20.0, 9.0));
+        house = house.used_as(Place::Hospital).named("Town Hospital");
+        house.info.access = Some(Point3::new(300.0, 246.5, 0.0));
+        let hospital = put(house);
+        Self { world, network, person, car, hospital }
+    }
+
+    /// The run of what is said to somebody.
+    fn run(self, who: EntityId, words: &str) -> Run {
+        let plan = GrammarPlanner::default().plan(&Intent::Words(words.to_owned()), &self.world, who);
+        let plan = plan.unwrap_or_else(|error| panic!("{words}: {error}"));
+        let mut world = self.world;
+        let quiet = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+        let traffic = TrafficDynamics::new(&mut world, &quiet, Seed(1)).expect("signals alone");
+        let mut physics = PhysicsDynamics::new(PhysicsConfig::default()).expect("sound settings");
+        physics.add_humanoid(&world, self.person, HumanoidConfig::default()).expect("a person has a body");
+        physics.add_vehicle(&world, self.car, VehicleClass::Sedan.parameters()).expect("a car has a body");
+        let ways =
+            WaypointGraph::walkable(&self.network, &WaypointConfig::default()).expect("sound settings");
+        let mut simulation = Simulation::new(world);
+        simulation.add_dynamics("traffic", Box::new(traffic));
+        simulation.add_dynamics("physics", Box::new(physics));
+        simulation.set_trail_interval(0);
+        let mut executor = RuleExecutor::new(Arc::new(ways));
+        executor.start(plan, simulation.world(), who).expect("the plan can be begun");
+        let start = self.network;
+        Run {
+            simulation,
+            executor,
+            network: start,
+            who,
+            car: self.car,
+            recent: Vec::new(),
+            worst: Worst::default(),
+        }
+    }
+}
+
+/// What went worst on the way.
+#[derive(Debug, Default)]
+struct Worst {
+    /// m beside the nearest lane or way across a junction, at speed.
+    aside: f64,
+    /// m/s above the limit.
+    too_fast: f64,
+    /// Ways across that were begun at red.
+    at_red: usize,
+    /// m driven.
+    driven: f64,
+}
+
+struct Run {
+    simulation: Simulation,
+    executor: RuleExecutor,
+    network: Arc<RoadNetwork>,
+    who: EntityId,
+    car: EntityId,
+    recent: Vec<Vec<Aspect>>,
+    worst: Worst,
+}
+
+impl Run {
+    fn step(&mut self) -> Progress {
+        let mut actions = Vec::new();
+        let progress =
+            self.executor.advance(self.simulation.world(), self.who, &mut actions).expect("it works");
+        for action in actions {
+            self.simulation.submit(Command::Actuate { who: self.who, action });
+        }
+        self.simulation.step().expect("the world goes on");
+        self.look();
+        progress
+    }
+
+    fn finish(&mut self, seconds: usize) -> Progress {
+        for _ in 0..seconds * 10 {
+            let progress = self.step();
+            if progress != Progress::Running {
+                return progress;
+            }
+        }
+        panic!("still under way after {seconds} s at {:?}, {:?}", self.car_at(), self.worst);
+    }
+
+    fn car_at(&self) -> Point2 {
+        self.simulation.world().entity(self.car).expect("the car is there").planar()
+    }
+
+    fn look(&mut self) {
+        let world = self.simulation.world();
+        let car = world.entity(self.car).expect("the car is there");
+        let (at, speed, ahead) = (car.planar(), car.twist.ground_speed(), direction(yaw_of(car.pose)));
+        self.worst.driven += speed * 0.1;
+        self.recent.push(world.signals().to_vec());
+        // The line is a car's length before the junction.
+        self.recent.drain(..self.recent.len().saturating_sub(40));
+        if speed < 3.0 {
+            return;
+        }
+        let along = |path: &[Point2]| {
+            let near = polyline::closest(path, &at)?;
+            let way = direction(polyline::at(path, near.station).1);
+            (way.dot(&ahead) > 0.7).then_some(near)
+        };
+        let lanes = self.network.lanes.iter().filter_map(|lane| Some((along(&lane.path)?, lane.speed_limit)));
+        let (near, limit) =
+            lanes.min_by(|a, b| a.0.distance.total_cmp(&b.0.distance)).expect("there are lanes");
+        let across = self.network.connections.iter().filter_map(|way| Some((along(&way.path)?, way)));
+        let across =
+            across.min_by(|a, b| a.0.distance.total_cmp(&b.0.distance)).expect("there are junctions");
+        self.worst.aside = self.worst.aside.max(near.distance.min(across.0.distance));
+        self.worst.too_fast = self.worst.too_fast.max(speed - limit);
+        let is_on = across.0.distance < 0.5 && (1.0..3.0).contains(&across.0.station);
+        if let Some(group) = across.1.signal.filter(|_| is_on) {
+            let may = self.recent.iter().any(|aspects| aspects[group.index()] != Aspect::Red);
+            self.worst.at_red += usize::from(!may);
+        }
+    }
+}
+
+#[test]
+fn a_person_gets_in_drives_and_gets_out() {
+    let town = Town::new();
+    let (person, hospital) = (town.person, town.hospital);
+    let mut run = town.run(person, "get into the red car, drive to the hospital and get out");
+    assert_eq!(run.finish(400), Progress::Done, "{:?}", run.worst);
+    let world = run.simulation.world();
+    let (door, car) = (world.entity(hospital).unwrap().access().xy(), world.entity(run.car).unwrap());
+    assert!((car.planar() - door).norm() < 25.0, "parked {:.0} m away", (car.planar() - door).norm());
+    assert!(car.twist.ground_speed() < 0.3 && world.attached(run.car, Role::Aboard).is_none());
+    let out = world.entity(person).unwrap();
+    assert!(out.attachment.is_none() && (out.planar() - car.planar()).norm() < 3.0);
+    let Worst { aside, too_fast, at_red, driven } = run.worst;
+    assert!(driven > 350.0, "drove {driven:.0} m");
+    assert!(aside < 1.0, "{aside:.2} m beside the lane");
+    assert!(too_fast < 1.0, "{too_fast:.2} m/s too fast");
+    assert_eq!(at_red, 0, "drove at red");
+}
+
+#[test]
+fn a_car_drives_itself_and_parks_at_the_kerb() {
+    let town = Town::new();
+    let car = town.car;
+    let mut run = town.run(car, "drive to the hospital and wait for two seconds");
+    assert_eq!(run.finish(400), Progress::Done);
+    // The northern lane of the street before the hospital goes west; the kerb is 3.5 m from the middle of the street.
+    let (at, edge) = (run.car_at(), 0.9 + 0.3);
+    let from_middle = (at.y - 240.0).abs();
+    assert!((3.5 - from_middle - edge).abs() < 0.4, "{:.2} m from the middle of the street", from_middle);
+    assert_eq!(run.worst.at_red, 0);
+}
+
+#[test]
+fn what_stands_in_the_lane_is_passed() {
+    let mut town = Town::new();
+    let crate_at = pose_facing(Point3::new(90.0, -1.9, 0.0), 0.0);
+    town.world.spawn(EntityDesc::new(EntityKind::Prop, crate_at, Shape::cuboid(1.2, 1.2, 1.0))).unwrap();
+    let car = town.car;
+    let mut run = town.run(car, "drive to the hospital");
+    let obstacle = Point2::new(90.0, -1.9);
+    let mut nearest = f64::INFINITY;
+    let mut ended = Progress::Running;
+    for _ in 0..4000 {
+        ended = run.step();
+        nearest = nearest.min((run.car_at() - obstacle).norm());
+        if ended != Progress::Running {
+            break;
+        }
+    }
+    assert_eq!(ended, Progress::Done);
+    assert!(nearest > 1.5, "{nearest:.2} m: through the crate");
+    assert!(run.worst.driven > 350.0);
+}
+
+#[test]
+fn people_in_the_way_are_waited_for_and_a_stop_is_at_once() {
+    let mut town = Town::new();
+    let body = Shape::Capsule { radius: 0.25, height: 1.8 };
+    let in_lane = pose_facing(Point3::new(85.0, -1.75, 0.0), 0.0);
+    let stranger = town.world.spawn(EntityDesc::new(EntityKind::Person, in_lane, body)).unwrap();
+    let car = town.car;
+    let mut run = town.run(car, "drive to the hospital");
+    for _ in 0..150 {
+        run.step();
+    }
+    let waiting = run.car_at();
+    assert!(
+        waiting.x > 70.0 && waiting.x < 82.5,
+        "it waits behind the stranger, and stands at {}",
+        waiting.x
+    );
+    run.simulation.submit(Command::Remove { id: stranger });
+    for _ in 0..60 {
+        run.step();
+    }
+    assert!(run.car_at().x > waiting.x + 5.0, "it goes on when the lane is free");
+    let mut out = Vec::new();
+    run.executor.cancel(&mut out);
+    assert_eq!(out, [Action::Stop]);
+    run.simulation.submit(Command::Actuate { who: car, action: Action::Stop });
+    for _ in 0..50 {
+        run.simulation.step().unwrap();
+    }
+    assert!(run.simulation.world().entity(car).unwrap().twist.ground_speed() < 0.1);
+}
