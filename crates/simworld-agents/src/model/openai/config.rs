@@ -22,7 +22,7 @@ pub struct OpenAiConfig {
     /// A file of certificates (PEM) that are trusted instead of Mozilla's: a server with an authority of its own. Only for
     /// https.
     pub root_certificates: Option<PathBuf>,
-    /// The most time until the connection stands, s; 0.001 to 86,400.
+    /// The most time to find the host, and then until the connection stands, s; 0.001 to 86,400.
     pub connect_timeout: f64,
     /// The most time from the request to the last byte of its answer, s; 0.001 to 86,400.
     pub timeout: f64,

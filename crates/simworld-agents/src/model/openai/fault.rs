@@ -87,8 +87,9 @@ fn message_of(value: &Value) -> String {
 fn retry_after(headers: &HeaderMap) -> Option<Duration> {
     let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
     let value = text("retry-after")?.trim();
-    if let Ok(seconds) = value.parse::<u32>() {
-        return Some(Duration::from_secs(seconds.into()));
+    if let Ok(seconds) = value.parse::<f64>() {
+        // some servers give decimals; a wait of years is none that anybody means
+        return (0.0..=f64::from(u32::MAX)).contains(&seconds).then(|| Duration::from_secs_f64(seconds));
     }
     let until = httpdate::parse_http_date(value).ok()?;
     let now = httpdate::parse_http_date(text("date")?).ok()?;
@@ -108,11 +109,14 @@ mod tests {
         let date = ("date", "Sun, 06 Nov 1994 08:49:37 GMT");
         for (value, wait) in [
             ("7", Some(7)),
+            ("2.0", Some(2)),
             (" 0 ", Some(0)),
             ("Sun, 06 Nov 1994 08:50:37 GMT", Some(60)),
             ("Sun, 06 Nov 1994 08:40:00 GMT", Some(0)),
             ("-3", None),
             ("soon", None),
+            ("nan", None),
+            ("inf", None),
             ("99999999999999999999", None),
         ] {
             let found = retry_after(&headers(&[("retry-after", value), date]));

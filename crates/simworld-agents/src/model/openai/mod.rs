@@ -157,10 +157,12 @@ impl std::fmt::Debug for OpenAiChat {
 }
 
 fn agent(config: &OpenAiConfig, uri: &Uri, key: Option<Arc<ApiKey>>) -> Result<Agent, ModelError> {
+    let connect = Some(Duration::from_secs_f64(config.connect_timeout));
     let mut builder = Agent::config_builder()
         .http_status_as_error(false)
         .max_redirects(0)
-        .timeout_connect(Some(Duration::from_secs_f64(config.connect_timeout)))
+        .timeout_resolve(connect)
+        .timeout_connect(connect)
         .timeout_global(Some(Duration::from_secs_f64(config.timeout)))
         .user_agent(concat!("simworld/", env!("CARGO_PKG_VERSION")));
     if config::is_loopback(uri) {
