@@ -53,7 +53,7 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 /// Episodes that a policy is judged by.
 const JUDGED: usize = 200;
 /// Points of a curve.
-const POINTS: usize = 40;
+const POINTS: usize = 20;
 
 fn main() -> ExitCode {
     match job(&Arguments::parse()) {

@@ -122,10 +122,13 @@ fn language(table: &mut Table) -> Outcome<()> {
     for words in SENTENCES {
         let intent = Intent::Words(words.to_owned());
         understood += usize::from(GrammarPlanner::default().plan(&intent, world, me).is_ok());
-        times.push(median(101, || GrammarPlanner::default().plan(&intent, world, me)));
+        times.push((median(101, || GrammarPlanner::default().plan(&intent, world, me)), words));
     }
     times.sort_unstable();
-    let (middle, worst) = (times[times.len() / 2], times[times.len() - 1]);
+    let ((middle, _), (worst, _)) = (times[times.len() / 2], times[times.len() - 1]);
+    for (time, words) in times {
+        println!("{:>10}  {words}", micros(time));
+    }
     table.add_row([
         format!(
             "a sentence to a plan among {count} entities, median of {} ({understood} planned)",
@@ -202,7 +205,7 @@ fn cities(arguments: &Arguments, table: &mut Table) -> Outcome<()> {
         let mut envs = VectorEnv::new(arguments.cities, config, make)?;
         envs.reset(Some(Seed(1)), &Options::new())?;
         let mut best = f64::INFINITY;
-        for heading in 0..16 {
+        for heading in 0..64 {
             let actions = vec![SpaceValue::Discrete(heading % 8); arguments.cities];
             let (stepped, time) = timed(|| envs.step(actions));
             stepped?;
