@@ -12,5 +12,6 @@ pub mod city;
 pub mod delivery;
 pub mod experiment;
 pub mod minds;
+pub mod served;
 pub mod traffic;
 pub mod wayfinding;
