@@ -6,6 +6,7 @@
 //! is shown to the model once more with what is wrong, and is then a typed error: it never becomes "do nothing".
 
 mod checks;
+mod courier;
 mod eyes;
 mod known;
 mod memory;
@@ -19,6 +20,7 @@ mod reasoner;
 mod relevance;
 pub mod schema;
 
+pub use courier::ModelCourier;
 pub use eyes::{VisualConfig, VisualConfigError, VisualExecutor};
 pub use known::{Sight, ViewConfig, ViewConfigError};
 pub use memory::{Memory, MemoryConfig, MemoryConfigError, Record, RecordKind, RingMemory};

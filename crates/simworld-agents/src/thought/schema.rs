@@ -146,15 +146,21 @@ impl<'a> Checker<'a> {
         depth: usize,
     ) -> Result<(), Mismatch> {
         let mut tags = Vec::new();
-        let mut last = None;
+        // What is wrong by the branch that the answer names, and by others.
+        let (mut meant, mut last) = (None, None);
+        let length = path.len();
         for branch in branches {
+            path.truncate(length);
             let branch = self.resolved(branch, path)?;
             match tag(branch) {
                 Some((name, value)) if answer.is_object() => {
-                    if answer.get(name).and_then(Value::as_str) == Some(value) {
-                        return self.check(answer, branch, path, depth + 1);
-                    }
                     tags.push((name, value));
+                    if answer.get(name).and_then(Value::as_str) == Some(value) {
+                        match self.check(answer, branch, path, depth + 1) {
+                            Ok(()) => return Ok(()),
+                            Err(mismatch) => meant = Some(mismatch),
+                        }
+                    }
                 }
                 _ => match self.check(answer, branch, path, depth + 1) {
                     Ok(()) => return Ok(()),
@@ -162,6 +168,11 @@ impl<'a> Checker<'a> {
                 },
             }
         }
+        path.truncate(length);
+        if let Some(mismatch) = meant {
+            return Err(mismatch);
+        }
+        tags.dedup();
         match (tags.first(), last) {
             (Some((name, _)), _) => {
                 let values: Vec<&str> = tags.iter().map(|(_, value)| *value).collect();
