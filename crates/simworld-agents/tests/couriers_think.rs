@@ -1,5 +1,6 @@
 //! Couriers that think with a model: what they are offered is possible, and what is written changes nothing of it.
 #![cfg(feature = "thought")]
+#![allow(clippy::unwrap_used, reason = "the town of the delivery tests")]
 
 mod delivery_common;
 mod thought_common;
