@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use clap::Parser;
 use simworld_core::clock::Clock;
+use simworld_core::control::Driver;
 use simworld_core::geometry::{Point2, planar};
 use simworld_core::id::{EntityId, LaneId};
 use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan, Turn, polyline};
@@ -17,7 +18,6 @@ use simworld_core::scene::{Scene, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_physics::{PhysicsConfig, PhysicsDynamics, VehicleClass};
-use simworld_core::control::Driver;
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 

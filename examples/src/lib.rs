@@ -8,6 +8,7 @@
 
 pub mod beside_sumo;
 pub mod bodies;
+pub mod chat;
 pub mod city;
 pub mod delivery;
 pub mod experiment;

@@ -109,7 +109,7 @@ impl RuleExecutor {
     }
 
     /// The step under way, block or not.
-    fn current(&self) -> Option<&PlanStep> {
+    pub(super) fn current(&self) -> Option<&PlanStep> {
         let mut steps = &self.state.plan.steps[..];
         let mut current = None;
         for (at, place) in self.state.place.iter().enumerate() {

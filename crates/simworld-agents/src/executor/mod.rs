@@ -161,6 +161,11 @@ impl RuleExecutor {
         }
     }
 
+    /// The step of the plan under way; of blocks the innermost.
+    pub fn under_way(&self) -> Option<&PlanStep> {
+        self.current()
+    }
+
     /// Whether it has nothing to do.
     pub fn is_idle(&self) -> bool {
         self.state.place.is_empty()
