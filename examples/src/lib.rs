@@ -16,3 +16,8 @@ pub mod minds;
 pub mod served;
 pub mod traffic;
 pub mod wayfinding;
+
+/// The page about one's own task, so that its code is run.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/your-own-task.md")]
+pub struct YourOwnTask;

@@ -81,6 +81,17 @@ pub enum TrafficOrder {
         kind: String,
         /// The legs that it drives.
         route: Vec<RoadLeg>,
+        /// Where it stands parked on the first leg and pulls out, m along it; at nothing it drives in at the leg's beginning.
+        from: Option<f64>,
+        /// Where it parks on the last leg, m along it; at nothing it leaves at the leg's end.
+        to: Option<f64>,
+    },
+    /// Turns the siren of an emergency vehicle on or off.
+    Siren {
+        /// Whose.
+        who: EntityId,
+        /// Whether it sounds from now on.
+        is_on: bool,
     },
     /// Lets a new walker enter.
     AddWalker {
@@ -141,6 +152,7 @@ impl TrafficOrder {
             Self::Halt { .. } => "halt",
             Self::Park { .. } => "park",
             Self::SendVehicle { .. } => "send_vehicle",
+            Self::Siren { .. } => "siren",
             Self::AddWalker { .. } => "add_walker",
             Self::SendWalker { .. } => "send_walker",
             Self::Drive { .. } => "drive",
@@ -155,6 +167,7 @@ impl TrafficOrder {
         match self {
             Self::Halt { who, .. }
             | Self::Park { who, .. }
+            | Self::Siren { who, .. }
             | Self::SendWalker { who, .. }
             | Self::Drive { who, .. }
             | Self::Guide { who, .. }

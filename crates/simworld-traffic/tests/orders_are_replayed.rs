@@ -11,6 +11,7 @@ use simworld_core::id::{EntityId, LaneId, RoadId};
 use simworld_core::net::{CrossSection, LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::record::Recording;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
+use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
 use simworld_core::traffic::{ClosedWay, LaneChoice, TrafficOrder};
@@ -33,6 +34,12 @@ fn town() -> (Simulation, Vec<EntityId>, Vec<EntityId>) {
     (simulation, vehicles, walkers)
 }
 
+/// A trip along the first street, from and to a place at its kerb.
+fn kerb_to_kerb(kind: &str, from: f64, to: f64) -> TrafficOrder {
+    let route = vec![(RoadId(0), LaneDirection::Forward)];
+    TrafficOrder::SendVehicle { kind: kind.to_owned(), route, from: Some(from), to: Some(to) }
+}
+
 /// What happens in the town from outside, by step.
 fn orders(step: u64, vehicles: &[EntityId], walkers: &[EntityId]) -> Vec<Command> {
     let leg = (RoadId(0), LaneDirection::Forward);
@@ -45,7 +52,10 @@ fn orders(step: u64, vehicles: &[EntityId], walkers: &[EntityId]) -> Vec<Command
             TrafficOrder::Halt { who: vehicles[3], seconds: Some(30.0) },
             TrafficOrder::Halt { who: vehicles[4], seconds: None },
         ],
-        150 => vec![TrafficOrder::SendVehicle { kind: "van".to_owned(), route: vec![leg] }],
+        150 => vec![
+            TrafficOrder::SendVehicle { kind: "van".to_owned(), route: vec![leg], from: None, to: None },
+            kerb_to_kerb("emergency", 40.0, 110.0),
+        ],
         200 => {
             let weather = Weather { rain: 20.0, ..Weather::default() };
             return vec![
@@ -80,8 +90,10 @@ fn orders(step: u64, vehicles: &[EntityId], walkers: &[EntityId]) -> Vec<Command
                 lane: LaneChoice::Keep,
                 next: None,
             },
-            TrafficOrder::SendVehicle { kind: "tank".to_owned(), route: vec![leg] },
-            TrafficOrder::SendVehicle { kind: "car".to_owned(), route: vec![] },
+            TrafficOrder::SendVehicle { kind: "tank".to_owned(), route: vec![leg], from: None, to: None },
+            TrafficOrder::SendVehicle { kind: "car".to_owned(), route: vec![], from: None, to: None },
+            kerb_to_kerb("car", 40.0, 159.0),
+            TrafficOrder::Siren { who: vehicles[12], is_on: true },
             TrafficOrder::Close { what: ClosedWay::Stretch(LaneId(2), 9.0, 4.0), seconds: None },
             TrafficOrder::GiveBack { who: vehicles[13] },
             TrafficOrder::Guide { who: walkers[1], speed: -1.0, keep_right: 0.0, dares: false },
@@ -129,13 +141,13 @@ fn a_replay_takes_the_same_way_and_what_cannot_be_is_reported() {
         }
         most = most.max(simulation.world().len());
     }
-    assert_eq!((refused, closed.len()), (8, 2), "{closed:?}");
+    assert_eq!((refused, closed.len()), (10, 2), "{closed:?}");
     let world = simulation.world();
     assert!(world.entity(vehicles[7]).is_none() && world.entity(walkers[7]).is_none());
     assert!(most >= 120, "somebody entered: {most}");
     assert!(world.entity(vehicles[4]).is_some_and(|broken| broken.twist.ground_speed() == 0.0));
     let recording: Recording = simulation.recording().clone();
-    assert_eq!(recording.commands.len(), 26);
+    assert_eq!(recording.commands.len(), 29);
     assert_eq!(recording.trail.len() as u64, STEPS / 10);
     let (mut replay, vehicles, _) = town();
     for step in 0..STEPS {
@@ -199,4 +211,34 @@ fn who_is_put_in_the_way_by_another_is_minded_and_joins_from_where_it_is() {
     }
     let gone = *simulation.world().entity(who).expect("it is there").pose;
     assert!((gone.translation.vector - at.translation.vector).norm() > 5.0, "it drives on");
+}
+
+#[test]
+fn an_ambulance_leaves_the_kerb_by_order_and_its_siren_is_switched() {
+    let mut world = World::new();
+    let network = RoadNetwork::derive(&StreetPlan::grid(3, 3, 160.0), &NetworkConfig::default());
+    world.set_roads(Arc::new(network.expect("a grid is a network")));
+    let config = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+    let mut traffic = TrafficDynamics::new(&mut world, &config, Seed(4)).expect("the settings are in range");
+    let order = |world: &mut World, order| {
+        world.apply(&Command::Traffic(order)).expect("orders are taken");
+    };
+    let step = |world: &mut World, traffic: &mut TrafficDynamics| {
+        world.begin_step();
+        traffic.step(world, 0.1).expect("traffic goes on");
+        world.finish_step();
+    };
+    order(&mut world, kerb_to_kerb("emergency", 40.0, 110.0));
+    step(&mut world, &mut traffic);
+    assert_eq!(traffic.vehicles().len(), 1, "it stands at the kerb at once");
+    let who = traffic.vehicles()[0];
+    for is_on in [false, true] {
+        order(&mut world, TrafficOrder::Siren { who, is_on });
+        step(&mut world, &mut traffic);
+        assert_eq!(!traffic.traffic().sirens().is_empty(), is_on);
+    }
+    for _ in 0..900 {
+        step(&mut world, &mut traffic);
+    }
+    assert!(world.entity(who).is_none(), "it came to its place and is gone");
 }

@@ -9,7 +9,7 @@ use super::TrafficDynamics;
 use super::handed::Who;
 use crate::vehicle::VehicleKind;
 use crate::{
-    AtDestination, Closed, Closure, ControlError, Drive, LaneWish, Leg, Route, Stroll, TrafficError,
+    AtDestination, Closed, Closure, ControlError, Drive, Kerbs, LaneWish, Leg, Route, Stroll, TrafficError,
 };
 
 /// The event of an order that could not be carried out.
@@ -59,10 +59,17 @@ impl TrafficDynamics {
                 let id = self.vehicle_of(*who)?;
                 self.traffic.park(id, leg(*at), *station, *seconds)?;
             }
-            TrafficOrder::SendVehicle { kind, route } => {
+            TrafficOrder::SendVehicle { kind, route, from, to } => {
                 let known = VehicleKind::ALL.into_iter().find(|own| own.as_str() == kind);
                 let kind = known.ok_or(TrafficError::NoVehicle { kind: kind.clone() })?;
-                self.traffic.insert(Route(route.iter().copied().map(leg).collect()), kind)?;
+                let (route, kerbs) =
+                    (route.iter().copied().map(leg).collect(), Kerbs { from: *from, to: *to });
+                let now = self.traffic.seconds();
+                self.traffic.insert_between(Route(route), kind.into(), now, kerbs)?;
+            }
+            TrafficOrder::Siren { who, is_on } => {
+                let id = self.vehicle_of(*who)?;
+                self.traffic.set_siren(id, *is_on)?;
             }
             TrafficOrder::AddWalker { at, to } => {
                 self.traffic.add_walker(*at, *to)?;
