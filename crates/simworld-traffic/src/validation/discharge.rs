@@ -45,7 +45,7 @@ impl Queue {
 
     /// Notes who starts in this step.
     fn look(&mut self, traffic: &Traffic) {
-        for (id, _, _, v) in traffic.stations().filter(|(.., v)| *v > STARTED) {
+        for (id, ..) in traffic.stations().filter(|(.., v)| *v > STARTED) {
             if let Some(rank) = self.stands.iter().position(|(_, own)| *own == id) {
                 self.starts[rank] = self.starts[rank].min(traffic.seconds());
             }

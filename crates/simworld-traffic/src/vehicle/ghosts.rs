@@ -4,7 +4,7 @@
 use super::lane_change::{old_lane, out, stretch};
 use super::manager::{STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
-use super::tracks::{Obstacle, Track, Tracks};
+use super::tracks::{Obstacle, Track};
 
 /// From so far one sees that one's lane is blocked, m.
 pub(super) const BLOCK_SEEN: f64 = 80.0;
@@ -75,10 +75,11 @@ impl Part {
     /// The body before a place in a lane that is being left, for whoever is still in it: its rear and speed.
     pub(super) fn ahead_in_old_lane(
         &self,
-        tracks: &Tracks,
+        scene: &Scene<'_>,
         lane: Track,
         vehicle: &Vehicle,
     ) -> Option<(f64, f64)> {
+        let tracks = scene.tracks;
         let track = old_lane(tracks, lane, vehicle)?;
         if f64::from(vehicle.shift.abs()) <= out(tracks, lane, track) {
             return None;
@@ -91,20 +92,29 @@ impl Part {
         // Another may be on its way out of the same lane.
         let ghost = first_ghost(self.ghosts(old), s);
         // Or its front has left the lane and its rear has not.
-        let (end, leavers) = (tracks.length[track as usize], self.leavers(tracks, track));
+        let (end, leavers) = (tracks.length[track as usize], self.leavers(scene, track));
         let leaver = leavers.map(|(rear, v)| (end - s + rear, v)).filter(|(gap, _)| *gap > -vehicle.length());
         [leader, ghost].into_iter().flatten().chain(leaver).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Those whose front has left a lane by a junction and whose rear has not: where that is, from the end of the lane, m and
     /// negative; and their speeds.
-    fn leavers(&self, tracks: &Tracks, lane: Track) -> impl Iterator<Item = (f64, f64)> {
-        tracks.network.lanes[lane as usize].outgoing.iter().filter_map(|way| {
-            let track = tracks.lanes as Track + way.0;
-            let last = self.slabs.queue(tracks.layout.local(track)).last()?;
-            let rear = last.s - last.length();
-            (rear < 0.0).then_some((rear, last.v))
-        })
+    fn leavers(&self, scene: &Scene<'_>, lane: Track) -> impl Iterator<Item = (f64, f64)> {
+        let ways = &scene.tracks.network.lanes[lane as usize].outgoing;
+        let on_ways = ways.iter().flat_map(move |way| self.on_way(scene, way.0));
+        on_ways.filter(|other| other.1 < 0.0).map(|(_, rear, v)| (rear, v))
+    }
+
+    /// Those who are on a way, or have their rear there: front and rear along the way, m, and speed, m/s.
+    pub(super) fn on_way(&self, scene: &Scene<'_>, way: u32) -> impl Iterator<Item = (f64, f64, f64)> {
+        let tracks = scene.tracks;
+        let track = tracks.lanes + way as usize;
+        let on_way = self.slabs.queue(tracks.layout.local(track as Track)).iter();
+        // Of those behind the way only the last can still have its rear on it.
+        let tail = scene.tail(tracks.lane_after(way as usize));
+        let rear = tail.rear + tracks.length[track];
+        let behind = (tail.way == way).then_some((rear + f64::from(tail.length), rear, tail.v));
+        on_way.map(|other| (other.s, other.s - other.length(), other.v)).chain(behind)
     }
 }
 

@@ -39,18 +39,6 @@ impl<'a> Lane<'a> {
         Self { part, scene, track, way, end, limit, bend, ghosts }
     }
 
-    /// Those who are on a way out of it, or have their rear there: front and rear along the way, m, and speed, m/s.
-    fn on_way(&self, way: u32) -> impl Iterator<Item = (f64, f64, f64)> {
-        let tracks = self.scene.tracks;
-        let track = tracks.lanes + way as usize;
-        let on_way = self.part.slabs.queue(tracks.layout.local(track as Track)).iter();
-        // Of those behind the way only the last can still have its rear on it.
-        let tail = self.scene.tail(tracks.lane_after(way as usize));
-        let rear = tail.rear + tracks.length[track];
-        let behind = (tail.way == way).then_some((rear + f64::from(tail.length), rear, tail.v));
-        on_way.map(|other| (other.s, other.s - other.length(), other.v)).chain(behind)
-    }
-
     /// Whether a driver must decide in this step even far from all interest: who crosses, is about to, changes lanes, or may
     /// pull away. What Krauss asks for is for one step.
     fn is_pressing(&self, vehicle: &Vehicle, leader: Option<&Vehicle>) -> bool {
@@ -207,7 +195,7 @@ impl View<'_> {
             }
         }
         if vehicle.shift != 0.0
-            && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene.tracks, lane.track, vehicle)
+            && let Some((gap, speed)) = lane.part.ahead_in_old_lane(lane.scene, lane.track, vehicle)
         {
             self.follow(gap, speed);
         }
@@ -277,7 +265,7 @@ impl View<'_> {
             return;
         }
         for way in &lane.scene.tracks.network.lanes[lane.track as usize].outgoing {
-            for (_, rear, v) in lane.on_way(way.0).filter(|other| other.1 < 0.0) {
+            for (_, rear, v) in lane.part.on_way(lane.scene, way.0).filter(|other| other.1 < 0.0) {
                 self.follow(to_end + rear, v);
             }
         }
@@ -332,7 +320,7 @@ impl View<'_> {
             if !lane.scene.junctions.is_held(*sibling) {
                 continue;
             }
-            for (front, rear, v) in lane.on_way(*sibling) {
+            for (front, rear, v) in lane.part.on_way(lane.scene, *sibling) {
                 if front > at && rear < *clear {
                     self.follow(rear - at, v);
                 }
