@@ -85,10 +85,15 @@ fn run(name: &str, network: &Arc<RoadNetwork>, minutes: f64) -> Seen {
                 demand.keep(&mut traffic);
             }
             traffic.step(DT);
+            let now = traffic.seconds();
+            // Who enters may have the number of somebody who left.
+            for id in traffic.entered() {
+                since.resize(since.len().max(*id as usize + 1), now);
+                since[*id as usize] = now;
+            }
             if step % 10 != 0 {
                 continue;
             }
-            let now = traffic.seconds();
             for (id, _, _, v) in traffic.stations() {
                 since.resize(since.len().max(id as usize + 1), now);
                 if v > 0.1 {
@@ -96,10 +101,6 @@ fn run(name: &str, network: &Arc<RoadNetwork>, minutes: f64) -> Seen {
                 }
                 seen.stood = seen.stood.max(now - since[id as usize]);
                 (speeds, count) = (speeds + v, count + 1.0);
-            }
-            for id in traffic.entered() {
-                since.resize(since.len().max(*id as usize + 1), now);
-                since[*id as usize] = now;
             }
         }
         let counters = traffic.counters();

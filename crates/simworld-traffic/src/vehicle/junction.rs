@@ -26,6 +26,9 @@ const FRESH: f64 = 0.6;
 /// A vehicle nearer to its stop line than this stands at it, m.
 const AT_LINE: f64 = 1.5;
 
+/// Who has stood at its line for so long has the room behind the junction before all others, s: else those whose green comes when
+/// there is some would have it for good.
+const PATIENT: f64 = 240.0;
 /// Drivers come to a stand with a little more than the least gap, and a rear must be out of the junction by some way, m.
 const SETTLES: f64 = 0.8;
 
@@ -239,6 +242,7 @@ impl Part {
         requests.sort_unstable_by(|a, b| {
             b.stood.total_cmp(&a.stood).then(a.rank.cmp(&b.rank)).then(a.id.cmp(&b.id))
         });
+        self.reserve(scene, requests);
         let mut overtaken = std::mem::take(&mut self.work.overtaken);
         for request in requests.drain(..) {
             let (lane, rank) = (request.lane as usize, request.rank as usize);
@@ -253,7 +257,8 @@ impl Part {
                 self.work.wishes.extend(wants_permit(scene, &vehicle));
             }
             let track = self.layout(scene.tracks).tracks[lane];
-            if may_enter(self, scene, track, &vehicle, &mut overtaken) {
+            let is_free = self.leaves_room_to_the_patient(scene, &vehicle);
+            if is_free && may_enter(self, scene, track, &vehicle, &mut overtaken) {
                 if let Some(wish) = wants_permit(scene, &vehicle) {
                     self.work.wishes.push(wish);
                     continue;
@@ -274,6 +279,28 @@ impl Part {
             }
         }
         self.work.overtaken = overtaken;
+    }
+
+    /// Keeps the room behind an intersection for those who have stood longest at their lines, if it was too long; requests come
+    /// with the longest first.
+    fn reserve(&mut self, scene: &Scene<'_>, requests: &[Request]) {
+        self.work.reserved.clear();
+        let patient = requests.iter().take_while(|request| request.stood > PATIENT);
+        for request in patient.filter(|request| request.rank == 0) {
+            let next = self.slabs.queue(request.lane as usize)[0].next as usize;
+            let lane = scene.tracks.lane_after(next);
+            if !self.work.reserved.iter().any(|(other, _)| *other == lane) {
+                self.work.reserved.push((lane, request.id));
+            }
+        }
+    }
+
+    /// Whether the room that a vehicle would take is kept for nobody else.
+    fn leaves_room_to_the_patient(&self, scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
+        let lane = scene.tracks.lane_after(vehicle.next as usize);
+        let mut reserved = self.work.reserved.iter();
+        reserved.find(|(kept, _)| *kept == lane).is_none_or(|(_, id)| *id == vehicle.id)
+            || may_pass(scene, vehicle)
     }
 }
 

@@ -217,7 +217,7 @@ impl Scene<'_> {
         }
         path.decisions += 1;
         let mut rng = self.streams.indexed(u64::from(vehicle.id)).indexed(u64::from(path.decisions)).rng();
-        let ways = self.tracks.weighted_ways(lane, kind, &self.config.turns, weights);
+        let ways = self.tracks.weighted_ways(lane, (kind, vehicle.length()), &self.config.turns, weights);
         let after = |way: usize| self.tracks.lane_after(ways[way].index());
         for (way, weight) in weights.iter_mut().enumerate().filter(|_| !self.closures.is_empty()) {
             *weight *= f64::from(u8::from(!self.closures.has(after(way))));

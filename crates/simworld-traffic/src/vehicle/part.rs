@@ -74,6 +74,8 @@ pub(crate) struct Work {
     /// Who is driven by somebody else: the number of the track in the part, and of the vehicle.
     pub(super) steered: Vec<(u32, u32)>,
     pub(super) requests: Vec<Request>,
+    /// Lanes behind an intersection whose room is kept for one who has waited too long, and for whom.
+    pub(super) reserved: Vec<(Track, u32)>,
     /// Whom one who asks for leave would overtake in the order of leave: lane and rank.
     pub(super) overtaken: Vec<(u32, u32)>,
     /// Tracks on which somebody holds a way, a bit each.
@@ -154,6 +156,7 @@ impl Part {
         self.shift(scene);
         self.change_lanes(scene);
         self.show_tails(self.layout(scene.tracks).lanes);
+        self.show_leavers(scene);
         self.show_ghosts();
         self.show_trails(scene);
     }
@@ -168,6 +171,26 @@ impl Part {
             let Some(last) = self.slabs.queue(lane).last() else { continue };
             tails[lane] = Tail::of(last);
             shown.push(lane as u32);
+        }
+    }
+
+    /// Shows those whose front has left a lane by a junction and whose rear has not, where nobody is behind them.
+    fn show_leavers(&mut self, scene: &Scene<'_>) {
+        let (tracks, layout) = (scene.tracks, self.layout(scene.tracks));
+        let mut from = layout.lanes;
+        while let Some(local) = self.slabs.occupied_from(from) {
+            from = local + 1;
+            let Some(last) = self.slabs.queue(local).last() else { continue };
+            let rear = last.s - last.length();
+            if rear >= 0.0 {
+                continue;
+            }
+            let lane = tracks.ways[layout.tracks[local] as usize - tracks.lanes].from;
+            let (local, rear) = (tracks.layout.local(lane), tracks.length[lane as usize] + rear);
+            if rear < self.work.tails[local].rear {
+                self.work.tails[local] = Tail { rear, v: last.v, length: last.length, ..Tail::default() };
+                self.work.shown.push(local as u32);
+            }
         }
     }
 

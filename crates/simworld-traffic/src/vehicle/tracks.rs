@@ -13,6 +13,7 @@ use super::conflicts::{Conflict, conflicts};
 use super::layout::Layout;
 use super::manager::NONE;
 use super::ragged::Ragged;
+use super::trailing::SPARE;
 use super::{VehicleKind, kerb, lanes};
 use crate::{Leg, Router, TrafficConfig};
 
@@ -184,18 +185,27 @@ impl Tracks {
         }
     }
 
-    /// The ways on from a lane, with their weights by turn, into `weights`.
+    /// Whether a vehicle of that length has its rear in the junction behind while it turns round at the end of a lane: who comes
+    /// the other way waits for it there, and it for him.
+    fn is_trap(&self, lane: Track, length: f64) -> bool {
+        let turns_round = |way: &ConnectionId| self.network.connections[way.index()].turn == Turn::UTurn;
+        self.length[lane as usize] < length + SPARE
+            && self.network.lanes[lane as usize].outgoing.iter().all(turns_round)
+    }
+
+    /// The ways on from a lane, with their weights by turn for a vehicle of such a kind and length, into `weights`.
     pub(crate) fn weighted_ways(
         &self,
         lane: Track,
-        kind: VehicleKind,
+        (kind, length): (VehicleKind, f64),
         turns: &[f64; 3],
         weights: &mut Vec<f64>,
     ) -> &[ConnectionId] {
         let ways = &self.network.lanes[lane as usize].outgoing;
         weights.clear();
         weights.extend(ways.iter().map(|way| {
-            let is_open = self.may_use(self.lane_after(way.index()), kind);
+            let after = self.lane_after(way.index());
+            let is_open = self.may_use(after, kind) && !self.is_trap(after, length);
             if is_open { self.weight(way.index(), turns) } else { 0.0 }
         }));
         ways

@@ -17,6 +17,8 @@ use crate::ops::wrap_angle;
 const TOUCHING: f64 = 2.4;
 /// A change of heading below this counts as straight on, radians.
 const STRAIGHT: f64 = 0.7;
+/// Nobody is stopped by a light on lanes shorter than this, m: a bus would stand in the junction behind.
+const INNER: f64 = 12.0;
 /// Distance between the kerb of a turning circle and a lane's width about the way round it, m.
 const KERB_CLEARANCE: f64 = 0.5;
 
@@ -99,7 +101,7 @@ impl Builder {
         let signals = network.intersections[id.index()].signals;
         let signals = signals.map(|index| &network.signals[index as usize]);
         for (index, leg) in legs.iter().enumerate() {
-            let signal = signals.map(|signals| signals.groups[index]);
+            let signal = signals.filter(|_| !is_inner(network, leg)).map(|signals| signals.groups[index]);
             set_movements(network, plan, legs, leg, &mut self.movements);
             self.movements.extend(cycles::movements(network, plan, legs, leg));
             let made = self.movements.iter().map(|movement| connection(network, id, leg, *movement, signal));
@@ -114,6 +116,15 @@ impl Builder {
         self.set_conflicts(signals, first);
         self.set_crossings(&network.intersections[id.index()].crossings, network);
     }
+}
+
+/// Whether a leg is as good as a part of the junction: who waited on it would stand in the junction behind.
+fn is_inner(network: &RoadNetwork, leg: &Leg) -> bool {
+    let is_short = |lane: &LaneId| {
+        let lane = &network.lanes[lane.index()];
+        lane.length < INNER && network.intersections[lane.from.index()].roads.len() > 2
+    };
+    arriving(network, leg).iter().all(is_short)
 }
 
 /// Lanes that arrive over a leg, and lanes that leave over it, from the middle outwards.
@@ -381,15 +392,17 @@ fn go_together(plan: Option<&SignalPlan>, a: &Claim, b: &Claim) -> bool {
     plan.is_some_and(|plan| first == second || plan.phases.iter().any(both))
 }
 
-/// The place in the order of right of way, lowest first: the ring of a roundabout, the higher road class, then straight before right before
-/// left; the index settles the rest, so that two never give way to each other.
+/// The place in the order of right of way, lowest first: the ring of a roundabout and the short lanes without a light before a
+/// junction with lights, the higher road class, then straight before right before left; the index settles the rest, so that two
+/// never give way to each other.
 fn right_of_way(network: &RoadNetwork, connection: &Connection, id: ConnectionId) -> (u8, u8, ConnectionId) {
-    let road = network.lanes[connection.from.index()].road;
+    let lane = &network.lanes[connection.from.index()];
     let controlled = network.intersections[connection.intersection.index()].control == Control::Signals;
-    let road = &network.roads[road.index()];
+    let road = &network.roads[lane.road.index()];
     let class = match road.class {
-        // Who is in a roundabout goes first.
+        // Who is in a roundabout, or between two junctions where nobody can wait, goes first.
         _ if road.roundabout => 0,
+        _ if controlled && connection.signal.is_none() && lane.length < INNER => 0,
         _ if controlled => 1,
         RoadClass::Highway => 1,
         RoadClass::Arterial => 2,
