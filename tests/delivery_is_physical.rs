@@ -6,6 +6,9 @@ use simworld_core::net::{Aspect, RoadNetwork, polyline};
 use simworld_core::scene::{EntityKind, Scene};
 use simworld_tests::{assembled, small};
 
+/// Half the width of a body, m: who brushes the edge of a strip at the corner of the sidewalk is not on it.
+const HALF_BODY: f64 = 0.25;
+
 /// The crossing on whose strip, kerbs apart, somebody stands.
 fn crossing_under(network: &RoadNetwork, at: &nalgebra::Point2<f64>) -> Option<CrossingId> {
     (0..network.crossings.len()).map(CrossingId::from_index).find(|id| {
@@ -13,7 +16,7 @@ fn crossing_under(network: &RoadNetwork, at: &nalgebra::Point2<f64>) -> Option<C
         let strip = [crossing.start, crossing.end];
         polyline::closest(&strip, at).is_some_and(|near| {
             let inside = near.station > 0.8 && near.station < polyline::length(&strip) - 0.8;
-            inside && near.distance < crossing.width * 0.5
+            inside && near.distance < crossing.width * 0.5 - HALF_BODY
         })
     })
 }

@@ -145,7 +145,7 @@ fn flows(seen: &Seen) -> bool {
 
 #[test]
 fn cities_keep_flowing() {
-    let (cities, minutes) = if is_whole() { (10, 240.0) } else { (2, 20.0) };
+    let (cities, minutes) = (if is_whole() { 10 } else { 2 }, 240.0);
     let seen = each_case(cities + PLACES.len(), |case| match case.checked_sub(cities) {
         None => Some(run(&format!("city {case}"), &grown(case, 150), minutes)),
         Some(place) if is_whole() => Some(run(PLACES[place], &real(PLACES[place])?, minutes)),

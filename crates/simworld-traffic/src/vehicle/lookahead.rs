@@ -13,6 +13,8 @@ use super::tracks::{Obstacle, Track, Tracks};
 
 /// Where a vehicle stops before a line, m.
 pub(super) const BEFORE_LINE: f64 = 0.5;
+/// No vehicle is longer, m: an articulated bus, or a truck with its trailer.
+const LONGEST: f64 = 20.0;
 
 /// A track as its drivers see it.
 pub(super) struct Lane<'a> {
@@ -261,7 +263,8 @@ impl View<'_> {
             _ if is_near => self.stop_in(to_end, self.idm.gap),
             _ => {}
         }
-        if !(is_first && is_near) {
+        // A rear may be as far before the line as a vehicle is long.
+        if !is_first || to_end > horizon(vehicle.v) + LONGEST {
             return;
         }
         for way in &lane.scene.tracks.network.lanes[lane.track as usize].outgoing {

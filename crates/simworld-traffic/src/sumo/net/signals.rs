@@ -74,8 +74,14 @@ impl Build {
         links: &[(Governed, usize)],
         (ways, walks): (&[Way], &[Walk]),
     ) -> Result<(), SumoError> {
+        // A link that is off in each phase has no light.
+        let is_off = |link: usize| {
+            let mut letters = logic.phases.iter().map(|(_, state)| state.get(link));
+            letters.all(|letter| matches!(letter, Some(b'O')))
+        };
+        let lit = || links.iter().filter(|(_, link)| !is_off(*link));
         let mut columns: Vec<Column> = Vec::new();
-        for (who, link) in links {
+        for (who, link) in lit() {
             columns.push((matches!(who, Governed::Walk(_)), column(logic, *link)?));
         }
         // In the order of their first links, people last.
@@ -98,7 +104,7 @@ impl Build {
         // A positive offset delays the program; here it is the time into the cycle at the start.
         let offset = (-logic.offset).rem_euclid(cycle);
         let first = self.builder.add_signals(place, groups.len() as u32, offset, phases);
-        for ((who, _), own) in links.iter().zip(&columns) {
+        for ((who, _), own) in lit().zip(&columns) {
             let Some(rank) = groups.iter().position(|group| *group == own) else { continue };
             let group = SignalGroup(first.0 + rank as u32);
             match who {
