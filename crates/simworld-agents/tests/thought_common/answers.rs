@@ -31,6 +31,8 @@ fn step(step: &PlanStep, scene: &dyn Scene) -> Option<Json> {
         _ => None,
     };
     Some(match step {
+        // How near one comes follows from what one goes to; nearer and farther no answer can say.
+        PlanStep::Navigate { within, .. } if ![0.5, 1.0, 1.2].contains(within) => return None,
         PlanStep::Navigate { to: Goal::Point(to), speed, .. } => {
             let speed = speed.map_or(0, tenths);
             json!({ "act": "go_to_point", "x": tenths(to.x), "y": tenths(to.y), "speed": speed })
@@ -47,6 +49,7 @@ fn step(step: &PlanStep, scene: &dyn Scene) -> Option<Json> {
             let (then, otherwise) = (steps(then, scene)?, steps(otherwise, scene)?);
             json!({ "act": "if", "check": check(when)?, "then": then, "otherwise": otherwise })
         }
+        PlanStep::Repeat { times, .. } if *times > 1000 => return None,
         PlanStep::Repeat { times, steps: inner } => {
             json!({ "act": "repeat", "times": times, "steps": steps(inner, scene)? })
         }
@@ -143,6 +146,11 @@ fn check(condition: &Condition) -> Option<Json> {
         Condition::Dark => json!({ "check": "dark" }),
         Condition::Elapsed(seconds) => json!({ "check": "elapsed", "tenths": tenths(*seconds) }),
         Condition::Not(inner) => json!({ "check": "not", "part": check(inner)? }),
+        Condition::All(inner) | Condition::Any(inner)
+            if inner.is_empty() || inner.iter().any(|part| matches!(part, Condition::Not(_))) =>
+        {
+            return None;
+        }
         Condition::All(inner) => {
             json!({ "check": "all", "parts": inner.iter().map(check).collect::<Option<Vec<_>>>()? })
         }
