@@ -166,7 +166,7 @@ pub(super) fn measure(_: Effort) -> Figures {
         ));
     }
     let queue = queue()?;
-    let length = f64::from(empty().types[0].length) + empty().types[0].driver.gap;
+    let length = empty().types[0].length + empty().types[0].driver.gap;
     let density = Figure::near("jam density", queue.jam_density(), 1000.0 / length, 0.03, "veh/km");
     figures.push(density.cited("the length of a car and the gap it keeps at rest"));
     let wave = Figure::within("speed of the starting wave", queue.starting_wave(), (15.0, 25.0), "km/h");
