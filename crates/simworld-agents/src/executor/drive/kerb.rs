@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use simworld_core::geometry::{Aabb, Point2, direction};
 use simworld_core::id::{EntityId, LaneId};
 use simworld_core::net::{LaneKind, RoadNetwork, polyline};
-use simworld_core::scene::Scene;
+use simworld_core::scene::{EntityKind, Scene};
 
 use crate::lanes::{OnLane, lane};
 
@@ -88,7 +88,11 @@ fn is_free(
     let (ahead, reach) = (direction(heading), size.0 * 0.5 + GAP);
     let mut free = true;
     let _ = scene.visit(&Aabb::column_around(middle, reach), &mut |other| {
-        if who.contains(&other.id) || other.attachment.is_some() || !other.kind.is_solid() {
+        if who.contains(&other.id)
+            || other.attachment.is_some()
+            || !other.kind.is_solid()
+            || other.kind == EntityKind::Building
+        {
             return ControlFlow::Continue(());
         }
         let corners = other.obb().footprint().map(|corner| {

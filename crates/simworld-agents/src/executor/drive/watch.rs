@@ -174,8 +174,12 @@ impl Driving {
         let path = polyline::slice(&self.path, self.station, self.station + sight + own.half_length);
         let mut slowest: Option<(f64, Obstacle)> = None;
         let _ = scene.visit(&Aabb::column_around(own.at, sight + own.half_length), &mut |other| {
-            let is_other =
-                !own.ids.contains(&other.id) && other.attachment.is_none() && other.kind.is_solid();
+            // Streets lead past houses; the box around one that is no box reaches where its walls do not.
+            let is_house = other.kind == EntityKind::Building;
+            let is_other = !own.ids.contains(&other.id)
+                && other.attachment.is_none()
+                && other.kind.is_solid()
+                && !is_house;
             if is_other
                 && let Some((speed, obstacle)) = self.slows(&path, own, &other)
                 && slowest.as_ref().is_none_or(|(least, _)| speed < *least)
