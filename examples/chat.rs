@@ -184,7 +184,9 @@ impl Chat<'_> {
                 }
             }
             let (progress, events) = self.stage.step()?;
-            events.iter().for_each(|event| self.report(event));
+            for event in &events {
+                self.report(event);
+            }
             match progress {
                 Progress::Done => return self.end("done", sentence),
                 Progress::Failed { reason } => return self.end(&format!("given up: {reason}"), sentence),

@@ -193,7 +193,7 @@ fn a_car_drives_itself_and_parks_at_the_kerb() {
     // The northern lane of the street before the hospital goes west; the kerb is 3.5 m from the middle of the street.
     let (at, edge) = (run.car_at(), 0.9 + 0.3);
     let from_middle = (at.y - 240.0).abs();
-    assert!((3.5 - from_middle - edge).abs() < 0.4, "{:.2} m from the middle of the street", from_middle);
+    assert!((3.5 - from_middle - edge).abs() < 0.4, "{from_middle:.2} m from the middle of the street");
     assert_eq!(run.worst.at_red, 0);
 }
 
