@@ -51,12 +51,13 @@ impl Parser<'_> {
         const PLACES: &[&str] = &["back", "past", "round", "around", "point", "report"];
         let is_go = count == 1 && (self.peeks("go") || self.peeks("come"));
         let after = &self.rest()[count.min(self.rest().len())..];
-        let is_noun = category(after).is_some() || self.names.exact(after).is_some();
+        // Names come last: the index of a large city takes time.
         is_go
             && longest_verb(after).is_some()
             && longest_phrase(after, PLACES).is_none()
-            && !is_noun
             && longest(after, RELATIONS).is_none()
+            && category(after).is_none()
+            && self.names.exact(after).is_none()
     }
 
     fn verb_here(&self) -> Option<(Verb, usize)> {
