@@ -39,7 +39,7 @@ impl Pictures {
     pub fn map(&self, city: &City, stage: &Stage, title: &str) -> std::io::Result<()> {
         let mut trail = stage.trail.clone();
         trail.push(stage.here());
-        let mut drawing = MapDrawing::of(city).title(title).trail(&trail, "#b3261e", "Robin");
+        let mut drawing = MapDrawing::of(city).title(shortened(title)).trail(&trail, "#b3261e", "Robin");
         if let Some(PlanStep::Navigate { to, .. }) = stage.under_way() {
             let place = match to {
                 Goal::Point(point) => Some(point.xy()),
@@ -76,5 +76,14 @@ impl Pictures {
         frame.write_png(self.folder.join(format!("eye-{:06}.png", world.clock().tick().0)))?;
         frame.write_png(self.folder.join("eye.png"))?;
         Ok(())
+    }
+}
+
+/// What of a sentence finds room beside the legend.
+fn shortened(sentence: &str) -> String {
+    const ROOM: usize = 42;
+    match sentence.char_indices().nth(ROOM) {
+        Some((end, _)) => format!("{} …", sentence[..end].trim_end()),
+        None => sentence.to_owned(),
     }
 }
