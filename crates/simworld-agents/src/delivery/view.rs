@@ -106,6 +106,16 @@ impl<'a> CourierView<'a> {
         self.state.notices + self.courier().notices
     }
 
+    /// Whether it is time to think: `due` has come, or something happened that was not `seen` before, to which the courier reacts
+    /// at the time that `reaction` gives, s of the episode.
+    pub(crate) fn wakes(&self, seen: &mut u64, due: &mut f64, reaction: impl FnOnce() -> f64) -> bool {
+        if self.notices() != *seen {
+            *seen = self.notices();
+            *due = due.min(reaction());
+        }
+        self.now() >= *due
+    }
+
     /// Where the courier is, m.
     pub fn position(&self) -> Point2 {
         self.courier().position

@@ -7,6 +7,7 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Role};
 use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 
+use super::abilities::abilities;
 use super::clause::{Clause, Pace, Reference, Spot, Target, Test, Vehicle};
 use super::compass::Compass;
 use super::lexicon::{class, is_animate};
@@ -475,15 +476,6 @@ impl<'a> Draft<'a> {
 
     pub(super) fn on_level(&self, point: Point2) -> Point3 {
         Point3::new(point.x, point.y, self.level)
-    }
-}
-
-/// What a body of that kind can ever do.
-pub(crate) fn abilities(kind: EntityKind) -> ActionSet {
-    match kind {
-        EntityKind::Dog => ActionSet::dog(),
-        kind if kind.is_vehicle() => ActionSet::vehicle(),
-        _ => ActionSet::humanoid(),
     }
 }
 

@@ -7,6 +7,7 @@
 //!
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
+mod abilities;
 mod call;
 mod clause;
 mod compass;
@@ -38,9 +39,9 @@ mod verbs;
 mod ways;
 mod weather;
 
-use draft::Draft;
 #[cfg(feature = "thought")]
-pub(crate) use draft::abilities;
+pub(crate) use abilities::abilities;
+use draft::Draft;
 use names::Names;
 #[cfg(feature = "thought")]
 pub(crate) use paint::name_of_color;

@@ -74,30 +74,21 @@ pub trait ChatModel: Send {
     }
 }
 
-impl<M: ChatModel + ?Sized> ChatModel for Box<M> {
-    fn chat(&mut self, request: &ChatRequest) -> Result<ChatReply, ModelError> {
-        (**self).chat(request)
-    }
+macro_rules! forward_model {
+    ($($target:ty),+) => {
+        $(impl<M: ChatModel + ?Sized> ChatModel for $target {
+            fn chat(&mut self, request: &ChatRequest) -> Result<ChatReply, ModelError> {
+                (**self).chat(request)
+            }
 
-    fn chat_streamed(
-        &mut self,
-        request: &ChatRequest,
-        piece: &mut dyn FnMut(&str),
-    ) -> Result<ChatReply, ModelError> {
-        (**self).chat_streamed(request, piece)
-    }
+            fn chat_streamed(
+                &mut self,
+                request: &ChatRequest,
+                piece: &mut dyn FnMut(&str),
+            ) -> Result<ChatReply, ModelError> {
+                (**self).chat_streamed(request, piece)
+            }
+        })+
+    };
 }
-
-impl<M: ChatModel + ?Sized> ChatModel for &mut M {
-    fn chat(&mut self, request: &ChatRequest) -> Result<ChatReply, ModelError> {
-        (**self).chat(request)
-    }
-
-    fn chat_streamed(
-        &mut self,
-        request: &ChatRequest,
-        piece: &mut dyn FnMut(&str),
-    ) -> Result<ChatReply, ModelError> {
-        (**self).chat_streamed(request, piece)
-    }
-}
+forward_model!(Box<M>, &mut M);

@@ -202,11 +202,8 @@ impl Mind<DeliveryTask> for CourierMind {
             return Err(MindError { who, reason: "it is no courier of this task".to_owned() });
         };
         let now = view.now();
-        if view.notices() != self.state.seen {
-            self.state.seen = view.notices();
-            self.state.due = self.state.due.min(now + self.state.rng.uniform(REACTION.0, REACTION.1));
-        }
-        if now < self.state.due {
+        let MindState { rng, due, seen, .. } = &mut self.state;
+        if !view.wakes(seen, due, || now + rng.uniform(REACTION.0, REACTION.1)) {
             return Ok(());
         }
         self.state.due = now + THINK_INTERVAL;

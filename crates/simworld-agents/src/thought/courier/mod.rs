@@ -127,11 +127,8 @@ impl Mind<DeliveryTask> for ModelCourier {
             return Err(MindError { who, reason: "it is no courier of this task".to_owned() });
         };
         let now = view.now();
-        if view.notices() != self.state.seen {
-            self.state.seen = view.notices();
-            self.state.due = self.state.due.min(self.state.rested);
-        }
-        if now < self.state.due {
+        let rested = self.state.rested;
+        if !view.wakes(&mut self.state.seen, &mut self.state.due, || rested) {
             return Ok(());
         }
         self.state.due = now + self.interval;
