@@ -8,16 +8,18 @@ mod delivery_common;
 use delivery_common::{Town, world};
 use proptest::prelude::*;
 use simworld_agents::delivery::{
-    AuctionRule, Cents, CourierAction, DeliveryConfig, DeliveryTask, OrderId, Persona, PolicyKind, Shopping,
-    Split,
+    Account, AuctionRule, Cents, CourierAction, DeliveryConfig, DeliveryTask, Ledger, OrderId, Persona,
+    PolicyKind, Shopping, Split,
 };
 use simworld_agents::mind::Mind;
+use simworld_core::event::EventKind;
 use simworld_core::geometry::Point2;
 use simworld_core::intent::Intent;
 use simworld_core::scene::World;
 use simworld_core::seam::{Task, TaskError, TaskOutput};
 use simworld_core::seed::Seed;
 use simworld_core::testing::check_task;
+use simworld_core::value::Value as Fact;
 
 fn busy() -> DeliveryConfig {
     let mut config = DeliveryConfig::default();
@@ -25,6 +27,32 @@ fn busy() -> DeliveryConfig {
     config.auction.window = 3.0;
     config.energy.walking = 0.5;
     config
+}
+
+/// The books as the events tell them.
+fn told(town: &Town, purse: Cents) -> Ledger {
+    let mut ledger = Ledger::new(town.couriers.len(), purse);
+    for event in &town.log {
+        let EventKind::Task { name, data, .. } = &event.kind else { continue };
+        if name == "money_moved" {
+            let amount = Cents::from_dollars(data["amount"].as_f64().unwrap()).unwrap();
+            ledger.pay(account(town, &data["from"]), account(town, &data["to"]), amount).unwrap();
+        }
+    }
+    ledger
+}
+
+fn account(town: &Town, name: &Fact) -> Account {
+    match name {
+        Fact::Entity(id) => Account::Courier(town.couriers.iter().position(|who| who == id).unwrap()),
+        Fact::Text(words) => match words.as_str() {
+            "escrow" => Account::Escrow,
+            "platform" => Account::Platform,
+            "shops" => Account::Shops,
+            _ => Account::Customers,
+        },
+        other => panic!("{other} is no account"),
+    }
 }
 
 fn any_action() -> impl Strategy<Value = Intent> {
@@ -61,6 +89,7 @@ proptest! {
     ) {
         let mut config = busy();
         config.sharing.split = split;
+        let purse = config.initial_money;
         let mut town = Town::new(config, 3, 5);
         for (courier, intent, pause) in script {
             town.step(&[(courier, intent)]);
@@ -68,6 +97,7 @@ proptest! {
                 town.step(&[]);
             }
         }
+        prop_assert_eq!(Some(&told(&town, purse)), town.task.ledger());
     }
 
     #[test]

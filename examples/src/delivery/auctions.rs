@@ -66,6 +66,15 @@ impl AuctionBook {
     }
 }
 
+/// The auctions of a run with those couriers, from its events.
+pub fn auctions_of(events: &[Event], couriers: &[EntityId]) -> Vec<Auction> {
+    let mut book = AuctionBook::default();
+    for event in events {
+        book.take(event, couriers);
+    }
+    book.finish()
+}
+
 #[cfg(test)]
 mod tests {
     use simworld_core::clock::Tick;

@@ -30,8 +30,8 @@ impl SeedReport {
     }
 }
 
-/// The columns of the table: heading, and the metric's name.
-const COLUMNS: [(&str, &str); 5] = [
+/// The columns of the paper's table: heading, and the metric's name.
+pub const COLUMNS: [(&str, &str); 5] = [
     ("profit $", "profit"),
     ("successful orders", "orders_per_agent"),
     ("energy efficiency", "energy_per_dollar"),
@@ -40,7 +40,7 @@ const COLUMNS: [(&str, &str); 5] = [
 ];
 
 /// The paper's table: twenty agents of one model, 5000 steps, three seeds.
-const PAPER: [(&str, [&str; 5]); 9] = [
+pub const PAPER: [(&str, [&str; 5]); 9] = [
     ("DeepSeek-V3", ["69.48 ± 16.77", "2.10 ± 0.47", "0.34 ± 0.07", "2.33 ± 0.47", "8.00 ± 3.00"]),
     ("Claude-3.5-Sonnet", ["69.07 ± 20.69", "2.73 ± 1.10", "0.54 ± 0.20", "11.33 ± 8.39", "9.00 ± 3.46"]),
     ("GPT-4o", ["43.91 ± 14.16", "1.63 ± 0.43", "0.30 ± 0.06", "0.67 ± 0.47", "4.67 ± 0.47"]),

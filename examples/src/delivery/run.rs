@@ -23,6 +23,7 @@ use super::log::{LogError, LogRecord, LogWriter};
 use super::output::{OutputError, OutputFolder};
 use super::players::{Player, players};
 use super::report::{RunReport, SeedReport};
+use super::track::TrackWriter;
 use super::{RunConfig, Watch, draw_map};
 
 /// Steps between two points of a courier's trail on the map.
@@ -150,6 +151,8 @@ pub fn run_seed(
 ) -> Result<SeedRun, RunError> {
     let mut assembly = assemble(config, city, seed)?;
     let mut log = folder.map(|folder| LogWriter::create(&folder.join("events.jsonl"), seed)).transpose()?;
+    let track = |folder: &Path| TrackWriter::create(&folder.join("track.jsonl"), &assembly, config.steps);
+    let mut track = folder.map(track).transpose()?;
     let progress = watch.begin(&format!("seed {}", seed.0), config.steps);
     let mut trails: Vec<Vec<Point2>> = vec![Vec::new(); assembly.couriers.len()];
     let (mut written, mut book) = (Written::default(), AuctionBook::default());
@@ -161,6 +164,9 @@ pub fn run_seed(
         let stepped = assembly.episode.step().map(|_| ());
         if let Some(log) = &mut log {
             written.log_step(&assembly, log)?;
+        }
+        if let Some(track) = &mut track {
+            track.take_if_due(&assembly)?;
         }
         stepped?;
         assembly.episode.events().iter().for_each(|event| book.take(event, &assembly.couriers));
@@ -180,6 +186,9 @@ pub fn run_seed(
     progress(end.0, &headline(&assembly));
     if let Some(log) = log {
         log.finish(end)?;
+    }
+    if let Some(track) = track {
+        track.finish()?;
     }
     if let Some(folder) = folder {
         write_trail(folder, &assembly)?;

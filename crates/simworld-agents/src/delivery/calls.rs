@@ -107,14 +107,19 @@ impl Turn<'_> {
             Some(point) => self.meet_point(point)?,
             None => self.halfway(index, id)?,
         };
-        let payment = self.state.ledger.pay(Account::Courier(index), Account::Escrow, bounty);
+        let payment = self.pay(Account::Courier(index), Account::Escrow, bounty, Some(id));
         payment.map_err(|error| error.to_string())?;
         if let Some(terms) = self.state.orders[id.index()].stage.terms_mut() {
             terms.offer = Some(Offer { meet, bounty, accepted: None });
         }
         self.state.couriers[index].tally.shared += 1;
         self.state.notices += 1;
-        let facts = [("order", fact(id)), ("x", meet.x.into()), ("y", meet.y.into())];
+        let facts = [
+            ("order", fact(id)),
+            ("x", meet.x.into()),
+            ("y", meet.y.into()),
+            ("bounty", bounty.dollars().into()),
+        ];
         self.tell("order_shared", Some(index), &facts);
         Ok(())
     }

@@ -115,9 +115,7 @@ impl Turn<'_> {
             self.tell("order_expired", None, &[("order", fact(id)), ("bids", (bids.len() as i64).into())]);
             return;
         };
-        self.state
-            .ledger
-            .pay(Account::Customers, Account::Escrow, order.ceiling)
+        self.pay(Account::Customers, Account::Escrow, order.ceiling, Some(id))
             .expect("customers can always pay an amount that is not negative");
         let approach = (order.pickup.xy() - self.state.couriers[courier].position).norm();
         let orders = &self.config.orders;
@@ -127,7 +125,12 @@ impl Turn<'_> {
         self.state.orders[id.index()].stage = Stage::Awarded(awarded);
         self.state.couriers[courier].tally.won += 1;
         self.state.last_clearing = Some(pay.0 as f64 / order.ceiling.0 as f64);
-        let facts = [("order", fact(id)), ("pay", pay.dollars().into()), ("bids", bidders.into())];
+        let facts = [
+            ("order", fact(id)),
+            ("pay", pay.dollars().into()),
+            ("bids", bidders.into()),
+            ("due", due.into()),
+        ];
         self.tell("order_awarded", Some(courier), &facts);
     }
 

@@ -10,6 +10,7 @@ use simworld_core::value::Value;
 use super::action::CourierAction;
 use super::auction::Auction;
 use super::config::DeliveryConfig;
+use super::money::{Account, Cents, Overdrawn};
 use super::order::OrderId;
 use super::routes::Routes;
 use super::state::{Errand, State};
@@ -81,6 +82,35 @@ impl Turn<'_> {
         let event = EventKind::task(name, who);
         let event = facts.iter().fold(event, |event, (key, value)| event.with(key, value.clone()));
         self.out.events.push(event);
+    }
+
+    /// Moves money over an order or over none, and tells of it: whoever reads the events has every entry of the ledger.
+    pub(super) fn pay(
+        &mut self,
+        from: Account,
+        to: Account,
+        amount: Cents,
+        order: Option<OrderId>,
+    ) -> Result<(), Overdrawn> {
+        self.state.ledger.pay(from, to, amount)?;
+        if amount > Cents::ZERO {
+            let mut facts =
+                vec![("from", self.name(from)), ("to", self.name(to)), ("amount", amount.dollars().into())];
+            facts.extend(order.map(|order| ("order", fact(order))));
+            self.tell("money_moved", None, &facts);
+        }
+        Ok(())
+    }
+
+    /// An account as a fact: a courier is an entity, the others are words.
+    fn name(&self, account: Account) -> Value {
+        match account {
+            Account::Courier(index) => self.state.couriers[index].id.into(),
+            Account::Escrow => "escrow".into(),
+            Account::Platform => "platform".into(),
+            Account::Shops => "shops".into(),
+            Account::Customers => "customers".into(),
+        }
     }
 
     /// Distance at which a courier has arrived at an access point, m.

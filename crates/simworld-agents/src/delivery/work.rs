@@ -80,7 +80,7 @@ impl Turn<'_> {
         let Stage::Carried(carried) = self.state.orders[id.index()].stage.clone() else { return };
         let late = (self.state.now() - carried.terms.due).max(0.0);
         let paid = self.reward(&carried, late);
-        self.settle(&carried, self.state.orders[id.index()].ceiling, paid);
+        self.settle(id, &carried, self.state.orders[id.index()].ceiling, paid);
         if let Some(parcel) = carried.parcel {
             self.command(Command::Remove { id: parcel });
         }
@@ -101,7 +101,7 @@ impl Turn<'_> {
     }
 
     /// Pays couriers and platform out of what the customer paid in.
-    fn settle(&mut self, carried: &Carried, ceiling: Cents, paid: Cents) {
+    fn settle(&mut self, id: OrderId, carried: &Carried, ceiling: Cents, paid: Cents) {
         let mut transfers = Vec::with_capacity(3);
         match carried.first {
             None => transfers.push((carried.carrier, paid)),
@@ -119,17 +119,16 @@ impl Turn<'_> {
             }
         }
         for (index, amount) in transfers {
-            self.transfer(Account::Escrow, Account::Courier(index), amount);
+            self.transfer(id, Account::Courier(index), amount);
             let earned = &mut self.state.couriers[index].tally.earned;
             *earned = *earned + amount;
         }
-        self.transfer(Account::Escrow, Account::Platform, ceiling - paid);
+        self.transfer(id, Account::Platform, ceiling - paid);
     }
 
-    fn transfer(&mut self, from: Account, to: Account, amount: Cents) {
-        self.state
-            .ledger
-            .pay(from, to, amount)
+    /// Pays out of the escrow what an order brought into it.
+    fn transfer(&mut self, id: OrderId, to: Account, amount: Cents) {
+        self.pay(Account::Escrow, to, amount, Some(id))
             .expect("the escrow holds the ceiling of every order under way");
     }
 
@@ -138,7 +137,7 @@ impl Turn<'_> {
         let Some(stage) = self.state.orders.get_mut(id.index()).map(|order| &mut order.stage) else { return };
         let Some(holder) = stage.holder() else { return };
         let Some(offer) = stage.terms_mut().and_then(|terms| terms.offer.take()) else { return };
-        self.transfer(Account::Escrow, Account::Courier(holder), offer.bounty);
+        self.transfer(id, Account::Courier(holder), offer.bounty);
         for index in offer.accepted.into_iter().chain([holder]) {
             if self.state.couriers[index].errand == Errand::Meet(id) {
                 self.halt(index);
@@ -168,7 +167,7 @@ impl Turn<'_> {
             }
             _ => {}
         }
-        let payment = self.state.ledger.pay(Account::Courier(index), Account::Shops, price);
+        let payment = self.pay(Account::Courier(index), Account::Shops, price, None);
         payment.map_err(|error| error.to_string())?;
         let facts = [("price", price.dollars().into())];
         let tally = &mut self.state.couriers[index].tally;
