@@ -28,7 +28,7 @@ const FLOORS: [(&str, f64); 18] = [
     ("repetition", 95.0),
     ("single_verb", 95.0),
     ("superlative", 95.0),
-    ("typo", 92.0),
+    ("typo", 97.0),
     ("way", 95.0),
 ];
 

@@ -12,7 +12,8 @@ use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
 use simworld_core::seed::Seed;
 use simworld_core::testing::{check_dynamics, check_embodiment, check_scene};
 
-/// Five hundred things of all sizes, from a parcel to a stadium, one in seven taken away again.
+/// Five hundred things of all sizes, from a parcel to a stadium, some with names and goods on sale that change; one in seven
+/// is taken away again, and every second of those comes back.
 fn jumble(seed: u64) -> World {
     let mut rng = Seed(seed).stream("tests/jumble").rng();
     let mut world = World::new();
@@ -25,11 +26,22 @@ fn jumble(seed: u64) -> World {
             2 => Shape::Capsule { radius: size, height: 4.0 * size },
             _ => Shape::cuboid(size, 2.0 * size, 0.5 * size),
         };
-        let id = world
-            .spawn(EntityDesc::new(EntityKind::Prop, pose_facing(at, rng.uniform(-3.0, 3.0)), shape))
-            .unwrap();
+        let mut thing = EntityDesc::new(EntityKind::Prop, pose_facing(at, rng.uniform(-3.0, 3.0)), shape);
+        if index % 3 == 0 {
+            thing = thing.named(format!("The {} Ann's {index}", ["Red", "Old", "red & old"][rng.below(3)]));
+        }
+        if index % 5 == 0 {
+            thing = thing.with("sells", ["tea, ice cream", "tea", " , "][rng.below(3)]);
+        }
+        let id = world.spawn(thing).unwrap();
+        if index % 10 == 0 {
+            world.set_attribute(id, "sells", Some("coffee,tea".into()).filter(|_| index % 20 == 0)).unwrap();
+        }
         if index % 7 == 0 {
-            world.remove(id).unwrap();
+            let thing = world.remove(id).unwrap();
+            if index % 2 == 0 {
+                world.respawn(id, thing).unwrap();
+            }
         }
     }
     world

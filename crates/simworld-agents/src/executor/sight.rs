@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2, Point3, heading, yaw_of};
+use simworld_core::geometry::{Aabb, Obb, Point2, Point3, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
@@ -60,7 +60,7 @@ pub(crate) fn clear_between(
 ) -> bool {
     let mut clear = true;
     let _ = scene.visit(&Aabb::new(*from, *to), &mut |between| {
-        if between.id != me && between.id != other && hides(&between) && crosses(&between, from, to) {
+        if between.id != me && between.id != other && hides(&between) && crosses(&between.obb(), from, to) {
             clear = false;
             return ControlFlow::Break(());
         }
@@ -77,9 +77,8 @@ pub(crate) const fn hides(entity: &EntityRef<'_>) -> bool {
     )
 }
 
-/// Whether the segment passes through the thing's oriented box, by slabs.
-pub(crate) fn crosses(entity: &EntityRef<'_>, from: &Point3, to: &Point3) -> bool {
-    let obb = entity.obb();
+/// Whether the segment passes through the box, by slabs.
+pub(crate) fn crosses(obb: &Obb, from: &Point3, to: &Point3) -> bool {
     let (a, b) = (obb.pose.inverse_transform_point(from), obb.pose.inverse_transform_point(to));
     let way = b - a;
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);

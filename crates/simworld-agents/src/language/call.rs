@@ -190,7 +190,7 @@ impl Call<'_> {
             }
             Some(Value::Text(words)) => {
                 let mut lexemes = lex_speech(words);
-                correct(&mut lexemes, &|| self.names.words());
+                correct(&mut lexemes, self.names);
                 let mut parser = Parser::new(words, &lexemes, self.names, self.view);
                 let thing = parser.reference(0).map_err(|error| self.refuse(format!("{key}: {error}")))?;
                 if parser.at < lexemes.len() {

@@ -291,14 +291,16 @@ pub(super) const COPULAS: &[&str] = &[
 
 /// How many tokens at the start of `lexemes` are the words of the phrase; `None` if they are others.
 pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
-    let mut count = 0;
-    for word in phrase.split(' ') {
-        match lexemes.get(count).map(|lexeme| &lexeme.token) {
-            Some(Token::Word(said)) if said == word => count += 1,
+    let mut rest = phrase.as_bytes();
+    for (index, lexeme) in lexemes.iter().enumerate() {
+        let Token::Word(said) = &lexeme.token else { return None };
+        match rest.strip_prefix(said.as_bytes())? {
+            [] => return Some(index + 1),
+            [b' ', more @ ..] => rest = more,
             _ => return None,
         }
     }
-    Some(count)
+    None
 }
 
 /// As [`fits`], with the last word in the singular or the plural.

@@ -128,7 +128,7 @@ impl Planner for GrammarPlanner {
             }
             Intent::Words(words) => {
                 let mut lexemes = hearing::hear(words, me.info.name.as_deref());
-                spelling::correct(&mut lexemes, &|| names.words());
+                spelling::correct(&mut lexemes, &names);
                 Parser::new(words, &lexemes, &names, &view).sentence()?
             }
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],

@@ -1,29 +1,33 @@
 //! What things are called by their own names, what places sell, and what to make of a misspelt name.
+//!
+//! Names are found by the words in them: in the index that the scene keeps or, if it keeps none, in one made by looking
+//! at everything. Whoever is out of range has no name.
 
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{SELLS, Scene};
-use simworld_core::value::Value;
+use simworld_core::scene::{NameIndex, Scene};
 
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{CATEGORIES, Category};
+use super::spelling::Letters;
 
-/// The names within range, read when the first is looked for.
+/// The names within range.
 pub(super) struct Names<'a> {
     scene: &'a dyn Scene,
-    around: Point2,
-    range: f64,
-    index: OnceCell<Index>,
+    region: Aabb,
+    /// Of a scene that keeps no index.
+    own: OnceCell<NameIndex>,
+    /// What is sold within range, in alphabetical order.
+    sold: OnceCell<Vec<Goods>>,
 }
 
-#[derive(Default)]
-struct Index {
-    entries: Vec<Name>,
-    /// What is sold somewhere, in alphabetical order.
-    goods: Vec<(String, Vec<Token>)>,
+struct Goods {
+    label: String,
+    tokens: Vec<Token>,
 }
 
 struct Name {
@@ -48,41 +52,75 @@ pub(super) enum Guess {
 impl<'a> Names<'a> {
     /// The names of everything within `range` m of a point.
     pub(super) fn new(scene: &'a dyn Scene, around: Point2, range: f64) -> Self {
-        Self { scene, around, range, index: OnceCell::new() }
+        let region = Aabb::column_around(around, range);
+        Self { scene, region, own: OnceCell::new(), sold: OnceCell::new() }
     }
 
-    fn index(&self) -> &Index {
-        self.index.get_or_init(|| {
-            let mut index = Index::default();
-            let _ = self.scene.visit(&Aabb::column_around(self.around, self.range), &mut |entity| {
-                if let Some(name) = &entity.info.name {
-                    let tokens = name_tokens(name);
-                    if !tokens.is_empty() {
-                        index.entries.push(Name { id: entity.id, label: name.clone(), tokens });
-                    }
-                }
-                if let Some(Value::Text(sells)) = entity.info.attributes.get(SELLS) {
-                    let goods = sells.split(',').map(|goods| (goods.trim().to_owned(), name_tokens(goods)));
-                    index.goods.extend(goods.filter(|(_, tokens)| !tokens.is_empty()));
-                }
+    fn index(&self) -> &NameIndex {
+        if let Some(index) = self.scene.names() {
+            return index;
+        }
+        self.own.get_or_init(|| {
+            let mut index = NameIndex::default();
+            let _ = self.scene.visit(&self.region, &mut |entity| {
+                index.insert(entity.id, entity.info);
                 ControlFlow::Continue(())
             });
-            index.goods.sort_by(|a, b| a.0.cmp(&b.0));
-            index.goods.dedup_by(|a, b| a.0 == b.0);
             index
         })
     }
 
-    /// Every word of a name or of what is sold.
-    pub(super) fn words(&self) -> Vec<String> {
+    fn is_in_range(&self, id: EntityId) -> bool {
+        self.scene.entity(id).is_some_and(|entity| entity.bounds.intersects(&self.region))
+    }
+
+    /// The name of an entity within range.
+    fn name(&self, id: EntityId) -> Option<Name> {
+        let entity = self.scene.entity(id).filter(|entity| entity.bounds.intersects(&self.region))?;
+        let label = entity.info.name.as_ref()?;
+        let tokens = name_tokens(label);
+        (!tokens.is_empty()).then(|| Name { id, label: label.clone(), tokens })
+    }
+
+    /// Those within range in whose name the token stands, ascending.
+    fn bearers(&self, token: &Token) -> impl Iterator<Item = Name> {
+        let (words, numbers) = match token {
+            Token::Word(word) => (Some(self.index().bearers(word)), None),
+            Token::Number(_) => (None, Some(self.index().numbered())),
+            _ => (None, None),
+        };
+        let ids = words.into_iter().flatten().chain(numbers.into_iter().flatten());
+        ids.filter_map(|id| self.name(id))
+    }
+
+    fn sold_here(&self) -> &[Goods] {
+        self.sold.get_or_init(|| {
+            let here =
+                self.index().goods().filter(|(_, sellers)| sellers.clone().any(|id| self.is_in_range(id)));
+            let goods = here.map(|(goods, _)| Goods { label: goods.to_owned(), tokens: name_tokens(goods) });
+            goods.filter(|goods| !goods.tokens.is_empty()).collect()
+        })
+    }
+
+    fn words_sold(&self) -> impl Iterator<Item = &str> {
+        self.sold_here().iter().flat_map(|goods| &goods.tokens).filter_map(|token| match token {
+            Token::Word(word) => Some(word.as_str()),
+            _ => None,
+        })
+    }
+
+    /// Whether it is a word of a name or of what is sold.
+    pub(super) fn has_word(&self, word: &str) -> bool {
+        self.index().bearers(word).any(|id| self.is_in_range(id))
+            || self.words_sold().any(|sold| sold == word)
+    }
+
+    /// The words of names and of what is sold that begin so.
+    pub(super) fn words_from<'b>(&'b self, beginning: &'b str) -> impl Iterator<Item = &'b str> {
         let index = self.index();
-        let tokens = index.entries.iter().flat_map(|name| &name.tokens);
-        let tokens = tokens.chain(index.goods.iter().flat_map(|(_, tokens)| tokens));
-        let word = |token: &Token| if let Token::Word(word) = token { Some(word.clone()) } else { None };
-        let mut words: Vec<String> = tokens.filter_map(word).collect();
-        words.sort_unstable();
-        words.dedup();
-        words
+        let named =
+            index.words_from(beginning).filter(|word| index.bearers(word).any(|id| self.is_in_range(id)));
+        named.chain(self.words_sold().filter(move |word| word.starts_with(beginning)))
     }
 
     /// What is sold somewhere and named at the start of the phrase, in the singular or the plural.
@@ -98,13 +136,13 @@ impl<'a> Names<'a> {
             });
             same.then_some(tokens.len())
         };
-        let hits = self.index().goods.iter().filter_map(|(goods, tokens)| Some((fits(tokens)?, goods)));
+        let hits = self.sold_here().iter().filter_map(|goods| Some((fits(&goods.tokens)?, &goods.label)));
         hits.max_by_key(|(count, _)| *count).map(|(count, goods)| (goods.clone(), count))
     }
 
     /// What is sold here, for answers.
     pub(super) fn sold(&self) -> String {
-        let goods: Vec<&str> = self.index().goods.iter().map(|(goods, _)| goods.as_str()).collect();
+        let goods: Vec<&str> = self.sold_here().iter().map(|goods| goods.label.as_str()).collect();
         if goods.is_empty() {
             "nothing is sold here".to_owned()
         } else {
@@ -114,12 +152,10 @@ impl<'a> Names<'a> {
 
     /// The entities whose name begins the phrase; of several names the longest. With the number of tokens it takes.
     pub(super) fn exact(&self, lexemes: &[Lexeme]) -> Option<(Vec<EntityId>, usize)> {
-        let hits: Vec<(EntityId, usize)> = self
-            .index()
-            .entries
-            .iter()
-            .filter_map(|name| Some((name.id, begins_with(lexemes, &name.tokens)?)))
-            .collect();
+        let mut hits: Vec<(EntityId, usize)> = Vec::new();
+        for name in self.bearers(&lexemes.first()?.token) {
+            hits.extend(begins_with(lexemes, &name.tokens).map(|count| (name.id, count)));
+        }
         let longest = hits.iter().map(|(_, count)| *count).max()?;
         let ids = hits.iter().filter(|(_, count)| *count == longest).map(|(id, _)| *id).collect();
         Some((ids, longest))
@@ -128,9 +164,14 @@ impl<'a> Names<'a> {
     /// What a phrase means that is part of a name.
     pub(super) fn part(&self, phrase: &[Lexeme]) -> Option<Guess> {
         let said: Vec<&Token> = phrase.iter().map(|lexeme| &lexeme.token).collect();
-        let part_of = |name: &&Name| name.tokens.windows(said.len()).any(|part| part.iter().eq(said.clone()));
-        let parts: Vec<&Name> = self.index().entries.iter().filter(part_of).collect();
-        (!parts.is_empty()).then(|| one_name(&parts))
+        let bearers = |token: &&&Token| match token {
+            Token::Word(word) => self.index().count(word),
+            _ => usize::MAX, // other words say more
+        };
+        let rarest = said.iter().min_by_key(bearers)?;
+        let part_of = |name: &Name| name.tokens.windows(said.len()).any(|part| part.iter().eq(said.clone()));
+        let parts: Vec<Name> = self.bearers(rarest).filter(part_of).collect();
+        (!parts.is_empty()).then(|| one_name(&parts.iter().collect::<Vec<_>>()))
     }
 
     /// What a whole phrase that is no exact name may have meant.
@@ -139,29 +180,52 @@ impl<'a> Names<'a> {
             return part;
         }
         let said = join(phrase.iter().map(|lexeme| &lexeme.token));
-        let mut best: Option<(usize, Vec<Candidate<'_>>)> = None;
-        for candidate in self.candidates() {
-            let distance = strsim::osa_distance(&said, &candidate.spelling());
-            match &mut best {
-                Some((least, _)) if distance > *least => {}
-                Some((least, found)) if distance == *least => found.push(candidate),
-                _ => best = Some((distance, vec![candidate])),
+        let similar = (said.chars().count() / 3).max(1);
+        let (mut least, letters) = (similar.max(tolerance(&said)), Letters::of(&said));
+        let names = self.alike(phrase);
+        let mut found: Vec<Candidate<'_>> = Vec::new();
+        for candidate in candidates(&names) {
+            let spelling = candidate.spelling();
+            if Letters::of(&spelling).least_edits(letters) > least {
+                continue;
+            }
+            let distance = strsim::osa_distance(&said, &spelling);
+            if distance < least {
+                found.clear();
+                least = distance;
+            }
+            if distance == least {
+                found.push(candidate);
             }
         }
-        let Some((distance, found)) = best else { return Guess::Nothing(None) };
-        if distance <= tolerance(&said) {
-            return agreed(&found);
+        if found.is_empty() || least > tolerance(&said) {
+            return Guess::Nothing(found.first().filter(|_| least <= similar).map(Candidate::label));
         }
-        let similar = distance <= (said.chars().count() / 3).max(1);
-        Guess::Nothing(similar.then(|| found[0].label()))
+        agreed(&found)
     }
 
-    fn candidates(&self) -> impl Iterator<Item = Candidate<'_>> {
-        let classes = CATEGORIES
-            .iter()
-            .flat_map(|category| category.words.iter().map(move |word| Candidate::Class(category, word)));
-        self.index().entries.iter().map(Candidate::Name).chain(classes)
+    /// The names with a word of the phrase, or with one that begins as the phrase does.
+    fn alike(&self, phrase: &[Lexeme]) -> Vec<Name> {
+        let words = phrase.iter().filter_map(|lexeme| match &lexeme.token {
+            Token::Word(word) => Some(word.as_str()),
+            _ => None,
+        });
+        let index = self.index();
+        let mut ids: BTreeSet<EntityId> = words.clone().flat_map(|word| index.bearers(word)).collect();
+        if let Some(first) = words.clone().next().and_then(|word| word.chars().next()) {
+            let beginning = first.to_string();
+            ids.extend(index.words_from(&beginning).flat_map(|word| index.bearers(word)));
+        }
+        ids.into_iter().filter_map(|id| self.name(id)).collect()
     }
+}
+
+/// All that a phrase may have meant: these names, and every class.
+fn candidates(names: &[Name]) -> impl Iterator<Item = Candidate<'_>> {
+    let classes = CATEGORIES
+        .iter()
+        .flat_map(|category| category.words.iter().map(move |word| Candidate::Class(category, word)));
+    names.iter().map(Candidate::Name).chain(classes)
 }
 
 /// Something a phrase may have meant.
@@ -265,4 +329,34 @@ fn join<'a>(tokens: impl Iterator<Item = &'a Token>) -> String {
         })
         .collect();
     words.join(" ")
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a helper of tests")]
+mod tests {
+    use proptest::prelude::*;
+    use simworld_core::geometry::Pose;
+    use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+
+    use super::*;
+
+    proptest! {
+        /// The words of the index are those of the sentences: what is said as it is written is found.
+        #[test]
+        fn every_name_is_found_by_its_own_words(name in "[A-Za-zÄß0-9 .,'’&#-]{1,24}|\\PC{1,12}") {
+            let mut world = World::new();
+            let thing = EntityDesc::new(EntityKind::Prop, Pose::identity(), Shape::cuboid(1.0, 1.0, 1.0));
+            let id = world.spawn(thing.named(name.clone())).unwrap();
+            let names = Names::new(&world, Point2::origin(), 10.0);
+            let mut said = lex(&name);
+            said.retain(|lexeme| matches!(lexeme.token, Token::Word(_) | Token::Number(_)));
+            let article = usize::from(said.len() > 1 && said[0].token == Token::Word("the".to_owned()));
+            let said = &said[article..];
+            if said.is_empty() {
+                return Ok(());
+            }
+            prop_assert_eq!(names.exact(said), Some((vec![id], said.len())));
+            prop_assert_eq!(names.part(&said[said.len() / 2..]), Some(Guess::Named(vec![id])));
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use super::compass;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{CATEGORIES, COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES};
+use super::names::Names;
 use super::paint::PAINTS;
 use super::politeness::{FILLERS, JOINTS};
 use super::requests;
@@ -11,23 +12,20 @@ use super::verbs::{self, base_form};
 /// Words that people mean though a known word is near: none of them is a misspelling.
 const OTHER_WORDS: &str = include_str!("other_words.txt");
 
-/// Puts the words of a sentence right that are unknown and near one known word, or two known words in one; `names` are
-/// the words of names and goods.
-pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &dyn Fn() -> Vec<String>) {
-    let mut known: Option<Vec<String>> = None;
+/// Puts the words of a sentence right that are unknown and near one known word, or two known words in one; the words of
+/// names and goods are known.
+pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     let mut at = 0;
     while at < lexemes.len() {
         let here = at;
         at += 1;
         let Token::Word(word) = &lexemes[here].token else { continue };
-        if word.chars().count() < 3 || is_known(word) {
+        let is_short = word.len() < 3 || word.chars().count() < 3;
+        if is_short || lexemes[here].lemma.is_some() || is_known(word) || names.has_word(word) {
             continue;
         }
-        let names = known.get_or_insert_with(names);
-        if names.contains(word) {
-            continue;
-        }
-        let follows_verb = here > 0 && is_verb(&lexemes[here - 1].token);
+        let follows_verb =
+            here > 0 && matches!(&lexemes[here - 1].token, Token::Word(word) if verbs::is_verb(word));
         if let Some(parts) = parts(word, names) {
             let lexeme = lexemes[here].clone();
             let both = parts.map(|part| Lexeme {
@@ -43,23 +41,15 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &dyn Fn() -> Vec<String>
     }
 }
 
-/// Whether the token is an order by itself: after it stands no other.
-fn is_verb(token: &Token) -> bool {
-    matches!(token, Token::Word(word) if verbs::phrases().any(|(_, phrase)| phrase == word))
-}
-
 /// "Icecream", "busstop": two words of names, or two of the grammar, that are written as one.
-fn parts(word: &str, names: &[String]) -> Option<[String; 2]> {
-    let has_meaning = |part: &str| {
-        let words = vocabulary();
-        words.binary_search_by_key(&part, |(known, _)| *known).is_ok_and(|found| words[found].1)
-    };
-    let named = |part: &str| names.iter().any(|name| name == part);
+fn parts(word: &str, names: &Names<'_>) -> Option<[String; 2]> {
+    let has_meaning = |part: &str| find(part).is_some_and(|known| known.means);
     let long = |part: &str| part.chars().count() >= 3;
     let mut splits =
         word.char_indices().map(|(at, _)| word.split_at(at)).filter(|(one, other)| long(one) && long(other));
-    let fitting =
-        splits.find(|(one, other)| named(one) && named(other) || has_meaning(one) && has_meaning(other));
+    let fitting = splits.find(|(one, other)| {
+        has_meaning(one) && has_meaning(other) || names.has_word(one) && names.has_word(other)
+    });
     fitting.map(|(one, other)| [one.to_owned(), other.to_owned()])
 }
 
@@ -79,9 +69,17 @@ fn phrases() -> impl Iterator<Item = &'static str> {
     tables.chain(verbs)
 }
 
-/// Every single word that is known, in alphabetical order, and whether it means something to the grammar.
-fn vocabulary() -> &'static [(&'static str, bool)] {
-    static WORDS: std::sync::OnceLock<Vec<(&'static str, bool)>> = std::sync::OnceLock::new();
+/// A word of the grammar.
+struct Known {
+    word: &'static str,
+    /// Whether it means something to the grammar.
+    means: bool,
+    letters: Letters,
+}
+
+/// Every single word that is known, in alphabetical order.
+fn vocabulary() -> &'static [Known] {
+    static WORDS: std::sync::OnceLock<Vec<Known>> = std::sync::OnceLock::new();
     WORDS.get_or_init(|| {
         let meaning = phrases().flat_map(|phrase| phrase.split(' ')).chain(MORE_WORDS.split_whitespace());
         let small = requests::small_words().chain(compass::words().flat_map(|phrase| phrase.split(' ')));
@@ -90,12 +88,25 @@ fn vocabulary() -> &'static [(&'static str, bool)] {
         // Of a word in both lists the meaning counts.
         words.sort_unstable_by(|a, b| a.0.cmp(b.0).then(b.1.cmp(&a.1)));
         words.dedup_by_key(|(word, _)| *word);
-        words
+        words.into_iter().map(|(word, means)| Known { word, means, letters: Letters::of(word) }).collect()
     })
 }
 
+fn find(word: &str) -> Option<&'static Known> {
+    let words = vocabulary();
+    words.binary_search_by_key(&word, |known| known.word).ok().map(|at| &words[at])
+}
+
+/// The known words that begin so.
+fn words_from(beginning: &str) -> &'static [Known] {
+    let words = vocabulary();
+    let from = words.partition_point(|known| known.word < beginning);
+    let count = words[from..].partition_point(|known| known.word.starts_with(beginning));
+    &words[from..from + count]
+}
+
 fn is_known(word: &str) -> bool {
-    let listed = |word: &str| vocabulary().binary_search_by_key(&word, |(known, _)| *known).is_ok();
+    let listed = |word: &str| find(word).is_some();
     listed(word)
         || word.strip_suffix('s').is_some_and(listed)
         || word.strip_suffix("es").is_some_and(listed)
@@ -117,23 +128,28 @@ enum Slip {
 /// The known word nearest to one that is not: at most one edit, or two in seven letters, or two vowels. Of several as
 /// near the likelier slip is taken, then what the grammar knows, then what is no verb behind a verb; if that leaves two,
 /// or a word of no meaning here, none is.
-fn nearest(word: &str, names: &[String], follows_verb: bool) -> Option<String> {
+fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> {
+    let said = Said::new(word);
     let mut best: Vec<&str> = Vec::new();
     let mut least = (usize::MAX, Slip::Letter, true);
-    let names = names.iter().map(|name| (name.as_str(), true));
-    for (candidate, has_meaning) in vocabulary().iter().copied().chain(names) {
-        let Some((distance, slip)) = slip(word, candidate) else { continue };
-        let rank = (distance, slip, !has_meaning);
-        if rank < least {
-            least = rank;
-            best.clear();
-        }
-        if rank == least && !best.contains(&candidate) {
-            best.push(candidate);
+    let beginnings = beginnings(word);
+    for beginning in &beginnings {
+        let known = words_from(beginning).iter().map(|known| (known.word, known.means, known.letters));
+        let named = names.words_from(beginning).map(|name| (name, true, Letters::of(name)));
+        for (candidate, means, letters) in known.chain(named) {
+            let Some((distance, slip)) = said.slip(candidate, letters) else { continue };
+            let rank = (distance, slip, !means);
+            if rank < least {
+                least = rank;
+                best.clear();
+            }
+            if rank == least && !best.contains(&candidate) {
+                best.push(candidate);
+            }
         }
     }
     if follows_verb && best.len() > 1 {
-        best.retain(|word| !is_verb(&Token::Word((*word).to_owned())));
+        best.retain(|word| !verbs::is_verb(word));
     }
     match best[..] {
         [one] if !least.2 => Some(one.to_owned()),
@@ -141,48 +157,125 @@ fn nearest(word: &str, names: &[String], follows_verb: bool) -> Option<String> {
     }
 }
 
-/// How far a spelling is from a word, in edits, and what kind of slip that is; `None` if it is too far.
-fn slip(word: &str, candidate: &str) -> Option<(usize, Slip)> {
-    let length = word.chars().count();
-    let tolerance = if length < 7 { 1 } else { 2 };
-    if candidate.len() < 3 || candidate.len().abs_diff(word.len()) > 2 {
-        return None;
+/// How words may begin of which this is a slip: slips keep the first letter, swap it with the second, or write "ph" and
+/// "f" for one another.
+fn beginnings(word: &str) -> Vec<String> {
+    let mut letters = word.chars();
+    let (Some(first), Some(second)) = (letters.next(), letters.next()) else { return Vec::new() };
+    let mut all = vec![first.to_string()];
+    if second != first {
+        all.push([second, first].into_iter().collect());
     }
-    if folded(word) == folded(candidate) {
-        return Some((1, Slip::Count));
+    match (first, second) {
+        ('p', 'h') => all.push("f".to_owned()),
+        ('f', _) => all.push("ph".to_owned()),
+        _ => {}
     }
-    if !alike(word, candidate) {
-        return None;
-    }
-    let distance = strsim::osa_distance(word, candidate);
-    let slip = match candidate.chars().count() == length {
-        true if is_anagram(word, candidate) => Slip::Swapped,
-        true => Slip::Letter,
-        false => Slip::Count,
-    };
-    let only_vowels = distance == 2 && length >= 4 && skeleton(word) == skeleton(candidate);
-    if only_vowels && distance > tolerance {
-        return Some((distance, Slip::Letter));
-    }
-    (distance <= tolerance && !(length == 3 && slip == Slip::Letter)).then_some((distance, slip))
+    all
 }
 
-/// The word as it sounds, roughly: "foto" and "photo" are one.
-fn folded(word: &str) -> String {
-    let mut sound = word.replace("ph", "f").replace("ck", "k").replace("wh", "w");
+/// Which letters stand in a word, a bit each; all that are not a to z share one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Letters(u32);
+
+impl Letters {
+    const VOWELS: u32 =
+        Self::bit('a') | Self::bit('e') | Self::bit('i') | Self::bit('o') | Self::bit('u') | Self::bit('y');
+
+    pub(super) fn of(word: &str) -> Self {
+        Self(word.chars().fold(0, |letters, letter| letters | Self::bit(letter)))
+    }
+
+    const fn bit(letter: char) -> u32 {
+        if letter.is_ascii_lowercase() { 1 << (letter as u32 - 'a' as u32) } else { 1 << 26 }
+    }
+
+    /// No spelling is fewer edits away than that from one with the other letters.
+    pub(super) const fn least_edits(self, other: Self) -> usize {
+        let (extra, missing) = ((self.0 & !other.0).count_ones(), (other.0 & !self.0).count_ones());
+        if extra > missing { extra as usize } else { missing as usize }
+    }
+
+    const fn same_consonants(self, other: Self) -> bool {
+        self.0 & !Self::VOWELS == other.0 & !Self::VOWELS
+    }
+}
+
+/// A word as it was written.
+struct Said<'a> {
+    word: &'a str,
+    length: usize,
+    letters: Letters,
+}
+
+impl<'a> Said<'a> {
+    fn new(word: &'a str) -> Self {
+        Self { word, length: word.chars().count(), letters: Letters::of(word) }
+    }
+
+    /// How far it is from a word that it may begin like, in edits, and what kind of slip that is; `None` if it is too far.
+    fn slip(&self, candidate: &str, letters: Letters) -> Option<(usize, Slip)> {
+        let Self { word, length, .. } = *self;
+        let tolerance = if length < 7 { 1 } else { 2 };
+        let least = self.letters.least_edits(letters);
+        if least > 2 || candidate.len() < 3 || candidate.len().abs_diff(word.len()) > 2 {
+            return None;
+        }
+        if sounds(word).eq(sounds(candidate)) {
+            // Other letters for the same sound are likelier than letters out of order: "foto" is no "foot".
+            return Some((usize::from(self.letters == letters), Slip::Count));
+        }
+        let may_be_vowels = length >= 4 && self.letters.same_consonants(letters);
+        if least > tolerance && !may_be_vowels || !alike(word, candidate) {
+            return None;
+        }
+        let distance = strsim::osa_distance(word, candidate);
+        let only_vowels = may_be_vowels && distance == 2 && skeleton(word).eq(skeleton(candidate));
+        if distance > tolerance {
+            return only_vowels.then_some((distance, Slip::Letter));
+        }
+        let slip = match candidate.chars().count() == length {
+            true if is_anagram(word, candidate) => Slip::Swapped,
+            true => Slip::Letter,
+            false => Slip::Count,
+        };
+        (!(length == 3 && slip == Slip::Letter)).then_some((distance, slip))
+    }
+}
+
+/// The letters of a word as it sounds, roughly: "foto" and "photo" are one.
+fn sounds(word: &str) -> impl Iterator<Item = char> {
+    let mut letters = word.chars().peekable();
     let mut last = None;
-    sound.retain(|letter| last.replace(letter) != Some(letter));
-    sound
+    std::iter::from_fn(move || {
+        loop {
+            let letter = letters.next()?;
+            let sound = match (letter, letters.peek()) {
+                ('p', Some('h')) => Some('f'),
+                ('c', Some('k')) => Some('k'),
+                ('w', Some('h')) => Some('w'),
+                _ => None,
+            };
+            if sound.is_some() {
+                letters.next();
+            }
+            let sound = sound.unwrap_or(letter);
+            if last.replace(sound) != Some(sound) {
+                return Some(sound);
+            }
+        }
+    })
 }
 
 /// Its first letter and the consonants behind it.
-fn skeleton(word: &str) -> String {
-    let mut letters = word.chars();
-    let first = letters.next();
-    first.into_iter().chain(letters.filter(|letter| !"aeiouy".contains(*letter))).collect()
+fn skeleton(word: &str) -> impl Iterator<Item = char> {
+    word.chars()
+        .enumerate()
+        .filter(|(at, letter)| *at == 0 || !"aeiouy".contains(*letter))
+        .map(|(_, letter)| letter)
 }
 
-/// Slips keep the first letter, or swap it with the second.
+/// Whether the first letter is kept, or swapped with the second.
 fn alike(word: &str, candidate: &str) -> bool {
     let (mut a, mut b) = (word.chars(), candidate.chars());
     let (a0, b0, a1, b1) = (a.next(), b.next(), a.next(), b.next());
@@ -200,11 +293,15 @@ fn is_anagram(a: &str, b: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::geometry::Point2;
+    use simworld_core::scene::World;
+
     use super::*;
 
     #[test]
     fn slips_are_put_right_and_other_words_left_alone() {
-        let none: Vec<String> = Vec::new();
+        let world = World::new();
+        let none = Names::new(&world, Point2::origin(), 100.0);
         for (slip, right) in [
             ("musem", "museum"),
             ("chiar", "chair"),

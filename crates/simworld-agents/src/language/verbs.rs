@@ -51,46 +51,46 @@ pub(super) enum Verb {
 }
 
 impl Verb {
-    const ALL: &'static [Self] = &[
-        Self::Go,
-        Self::Run,
-        Self::Stroll,
-        Self::Follow,
-        Self::Cross,
-        Self::Take,
-        Self::Deliver,
-        Self::Give,
-        Self::Drop,
-        Self::PutDown,
-        Self::Buy,
-        Self::Sit,
-        Self::StandUp,
-        Self::Stop,
-        Self::Wait,
-        Self::Board,
-        Self::Drive,
-        Self::Alight,
-        Self::Step,
-        Self::Reverse,
-        Self::Turn,
-        Self::Look,
-        Self::Face,
-        Self::Point,
-        Self::Wave,
-        Self::Talk,
-        Self::Greet,
-        Self::Say,
-        Self::Tell,
-        Self::Argue,
-        Self::Open,
-        Self::Close,
-        Self::Photo,
-        Self::Faster,
-        Self::Slower,
-        Self::SetSpeed,
-        Self::Park,
-        Self::Pass,
-        Self::Circle,
+    const ALL: &'static [(Self, &'static str)] = &[
+        (Self::Go, "Go"),
+        (Self::Run, "Run"),
+        (Self::Stroll, "Stroll"),
+        (Self::Follow, "Follow"),
+        (Self::Cross, "Cross"),
+        (Self::Take, "Take"),
+        (Self::Deliver, "Deliver"),
+        (Self::Give, "Give"),
+        (Self::Drop, "Drop"),
+        (Self::PutDown, "PutDown"),
+        (Self::Buy, "Buy"),
+        (Self::Sit, "Sit"),
+        (Self::StandUp, "StandUp"),
+        (Self::Stop, "Stop"),
+        (Self::Wait, "Wait"),
+        (Self::Board, "Board"),
+        (Self::Drive, "Drive"),
+        (Self::Alight, "Alight"),
+        (Self::Step, "Step"),
+        (Self::Reverse, "Reverse"),
+        (Self::Turn, "Turn"),
+        (Self::Look, "Look"),
+        (Self::Face, "Face"),
+        (Self::Point, "Point"),
+        (Self::Wave, "Wave"),
+        (Self::Talk, "Talk"),
+        (Self::Greet, "Greet"),
+        (Self::Say, "Say"),
+        (Self::Tell, "Tell"),
+        (Self::Argue, "Argue"),
+        (Self::Open, "Open"),
+        (Self::Close, "Close"),
+        (Self::Photo, "Photo"),
+        (Self::Faster, "Faster"),
+        (Self::Slower, "Slower"),
+        (Self::SetSpeed, "SetSpeed"),
+        (Self::Park, "Park"),
+        (Self::Pass, "Pass"),
+        (Self::Circle, "Circle"),
     ];
 }
 
@@ -112,9 +112,14 @@ static VERBS: LazyLock<BTreeMap<&'static str, Vec<(&'static str, Verb)>>> = Lazy
 /// Every phrase of every verb.
 pub(super) fn phrases() -> impl Iterator<Item = (Verb, &'static str)> {
     TABLE.lines().filter_map(|line| line.split_once(" = ")).flat_map(|(name, phrases)| {
-        let verb = Verb::ALL.iter().copied().find(|verb| format!("{verb:?}") == name);
+        let verb = Verb::ALL.iter().find(|(_, known)| *known == name).map(|(verb, _)| *verb);
         phrases.split(", ").filter_map(move |phrase| Some((verb?, phrase)))
     })
+}
+
+/// Whether the word is an order by itself.
+pub(super) fn is_verb(word: &str) -> bool {
+    VERBS.get(word).is_some_and(|phrases| phrases.iter().any(|(phrase, _)| *phrase == word))
 }
 
 fn first_word(phrase: &str) -> &str {
@@ -225,7 +230,7 @@ mod tests {
         assert_eq!(TABLE.lines().count(), Verb::ALL.len());
         let mut all: Vec<&str> = phrases().map(|(_, phrase)| phrase).collect();
         assert!(all.iter().all(|phrase| phrase.split(' ').count() <= LONGEST));
-        for verb in Verb::ALL {
+        for (verb, _) in Verb::ALL {
             assert!(phrases().any(|(other, _)| other == *verb), "{verb:?} has no words");
         }
         all.sort_unstable();

@@ -3,6 +3,7 @@
 mod frame;
 mod gps;
 mod scene_graph;
+mod screens;
 mod senses;
 mod text;
 

@@ -3,14 +3,15 @@
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Aabb, Point3, heading, yaw_of};
+use simworld_core::geometry::{Aabb, Vector2, direction, heading, yaw_of};
 use simworld_core::id::EntityId;
-use simworld_core::ops::wrap_angle;
+use simworld_core::ops::{cos, wrap_angle};
 use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::{ObserveError, Observer};
 
 use super::gps::{GpsFix, GpsObserver};
-use crate::executor::{crosses, eyes, hides, looked_at};
+use super::screens::Screens;
+use crate::executor::{eyes, hides, looked_at};
 
 /// One thing in sight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,9 +62,9 @@ pub struct SceneGraphObserver {
     most: usize,
     through: bool,
     gps: GpsObserver,
-    /// What hides things, kept from one observation to the next for its memory alone.
-    screens: Vec<EntityId>,
-    seen: Vec<(f64, f64, EntityId)>,
+    /// What hides things and what is seen, kept from one observation to the next for their memory alone.
+    screens: Screens,
+    seen: Vec<(f64, EntityId)>,
 }
 
 impl SceneGraphObserver {
@@ -75,7 +76,7 @@ impl SceneGraphObserver {
             most: 64,
             through: true,
             gps: GpsObserver::exact(),
-            screens: Vec::new(),
+            screens: Screens::default(),
             seen: Vec::new(),
         }
     }
@@ -130,17 +131,18 @@ impl Observer for SceneGraphObserver {
         self.look(scene, &me);
         let mut spare = std::mem::take(&mut out.sightings);
         let mut kept = 0;
-        for (distance, bearing, id) in &self.seen {
+        for (distance, id) in &self.seen {
             if kept == self.most {
                 break;
             }
             let Some(entity) = scene.entity(*id) else { continue };
-            if self.is_hidden(scene, &me, &entity) {
+            if !self.through && self.is_hidden(&me, &entity) {
                 continue;
             }
+            let bearing = bearing(&me, &entity);
             match spare.get_mut(kept) {
-                Some(place) => place.set(&entity, *distance, *bearing),
-                None => spare.push(Sighting::of(&entity, *distance, *bearing)),
+                Some(place) => place.set(&entity, *distance, bearing),
+                None => spare.push(Sighting::of(&entity, *distance, bearing)),
             }
             kept += 1;
         }
@@ -154,41 +156,66 @@ impl SceneGraphObserver {
     /// Gathers what is within the radius and the field of view, nearest first, and what could hide it.
     fn look(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) {
         let (here, through) = (me.planar(), self.through);
-        let Self { seen, screens, radius, field_of_view, .. } = self;
+        let view = View::new(me, self.field_of_view);
+        let Self { seen, screens, radius, .. } = self;
         seen.clear();
         screens.clear();
         let _ = scene.visit(&Aabb::column_around(here, *radius), &mut |entity| {
             if entity.id == me.id || !is_thing(entity.kind) {
                 return ControlFlow::Continue(());
             }
+            let (hides, in_view) = (!through && hides(&entity), view.holds(me, &entity));
+            if !hides && !in_view {
+                return ControlFlow::Continue(());
+            }
             let distance = entity.info.shape.planar_distance(entity.pose, &here);
             if distance <= *radius {
-                if !through && hides(&entity) {
-                    screens.push(entity.id);
+                if hides {
+                    screens.push(&entity, here);
                 }
-                let bearing = bearing(me, &entity);
-                if bearing.abs() <= *field_of_view * 0.5 {
-                    seen.push((distance, bearing, entity.id));
+                if in_view {
+                    seen.push((distance, entity.id));
                 }
             }
             ControlFlow::Continue(())
         });
-        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+        screens.sort();
+        seen.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
 
     /// Whether something large stands between the eyes and the middle of a thing, and the eyes and its top.
-    fn is_hidden(&self, scene: &dyn Scene, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
-        if self.screens.is_empty() || other.attachment.is_some_and(|bond| bond.parent == me.id) {
+    fn is_hidden(&self, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
+        if other.attachment.is_some_and(|bond| bond.parent == me.id) {
             return false;
         }
         let eye = eyes(me);
         let (middle, top) = looked_at(other, eye.xy());
         let carrier = me.attachment.map(|bond| bond.parent);
-        let behind = |point: &Point3| {
-            let mut screens = self.screens.iter().filter(|id| **id != other.id && Some(**id) != carrier);
-            screens.any(|id| scene.entity(*id).is_some_and(|screen| crosses(&screen, &eye, point)))
-        };
-        behind(&middle) && behind(&top)
+        self.screens.hide(&eye, [middle, top], [Some(other.id), carrier])
+    }
+}
+
+/// The field of view; an angle is worked out only for what is near its edge.
+struct View {
+    half: f64,
+    edge: f64,
+    ahead: Vector2,
+}
+
+impl View {
+    fn new(me: &EntityRef<'_>, across: f64) -> Self {
+        let half = across * 0.5;
+        let edge = if half < std::f64::consts::PI { cos(half.max(0.0)) } else { -2.0 };
+        Self { half, edge, ahead: direction(yaw_of(me.pose)) }
+    }
+
+    fn holds(&self, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
+        /// The cosine of an angle so near to the edge may be on the wrong side of it.
+        const CLOSE: f64 = 1e-9;
+        let offset = other.bounds.center().xy() - me.planar();
+        let length = offset.norm();
+        let beyond = offset.dot(&self.ahead) - self.edge * length;
+        if beyond.abs() > CLOSE * length { beyond > 0.0 } else { bearing(me, other).abs() <= self.half }
     }
 }
 

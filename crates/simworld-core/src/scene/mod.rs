@@ -3,6 +3,7 @@
 mod entity;
 mod interaction;
 mod kind;
+mod naming;
 pub(crate) mod quadtree;
 mod ray;
 mod relation;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, Role};
 pub use interaction::{ARM_REACH, EARSHOT, InteractionError, LOCKED, OPEN, SELLS, check_action};
 pub use kind::{EntityKind, Place};
+pub use naming::NameIndex;
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
 pub use world::{World, WorldError, WorldSnapshot};
@@ -119,6 +121,11 @@ pub trait Scene {
         &[]
     }
 
+    /// What everything is called, if the scene keeps an index of names; the world does.
+    fn names(&self) -> Option<&NameIndex> {
+        None
+    }
+
     /// The entity nearest to a point in the plane, by distance to its footprint, that passes the filter and lies
     /// within `max_distance` m. Of two at the same distance the lower id is taken.
     fn nearest(
@@ -198,6 +205,9 @@ macro_rules! forward_scene {
             }
             fn signals(&self) -> &[Aspect] {
                 (**self).signals()
+            }
+            fn names(&self) -> Option<&NameIndex> {
+                (**self).names()
             }
             fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
                 (**self).visit_attached(parent, visitor);

@@ -10,11 +10,11 @@ mod snapshot;
 use std::sync::Arc;
 
 pub use error::WorldError;
-use slots::{check_pose, check_twist};
+use slots::{check_pose, check_twist, is_called};
 pub use snapshot::WorldSnapshot;
 
 use super::quadtree::Quadtree;
-use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, Role, Scene};
+use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, NameIndex, Role, SELLS, Scene};
 use crate::action::Action;
 use crate::asset::{Asset, AssetError, Catalogue};
 use crate::clock::Clock;
@@ -63,6 +63,8 @@ pub struct World {
     /// Slots with a bond, ascending.
     bonded: Vec<u32>,
     tree: Quadtree,
+    /// Follows from `infos`; shared between copies of a world until one of them changes it.
+    names: Arc<NameIndex>,
     revision: u64,
 
     clock: Clock,
@@ -185,6 +187,9 @@ impl World {
         }
         self.set_bond(slot, None);
         self.infos[slot] = None;
+        if is_called(&desc.info) {
+            Arc::make_mut(&mut self.names).remove(id, &desc.info);
+        }
         self.generations[slot] = self.generations[slot].wrapping_add(1);
         self.tree.remove(slot as u32);
         self.free.push(slot as u32);
@@ -219,6 +224,11 @@ impl World {
         self.check_alive(id)?;
         self.touch(id.index());
         let info = self.infos[id.index()].as_mut().ok_or(WorldError::Missing { id })?;
+        if key == SELLS {
+            let names = Arc::make_mut(&mut self.names);
+            names.remove_goods(id, info.attributes.get(SELLS));
+            names.insert_goods(id, value.as_ref());
+        }
         Ok(match value {
             Some(value) => info.attributes.insert(key.to_owned(), value),
             None => info.attributes.remove(key),

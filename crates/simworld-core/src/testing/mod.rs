@@ -13,7 +13,7 @@ use crate::geometry::{Aabb, Point2};
 use crate::hash::{StateHash, StateHasher};
 use crate::id::EntityId;
 use crate::intent::Intent;
-use crate::scene::{Scene, World};
+use crate::scene::{NameIndex, Scene, World};
 use crate::seam::{
     Dynamics, Embodiment, Executor, Observer, Outcome, Plan, PlanStep, Planner, Progress, Task, TaskContext,
     TaskOutput,
@@ -65,6 +65,13 @@ pub fn check_scene(scene: &dyn Scene) {
     assert!(visited <= 1, "the visit went on after the visitor broke it off");
     assert!(scene.entity(EntityId::new(u32::MAX, u32::MAX)).is_none(), "an id nobody has is found");
     assert_eq!(scene.environment().validate(), Ok(()));
+    if let Some(names) = scene.names() {
+        let mut scanned = NameIndex::default();
+        for entity in all.iter().filter_map(|id| scene.entity(*id)) {
+            scanned.insert(entity.id, entity.info);
+        }
+        assert_eq!(names, &scanned, "the index of names differs from what its entities are called");
+    }
 }
 
 /// Dynamics do the same twice, go on after save and restore as if nothing had been, and refuse foreign bytes with

@@ -10,7 +10,7 @@ use crate::environment::Environment;
 use crate::geometry::{Aabb, Ray};
 use crate::id::EntityId;
 use crate::net::{Aspect, RoadNetwork};
-use crate::scene::{EntityRef, RayCast, RayHit, Scene};
+use crate::scene::{EntityRef, NameIndex, RayCast, RayHit, Scene};
 
 impl World {
     /// Visits what touches the region and may be at least `min_extent` m wide: the level of detail of a distant
@@ -59,6 +59,10 @@ impl Scene for World {
 
     fn signals(&self) -> &[Aspect] {
         &self.signals
+    }
+
+    fn names(&self) -> Option<&NameIndex> {
+        Some(&self.names)
     }
 
     fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {

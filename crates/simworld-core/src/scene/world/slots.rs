@@ -1,10 +1,12 @@
 //! The slots of the store: how entities are checked, filed and found.
 
+use std::sync::Arc;
+
 use super::{WORLD_LIMIT, World, WorldError};
 use crate::geometry::{Aabb, Pose, Twist};
 use crate::id::EntityId;
 use crate::scene::quadtree::Quadtree;
-use crate::scene::{EntityDesc, EntityKind, EntityRef, Shape};
+use crate::scene::{EntityDesc, EntityInfo, EntityKind, EntityRef, SELLS, Shape};
 
 impl World {
     pub(super) fn check(&self, id: EntityId, desc: &EntityDesc) -> Result<(), WorldError> {
@@ -57,12 +59,16 @@ impl World {
         self.kinds[index] = desc.kind;
         self.poses[index] = desc.pose;
         self.twists[index] = desc.twist;
+        let id = EntityId::new(slot, self.generations[index]);
+        if is_called(&desc.info) {
+            Arc::make_mut(&mut self.names).insert(id, &desc.info);
+        }
         self.infos[index] = Some(desc.info);
         self.file(index, bounds);
         self.set_bond(index, desc.attachment);
         self.touch(index);
         self.revision += 1;
-        EntityId::new(slot, self.generations[index])
+        id
     }
 
     pub(super) fn file(&mut self, slot: usize, bounds: Aabb) {
@@ -108,6 +114,11 @@ impl World {
             attachment: self.bonds[slot].as_ref(),
         })
     }
+}
+
+/// Whether the index of names has anything to say of it.
+pub(super) fn is_called(info: &EntityInfo) -> bool {
+    info.name.is_some() || info.attributes.contains_key(SELLS)
 }
 
 pub(super) fn check_twist(id: EntityId, twist: &Twist) -> Result<(), WorldError> {
