@@ -47,3 +47,29 @@ fn signal_posts_stand_at_kerbs() {
         assert!(to_walk > 0.6, "a post stands {to_walk} m from the middle of a sidewalk");
     }
 }
+
+#[test]
+fn there_is_room_to_sit_down() {
+    let (mut benches, mut chairs) = (0, 0);
+    for seed in 0..4 {
+        let city = City::generate(&CityConfig::default(), Seed(seed)).unwrap();
+        let mut world = World::new();
+        city.populate(&mut world).unwrap();
+        for seat in world.iter().filter(|entity| entity.kind.is_seat()) {
+            let spot = seat.info.access.expect("a seat says where one sits down").xy();
+            let reach = seat.info.shape.planar_distance(seat.pose, &spot);
+            assert!(reach <= 1.0, "{} is sat down on from {reach:.2} m away", seat.id);
+            let body = 0.25;
+            let in_the_way = world.nearest(spot, body, &|thing| thing.is_solid());
+            assert!(
+                in_the_way.is_none(),
+                "seed {seed}: {:?} stands at {} {}",
+                in_the_way,
+                seat.kind,
+                seat.id
+            );
+            *(if seat.kind == EntityKind::Chair { &mut chairs } else { &mut benches }) += 1;
+        }
+    }
+    assert!(benches > 50 && chairs > 20, "{benches} benches, {chairs} chairs");
+}

@@ -8,6 +8,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::id::EntityId;
+use crate::scene::EntityKind;
 
 /// Where a step goes, seen from the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -242,6 +243,17 @@ impl ActionSet {
         Self::of(&[MoveForward, Step, Rotate, ChangeSpeed, LookUp, LookDown, Focus, TakePhoto, Stop])
     }
 
+    /// What a body of that kind can ever do: a robot what a person can, since it may have arms and take a seat; what does
+    /// not move by itself nothing.
+    pub fn of_body(kind: EntityKind) -> Self {
+        match kind {
+            EntityKind::Person | EntityKind::Robot => Self::humanoid(),
+            EntityKind::Dog => Self::dog(),
+            kind if kind.is_vehicle() => Self::vehicle(),
+            _ => Self::NONE,
+        }
+    }
+
     /// The set of these kinds.
     pub fn of(kinds: &[ActionKind]) -> Self {
         Self(kinds.iter().fold(0, |bits, kind| bits | 1 << *kind as u64))
@@ -272,6 +284,13 @@ mod tests {
     fn the_set_has_room_for_every_kind() {
         assert!(ActionKind::ALL.len() <= 64);
         assert_eq!(ActionSet::of(ActionKind::ALL).iter().count(), ActionKind::ALL.len());
+    }
+
+    #[test]
+    fn what_moves_by_itself_can_do_something_and_nothing_else_can() {
+        for kind in EntityKind::ALL {
+            assert_eq!(ActionSet::of_body(*kind) != ActionSet::NONE, kind.is_mobile(), "{kind}");
+        }
     }
 
     #[test]

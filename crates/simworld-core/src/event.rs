@@ -83,6 +83,9 @@ pub enum EventKind {
         gesture: ActionKind,
         /// At whom, if at anybody.
         to: Option<EntityId>,
+        /// Where the arm points, radians counter-clockwise from east, if it points.
+        #[serde(default)]
+        heading: Option<f64>,
     },
     /// Somebody bought something.
     Bought {

@@ -7,7 +7,7 @@ use common::small_world;
 use simworld_core::action::Action;
 use simworld_core::geometry::{Point3, Twist, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityDesc, EntityKind, InteractionError, Role, Scene, Shape, World};
+use simworld_core::scene::{EntityDesc, EntityKind, HAND_LIMIT, InteractionError, Role, Scene, Shape, World};
 
 const PERSON: EntityId = EntityId::new(0, 0);
 const CHAIR: EntityId = EntityId::new(1, 0);
@@ -61,7 +61,75 @@ fn what_somebody_has_is_taken() {
         world.actuate(PERSON, action.clone()).unwrap();
         let refused = world.actuate(other, action.clone()).unwrap_err();
         assert!(matches!(refused, InteractionError::Taken { by: PERSON, .. }), "{action:?}: {refused}");
+        if matches!(action, Action::SitDown { .. }) {
+            world.actuate(PERSON, Action::StandUp).unwrap();
+        }
     }
+}
+
+#[test]
+fn hands_and_arms_hold_no_more_than_they_can() {
+    let mut world = small_world();
+    let mut put = |kind, mass: f64| {
+        let pose = pose_facing(Point3::new(0.8, 0.4, 0.0), 0.0);
+        world.spawn(EntityDesc::new(kind, pose, Shape::cuboid(0.4, 0.4, 0.4)).weighing(mass)).unwrap()
+    };
+    let (light, heavy, safe) =
+        (put(EntityKind::Parcel, 14.0), put(EntityKind::Parcel, 24.0), put(EntityKind::Prop, 26.0));
+    let refused = world.actuate(PERSON, Action::PickUp { item: heavy }).unwrap_err();
+    assert!(matches!(refused, InteractionError::TooHeavy { limit: HAND_LIMIT, .. }), "{refused}");
+    let refused = world.actuate(PERSON, Action::CarryHeavy { item: safe }).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        format!("prop {safe} weighs 26 kg and 25 kg is what one can carry at most")
+    );
+    world.actuate(PERSON, Action::CarryHeavy { item: heavy }).unwrap();
+    for (action, what) in [
+        (Action::PickUp { item: light }, "took a second thing"),
+        (Action::RideScooter { scooter: SCOOTER }, "rode without a hand"),
+    ] {
+        let refused = world.actuate(PERSON, action).expect_err(what);
+        assert!(matches!(refused, InteractionError::Busy { .. }), "{refused}");
+    }
+    world.actuate(PERSON, Action::PutDownHeavy).unwrap();
+    world.actuate(PERSON, Action::PickUp { item: light }).unwrap();
+    let refused = world.actuate(PERSON, Action::CarryHeavy { item: heavy });
+    assert!(refused.is_err(), "both arms are wanted");
+}
+
+#[test]
+fn who_gets_up_or_puts_down_finds_room() {
+    let mut world = World::new();
+    let mut put = |kind, x: f64, y: f64, shape| {
+        world.spawn(EntityDesc::new(kind, pose_facing(Point3::new(x, y, 0.0), 0.0), shape)).unwrap()
+    };
+    let person = Shape::Capsule { radius: 0.25, height: 1.8 };
+    let me = put(EntityKind::Person, 0.0, 1.0, person);
+    let chair = put(EntityKind::Chair, 0.0, 0.0, Shape::cuboid(0.5, 0.5, 0.9));
+    // A table before it, a wall behind it, and somebody on its left.
+    put(EntityKind::Table, 0.75, 0.0, Shape::cuboid(0.8, 0.8, 0.75));
+    put(EntityKind::Building, -2.4, 0.0, Shape::cuboid(4.0, 9.0, 6.0));
+    let crate_ = put(EntityKind::Prop, 0.4, 1.0, Shape::cuboid(0.6, 0.6, 0.6));
+    world.actuate(me, Action::SitDown { seat: chair }).unwrap();
+    let other = world.spawn(EntityDesc::new(
+        EntityKind::Person,
+        pose_facing(Point3::new(0.0, 0.7, 0.0), 0.0),
+        person,
+    ));
+    world.actuate(me, Action::StandUp).unwrap();
+    let is_free = |world: &World, id: EntityId, reach: f64| {
+        let spot = world.entity(id).unwrap().planar();
+        world.nearest(spot, reach, &|thing| thing.id != id && thing.is_solid()).map(|thing| thing.id)
+    };
+    assert_eq!(is_free(&world, me, 0.25), None, "{}", world.entity(me).unwrap().position());
+    assert!(world.entity(me).unwrap().planar().x > -0.4, "through the wall");
+    assert!(other.is_ok());
+    world.actuate(me, Action::CarryHeavy { item: crate_ }).unwrap();
+    // Face to the wall.
+    let (at, facing) = (Point3::new(-0.05, -1.5, 0.0), std::f64::consts::PI);
+    world.set_motion(me, pose_facing(at, facing), Twist::ZERO).unwrap();
+    world.actuate(me, Action::PutDownHeavy).unwrap();
+    assert_eq!(is_free(&world, crate_, 0.3), None, "{}", world.entity(crate_).unwrap().position());
 }
 
 #[test]

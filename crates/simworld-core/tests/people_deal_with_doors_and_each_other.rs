@@ -86,7 +86,7 @@ fn who_is_spoken_to_is_near_and_hears_the_words() {
     assert!(matches!(world.actuate(me, say(far)), Err(InteractionError::OutOfEarshot { .. })));
     assert!(matches!(world.actuate(me, say(tree)), Err(InteractionError::WrongKind { .. })));
     world.actuate(me, Action::Argue { with: near }).unwrap();
-    let argued = EventKind::Gesture { who: me, gesture: ActionKind::Argue, to: Some(near) };
+    let argued = EventKind::Gesture { who: me, gesture: ActionKind::Argue, to: Some(near), heading: None };
     assert!(world.events().iter().any(|event| event.kind == argued));
 }
 

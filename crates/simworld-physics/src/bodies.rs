@@ -26,6 +26,15 @@ impl PhysicsDynamics {
         self.insert(world, id, Box::new(Humanoid::of(&entity, config)?))
     }
 
+    /// Gives a dog's entity a body of its pose, as wide as the narrower side of its shape and as tall as it is high: it
+    /// walks as people do, and does what dogs do.
+    ///
+    /// # Errors
+    /// As [`add_humanoid`](Self::add_humanoid).
+    pub fn add_dog(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
+        self.add_humanoid(world, id, HumanoidConfig::dog())
+    }
+
     /// Gives a vehicle's entity a body of its pose, velocity, size and mass.
     ///
     /// # Errors

@@ -82,7 +82,7 @@ impl PhysicsDynamics {
         }
         match &self.slots[slot] {
             Slot::Own { .. } => {}
-            _ if !entity.kind.is_solid() => self.vacate(slot),
+            _ if !entity.is_solid() => self.vacate(slot),
             _ if entity.kind.is_mobile() => self.synchronise_mirror(slot, entity),
             Slot::Fixed { id, shape, pose, .. }
                 if *id == entity.id && pose == entity.pose && *shape == entity.info.shape => {}

@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use nalgebra::UnitQuaternion;
 use simworld_core::camera::{Camera, Intrinsics};
-use simworld_core::geometry::{Point3, Pose};
+use simworld_core::geometry::{Point3, Pose, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
 use simworld_core::seam::{ObserveError, Observer};
@@ -13,7 +14,8 @@ use crate::{Frame, RenderConfig, RenderError, Renderer};
 /// Eye height of a person 1.75 m tall, m.
 const EYE_HEIGHT: f64 = 1.6;
 
-/// A camera mounted on whoever is observed: it looks along the body's forward axis and does not see the wearer.
+/// A camera mounted on whoever is observed: it looks along the body's forward axis, as far up as the wearer's gaze, with the
+/// field of view that the wearer focuses on, and does not see the wearer.
 ///
 /// Many sensors may share one renderer.
 ///
@@ -79,7 +81,14 @@ impl CameraSensor {
     pub fn camera(&self, scene: &dyn Scene, who: EntityId) -> Result<Camera, ObserveError> {
         let wearer = scene.entity(who).ok_or(ObserveError::Missing { id: who })?;
         let body_from_mount = self.mount.unwrap_or_else(|| Self::default_mount(&wearer));
-        Ok(Camera::looking_along(&(wearer.pose * body_from_mount), self.intrinsics))
+        // Upwards is against the turn about the axis to the left.
+        let gaze = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -wearer.gaze());
+        let intrinsics = match wearer.field_of_view() {
+            Some(angle) => Intrinsics::from_fov(self.intrinsics.width, self.intrinsics.height, angle)
+                .map_err(|error| ObserveError::Sensor(error.to_string()))?,
+            None => self.intrinsics,
+        };
+        Ok(Camera::looking_along(&(wearer.pose * body_from_mount * gaze), intrinsics))
     }
 
     /// The point from which it sees in the body frame of that wearer, m.

@@ -126,7 +126,7 @@ fn is_free(world: &World, at: Point2) -> bool {
         let local = entity.pose.inverse_transform_point(&Point3::new(at.x, at.y, 0.5));
         let half = entity.info.shape.size() * 0.5;
         let is_in = local.x.abs() < half.x + ROOM && local.y.abs() < half.y + ROOM;
-        is_free = !(is_in && entity.kind.is_solid());
+        is_free = !(is_in && entity.is_solid());
         if is_free { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     is_free

@@ -4,9 +4,8 @@ use simworld_core::action::Action;
 use simworld_core::geometry::{Point2, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
-use simworld_core::scene::{EntityRef, OPEN, Role, Scene, check_action};
+use simworld_core::scene::{EntityRef, Role, Scene, check_action};
 use simworld_core::seam::{Goal, Progress};
-use simworld_core::value::Value;
 
 use super::{RuleExecutor, Stage};
 
@@ -149,7 +148,7 @@ fn missing_effect(scene: &dyn Scene, who: EntityId, action: &Action) -> Option<S
 }
 
 fn is_open(scene: &dyn Scene, door: EntityId) -> bool {
-    scene.entity(door).is_some_and(|door| door.info.attributes.get(OPEN) == Some(&Value::Bool(true)))
+    scene.entity(door).is_some_and(|door| door.is_open())
 }
 
 /// Where a goal is by now, in the middle of a thing; `None` if it is gone.

@@ -18,6 +18,15 @@ const LONGEST: f64 = 10.0;
 /// A person this far to the right is passed on the left, m.
 const CLEARLY_RIGHT: f64 = 0.25;
 
+/// Whom one keeps clear of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Whom {
+    /// People and things.
+    All,
+    /// What moves by itself: the way leads round the rest.
+    Movers,
+}
+
 /// What stands in the way, in the frame of the way: how far ahead it begins, and from where to where it reaches
 /// across, m, positive to the left.
 struct Obstacle {
@@ -34,7 +43,7 @@ pub(super) fn detour(
     me: &EntityRef<'_>,
     to: Point2,
     goal: Option<EntityId>,
-    look_ahead: f64,
+    (look_ahead, whom): (f64, Whom),
 ) -> f64 {
     let (here, along) = (me.planar(), to - me.planar());
     let distance = along.norm();
@@ -47,7 +56,8 @@ pub(super) fn detour(
     let _ = scene.visit(&Aabb::column_around(here, sight + BERTH), &mut |other| {
         let is_other = other.id != me.id && Some(other.id) != goal && other.attachment.is_none();
         if is_other
-            && other.kind.is_solid()
+            && other.is_solid()
+            && (whom == Whom::All || other.kind.is_mobile())
             && let Some(obstacle) = in_the_way(&other, here, way, sight)
             && nearest.as_ref().is_none_or(|least| obstacle.ahead < least.ahead)
         {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use simworld_core::geometry::Aabb;
 use simworld_core::id::EntityId;
 use simworld_core::net::Aspect;
-use simworld_core::scene::{EntityRef, OPEN, Role, Scene};
+use simworld_core::scene::{EntityRef, Role, Scene};
 use simworld_core::seam::{Condition, Which};
 use simworld_core::value::Value;
 
@@ -25,9 +25,7 @@ pub(crate) fn holds(condition: &Condition, scene: &dyn Scene, me: &EntityRef<'_>
             any(scene, me, what, *within, &|entity| !is_used(scene, entity.id, Some(me.id)))
         }
         Condition::InUse(id) => is_used(scene, *id, Some(me.id)),
-        Condition::Open(id) => {
-            scene.entity(*id).is_some_and(|door| door.info.attributes.get(OPEN) == Some(&Value::Bool(true)))
-        }
+        Condition::Open(id) => scene.entity(*id).is_some_and(|door| door.is_open()),
         Condition::Holds(what) => {
             let held = [Role::Held, Role::Carried].map(|role| scene.attached(me.id, role));
             held.iter().flatten().any(|held| what.is_none_or(|what| what == *held))

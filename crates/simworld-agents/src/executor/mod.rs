@@ -10,6 +10,7 @@ mod blocks;
 mod condition;
 mod crossing;
 mod drive;
+mod ground;
 mod navigate;
 mod sight;
 

@@ -9,12 +9,15 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::Goal;
 
+use super::ground::{self, Ground};
 use super::{RuleExecutor, Stage, avoid, crossing};
 
 /// A goal that moves farther than this is looked for anew on the roads, m.
 pub(super) const FOLLOWED: f64 = 10.0;
 /// A waypoint counts as passed within this distance, m.
 const PASSED: f64 = 0.7;
+/// A corner on the way round something solid counts as passed within this distance, m.
+const ROUNDED: f64 = 0.25;
 /// Heading errors below this are left alone, radians.
 const STRAIGHT: f64 = 0.03;
 /// With a larger heading error one turns on the spot, radians.
@@ -23,6 +26,8 @@ const FACING: f64 = 1.0;
 const BEARING: f64 = 0.3;
 /// Speed at which anybody turns within the width of a sidewalk, m/s.
 const TURNING: f64 = 1.4;
+/// A place nearer than this is gone to over the ground if it is not straight ahead, m: no walkway leads there sooner.
+const SHORT: f64 = 8.0;
 /// Coming nearer by less than this is no progress, m.
 const PROGRESS: f64 = 0.25;
 /// How long an evasion lasts, s.
@@ -36,6 +41,30 @@ struct Leg {
     point: Point2,
     /// The crossing on the way to it, if there is one.
     crossing: Option<CrossingId>,
+    footing: Footing,
+}
+
+/// What one walks on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Footing {
+    /// Sidewalks and crossings, kept free for those who walk, or the straight way.
+    Walkway,
+    /// Ground where things stand; the way leads round them.
+    Open,
+}
+
+impl Leg {
+    fn open(point: Point2) -> Self {
+        Self { point, crossing: None, footing: Footing::Open }
+    }
+
+    /// How near one comes to its end before one goes on.
+    const fn passed_within(&self) -> f64 {
+        match self.footing {
+            Footing::Walkway => PASSED,
+            Footing::Open => ROUNDED,
+        }
+    }
 }
 
 /// A way being gone.
@@ -51,8 +80,9 @@ pub(super) struct Navigation {
     /// The least distance to the next place so far, m, and how long ago that was, s.
     least: f64,
     idle: f64,
-    /// How often it was stuck, and what is left of the evasion, s.
+    /// How often it was stuck, less what came on since, and in all; what is left of the evasion, s.
     stuck: u32,
+    jams: u32,
     evading: f64,
 }
 
@@ -83,6 +113,7 @@ impl Navigation {
             least: f64::INFINITY,
             idle: 0.0,
             stuck: 0,
+            jams: 0,
             evading: 0.0,
         }
     }
@@ -123,7 +154,7 @@ impl RuleExecutor {
         let mut way = match std::mem::take(&mut self.state.stage) {
             // Who walked on is followed on the roads as well.
             Stage::Navigating(way) if way.crossing_begun || (goal - way.goal).norm() <= FOLLOWED => way,
-            _ => Navigation::along(self.find_way(here, goal), goal),
+            _ => Navigation::along(self.find_way(scene, me, goal), goal),
         };
         if let Some(last) = way.legs.last_mut() {
             last.point = goal;
@@ -143,7 +174,10 @@ impl RuleExecutor {
         out: &mut Vec<Action>,
     ) -> Arrival {
         let (here, dt) = (me.planar(), scene.clock().dt());
-        while way.next + 1 < way.legs.len() && (way.legs[way.next].point - here).norm() < PASSED {
+        while let Some(leg) = way.legs.get(way.next)
+            && way.next + 1 < way.legs.len()
+            && (leg.point - here).norm() < leg.passed_within()
+        {
             way.pass();
         }
         let leg = way.legs[way.next];
@@ -161,7 +195,7 @@ impl RuleExecutor {
             way.idle += dt;
         }
         if way.idle > self.config.patience
-            && let Some(arrival) = self.unstick(way, here)
+            && let Some(arrival) = self.unstick(scene, me, way)
         {
             return arrival;
         }
@@ -170,7 +204,9 @@ impl RuleExecutor {
             // Alternate sides from one evasion to the next.
             if way.stuck.is_multiple_of(2) { EVASION_ANGLE } else { -EVASION_ANGLE }
         } else {
-            avoid::detour(scene, me, leg.point, destination.thing, self.config.look_ahead)
+            // The way over open ground leads round what stands there already.
+            let who = if leg.footing == Footing::Open { avoid::Whom::Movers } else { avoid::Whom::All };
+            avoid::detour(scene, me, leg.point, destination.thing, (self.config.look_ahead, who))
         };
         let aside = self.on_the_walkway(scene, here, way, leg.point, aside);
         let error = face(me, leg.point, aside, out);
@@ -243,41 +279,126 @@ impl RuleExecutor {
         Arrival::Underway
     }
 
-    /// Tries something else after standing for too long: first a step aside, then another way.
-    fn unstick(&mut self, way: &mut Navigation, here: Point2) -> Option<Arrival> {
+    /// Tries something else after standing for too long: first a step aside, then a way round what is here, then another way.
+    fn unstick(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, way: &mut Navigation) -> Option<Arrival> {
+        /// So many times as often as in one place it gives up in all.
+        const CIRCLES: u32 = 3;
+        let here = me.planar();
         way.stuck += 1;
+        way.jams += 1;
         way.idle = 0.0;
         way.least = f64::INFINITY;
         self.state.told_speed = None; // somebody may have told the body to stop
-        if way.stuck > self.config.attempts {
+        if way.stuck > self.config.attempts || way.jams > CIRCLES * self.config.attempts {
             return Some(Arrival::Lost(format!("stuck at ({:.1}, {:.1})", here.x, here.y)));
         }
-        if way.stuck.is_multiple_of(3) && !way.crossing_begun {
-            let goal = way.goal;
-            *way = Navigation { stuck: way.stuck, ..Navigation::along(self.find_way(here, goal), goal) };
-        }
         way.evading = EVASION;
+        if way.crossing_begun {
+            return None;
+        }
+        match way.stuck % 3 {
+            2 if way.lead_round(scene, me) => way.evading = 0.0,
+            0 => {
+                let (goal, stuck, jams) = (way.goal, way.stuck, way.jams);
+                *way = Navigation { stuck, jams, ..Navigation::along(self.find_way(scene, me, goal), goal) };
+            }
+            _ => {}
+        }
         None
     }
 
-    /// The places to pass from here to the goal, the goal last.
-    fn find_way(&mut self, here: Point2, goal: Point2) -> Vec<Leg> {
-        let mut legs = Vec::new();
-        if let Some(ways) = &self.ways
-            && let (Some(from), Some(to)) = (ways.nearest(here), ways.nearest(goal))
-            && ways.route(from, to, &mut self.scratch, &mut self.route)
-        {
-            let route = trimmed(ways, &self.route.waypoints, here, goal);
+    /// The places to pass from where one is to the goal, the goal last.
+    fn find_way(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, goal: Point2) -> Vec<Leg> {
+        let here = me.planar();
+        let Some(ways) = &self.ways else { return over_ground(scene, me, here, goal) };
+        let (Some(from), Some(to)) = (ways.nearest(here), ways.nearest(goal)) else {
+            return over_ground(scene, me, here, goal);
+        };
+        if (goal - here).norm() <= SHORT && ground::is_blocked(scene, me, here, goal) {
+            let legs = over_ground(scene, me, here, goal);
+            if legs.len() > 1 {
+                return legs;
+            }
+        }
+        let out = walkway_from(scene, me, ways, here, from);
+        let back = walkway_from(scene, me, ways, goal, to);
+        let ends = [&out, &back].map(|way| way.as_ref().map(|(waypoint, _)| *waypoint));
+        let mut legs: Vec<Leg> = out.into_iter().flat_map(|(_, points)| points).map(Leg::open).collect();
+        if ways.route(ends[0].unwrap_or(from), ends[1].unwrap_or(to), &mut self.scratch, &mut self.route) {
+            let from = ends[0].map_or(here, |waypoint| ways.waypoint(waypoint).position);
+            let to = ends[1].map_or(goal, |waypoint| ways.waypoint(waypoint).position);
+            let route = trimmed(ways, &self.route.waypoints, from, to);
             let mut before: Option<WaypointId> = None;
             for waypoint in route {
                 let crossing = before.and_then(|b| ways.edge(b, *waypoint)).and_then(|edge| edge.crossing);
-                legs.push(Leg { point: ways.waypoint(*waypoint).position, crossing });
+                let point = ways.waypoint(*waypoint).position;
+                legs.push(Leg { point, crossing, footing: Footing::Walkway });
                 before = Some(*waypoint);
             }
         }
-        legs.push(Leg { point: goal, crossing: None });
+        let footing = if let Some((_, mut points)) = back {
+            // From the goal to the walkway, so the other way round.
+            points.reverse();
+            legs.extend(points.into_iter().map(Leg::open));
+            Footing::Open
+        } else {
+            Footing::Walkway
+        };
+        legs.push(Leg { point: goal, crossing: None, footing });
         legs
     }
+}
+
+impl Navigation {
+    /// Puts a way over the ground, round what stands there now, before the next place on a walkway; false if there is none.
+    fn lead_round(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) -> bool {
+        let here = me.planar();
+        let on_walkway = |leg: &Leg| leg.footing == Footing::Walkway;
+        let next = self.legs.iter().skip(self.next).position(on_walkway).map(|ahead| self.next + ahead);
+        let next = next.unwrap_or(self.legs.len() - 1);
+        if self.legs[next].crossing.is_some() {
+            return false;
+        }
+        let place = self.legs[next].point;
+        let found = Ground::between(scene, me, here, place).and_then(|ground| ground.way(here, &[place]));
+        let Some((_, mut points)) = found else { return false };
+        points.pop();
+        self.legs.splice(self.next..next, points.into_iter().map(Leg::open));
+        true
+    }
+}
+
+/// A straight way, or one over the ground if something stands in between.
+fn over_ground(scene: &dyn Scene, me: &EntityRef<'_>, here: Point2, goal: Point2) -> Vec<Leg> {
+    let straight = Leg { point: goal, crossing: None, footing: Footing::Walkway };
+    if !ground::is_blocked(scene, me, here, goal) {
+        return vec![straight];
+    }
+    let found = Ground::between(scene, me, here, goal).and_then(|ground| ground.way(here, &[goal]));
+    found.map_or(vec![straight], |(_, points)| points.into_iter().map(Leg::open).collect())
+}
+
+/// Where one comes to the walkways from a place, and the points to pass until there, if the straight way to the waypoint
+/// nearest to it is blocked.
+fn walkway_from(
+    scene: &dyn Scene,
+    me: &EntityRef<'_>,
+    ways: &WaypointGraph,
+    place: Point2,
+    nearest: WaypointId,
+) -> Option<(WaypointId, Vec<Point2>)> {
+    let at = ways.waypoint(nearest).position;
+    if !ground::is_blocked(scene, me, place, at) {
+        return None;
+    }
+    let ground = Ground::between(scene, me, place, at)?;
+    let inside: Vec<(WaypointId, Point2)> = (0..ways.waypoints().len())
+        .map(|index| (WaypointId::from_index(index), ways.waypoints()[index].position))
+        .filter(|(_, at)| ground.holds(*at))
+        .collect();
+    let places: Vec<Point2> = inside.iter().map(|(_, at)| *at).collect();
+    let (index, points) = ground.way(place, &places)?;
+    Some((inside[index].0, points))
 }
 
 /// Turns towards a point, `aside` radians to its left; returns the heading error.

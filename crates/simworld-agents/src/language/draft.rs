@@ -7,7 +7,6 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Role};
 use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 
-use super::abilities::abilities;
 use super::clause::{Clause, Pace, Reference, Spot, Target, Test, Vehicle};
 use super::compass::Compass;
 use super::lexicon::{class, is_animate};
@@ -78,7 +77,7 @@ impl<'a> Draft<'a> {
             _ if scene.attached(me.id, Role::Ridden).is_some() => Posture::Riding,
             _ => Posture::Standing,
         };
-        let supports = abilities(me.kind);
+        let supports = ActionSet::of_body(me.kind);
         Self {
             level: me.position().z,
             kind: me.kind,

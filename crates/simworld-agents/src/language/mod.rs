@@ -7,7 +7,6 @@
 //!
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
-mod abilities;
 mod call;
 mod clause;
 mod compass;
@@ -39,8 +38,6 @@ mod verbs;
 mod ways;
 mod weather;
 
-#[cfg(feature = "thought")]
-pub(crate) use abilities::abilities;
 use draft::Draft;
 use names::Names;
 #[cfg(feature = "thought")]

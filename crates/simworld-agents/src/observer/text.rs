@@ -102,7 +102,7 @@ pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
         EventKind::Said { who: speaker, to, words } if *to == who => {
             format!("{speaker} said to you: {words:?}")
         }
-        EventKind::Gesture { who: other, gesture, to: Some(to) } if *to == who => {
+        EventKind::Gesture { who: other, gesture, to: Some(to), .. } if *to == who => {
             format!("{other} does this at you: {gesture}")
         }
         EventKind::Contact { a, b, .. } if *a == who => format!("you touched {b}"),

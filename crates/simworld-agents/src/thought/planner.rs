@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use simworld_core::action::ActionSet;
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
@@ -11,7 +12,7 @@ use super::known::{Known, ViewConfig, ViewConfigError};
 use super::menu::Menu;
 use super::prompts::{Prompt, Prompts};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
-use crate::language::{abilities, plan_orders};
+use crate::language::plan_orders;
 use crate::model::ChatModel;
 
 /// How deep blocks nest in a model's plan where nothing else is said.
@@ -90,7 +91,7 @@ impl Planner for ModelPlanner {
     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
         let known = Known::look(scene, who, &self.view).ok_or(PlanError::Missing { id: who })?;
-        let menu = Menu::new(abilities(me.kind), &known);
+        let menu = Menu::new(ActionSet::of_body(me.kind), &known);
         let request = match intent {
             Intent::Words(words) => words.clone(),
             call @ Intent::Call { .. } => call.to_string(),

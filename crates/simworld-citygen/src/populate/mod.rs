@@ -9,9 +9,9 @@ use std::sync::Arc;
 
 use assets::Assets;
 pub(crate) use scope::{Scope, Touched};
-use simworld_core::geometry::{Obb, Point2, Point3, Vector2, heading, pose_facing};
+use simworld_core::geometry::{Obb, Point2, Point3, Pose, Vector2, heading, pose_facing};
 use simworld_core::id::{AssetId, EntityId};
-use simworld_core::net::{Crossing, DrivingSide, RoadNetwork};
+use simworld_core::net::{Crossing, DrivingSide, RoadNetwork, Side, polyline};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World, WorldError};
 
 use crate::City;
@@ -160,8 +160,28 @@ impl Parts<'_> {
 
     fn element(&self, element: &Element, asset: Option<AssetId>) -> EntityDesc {
         let mut desc = describe_element(element);
+        desc.info.access = element.kind.is_seat().then(|| self.before_seat(element, &desc.pose));
         desc.info.asset = asset;
         lifted(desc, self.heights.height(element.position))
+    }
+
+    /// Where one stands to sit down: before a bench; beside a chair, which has its table before it, towards the sidewalk.
+    fn before_seat(&self, seat: &Element, pose: &Pose) -> Point3 {
+        let size = seat.shape.size();
+        let before = Point3::new(size.x * 0.5 + 0.6, 0.0, 0.0);
+        let walk =
+            seat.along.as_street().filter(|_| seat.kind == EntityKind::Chair).and_then(|(road, side)| {
+                let walks = self.network.roads.get(road.index())?.sidewalks;
+                let id = walks[usize::from(side == Side::Right)]?;
+                let path = &self.network.sidewalks.get(id.index())?.path;
+                let station = polyline::closest(path, &seat.position)?.station;
+                Some(polyline::at(path, station).0)
+            });
+        let spot = walk.map_or(before, |walk| {
+            let local = pose.inverse_transform_point(&Point3::new(walk.x, walk.y, 0.0));
+            Point3::new(0.0, (size.y * 0.5 + 0.4).copysign(local.y), 0.0)
+        });
+        pose * spot
     }
 
     fn signals(&self, asset: Option<AssetId>) -> Vec<EntityDesc> {
@@ -292,14 +312,7 @@ fn describe_signal(crossing: &Crossing, driving_side: DrivingSide) -> EntityDesc
 fn describe_element(element: &Element) -> EntityDesc {
     let pose = pose_facing(Point3::new(element.position.x, element.position.y, 0.0), element.facing);
     let desc = EntityDesc::new(element.kind, pose, element.shape);
-    if element.kind.is_vehicle() {
-        desc.with("parked", true).colored(car_color(element))
-    } else if element.kind.is_seat() {
-        // One sits down from the front.
-        desc.accessed_at(pose * Point3::new(element.shape.size().x * 0.5 + 0.6, 0.0, 0.0))
-    } else {
-        desc
-    }
+    if element.kind.is_vehicle() { desc.with("parked", true).colored(car_color(element)) } else { desc }
 }
 
 /// The paint of a parked car, linear-light sRGB: a function of where it stands.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{EntityKind, Place, Shape};
+use super::{EntityKind, FIELD_OF_VIEW, GAZE, OPEN, Place, Scene, Shape};
 use crate::geometry::{Aabb, Obb, Point2, Point3, Pose, Twist, planar};
 use crate::hash::StateHasher;
 use crate::id::{AssetId, EntityId};
@@ -178,6 +178,32 @@ impl EntityRef<'_> {
     /// Where one stands to use it: its access point, or its origin.
     pub fn access(&self) -> Point3 {
         self.info.access.unwrap_or_else(|| self.position())
+    }
+
+    /// Whether bodies collide with it now: a door only while it is closed.
+    pub fn is_solid(&self) -> bool {
+        self.kind.is_solid() || self.kind == EntityKind::Door && !self.is_open()
+    }
+
+    /// Whether it is a door, or something with one, that stands open.
+    pub fn is_open(&self) -> bool {
+        self.info.attributes.get(OPEN) == Some(&Value::Bool(true))
+    }
+
+    /// The elevation of the gaze above the horizon, radians in [-π/2, π/2].
+    pub fn gaze(&self) -> f64 {
+        self.info.attributes.get(GAZE).and_then(Value::as_f64).unwrap_or(0.0)
+    }
+
+    /// The horizontal field of view that it focuses on, radians; `None` while it is relaxed.
+    pub fn field_of_view(&self) -> Option<f64> {
+        self.info.attributes.get(FIELD_OF_VIEW).and_then(Value::as_f64)
+    }
+
+    /// Its mass, or that of the asset it was made from, kg; `None` if neither is known.
+    pub fn mass(&self, scene: &dyn Scene) -> Option<f64> {
+        let of_asset = || scene.assets()?.get(self.info.asset?)?.mass;
+        self.info.mass.or_else(of_asset)
     }
 
     /// What people call it: its name, or its use, or its kind.

@@ -107,7 +107,8 @@ named_kinds! {
 }
 
 impl EntityKind {
-    /// Whether bodies collide with it; surfaces are flat, parcels are carried, and it is the wall that stops one.
+    /// Whether bodies always collide with it; surfaces are flat, parcels are carried, and a door stops one only while it is
+    /// closed (see [`EntityRef::is_solid`](super::EntityRef::is_solid)).
     pub const fn is_solid(self) -> bool {
         !matches!(
             self,

@@ -14,7 +14,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, Role};
-pub use interaction::{ARM_REACH, EARSHOT, InteractionError, LOCKED, OPEN, SELLS, check_action};
+pub use interaction::{
+    ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, OPEN, SELLS,
+    check_action,
+};
 pub use kind::{EntityKind, Place};
 pub use naming::NameIndex;
 pub use relation::Relation;

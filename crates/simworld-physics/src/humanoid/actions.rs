@@ -1,6 +1,6 @@
 //! How a humanoid takes the actions of the vocabulary.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use simworld_core::action::{Action, ActionKind, StepDirection};
 use simworld_core::geometry::Vector3;
@@ -52,12 +52,12 @@ impl Humanoid {
             Action::EnterCar { .. } => self.assume(Posture::Aboard),
             Action::RideScooter { .. } => self.assume(Posture::Riding),
             Action::StandUp | Action::ExitCar | Action::GetOffScooter => self.assume(Posture::Standing),
-            Action::LookUp { angle } => self.look(kind, *angle, 1.0)?,
-            Action::LookDown { angle } => self.look(kind, *angle, -1.0)?,
+            // Where it looks stands in the world, where others see it.
+            Action::LookUp { angle } | Action::LookDown { angle } => {
+                checked(kind, "angle", *angle, f64::MIN..=f64::MAX, "a finite angle")?;
+            }
             Action::Focus { horizontal_fov } => {
-                let allowed = "0.01 to 3.1 rad";
-                self.motion.field_of_view =
-                    checked(kind, "horizontal_fov", *horizontal_fov, 0.01..=3.1, allowed)?;
+                checked(kind, "horizontal_fov", *horizontal_fov, 0.01..=3.1, "0.01 to 3.1 rad")?;
             }
             Action::PointDirection { heading } => {
                 checked(kind, "heading", *heading, f64::MIN..=f64::MAX, "a finite angle")?;
@@ -77,12 +77,6 @@ impl Humanoid {
         self.motion.posture = posture;
         self.motion.speed = 0.0;
         self.halt();
-    }
-
-    fn look(&mut self, action: ActionKind, angle: f64, sign: f64) -> Result<(), EmbodimentError> {
-        let angle = checked(action, "angle", angle, f64::MIN..=f64::MAX, "a finite angle")?;
-        self.motion.gaze = (self.motion.gaze + sign * angle).clamp(-FRAC_PI_2, FRAC_PI_2);
-        Ok(())
     }
 
     /// Refuses locomotion while something else moves the body.

@@ -90,7 +90,7 @@ fn is_free(
     let _ = scene.visit(&Aabb::column_around(middle, reach), &mut |other| {
         if who.contains(&other.id)
             || other.attachment.is_some()
-            || !other.kind.is_solid()
+            || !other.is_solid()
             || other.kind == EntityKind::Building
         {
             return ControlFlow::Continue(());

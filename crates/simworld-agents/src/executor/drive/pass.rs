@@ -91,7 +91,7 @@ impl Driving {
         let mut clear = true;
         let reach = polyline::length(&middle);
         let _ = scene.visit(&Aabb::column_around(own.at, reach), &mut |other| {
-            if own.ids.contains(&other.id) || other.attachment.is_some() || !other.kind.is_solid() {
+            if own.ids.contains(&other.id) || other.attachment.is_some() || !other.is_solid() {
                 return ControlFlow::Continue(());
             }
             let corners = other.obb().footprint();
@@ -124,7 +124,7 @@ pub(super) fn somebody_behind(scene: &dyn Scene, own: &Own<'_>, path: &[Point2],
     let reach = own.half_length + 2.0;
     let mut found = false;
     let _ = scene.visit(&Aabb::column_around(own.at, reach), &mut |other| {
-        let is_other = !own.ids.contains(&other.id) && other.attachment.is_none() && other.kind.is_solid();
+        let is_other = !own.ids.contains(&other.id) && other.attachment.is_none() && other.is_solid();
         found = is_other
             && other.obb().footprint().iter().any(|corner| {
                 let offset = corner - own.at;

@@ -176,10 +176,8 @@ impl Driving {
         let _ = scene.visit(&Aabb::column_around(own.at, sight + own.half_length), &mut |other| {
             // Streets lead past houses; the box around one that is no box reaches where its walls do not.
             let is_house = other.kind == EntityKind::Building;
-            let is_other = !own.ids.contains(&other.id)
-                && other.attachment.is_none()
-                && other.kind.is_solid()
-                && !is_house;
+            let is_other =
+                !own.ids.contains(&other.id) && other.attachment.is_none() && other.is_solid() && !is_house;
             if is_other
                 && let Some((speed, obstacle)) = self.slows(&path, own, &other)
                 && slowest.as_ref().is_none_or(|(least, _)| speed < *least)

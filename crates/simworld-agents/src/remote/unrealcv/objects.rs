@@ -125,7 +125,7 @@ fn write(desk: &mut Desk, served: &mut Served<'_>, order: &Order<'_>, id: Entity
         Verb::SetMobility => set(served, id, MOVABLE, Some((order.whole(0) == 1).into()))?,
         Verb::SetPhysics => set(served, id, PHYSICS, Some((order.whole(0) == 1).into()))?,
         Verb::SetCollision => {
-            let (is_solid, wanted) = (entity(served, id)?.kind.is_solid(), order.whole(0) == 1);
+            let (is_solid, wanted) = (entity(served, id)?.is_solid(), order.whole(0) == 1);
             if is_solid != wanted {
                 let state = if is_solid { "solid" } else { "not solid" };
                 return Err(Failed::Unsupported(format!(

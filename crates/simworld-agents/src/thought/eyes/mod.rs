@@ -13,7 +13,7 @@ use aim::Aim;
 pub use config::{VisualConfig, VisualConfigError};
 use movement::{Deed, Moving};
 use serde::{Deserialize, Serialize};
-use simworld_core::action::Action;
+use simworld_core::action::{Action, ActionSet};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityRef, Scene};
@@ -23,7 +23,6 @@ use super::prompts::{Prompt, Prompts, one_line};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
 use super::schema::{any_of, object, words};
 use crate::executor::RuleExecutor;
-use crate::language::abilities;
 use crate::model::{ChatModel, Image};
 use crate::observer::Frame;
 
@@ -207,7 +206,7 @@ impl VisualExecutor {
         while self.state.frames.len() > self.config.frames {
             self.state.frames.pop_front();
         }
-        let (branches, calls) = movement::offered(abilities(me.kind), aim);
+        let (branches, calls) = movement::offered(ActionSet::of_body(me.kind), aim);
         let system = self.prompts.render(Prompt::Eyes, &[("body", me.kind.as_str()), ("calls", &calls)])?;
         let left = self.config.most_movements - self.state.movements;
         let deeds: Vec<&str> = self.deeds().collect();

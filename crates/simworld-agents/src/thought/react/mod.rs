@@ -5,6 +5,7 @@ mod state;
 use std::sync::Arc;
 
 use serde_json::Value as Json;
+use simworld_core::action::ActionSet;
 use simworld_core::event::{Event, EventKind};
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
@@ -20,7 +21,6 @@ use super::persona::{Character, Persona};
 use super::prompts::{Prompt, PromptError, Prompts, one_line};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
 use super::schema::{object, one_of, words};
-use crate::language::abilities;
 use crate::mind::{Mind, MindError};
 use crate::model::ChatModel;
 use crate::observer::{Feedback, GpsObserver, SceneGraphObserver, Senses};
@@ -225,7 +225,7 @@ impl<T: ?Sized> ReactMind<T> {
         let me = scene.entity(who).ok_or_else(missing)?;
         self.senses.perceive(scene, who).map_err(|error| ReasonError::Other(error.to_string()))?;
         let known = Known::look(scene, who, &self.view).ok_or_else(missing)?;
-        let menu = Menu::new(abilities(me.kind), &known);
+        let menu = Menu::new(ActionSet::of_body(me.kind), &known);
         let question = self.question(now, me.kind.as_str(), &menu)?;
         let mut decision = None;
         let answer = self.reasoner.reason(&question, &mut |answer| {

@@ -1,18 +1,20 @@
 //! Preconditions of actions on objects, over any scene.
 
-use super::{
-    ARM_REACH, CARRY, EARSHOT, ENTER, InteractionError, LOCKED, OPEN, PICK_UP, RIDE, SELLS, SIT, Use,
-};
-use crate::action::Action;
+use std::ops::ControlFlow;
+
+use super::{ARM_REACH, CARRY, EARSHOT, ENTER, InteractionError, LOCKED, PICK_UP, RIDE, SELLS, SIT, Use};
+use crate::action::{Action, ActionKind, ActionSet};
 use crate::id::EntityId;
 use crate::scene::{EntityKind, EntityRef, Role, Scene};
 use crate::value::Value;
 
-/// Whether `who` can do the action now; actions that only move the body always can.
+/// Whether `who` can do the action now; actions that only move the body always can, as far as the world is concerned:
+/// bodies answer for them.
 ///
 /// # Errors
-/// Why not: what is missing, too far, taken, locked, or in the way.
+/// Why not: what no body of that kind does, what is missing, too far, too heavy, taken, locked, or in the way.
 pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result<(), InteractionError> {
+    able(scene, who, action.kind())?;
     match action {
         Action::PickUp { item } => take(scene, who, *item, &PICK_UP),
         Action::CarryHeavy { item } => take(scene, who, *item, &CARRY),
@@ -30,8 +32,45 @@ pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result
         Action::Buy { goods, from } => buy(scene, who, goods, *from),
         Action::Converse { with, .. } => address(scene, who, *with, "talk to"),
         Action::Argue { with } => address(scene, who, *with, "argue with"),
-        Action::WaveHand { to } => find(scene, *to).and_then(|_| find(scene, who)).map(drop),
-        _ => find(scene, who).map(drop),
+        Action::WaveHand { to } => find(scene, *to).map(drop),
+        Action::LookUp { angle } | Action::LookDown { angle } => {
+            in_range(action.kind(), "angle", *angle, f64::MIN..=f64::MAX, "a finite angle")
+        }
+        Action::Focus { horizontal_fov } => {
+            in_range(action.kind(), "horizontal_fov", *horizontal_fov, 0.01..=3.1, "0.01 to 3.1 rad")
+        }
+        Action::PointDirection { heading } => {
+            in_range(action.kind(), "heading", *heading, f64::MIN..=f64::MAX, "a finite angle")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether a body of that kind ever does it. Legs, wheels and pedals are the body's own business.
+fn able(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), InteractionError> {
+    use ActionKind::{Brake, ChangeSpeed, MoveForward, Rotate, Steer, Step, Stop, Throttle};
+    let kind = find(scene, who)?.kind;
+    let moves = ActionSet::of(&[MoveForward, Step, Rotate, ChangeSpeed, Steer, Throttle, Brake, Stop]);
+    let can = ActionSet::of_body(kind);
+    if can.contains(action) || moves.contains(action) {
+        return Ok(());
+    }
+    let names: Vec<String> = can.iter().map(|kind| kind.to_string()).collect();
+    let able = if names.is_empty() { "do nothing by itself".to_owned() } else { names.join(", ") };
+    Err(InteractionError::Unable { who, kind, action, able })
+}
+
+fn in_range(
+    action: ActionKind,
+    field: &'static str,
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    allowed: &'static str,
+) -> Result<(), InteractionError> {
+    if range.contains(&value) {
+        Ok(())
+    } else {
+        Err(InteractionError::Argument { action, field, value, allowed })
     }
 }
 
@@ -80,18 +119,40 @@ fn take(scene: &dyn Scene, who: EntityId, item: EntityId, wanted: &Use) -> Resul
     if let Some(bond) = object.attachment {
         return Err(taken(&object, bond.parent));
     }
-    if scene.attached(who, wanted.role).is_some() {
-        let state = "its hands are full, or it rides already";
+    if let Some(mass) = object.mass(scene).filter(|mass| *mass > wanted.limit) {
+        let (label, limit, verb) = (object.label().to_owned(), wanted.limit, wanted.verb);
+        return Err(InteractionError::TooHeavy { id: item, label, mass, limit, verb });
+    }
+    if let Some(state) = hindered(scene, who, wanted.role) {
         return Err(InteractionError::Busy { who, verb: wanted.verb, state });
     }
     not_carrying(scene, who, item, wanted.verb)
+}
+
+/// What keeps the actor from taking something in that role: a hand holds one thing, a heavy one takes both arms, and
+/// who sits cannot lift or ride.
+fn hindered(scene: &dyn Scene, who: EntityId, role: Role) -> Option<&'static str> {
+    let has = |role| scene.attached(who, role).is_some();
+    let sits = scene.entity(who).is_some_and(|actor| actor.attachment.is_some());
+    match role {
+        _ if has(Role::Carried) => Some("it carries something with both arms"),
+        Role::Held if has(Role::Held) => Some("its hand is full"),
+        Role::Carried if has(Role::Held) => Some("one of its hands is full"),
+        Role::Carried if has(Role::Ridden) => Some("it rides"),
+        Role::Ridden if has(Role::Ridden) => Some("it rides already"),
+        Role::Carried | Role::Ridden if sits => Some("it sits: get up first"),
+        _ => None,
+    }
 }
 
 /// The actor could come to hang on the object.
 fn mount(scene: &dyn Scene, who: EntityId, object: EntityId, wanted: &Use) -> Result<(), InteractionError> {
     reachable(scene, who, object, wanted)?;
     if find(scene, who)?.attachment.is_some() {
-        return Err(InteractionError::Busy { who, verb: wanted.verb, state: "it sits or rides already" });
+        return Err(InteractionError::Busy { who, verb: wanted.verb, state: "it sits already" });
+    }
+    if scene.attached(who, Role::Ridden).is_some() {
+        return Err(InteractionError::Busy { who, verb: wanted.verb, state: "it rides: get off first" });
     }
     if let Some(by) = scene.attached(object, wanted.role) {
         return Err(taken(&find(scene, object)?, by));
@@ -176,13 +237,37 @@ fn turn_door(scene: &dyn Scene, who: EntityId, door: EntityId, open: bool) -> Re
         return Err(InteractionError::WrongKind { kind: target.kind, verb });
     }
     within_reach(&actor, &target)?;
-    let state = match (open, is_set(&target, OPEN)) {
+    free_hand(scene, who, if open { "open" } else { "close" })?;
+    let state = match (open, target.is_open()) {
         (true, true) => "open already",
         (false, false) => "closed already",
         (true, false) if is_set(&target, LOCKED) => "locked",
+        (false, true) if stands_in(scene, &target) => "blocked: somebody or something stands in it",
         _ => return Ok(()),
     };
     Err(InteractionError::State { id: door, label: target.label().to_owned(), state })
+}
+
+/// A heavy thing takes both arms.
+fn free_hand(scene: &dyn Scene, who: EntityId, verb: &'static str) -> Result<(), InteractionError> {
+    let state = "carrying something with both arms";
+    scene.attached(who, Role::Carried).map_or(Ok(()), |_| Err(InteractionError::Busy { who, verb, state }))
+}
+
+/// Whether anything but walls stands where the leaf of a door would be.
+fn stands_in(scene: &dyn Scene, door: &EntityRef<'_>) -> bool {
+    let leaf = door.obb();
+    door.kind == EntityKind::Door
+        && scene
+            .visit(door.bounds, &mut |other| {
+                let is_wall = matches!(other.kind, EntityKind::Building | EntityKind::Door);
+                let stands = other.is_solid() && !is_wall && other.attachment.is_none();
+                if stands && other.obb().footprints_overlap(&leaf) {
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            })
+            .is_break()
 }
 
 fn give(scene: &dyn Scene, who: EntityId, to: EntityId) -> Result<(), InteractionError> {
@@ -192,6 +277,7 @@ fn give(scene: &dyn Scene, who: EntityId, to: EntityId) -> Result<(), Interactio
         return Err(InteractionError::WrongKind { kind: target.kind, verb: "be given something" });
     }
     within_reach(&actor, &target)?;
+    free_hand(scene, to, "take it")?;
     if scene.attached(to, Role::Held).is_some() {
         return Err(InteractionError::Busy { who: to, verb: "take it", state: "holding something" });
     }
@@ -208,8 +294,9 @@ fn buy(scene: &dyn Scene, who: EntityId, goods: &str, from: EntityId) -> Result<
         let (label, goods, sells) = (place.label().to_owned(), goods.to_owned(), sells.clone());
         return Err(InteractionError::NotSold { id: from, label, goods, sells });
     }
+    free_hand(scene, who, "buy")?;
     if scene.attached(who, Role::Held).is_some() {
-        return Err(InteractionError::Busy { who, verb: "buy", state: "its hands are full" });
+        return Err(InteractionError::Busy { who, verb: "buy", state: "its hand is full" });
     }
     Ok(())
 }

@@ -1,11 +1,17 @@
 //! What actions on objects change in the world.
 
-use super::{CARRY, ENTER, InteractionError, OPEN, PICK_UP, RIDE, SIT, Use, check::has, check_action};
+use std::f64::consts::FRAC_PI_2;
+
+use super::{
+    CARRY, ENTER, FIELD_OF_VIEW, GAZE, InteractionError, OPEN, PICK_UP, RIDE, SIT, Use, check::has,
+    check_action, room,
+};
 use crate::action::{Action, ActionKind};
 use crate::event::EventKind;
 use crate::geometry::{Point3, Pose, Vector3, pose_facing, yaw_of};
 use crate::id::EntityId;
-use crate::scene::{Attachment, EntityDesc, EntityKind, Role, Scene, Shape, World};
+use crate::ops::wrap_angle;
+use crate::scene::{Attachment, EntityDesc, EntityKind, EntityRef, Role, Scene, Shape, World};
 use crate::value::Value;
 
 impl World {
@@ -41,9 +47,16 @@ impl World {
             Action::Converse { with, words } => {
                 self.emit(EventKind::Said { who, to: *with, words: words.clone() });
             }
-            Action::Argue { with } => self.gesture(who, action.kind(), Some(*with)),
-            Action::WaveHand { to } => self.gesture(who, action.kind(), Some(*to)),
-            Action::PointDirection { .. } | Action::TakePhoto => self.gesture(who, action.kind(), None),
+            Action::Argue { with: to } | Action::WaveHand { to } => {
+                self.gesture(who, action.kind(), Some(*to), None);
+            }
+            Action::PointDirection { heading } => {
+                self.gesture(who, action.kind(), None, Some(wrap_angle(*heading)));
+            }
+            Action::TakePhoto => self.gesture(who, action.kind(), None, None),
+            Action::LookUp { angle } => self.look(who, *angle),
+            Action::LookDown { angle } => self.look(who, -*angle),
+            Action::Focus { horizontal_fov } => self.note(who, FIELD_OF_VIEW, Value::Number(*horizontal_fov)),
             _ => {}
         }
         Ok(())
@@ -54,29 +67,46 @@ impl World {
         self.bond(child, Some(Attachment { parent, role: wanted.role, parent_from_body }));
     }
 
-    /// What hangs on the actor comes to stand on the ground before it.
+    /// What hangs on the actor comes to stand on the ground before it, or else where there is room beside it.
     fn put_down(&mut self, item: EntityId, who: EntityId) {
         self.bond(item, None);
-        let Some(actor) = self.entity(who) else { return };
-        let ground = Point3::new(0.6, 0.0, 0.0);
-        let pose = pose_facing(actor.pose * ground, yaw_of(actor.pose));
+        let (Some(actor), Some(thing)) = (self.entity(who), self.entity(item)) else { return };
+        let half = |entity: &EntityRef<'_>| entity.info.shape.size().x * 0.5;
+        let before = Point3::new((half(&actor) + half(&thing) + 0.1).max(0.6), 0.0, 0.0);
+        let spot = room::beside(self, item, &actor, actor.pose * before);
+        let pose = pose_facing(spot, yaw_of(actor.pose));
         self.place(item, pose);
     }
 
-    /// The actor leaves what it hangs on and stands beside it, at its access point if it has one.
+    /// The actor leaves what it hangs on and stands at its access point, before a seat or at the driver's door of a
+    /// vehicle; or else where there is room beside it.
     fn dismount(&mut self, who: EntityId) {
         let bond = self.entity(who).and_then(|actor| actor.attachment.copied());
         let Some(carrier) = bond.and_then(|bond| self.entity(bond.parent)) else { return };
-        let beside = Point3::new(0.0, carrier.info.shape.size().y * 0.5 + 0.5, 0.0);
-        let spot = carrier.info.access.unwrap_or_else(|| carrier.pose * beside);
-        let pose = pose_facing(spot, yaw_of(carrier.pose));
+        let size = carrier.info.shape.size();
+        let beside = if carrier.kind.is_seat() {
+            Point3::new(size.x * 0.5 + 0.5, 0.0, 0.0)
+        } else {
+            Point3::new(0.0, size.y * 0.5 + 0.5, 0.0)
+        };
+        let wished = carrier.info.access.unwrap_or_else(|| carrier.pose * beside);
+        let pose = pose_facing(room::beside(self, who, &carrier, wished), yaw_of(carrier.pose));
         self.bond(who, None);
         self.place(who, pose);
     }
 
     fn set_door(&mut self, door: EntityId, open: bool) {
-        // The door was found a moment ago.
-        let _ = self.set_attribute(door, OPEN, Some(Value::Bool(open)));
+        self.note(door, OPEN, Value::Bool(open));
+    }
+
+    fn look(&mut self, who: EntityId, up: f64) {
+        let gaze = self.entity(who).map_or(0.0, |actor| actor.gaze());
+        self.note(who, GAZE, Value::Number((gaze + up).clamp(-FRAC_PI_2, FRAC_PI_2)));
+    }
+
+    /// Sets an attribute of somebody or something that was found a moment ago.
+    fn note(&mut self, id: EntityId, key: &str, value: Value) {
+        let _ = self.set_attribute(id, key, Some(value));
     }
 
     /// What was bought comes into the buyer's hand, in a bag of its own.
@@ -88,7 +118,7 @@ impl World {
         self.emit(EventKind::Bought { who, from, item });
     }
 
-    fn gesture(&mut self, who: EntityId, gesture: ActionKind, to: Option<EntityId>) {
-        self.emit(EventKind::Gesture { who, gesture, to });
+    fn gesture(&mut self, who: EntityId, gesture: ActionKind, to: Option<EntityId>, heading: Option<f64>) {
+        self.emit(EventKind::Gesture { who, gesture, to, heading });
     }
 }

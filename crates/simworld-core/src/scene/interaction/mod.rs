@@ -7,11 +7,13 @@
 
 mod check;
 mod effect;
+mod room;
 
 pub use check::check_action;
 use thiserror::Error;
 
 use super::{EntityKind, Role};
+use crate::action::ActionKind;
 use crate::geometry::Point3;
 use crate::id::EntityId;
 
@@ -20,6 +22,14 @@ pub const ARM_REACH: f64 = 2.0;
 /// How far a voice or a gesture reaches somebody who is spoken to, m: the far edge of "social distance" is 3.6 m and
 /// of comfortable public speech 7.6 m (Hall, The Hidden Dimension, 1966), and a raised voice carries a little farther.
 pub const EARSHOT: f64 = 10.0;
+/// What one person lifts with both arms at most, kg: the reference mass of ISO 11228-1 for the working population.
+pub const CARRY_LIMIT: f64 = 25.0;
+/// What one lifts with one hand at most, kg: the multiplier of EN 1005-2 for work with one hand is 0.6.
+pub const HAND_LIMIT: f64 = 15.0;
+/// The attribute of somebody that holds the elevation of the gaze above the horizon, radians in [-π/2, π/2]; level without it.
+pub const GAZE: &str = "gaze";
+/// The attribute of somebody that holds the horizontal field of view it focuses on, radians; relaxed without it.
+pub const FIELD_OF_VIEW: &str = "field_of_view";
 /// The attribute of a door, or of a building with one, that says whether it is open.
 pub const OPEN: &str = "open";
 /// The attribute of a door that says whether it is locked.
@@ -54,6 +64,44 @@ pub enum InteractionError {
         kind: EntityKind,
         /// The attempted use.
         verb: &'static str,
+    },
+    /// A body of that kind never does it.
+    #[error("a {kind} cannot {action}: {who} can {able}")]
+    Unable {
+        /// The actor.
+        who: EntityId,
+        /// What it is.
+        kind: EntityKind,
+        /// The attempted action.
+        action: ActionKind,
+        /// What it can do, in words.
+        able: String,
+    },
+    /// The object weighs more than one lifts so.
+    #[error("{label} {id} weighs {mass:.0} kg and {limit} kg is what one can {verb} at most")]
+    TooHeavy {
+        /// The object.
+        id: EntityId,
+        /// What it is called.
+        label: String,
+        /// Its mass, kg.
+        mass: f64,
+        /// The most that is lifted so, kg.
+        limit: f64,
+        /// How it was to be lifted.
+        verb: &'static str,
+    },
+    /// An argument out of range.
+    #[error("{action} with {field} = {value} is out of range: give {allowed}")]
+    Argument {
+        /// The attempted action.
+        action: ActionKind,
+        /// The argument.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed, in words.
+        allowed: &'static str,
     },
     /// Somebody else uses the object.
     #[error("{label} {id} is taken by {by}")]
@@ -114,6 +162,8 @@ struct Use {
     verb: &'static str,
     role: Role,
     fits: fn(EntityKind) -> bool,
+    /// What the object weighs at most, kg.
+    limit: f64,
     /// Where the child sits in the parent's body frame.
     offset: Point3,
 }
@@ -122,25 +172,34 @@ const PICK_UP: Use = Use {
     verb: "pick up",
     role: Role::Held,
     fits: |kind| matches!(kind, EntityKind::Parcel),
+    limit: HAND_LIMIT,
     offset: Point3::new(0.35, -0.25, 0.9),
 };
 const CARRY: Use = Use {
     verb: "carry",
     role: Role::Carried,
     fits: |kind| matches!(kind, EntityKind::Parcel | EntityKind::Chair | EntityKind::Cone | EntityKind::Prop),
+    limit: CARRY_LIMIT,
     offset: Point3::new(0.5, 0.0, 0.8),
 };
-const SIT: Use =
-    Use { verb: "sit", role: Role::Seated, fits: EntityKind::is_seat, offset: Point3::new(0.0, 0.0, 0.0) };
+const SIT: Use = Use {
+    verb: "sit",
+    role: Role::Seated,
+    fits: EntityKind::is_seat,
+    limit: f64::INFINITY,
+    offset: Point3::new(0.0, 0.0, 0.0),
+};
 const RIDE: Use = Use {
     verb: "ride",
     role: Role::Ridden,
     fits: |kind| matches!(kind, EntityKind::Scooter),
+    limit: f64::INFINITY,
     offset: Point3::new(0.0, 0.0, 0.0),
 };
 const ENTER: Use = Use {
     verb: "enter",
     role: Role::Aboard,
     fits: |kind| matches!(kind, EntityKind::Car | EntityKind::Truck | EntityKind::Bus),
+    limit: f64::INFINITY,
     offset: Point3::new(0.2, 0.4, 0.3),
 };

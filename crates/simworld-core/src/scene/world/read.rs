@@ -82,7 +82,7 @@ impl RayCast for World {
         let swept = Aabb::new(ray.origin, ray.at(max_distance));
         let mut best: Option<RayHit> = None;
         let _ = self.visit(&swept, &mut |entity| {
-            if entity.kind.is_solid() && filter(entity.id) {
+            if entity.is_solid() && filter(entity.id) {
                 let hit = crate::scene::ray::meet_box(ray, &entity.obb())
                     .filter(|(distance, _)| *distance <= max_distance);
                 if let Some((distance, normal)) = hit {

@@ -1,0 +1,5 @@
+//! What bodies do: everybody who can sit finds the nearest chair from anywhere, and every primitive action is carried out by
+//! bodies under physics, seen by others, and refused with its reason where it is impossible.
+
+mod sitting;
+mod town;
