@@ -3,7 +3,7 @@
 //! ```sh
 //! cargo run --release --example delivery
 //! cargo run --release --example delivery -- --replay out/delivery-1
-//! cargo run --release --example delivery -- --preset competition --seeds 20
+//! cargo run --release --example delivery -- --preset competition --report out/competition
 //! ```
 
 use std::path::PathBuf;
@@ -14,13 +14,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, replay};
-use simworld_examples::experiment::{Preset, Results, conduct, page};
+use simworld_examples::experiment::{Preset, Results, conduct};
+use simworld_examples::report::{holds_run, keep_index, write_report};
 
 /// Couriers at work in a generated city: they bid for orders, walk or ride them through traffic, and tire.
 ///
 /// Prints the five metrics of the paper's delivery task, mean and standard deviation over the seeds, and writes the
-/// configuration, the event log, the trail of state hashes, a map and, where there is a graphics adapter, frames. With
-/// --preset it runs an experiment of the paper instead and writes tables, charts, findings and a report to open.
+/// configuration, the event log, the trail of state hashes, the track of the couriers, maps, a report to open and, where
+/// there is a graphics adapter, frames. With --preset it runs an experiment of the paper instead and writes its tables,
+/// charts and findings too.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -54,6 +56,9 @@ struct Arguments {
     /// The folder to write to; it must be new or empty [default: the first free out/delivery-N].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Writes the report of the run or experiment in this folder again; a new or empty folder is played into first.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "resume", "replay"])]
+    report: Option<PathBuf>,
     /// Frames to render a seed, 0 for none [default: 3].
     #[arg(long)]
     frames: Option<u32>,
@@ -99,18 +104,23 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
         println!("{report}");
         return Ok(());
     }
+    if let Some(folder) = arguments.report.as_deref().filter(|folder| holds_run(folder)) {
+        println!("open {}", write_report(folder)?.display());
+        return Ok(());
+    }
     let config = configure(arguments)?;
     if let Some(preset) = arguments.preset {
         return experiment(preset, &config, arguments, &bars, stop);
     }
-    let folder = match &arguments.out {
+    let folder = match arguments.out.as_ref().or(arguments.report.as_ref()) {
         Some(path) => OutputFolder::create(path)?,
         None => OutputFolder::create_numbered("out/delivery")?,
     };
     let report = play(&config, &folder, &bars.watch(stop))?;
     bars.clear();
     println!("{report}");
-    println!("written to {}", folder.path().display());
+    let page = write_report(folder.path())?;
+    println!("written to {}; open {}", folder.path().display(), page.display());
     Ok(())
 }
 
@@ -122,17 +132,18 @@ fn experiment(
     bars: &Bars,
     stop: Arc<AtomicBool>,
 ) -> Result<(), Fault> {
-    let folder = match (&arguments.resume, &arguments.out) {
+    let folder = match (&arguments.resume, arguments.out.as_ref().or(arguments.report.as_ref())) {
         (Some(path), _) => OutputFolder::open(path)?,
         (None, Some(path)) => OutputFolder::create(path)?,
         (None, None) => OutputFolder::create_numbered(&format!("out/{preset}"))?,
     };
     let arms = preset.arms(config);
+    keep_index(preset, &arms, &folder)?;
     let trials = conduct(&arms, &folder, &bars.watch(stop))?;
     bars.clear();
     let results = Results::of(preset, &trials);
     results.write(&folder)?;
-    let path = folder.write("report.html", page(preset, &arms, &trials, &results))?;
+    let path = write_report(folder.path())?;
     println!("{results}");
     println!("written to {}; open {}", folder.path().display(), path.display());
     Ok(())

@@ -13,6 +13,7 @@ pub mod city;
 pub mod delivery;
 pub mod experiment;
 pub mod minds;
+pub mod report;
 pub mod served;
 pub mod traffic;
 pub mod wayfinding;

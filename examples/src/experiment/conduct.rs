@@ -84,7 +84,10 @@ pub fn conduct(arms: &[Arm], folder: &OutputFolder, watch: &Watch) -> Result<Vec
                 seed: *seed,
                 source: Box::new(source),
             };
-            let run = run_seed(&arm.config, &city, Seed(*seed), None, None, watch).map_err(failed)?;
+            let shown = recorded(arms).is_some_and(|(shown, first)| shown == *arm && first.0 == *seed);
+            let log = if shown { Some(folder.seed_folder(Seed(*seed))?) } else { None };
+            let run =
+                run_seed(&arm.config, &city, Seed(*seed), log.as_deref(), None, watch).map_err(failed)?;
             if watch.is_stopped() {
                 return Ok(None);
             }
@@ -101,6 +104,12 @@ pub fn conduct(arms: &[Arm], folder: &OutputFolder, watch: &Watch) -> Result<Vec
         return Err(ExperimentError::Stopped { done, all: runs.len(), folder });
     }
     Ok(trials.into_iter().flatten().collect())
+}
+
+/// The run whose events and track are kept, and which a report shows: the first seed of the setting in the middle.
+pub fn recorded(arms: &[Arm]) -> Option<(&Arm, Seed)> {
+    let arm = arms.get(arms.len() / 2)?;
+    Some((arm, Seed(arm.config.seed)))
 }
 
 fn seeds(arm: &Arm) -> impl Iterator<Item = u64> {

@@ -1,14 +1,13 @@
 //! The paper's experiments with the delivery task: what to run, what came of it, and the pages that show it.
 //!
 //! [`Preset::arms`] says which settings are compared, [`conduct`] runs every seed of each and keeps what is finished,
-//! [`Results`] puts tables, charts and findings together, [`page`] is the report.
+//! [`Results`] puts tables, charts and findings together; [`report`](crate::report) makes a page of them.
 
 mod chart;
 mod competition;
 mod conduct;
 mod findings;
 mod main_run;
-mod page;
 mod persona;
 mod preset;
 mod results;
@@ -16,10 +15,10 @@ mod sweep;
 mod table;
 mod trial;
 
-pub use conduct::{ExperimentError, conduct};
+pub use conduct::{ExperimentError, conduct, recorded};
 pub use findings::{Finding, Verdict};
-pub use page::page;
-pub use preset::{Arm, Preset};
+pub use preset::{Arm, Preset, PresetError};
 pub use results::{Chart, Results};
 pub use table::Table;
+pub(crate) use table::escaped;
 pub use trial::Trial;

@@ -53,7 +53,7 @@ impl Table {
     }
 
     /// As a table of HTML.
-    pub(super) fn to_html(&self) -> String {
+    pub(crate) fn to_html(&self) -> String {
         let row = |cells: &Vec<String>, tag: &str| {
             let cells: Vec<String> = cells.iter().map(|text| escaped(text)).collect();
             format!("<tr><{tag}>{}</{tag}></tr>", cells.join(&format!("</{tag}><{tag}>")))
@@ -77,7 +77,7 @@ pub(super) fn file_stem(title: &str) -> String {
 }
 
 /// A text in HTML.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -43,7 +43,7 @@ impl Trial {
     }
 
     /// A metric by name; zero if there is none of it.
-    pub(super) fn metric(&self, name: &str) -> f64 {
+    pub(crate) fn metric(&self, name: &str) -> f64 {
         self.metrics.iter().find(|metric| metric.0 == name).map_or(0.0, |metric| metric.1)
     }
 

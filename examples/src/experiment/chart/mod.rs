@@ -13,7 +13,7 @@ use svg::node::element::{Line, Rectangle, Text};
 
 /// Colours that are told apart, also by those who see few (Okabe and Ito 2008).
 const COLORS: [&str; 10] = [
-    "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#7a7a7a", "#4b3f9e",
+    "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#a0714f", "#7a7a7a", "#8577d6",
     "#b8b8b8",
 ];
 
