@@ -42,7 +42,7 @@ pub(super) fn results(trials: &[Trial], quantity: &str, claims: &[Claim]) -> Res
     };
     Results {
         tables: vec![actions_table(trials, &levels, quantity), metrics_table(trials, &levels, quantity)],
-        charts: vec![actions_chart(trials, &levels, quantity)],
+        charts: actions_charts(trials, &levels, quantity),
         findings: claims.iter().map(finding).collect(),
     }
 }
@@ -99,16 +99,26 @@ pub(super) fn with_interval(values: &[f64], name: &str) -> String {
     }
 }
 
-fn actions_chart(trials: &[Trial], levels: &[f64], quantity: &str) -> Chart {
+/// All actions, and those that are not to do nothing: most are, and would hide the others.
+fn actions_charts(trials: &[Trial], levels: &[f64], quantity: &str) -> Vec<Chart> {
     let share = |name: &&str| {
         let sums = levels.iter().map(|level| at(trials, *level, |trial| trial.actions(name)).sum());
         ((*name).to_owned(), sums.collect())
     };
     let parts: Vec<(String, Vec<f64>)> = CourierAction::NAMES.iter().map(share).collect();
     let names: Vec<String> = levels.iter().map(ToString::to_string).collect();
-    Chart {
-        title: format!("Actions by {quantity}"),
-        caption: "What the actions of all couriers are made of.".to_owned(),
-        svg: stacked(&names, &parts, quantity),
-    }
+    let busy: Vec<_> = parts.iter().filter(|part| part.0 != "do_nothing").cloned().collect();
+    vec![
+        Chart {
+            title: format!("Actions by {quantity}"),
+            caption: "What the actions of all couriers are made of.".to_owned(),
+            svg: stacked(&names, &parts, quantity),
+        },
+        Chart {
+            title: format!("Actions by {quantity}, without moments of doing nothing"),
+            caption: "What is left of them when a courier that decides to do nothing is not counted."
+                .to_owned(),
+            svg: stacked(&names, &busy, quantity),
+        },
+    ]
 }

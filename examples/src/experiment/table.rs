@@ -54,8 +54,13 @@ impl Table {
 
     /// As a table of HTML.
     pub(crate) fn to_html(&self) -> String {
+        // Names of settings and metrics are read here, and not typed.
+        let name = |text: &String| escaped(&text.replace('_', " "));
         let row = |cells: &Vec<String>, tag: &str| {
-            let cells: Vec<String> = cells.iter().map(|text| escaped(text)).collect();
+            let names = if tag == "th" { cells.len() } else { 1 };
+            let (names, figures) = cells.split_at(names.min(cells.len()));
+            let cells = names.iter().map(name).chain(figures.iter().map(|text| escaped(text)));
+            let cells: Vec<String> = cells.collect();
             format!("<tr><{tag}>{}</{tag}></tr>", cells.join(&format!("</{tag}><{tag}>")))
         };
         let rows: String = self.rows.iter().map(|cells| row(cells, "td")).collect();

@@ -97,7 +97,8 @@ fn findings(findings: &[Finding]) -> String {
     let mut text = format!(
         "<p class=tally>Of {} of the paper, <b>{} here</b>, {} and {}.</p><p class=note>A finding holds where the \
          sign is the paper's and chance alone would do as well in fewer than one of twenty tries; it does not hold \
-         where the sign is the opposite one and chance is as unlikely a reason; else these trials do not decide.</p>",
+         where the sign is the opposite one and chance is as unlikely a reason; else these trials do not decide, \
+         and more seeds may.</p>",
         count(findings.len(), "finding"),
         verb(number(Verdict::Holds), "holds", "hold"),
         verb(number(Verdict::Opposite), "comes out the other way", "come out the other way"),
