@@ -51,7 +51,7 @@ impl Finding {
         match (spearman(x, y), permutation(x, y, spearman, SHUFFLES, stream)) {
             (Some(rank), Some(p)) => {
                 let evidence =
-                    format!("Spearman's rank correlation {rank:.2} of {} pairs, p = {p:.3}", x.len());
+                    format!("Spearman's rank correlation {rank:.2} of {} pairs, {}", x.len(), probability(p));
                 Self::judged(claim, claimed, rank, p, evidence)
             }
             _ => Self::silent(claim),
@@ -61,14 +61,16 @@ impl Finding {
     /// That values of one set are greater (`claimed` 1) or less (-1) than those of another.
     pub(super) fn ranks(claim: &str, claimed: f64, test: Option<RankSum>) -> Self {
         let Some(RankSum { superiority, p, .. }) = test else { return Self::silent(claim) };
-        let evidence = format!("greater in {:.0} % of pairs, rank-sum test, p = {p:.3}", superiority * 100.0);
+        let evidence =
+            format!("greater in {:.0} % of pairs, rank-sum test, {}", superiority * 100.0, probability(p));
         Self::judged(claim, claimed, superiority - 0.5, p, evidence)
     }
 
     /// That differences are positive.
     pub(super) fn signs(claim: &str, test: Option<SignedRank>) -> Self {
         let Some(SignedRank { positive, negative, p }) = test else { return Self::silent(claim) };
-        let evidence = format!("signed ranks {positive:.1} for and {negative:.1} against it, p = {p:.3}");
+        let evidence =
+            format!("signed ranks {positive:.1} for and {negative:.1} against it, {}", probability(p));
         Self::judged(claim, 1.0, positive - negative, p, evidence)
     }
 
@@ -76,6 +78,11 @@ impl Finding {
         let evidence = "the trials do not vary in it".to_owned();
         Self { claim: claim.to_owned(), verdict: Verdict::Undecided, evidence }
     }
+}
+
+/// A probability as papers print it: one that is next to nothing is never called nothing.
+fn probability(p: f64) -> String {
+    if p < 0.0005 { "p < 0.001".to_owned() } else { format!("p = {p:.3}") }
 }
 
 impl fmt::Display for Verdict {
@@ -106,6 +113,7 @@ mod tests {
         assert_eq!(Finding::trend("more is less", -1.0, &x, &up).verdict, Verdict::Opposite);
         assert_eq!(Finding::trend("nothing", 1.0, &x, &[1.0; 12]).verdict, Verdict::Undecided);
         let mixed = [3.0, 1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 1.0, 2.0];
+        assert_eq!((probability(0.000_05), probability(0.0123)), ("p < 0.001".into(), "p = 0.012".into()));
         assert_eq!(Finding::trend("chance", 1.0, &x, &mixed).verdict, Verdict::Undecided);
     }
 }

@@ -97,5 +97,7 @@ mod tests {
         assert_eq!(table.to_csv(), "policy,mean\r\n\"low, \"\"lower\"\"\",1.5\r\n");
         assert_eq!(table.file_stem(), "bids-by-policy");
         assert!(table.to_html().contains("<td>low, &quot;lower&quot;</td>"));
+        table.add("a_name", ["a_text".to_owned()]);
+        assert!(table.to_html().contains("<td>a name</td><td>a_text</td>"));
     }
 }

@@ -19,6 +19,8 @@ use crate::experiment::{Arm, Preset, PresetError, Trial, recorded};
 
 /// The file that says what an experiment compares.
 const INDEX: &str = "experiment.json";
+/// What the only setting of a run by itself is called.
+const RUN: &str = "run";
 
 /// Why there is no report.
 #[derive(Debug, Error)]
@@ -158,7 +160,7 @@ impl Finished {
 
     fn run(path: &Path) -> Result<Self, ReportError> {
         let config = RunConfig::read(&path.join("config.toml"))?;
-        let arm = Arm { name: "run".to_owned(), level: 0.0, config };
+        let arm = Arm { name: RUN.to_owned(), level: 0.0, config };
         let mut trials = Vec::new();
         let mut shown = Err(String::new());
         for (rank, seed) in seeds(&arm.config).enumerate() {
@@ -257,7 +259,10 @@ impl Shown {
 
     /// Which run this is, in words.
     pub(super) fn which(&self) -> String {
-        let mut text = format!("The recorded run: setting {}, seed {}.", self.arm.name, self.seed.0);
+        let mut text = match self.arm.name.as_str() {
+            RUN => format!("Recorded with seed {}.", self.seed.0),
+            name => format!("The recorded run: setting {name}, seed {}.", self.seed.0),
+        };
         if let Some(reason) = &self.broken_off {
             text.push_str(" Its log ends early: ");
             text.push_str(reason);

@@ -18,7 +18,8 @@ const REACH: f64 = 2.6;
 
 /// A grid over a map, and how much lies in each of its cells.
 pub(super) struct Heat {
-    cell: i64,
+    /// Side of a cell, units of the drawing.
+    pub(super) cell: i64,
     columns: usize,
     rows: usize,
     weights: Vec<f64>,

@@ -70,7 +70,9 @@ pub(super) fn figure(shown: &Shown, map: &CityMap, stories: &[Story]) -> String 
         map.frame.view_box()
     );
     for Layer { name, heat, .. } in &layers {
-        let _ = write!(text, "<g class=\"heat {name}\">{}</g>", heat.areas());
+        // Lengths of a filter are in units of the drawing: areas run into each other, and no cell is seen.
+        let soft = heat.cell * 3 / 4;
+        let _ = write!(text, "<g class=\"heat {name}\" style=\"filter:blur({soft}px)\">{}</g>", heat.areas());
     }
     let _ = write!(text, "{}</svg></div></div>", trails(shown, map));
     text.push_str("<p class=key>");

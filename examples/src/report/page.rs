@@ -140,8 +140,10 @@ fn metrics(arms: &[Arm], trials: &[Trial]) -> String {
             if values.count() > 0 { format!("<td>{values}") } else { "<td>-".to_owned() }
         });
         let cells: String = cells.collect();
-        let (name, seeds) = (escaped(&arm.name), count(of.len(), "seed"));
-        let _ = write!(text, "<tr class=own><td>simworld: {name}, {seeds}{cells}</tr>");
+        // A setting that is compared with no other needs no name.
+        let name = if arms.len() > 1 { format!(": {}", escaped(&arm.name)) } else { String::new() };
+        let seeds = count(of.len(), "seed");
+        let _ = write!(text, "<tr class=own><td>simworld{name}, {seeds}{cells}</tr>");
     }
     for (model, cells) in PAPER {
         let cells = cells.map(escaped).join("<td>");

@@ -98,9 +98,9 @@ fn note(shown: &Shown, every: f64, couriers: usize, orders: usize) -> String {
         if drawn < all { format!(" The first {drawn} of {all} {what} are drawn.") } else { String::new() }
     };
     format!(
-        "Places were sampled every {every} s; between samples they are drawn on a straight line.{}{} Space plays and \
-         pauses, arrow keys step, and an address that ends in #t=120 opens two minutes into the run; \
-         #t=120&play plays from there.",
+        "Places were sampled every {every} s; between samples they are drawn on a straight line.{}{} On the slider \
+         space plays and pauses and arrow keys step; an address that ends in #t=120 opens two minutes into the run, \
+         and #t=120&play plays from there.",
         part(couriers, shown.track.couriers.len(), "couriers"),
         part(orders.min(MOST_ORDERS), orders, "orders"),
     )
