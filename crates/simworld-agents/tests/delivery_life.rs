@@ -4,10 +4,20 @@
 
 mod delivery_common;
 
-use delivery_common::{Town, quiet};
-use simworld_agents::delivery::{Account, Cents, CourierAction, Errand, OrderId, Shopping, Split, Stage};
+use delivery_common::{Town, quiet, simulation, world};
+use simworld_agents::asynchronous::{AsynchronousConfig, AsynchronousEpisode, FreeMind, Pace};
+use simworld_agents::delivery::{
+    Account, Cents, CourierAction, CourierMind, DeliveryConfig, DeliveryTask, Errand, OrderId, Persona,
+    PolicyKind, Shopping, Split, Stage,
+};
+use simworld_agents::episode::{Agent, Episode};
+use simworld_agents::executor::RuleExecutor;
+use simworld_agents::language::GrammarPlanner;
+use simworld_agents::mind::Silent;
+use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Role, Scene};
 use simworld_core::seam::Task;
+use simworld_core::seed::Seed;
 
 const ORDER: OrderId = OrderId(0);
 
@@ -251,4 +261,55 @@ fn routes_follow_sidewalks_where_there_are_roads() {
         longer += usize::from(order.route > other.route + 1.0);
     }
     assert!(longer > 10, "{longer}");
+}
+
+/// Couriers without minds of their own, in the town.
+fn staffed(couriers: usize) -> (Episode<DeliveryTask>, Vec<EntityId>) {
+    let (world, ids) = world(couriers);
+    let agent = |id: &EntityId| Agent {
+        id: *id,
+        mind: Box::new(Silent) as Box<_>,
+        planner: Box::new(GrammarPlanner::default()) as Box<_>,
+        executor: Box::new(RuleExecutor::straight()) as Box<_>,
+    };
+    let agents = ids.iter().map(agent).collect();
+    let mut config = DeliveryConfig::default();
+    config.orders.hunger_rate = 1.0;
+    config.auction.window = 1.0;
+    let task = DeliveryTask::new(config).unwrap();
+    let mut episode = Episode::new(simulation(world, &ids), task, agents, Seed(4)).unwrap();
+    episode.set_trail_interval(1);
+    (episode, ids)
+}
+
+#[test]
+fn couriers_at_their_own_pace_deliver_and_the_run_replays() {
+    let (episode, ids) = staffed(3);
+    let mind = |(index, id): (usize, &EntityId)| -> (EntityId, FreeMind<DeliveryTask>) {
+        let stream = Seed(8).stream("minds").indexed(index as u64);
+        (*id, Box::new(CourierMind::new(PolicyKind::ALL[0], Persona::default(), stream)))
+    };
+    let minds = ids.iter().enumerate().map(mind).collect();
+    let config =
+        AsynchronousConfig { pace: Pace::RealTime { factor: 400.0 }, ..AsynchronousConfig::default() };
+    let mut run = AsynchronousEpisode::new(episode, minds, config, DeliveryTask::clone).unwrap();
+    let mut delivered = 0;
+    for _ in 0..40_000 {
+        run.step().unwrap();
+        delivered = run.episode().task().report().map_or(0, |report| report.delivered);
+        if delivered > 1 {
+            break;
+        }
+    }
+    let (live, _) = run.finish();
+    assert!(delivered > 1, "{:?}", live.task().report());
+    live.task().audit().unwrap();
+
+    let recording = live.recording();
+    let (mut again, _) = staffed(3);
+    for _ in 0..live.simulation().world().clock().tick().0 {
+        again.replay_step(&recording).unwrap();
+    }
+    assert_eq!(again.trail(), recording.trail);
+    assert_eq!(again.task().report(), live.task().report());
 }

@@ -1,5 +1,7 @@
 //! How far it is: along the sidewalks of a scene that has roads, and straight in one that has none.
 
+use std::sync::Arc;
+
 use simworld_core::geometry::{Point2, Point3};
 use simworld_core::net::{Route, RouteScratch, WaypointConfig, WaypointGraph};
 use simworld_core::scene::Scene;
@@ -8,10 +10,17 @@ use simworld_core::seam::TaskError;
 /// Finds lengths of routes. It holds nothing but what follows from the roads, so it is not saved.
 #[derive(Debug, Default)]
 pub(super) struct Routes {
-    graph: Option<WaypointGraph>,
+    graph: Option<Arc<WaypointGraph>>,
     ready: bool,
     scratch: RouteScratch,
     route: Route,
+}
+
+impl Clone for Routes {
+    /// Shares the graph; the memory of searches stays behind.
+    fn clone(&self) -> Self {
+        Self { graph: self.graph.clone(), ready: self.ready, ..Self::default() }
+    }
 }
 
 impl Routes {
@@ -20,7 +29,7 @@ impl Routes {
         if !self.ready {
             let walkable = |roads| WaypointGraph::walkable(roads, &WaypointConfig::default());
             let graph = scene.roads().map(|roads| walkable(roads)).transpose();
-            self.graph = graph.map_err(|error| TaskError::Other(error.to_string()))?;
+            self.graph = graph.map_err(|error| TaskError::Other(error.to_string()))?.map(Arc::new);
             self.ready = true;
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! The task itself: settings, an auction and a state, behind core's [`Task`] seam.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::hash::StateHasher;
@@ -24,10 +25,12 @@ use super::view::CourierView;
 /// Couriers bid for orders, carry and share them, invest and tire.
 ///
 /// The scene must hold restaurants and homes (entities used as [`Place::Restaurant`] and [`Place::Home`], best with
-/// an access point); stores only if purchases are made there. Agents are the couriers.
+/// an access point); stores only if purchases are made there. Agents are the couriers. A clone is what minds know of it that
+/// think at their own pace ([`AsynchronousEpisode`](crate::asynchronous::AsynchronousEpisode)).
+#[derive(Clone)]
 pub struct DeliveryTask {
     config: DeliveryConfig,
-    auction: Box<dyn Auction>,
+    auction: Arc<dyn Auction>,
     routes: Routes,
     pub(super) state: Option<State>,
 }
@@ -67,14 +70,14 @@ impl DeliveryTask {
     /// The first setting out of range.
     pub fn new(config: DeliveryConfig) -> Result<Self, TaskError> {
         config.validate()?;
-        let auction = config.auction.rule.auction();
+        let auction = Arc::from(config.auction.rule.auction());
         Ok(Self { config, auction, routes: Routes::default(), state: None })
     }
 
     /// With an auction of one's own in place of the one in the settings.
     #[must_use]
     pub fn with_auction(mut self, auction: Box<dyn Auction>) -> Self {
-        self.auction = auction;
+        self.auction = Arc::from(auction);
         self
     }
 

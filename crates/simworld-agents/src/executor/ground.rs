@@ -14,9 +14,9 @@ use simworld_core::scene::{EntityKind, EntityRef, Scene};
 /// Width of a cell where the ground is small, m.
 const CELL: f64 = 0.4;
 /// Cells each way at most: on larger ground they are wider.
-const MOST_CELLS: f64 = 400.0;
-/// How far beyond the two places one looks for a way round, m.
-const MARGIN: f64 = 40.0;
+const MOST_CELLS: f64 = 800.0;
+/// How far beyond the two places one looks for a way round, m: first near by, then round whole rows of houses.
+pub(super) const MARGINS: [f64; 2] = [40.0, 160.0];
 /// Places farther apart than this have walkways between them, m.
 const FARTHEST: f64 = 400.0;
 /// Gap kept to whatever is solid, m: more than the 0.02 m of bodies under physics.
@@ -91,12 +91,17 @@ pub(super) fn is_blocked(scene: &dyn Scene, me: &EntityRef<'_>, from: Point2, to
 }
 
 impl Ground {
-    /// The ground round two places; `None` where they are too far apart.
-    pub(super) fn between(scene: &dyn Scene, me: &EntityRef<'_>, a: Point2, b: Point2) -> Option<Self> {
+    /// The ground round two places and so many metres beyond; `None` where they are too far apart.
+    pub(super) fn between(
+        scene: &dyn Scene,
+        me: &EntityRef<'_>,
+        (a, b): (Point2, Point2),
+        margin: f64,
+    ) -> Option<Self> {
         if (b - a).norm() > FARTHEST {
             return None;
         }
-        let margin = Vector2::repeat(MARGIN);
+        let margin = Vector2::repeat(margin);
         let (low, high) = (a.inf(&b) - margin, a.sup(&b) + margin);
         let extent = high - low;
         let cell = CELL.max(extent.max() / MOST_CELLS);

@@ -9,7 +9,7 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::Goal;
 
-use super::ground::{self, Ground};
+use super::ground::{self, Ground, MARGINS};
 use super::{RuleExecutor, Stage, avoid, crossing};
 
 /// A goal that moves farther than this is looked for anew on the roads, m.
@@ -360,7 +360,8 @@ impl Navigation {
             return false;
         }
         let place = self.legs[next].point;
-        let found = Ground::between(scene, me, here, place).and_then(|ground| ground.way(here, &[place]));
+        let found = Ground::between(scene, me, (here, place), MARGINS[0])
+            .and_then(|ground| ground.way(here, &[place]));
         let Some((_, mut points)) = found else { return false };
         points.pop();
         self.legs.splice(self.next..next, points.into_iter().map(Leg::open));
@@ -374,7 +375,9 @@ fn over_ground(scene: &dyn Scene, me: &EntityRef<'_>, here: Point2, goal: Point2
     if !ground::is_blocked(scene, me, here, goal) {
         return vec![straight];
     }
-    let found = Ground::between(scene, me, here, goal).and_then(|ground| ground.way(here, &[goal]));
+    let found = MARGINS
+        .iter()
+        .find_map(|margin| Ground::between(scene, me, (here, goal), *margin)?.way(here, &[goal]));
     found.map_or(vec![straight], |(_, points)| points.into_iter().map(Leg::open).collect())
 }
 
@@ -391,14 +394,16 @@ fn walkway_from(
     if !ground::is_blocked(scene, me, place, at) {
         return None;
     }
-    let ground = Ground::between(scene, me, place, at)?;
-    let inside: Vec<(WaypointId, Point2)> = (0..ways.waypoints().len())
-        .map(|index| (WaypointId::from_index(index), ways.waypoints()[index].position))
-        .filter(|(_, at)| ground.holds(*at))
-        .collect();
-    let places: Vec<Point2> = inside.iter().map(|(_, at)| *at).collect();
-    let (index, points) = ground.way(place, &places)?;
-    Some((inside[index].0, points))
+    MARGINS.iter().find_map(|margin| {
+        let ground = Ground::between(scene, me, (place, at), *margin)?;
+        let inside: Vec<(WaypointId, Point2)> = (0..ways.waypoints().len())
+            .map(|index| (WaypointId::from_index(index), ways.waypoints()[index].position))
+            .filter(|(_, at)| ground.holds(*at))
+            .collect();
+        let places: Vec<Point2> = inside.iter().map(|(_, at)| *at).collect();
+        let (index, points) = ground.way(place, &places)?;
+        Some((inside[index].0, points))
+    })
 }
 
 /// Turns towards a point, `aside` radians to its left; returns the heading error.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Aabb, Vector2, direction, heading, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops::{cos, wrap_angle};
-use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
+use simworld_core::scene::{EntityKind, EntityRef, OPEN, Role, Scene};
 use simworld_core::seam::{ObserveError, Observer};
 
 use super::gps::{GpsFix, GpsObserver};
@@ -30,6 +30,10 @@ pub struct Sighting {
     pub speed: f64,
     /// What it hangs on, and how.
     pub bond: Option<(EntityId, Role)>,
+    /// Whether it stands open, if it is a door or was opened and closed.
+    pub is_open: Option<bool>,
+    /// How far above the horizon it looks, radians; zero for what has no eyes.
+    pub gaze: f64,
 }
 
 /// The agent itself, as it knows of itself.
@@ -50,7 +54,8 @@ pub struct SceneGraph {
     pub oneself: Oneself,
     /// The things in sight; of two at the same distance the lower id comes first.
     pub sightings: Vec<Sighting>,
-    /// What became of what it did, and what it was told, the oldest first; see [`hear`](Self::hear).
+    /// What became of what it did, what it was told, and what those in sight did, the oldest first; see
+    /// [`hear`](Self::hear).
     pub feedback: Vec<String>,
 }
 
@@ -229,6 +234,21 @@ fn bearing(me: &EntityRef<'_>, other: &EntityRef<'_>) -> f64 {
     if offset.norm() < 1e-9 { 0.0 } else { wrap_angle(heading(&offset) - yaw_of(me.pose)) }
 }
 
+/// Whether a door stands open; `None` of what has none that was ever turned.
+fn leaf(entity: &EntityRef<'_>) -> Option<bool> {
+    let may_turn = matches!(entity.kind, EntityKind::Door | EntityKind::Building);
+    let is_turned = || entity.kind == EntityKind::Door || entity.info.attributes.contains_key(OPEN);
+    (may_turn && is_turned()).then(|| entity.is_open())
+}
+
+fn gaze(entity: &EntityRef<'_>) -> f64 {
+    if matches!(entity.kind, EntityKind::Person | EntityKind::Dog | EntityKind::Robot) {
+        entity.gaze()
+    } else {
+        0.0
+    }
+}
+
 impl Sighting {
     fn of(entity: &EntityRef<'_>, distance: f64, bearing: f64) -> Self {
         Self {
@@ -239,6 +259,8 @@ impl Sighting {
             bearing,
             speed: entity.twist.ground_speed(),
             bond: entity.attachment.map(|bond| (bond.parent, bond.role)),
+            is_open: leaf(entity),
+            gaze: gaze(entity),
         }
     }
 
@@ -255,6 +277,8 @@ impl Sighting {
             bearing,
             speed: entity.twist.ground_speed(),
             bond: entity.attachment.map(|bond| (bond.parent, bond.role)),
+            is_open: leaf(entity),
+            gaze: gaze(entity),
         };
     }
 }

@@ -8,11 +8,17 @@ use simworld_core::scene::Role;
 
 use super::{SceneGraph, Sighting};
 
+/// From this on one sees that somebody looks up or down, radians.
+const NOD: f64 = 0.15;
+
 impl SceneGraph {
-    /// Takes down what the events of a step say about the agent: what failed and why, plans that ended, words said to it.
-    /// An observation clears it, so call it after [`observe`](simworld_core::seam::Observer::observe).
+    /// Takes down what the events of a step say about the agent: what failed and why, plans that ended, words said to it; and
+    /// what those in sight do: gestures, and who talks to whom, but not the words. An observation clears it, so call it after [`observe`](simworld_core::seam::Observer::observe).
     pub fn hear(&mut self, events: &[Event], who: EntityId) {
-        self.feedback.extend(events.iter().filter_map(|event| feedback_line(event, who)));
+        let in_sight = |id: EntityId| self.sightings.iter().any(|sighting| sighting.id == id);
+        let line = |event| feedback_line(event, who).or_else(|| doing_line(event, who, &in_sight));
+        let lines: Vec<String> = events.iter().filter_map(line).collect();
+        self.feedback.extend(lines);
     }
 
     /// The things in sight as lines for a prompt, nearest first, at most `budget` characters; what is left out is
@@ -113,6 +119,24 @@ pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
     Some(line.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
+/// What somebody else in sight does, in one line.
+fn doing_line(event: &Event, who: EntityId, in_sight: &dyn Fn(EntityId) -> bool) -> Option<String> {
+    let seen = |other: &EntityId| *other != who && in_sight(*other);
+    match &event.kind {
+        EventKind::Gesture { who: other, heading: Some(heading), .. } if seen(other) => {
+            Some(format!("{other} points to {:.0}°", heading.to_degrees().rem_euclid(360.0)))
+        }
+        EventKind::Gesture { who: other, gesture, to: Some(to), .. } if seen(other) => {
+            Some(format!("{other} does this at {to}: {gesture}"))
+        }
+        EventKind::Gesture { who: other, gesture, .. } if seen(other) => {
+            Some(format!("{other} does this: {gesture}"))
+        }
+        EventKind::Said { who: other, to, .. } if seen(other) => Some(format!("{other} talks to {to}")),
+        _ => None,
+    }
+}
+
 /// An estimate of the tokens of a text that rather exceeds what byte-pair tokenisers of language models make of English:
 /// one for every four letters or begun four, one for every three digits, one for every other sign but blanks.
 pub fn tokens_in(text: &str) -> usize {
@@ -140,6 +164,14 @@ impl std::fmt::Display for Sighting {
         }
         if let Some((carrier, role)) = self.bond {
             write!(notes, ", {} by {carrier}", format!("{role:?}").to_lowercase())?;
+        }
+        notes.push_str(match self.is_open {
+            Some(true) => ", open",
+            Some(false) => ", closed",
+            None => "",
+        });
+        if self.gaze.abs() > NOD {
+            notes.push_str(if self.gaze > 0.0 { ", looking up" } else { ", looking down" });
         }
         let (id, kind, label) = (self.id, self.kind, &self.label);
         // Quoted with its quotes and line breaks escaped: no name looks like two things in sight.

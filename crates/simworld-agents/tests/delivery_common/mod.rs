@@ -59,7 +59,7 @@ pub(crate) fn world(couriers: usize) -> (World, Vec<EntityId>) {
     (world, ids)
 }
 
-fn simulation(world: World, couriers: &[EntityId]) -> Simulation {
+pub(crate) fn simulation(world: World, couriers: &[EntityId]) -> Simulation {
     let mut bodies = KinematicDynamics::new();
     for id in couriers {
         let pose = *world.entity(*id).unwrap().pose;
