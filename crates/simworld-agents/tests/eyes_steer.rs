@@ -1,25 +1,27 @@
 //! Bodies steered by what a camera shows: a camera that paints posts, and a model that finds the red ones in the pixels.
 #![cfg(feature = "thought")]
 
+mod car_common;
 mod thought_common;
 
 use std::sync::Arc;
 
+use car_common::Bicycle;
 use simworld_agents::model::{ChatRequest, ModelError, NoModel, Part, Recorded, Tape};
 use simworld_agents::observer::Frame;
 use simworld_agents::thought::{VisualConfig, VisualExecutor};
-use simworld_core::action::{Action, ActionSet};
+use simworld_core::action::Action;
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::command::Command;
-use simworld_core::geometry::{Point3, Pose, Twist, Vector3, direction, pose_facing, yaw_of};
+use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing, yaw_of};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::kinematic::{KinematicBody, KinematicDynamics};
-use simworld_core::ops::{atan2, hypot, tan};
+use simworld_core::ops::{atan2, hypot};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::{
-    BodyState, Condition, Embodiment, EmbodimentError, Executor, ExecutorError, Goal, ObserveError, Observer,
-    Plan, PlanStep, Progress, Which,
+    Condition, Embodiment, Executor, ExecutorError, Goal, ObserveError, Observer, Plan, PlanStep, Progress,
+    Which,
 };
 use simworld_core::simulation::Simulation;
 use simworld_core::testing::check_executor;
@@ -149,48 +151,6 @@ fn driver(_: usize, request: &ChatRequest) -> Result<String, ModelError> {
     }
 }
 
-/// A car without slip: pedal and brake change its speed, the front wheels its heading.
-struct Bicycle {
-    state: BodyState,
-    speed: f64,
-    pedal: f64,
-    brake: f64,
-    wheels: f64,
-}
-
-impl Embodiment for Bicycle {
-    fn supports(&self) -> ActionSet {
-        ActionSet::vehicle()
-    }
-
-    fn apply(&mut self, action: &Action) -> Result<(), EmbodimentError> {
-        match action {
-            Action::Throttle { level } => (self.pedal, self.brake) = (*level, 0.0),
-            Action::Brake { level } => (self.pedal, self.brake) = (0.0, *level),
-            Action::Steer { angle } => self.wheels = *angle,
-            Action::Stop => (self.pedal, self.brake) = (0.0, 1.0),
-            Action::TakePhoto => {}
-            other => return Err(EmbodimentError::unsupported(other.kind(), self.supports())),
-        }
-        Ok(())
-    }
-
-    fn state(&self) -> BodyState {
-        self.state
-    }
-
-    fn advance(&mut self, dt: f64) {
-        let speed = (self.speed + self.pedal * 4.0 * dt - 0.1 * self.speed * dt).min(8.0);
-        self.speed = (speed - self.brake * 8.0 * dt).max(0.0);
-        let yaw = yaw_of(&self.state.pose);
-        let ahead = direction(yaw) * self.speed;
-        let place = self.state.pose.translation.vector + Vector3::new(ahead.x, ahead.y, 0.0) * dt;
-        let turned = yaw + self.speed * tan(self.wheels) / 2.7 * dt;
-        self.state.pose = pose_facing(place.into(), turned);
-        self.state.twist.linear = Vector3::new(ahead.x, ahead.y, 0.0);
-    }
-}
-
 /// Which body is steered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Body {
@@ -218,12 +178,8 @@ fn field(body: Body) -> (Simulation, EntityId) {
     };
     let me = world.spawn(EntityDesc::new(kind, pose, shape)).expect("there is room");
     let mut bodies = KinematicDynamics::new();
-    let made: Box<dyn Embodiment> = if body == Body::Car {
-        let state = BodyState { pose, twist: Twist::ZERO };
-        Box::new(Bicycle { state, speed: 0.0, pedal: 0.0, brake: 0.0, wheels: 0.0 })
-    } else {
-        Box::new(KinematicBody::walker(pose))
-    };
+    let made: Box<dyn Embodiment> =
+        if body == Body::Car { Box::new(Bicycle::at(pose)) } else { Box::new(KinematicBody::walker(pose)) };
     bodies.insert(me, made);
     let mut simulation = Simulation::new(world);
     simulation.add_dynamics("bodies", Box::new(bodies));

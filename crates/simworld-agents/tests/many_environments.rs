@@ -4,15 +4,20 @@
 
 mod gym_common;
 
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::process::Command;
 
-use gym_common::{Drift, digest};
+use gym_common::{Drift, Drifts, digest};
 use simworld_agents::gym::{
-    Boundary, EnvExt, TimeLimit, VectorConfig, VectorEnv, VectorError, VectorTransition,
+    Boundary, EnvExt, ParallelVectorEnv, ParallelVectorStep, TimeLimit, VectorConfig, VectorEnv, VectorError,
+    VectorTransition,
 };
 use simworld_core::hash::StateDigest;
-use simworld_core::seam::{Autoreset, Env, EnvError, Options, SpaceValue, Transition};
+use simworld_core::id::EntityId;
+use simworld_core::seam::{
+    Autoreset, Env, EnvError, Options, ParallelEnv, ParallelStart, ParallelStep, SpaceValue, Transition,
+};
 use simworld_core::seed::Seed;
 
 type Limited = TimeLimit<Drift>;
@@ -201,4 +206,116 @@ fn processes_do_not_matter() {
         let told = text.split("trail=").nth(1).and_then(|rest| rest.split_whitespace().next());
         assert_eq!(told, Some(own.to_string().as_str()), "{text}");
     }
+}
+
+// ---- several agents in each ----
+
+type Push = BTreeMap<EntityId, SpaceValue>;
+
+fn games(threads: usize, autoreset: Autoreset) -> ParallelVectorEnv<TimeLimit<Drifts>> {
+    let config = VectorConfig { threads: NonZeroUsize::new(threads).unwrap(), autoreset };
+    ParallelVectorEnv::new(COUNT, config, |_| TimeLimit::new(Drifts::new(), 14)).unwrap()
+}
+
+/// Its own push for each environment, agent and step, of those who are there.
+fn push(index: usize, step: usize, present: &[EntityId]) -> Push {
+    let level = |agent: &EntityId| ((step * 3 + index * 5 + agent.index() * 2) % 11) as f64 / 5.0 - 1.0;
+    present.iter().map(|agent| (*agent, SpaceValue::Box(vec![level(agent)]))).collect()
+}
+
+/// Who acts after a step: whoever was not in its last, or is in an episode that has begun.
+fn present(step: &ParallelVectorStep<SpaceValue>) -> Vec<EntityId> {
+    match &step.begun {
+        Some(start) => start.keys().copied().collect(),
+        None => step.transitions.iter().filter(|(_, one)| !one.is_last()).map(|(id, _)| *id).collect(),
+    }
+}
+
+type Played = (Vec<ParallelStart<SpaceValue>>, Vec<Vec<ParallelVectorStep<SpaceValue>>>);
+
+fn play(env: &mut ParallelVectorEnv<TimeLimit<Drifts>>, steps: usize) -> Played {
+    let begun = env.reset(Some(Seed(5)), &Options::new()).unwrap();
+    let mut there: Vec<Vec<EntityId>> = begun.iter().map(|start| start.keys().copied().collect()).collect();
+    let mut all = Vec::new();
+    for step in 0..steps {
+        let actions = there.iter().enumerate().map(|(index, there)| push(index, step, there)).collect();
+        let stepped = env.step(actions).unwrap();
+        there = stepped.iter().map(present).collect();
+        all.push(stepped);
+    }
+    (begun, all)
+}
+
+/// What one environment does alone, for as many steps as its episodes take.
+fn play_alone(index: usize, steps: usize) -> Vec<ParallelStep<SpaceValue>> {
+    let mut env = TimeLimit::new(Drifts::new(), 14).unwrap();
+    let seed = Seed(5).stream("gym/vector").indexed(index as u64).seed();
+    let mut there: Vec<EntityId> =
+        ParallelEnv::reset(&mut env, Some(seed), &Options::new()).unwrap().into_keys().collect();
+    let mut all = Vec::new();
+    for step in 0..steps {
+        let stepped = ParallelEnv::step(&mut env, &push(index, step, &there)).unwrap();
+        there.retain(|agent| stepped.get(agent).is_some_and(|one| !one.is_last()));
+        if there.is_empty() {
+            there = ParallelEnv::reset(&mut env, None, &Options::new()).unwrap().into_keys().collect();
+        }
+        all.push(stepped);
+    }
+    all
+}
+
+#[test]
+fn games_of_several_do_not_mind_threads_and_do_what_they_do_alone() {
+    let (begun, one) = play(&mut games(1, Autoreset::SameStep), 60);
+    assert!(begun.iter().all(|start| start.len() == 3));
+    for threads in [2, 3, 8] {
+        assert_eq!(play(&mut games(threads, Autoreset::SameStep), 60), (begun.clone(), one.clone()));
+    }
+    let (mut alone_ones, mut together_left) = (0, 0);
+    for index in 0..COUNT {
+        for (step, own) in one.iter().zip(play_alone(index, 60)) {
+            assert_eq!(step[index].transitions, own);
+            alone_ones += usize::from(own.len() < 3);
+            let is_last = own.values().all(Transition::is_last);
+            together_left += usize::from(is_last && step[index].begun.is_some());
+            assert!(step[index].begun.is_none() || is_last, "an episode ends with its last agent");
+        }
+    }
+    assert!(alone_ones > 20, "in {alone_ones} steps somebody was gone before the others");
+    assert!(together_left >= COUNT * 3, "{together_left} episodes ended");
+}
+
+#[test]
+fn games_of_several_begin_anew_in_the_next_step_or_when_told() {
+    let (_, steps) = play(&mut games(2, Autoreset::NextStep), 60);
+    for index in 0..COUNT {
+        let (mut is_over, mut gone, mut begun) = (false, 0, 0);
+        for step in &steps {
+            let ParallelVectorStep { transitions, begun: start } = &step[index];
+            assert_eq!((start.is_some(), transitions.is_empty()), (is_over, is_over));
+            gone = if is_over { 0 } else { gone + transitions.values().filter(|one| one.is_last()).count() };
+            begun += usize::from(is_over);
+            is_over = gone == 3;
+        }
+        assert!(begun >= 3, "environment {index} began {begun} times");
+    }
+    let mut env = games(2, Autoreset::Disabled);
+    assert!(env.step(vec![Push::new(); COUNT]).is_err(), "nobody has begun");
+    env.reset(Some(Seed(5)), &Options::new()).unwrap();
+    for _ in 0..14 {
+        env.step(vec![Push::new(); COUNT]).unwrap();
+    }
+    let refused = env.step(vec![Push::new(); COUNT]).expect_err("all are over");
+    assert!(matches!(refused, VectorError::Env { index: 0, source: EnvError::NotReset }));
+    let marks: Vec<bool> = (0..COUNT).map(|index| index != 2).collect();
+    let begun = env.reset_marked(&marks, None).unwrap();
+    assert_eq!(begun.iter().map(Option::is_some).collect::<Vec<_>>(), marks);
+    let ghost = EntityId::new(9, 0);
+    assert!(env.reset_marked(&[true; COUNT], None).is_ok());
+    let mut actions = vec![Push::new(); COUNT];
+    actions[4].insert(ghost, SpaceValue::Box(vec![0.0]));
+    let error = env.step(actions).expect_err("nobody of that name plays");
+    assert!(matches!(error, VectorError::Env { index: 4, .. }), "{error}");
+    assert_eq!(env.spaces(0, EntityId::new(1, 0)).unwrap(), Drift::new().spaces());
+    assert_eq!((env.len(), env.is_empty()), (COUNT, false));
 }

@@ -11,7 +11,11 @@ use std::time::Duration;
 use remote_common::{Unreal, becomes, connect, impatient, now, serve};
 use simworld_agents::remote::typed::{Parting, Query, Request};
 use simworld_agents::remote::{Client, ClientError, Framing, Limits, Pace, ServerConfig, Token};
-use simworld_core::geometry::{Aabb, Point2};
+use simworld_core::alteration::Alteration;
+use simworld_core::command::Command;
+use simworld_core::geometry::{Aabb, Point2, Pose};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityDesc, EntityKind, Shape};
 
 #[test]
 fn who_does_not_read_is_dropped_and_delays_nobody() {
@@ -116,5 +120,46 @@ fn a_long_tick_of_one_who_leaves_ends_with_him() {
     thread::sleep(Duration::from_millis(100));
     assert_eq!(other.describe().expect("it answers").tick, before, "nobody waits for more steps");
     assert!(before.0 < 100_000, "{before}");
+    drop(server.stop());
+}
+
+#[test]
+fn what_clients_leave_in_things_is_bounded() {
+    let limits = Limits { kept_bytes: 4096, ..impatient() };
+    let server = serve(ServerConfig { limits, ..ServerConfig::on_free_ports() });
+    let mut client = Client::connect(server.typed, None).expect("it lets us in");
+    let bench = EntityId::new(0, 0);
+    let set = |key: &str, length: usize| Command::SetAttribute {
+        id: bench,
+        key: key.to_owned(),
+        value: Some("x".repeat(length).into()),
+    };
+    let unset = |key: &str| Command::SetAttribute { id: bench, key: key.to_owned(), value: None };
+    client.command(set("a", 1900)).expect("there is room");
+    client.command(set("b", 1900)).expect("there is room");
+    let error = client.command(set("c", 200)).unwrap_err().to_string();
+    assert!(error.contains("clients may leave 4096 bytes"), "{error}");
+    // What is put in the place of something else takes its place; while that is there, both count.
+    client.command(set("a", 10)).expect("it is smaller");
+    client.command(set("c", 1500)).expect("there is room again");
+    client.command(unset("b")).expect("it was there");
+    // Names and recipes count as well, and go with the thing.
+    let name = Command::Alter { id: bench, alteration: Alteration::Name(Some("n".repeat(2300))) };
+    client.command(name).expect("there is room");
+    let shape = Shape::Cylinder { radius: 0.2, height: 0.7 };
+    let note = EntityDesc::new(EntityKind::Cone, Pose::identity(), shape).with("note", "x".repeat(900));
+    let spawn = || Command::Spawn(Box::new(note.clone()));
+    assert!(client.command(spawn()).is_err(), "there is no room for it");
+    client.command(Command::Remove { id: bench }).expect("it is there");
+    let mut cone = client.command(spawn()).expect("its room is free").expect("a cone");
+    for _ in 0..20 {
+        client.command(Command::Remove { id: cone }).expect("it is there");
+        cone = client.command(spawn()).expect("its room is free").expect("a cone");
+    }
+    // Of ways too.
+    let mut text = Unreal::connect(server.unrealcv);
+    let way = |points: usize| format!("vbp Ada SetPath {}", "1,2;".repeat(points));
+    assert!(text.ask(&way(400)).starts_with("error clients may leave 4096 bytes"));
+    assert_eq!(text.ask(&way(20)), "ok");
     drop(server.stop());
 }

@@ -27,6 +27,9 @@ fn session() -> Recording {
             client.ask(&format!("vbp {name} TurnAround 1 {} 1", index * 30));
             client.ask(&format!("vbp {name} SetPath 0,0;500,{};900,900", index * 90));
             client.ask(&format!("vbp {name} {}", if index % 2 == 0 { "FollowPath" } else { "MoveForward" }));
+            client.ask(&format!("vset /object/{name}/scale 1 1 {}", 1.0 + 0.05 * f64::from(index)));
+            client.ask(&format!("vset /object/{name}/{}", if index % 3 == 0 { "hide" } else { "show" }));
+            client.ask(&format!("vset /object/{name}/collision {}", index % 4 != 0));
             thread::sleep(Duration::from_millis(7));
         }
         client.ask("vset /object/Walker_3/name Renamed");

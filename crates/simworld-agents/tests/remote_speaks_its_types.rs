@@ -14,11 +14,13 @@ use simworld_agents::remote::{
     CameraPlace, Client, ClientError, Decoder, Framing, Mount, PictureKind, ServerConfig, Token,
 };
 use simworld_core::action::Action;
+use simworld_core::alteration::Alteration;
 use simworld_core::clock::Tick;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Aabb, Point2, Point3, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityDesc, EntityKind, Shape};
+use simworld_core::scene::{EntityDesc, EntityKind, Shape, Solidity, Visibility};
+use simworld_core::traffic::TrafficOrder;
 
 fn person(x: f64) -> Command {
     let shape = Shape::Capsule { radius: 0.25, height: 1.8 };
@@ -60,6 +62,45 @@ fn commands_take_effect_are_recorded_and_replay() {
     let (report, recording) = server.stop();
     assert_eq!(digest, recording.trail.last().copied());
     assert_eq!((recording.commands.len(), recording.trail.len(), report.steps), (2, 11, 11));
+    assert_eq!(replay(&recording), recording);
+}
+
+#[test]
+fn things_are_altered_and_what_the_traffic_refuses_is_told() {
+    let server = serve(ServerConfig::on_free_ports());
+    let mut client = Client::connect(server.typed, None).expect("it lets us in");
+    let (bench, car) = (EntityId::new(0, 0), EntityId::new(1, 0));
+    let shape = Shape::cuboid(1.2, 3.6, 0.85);
+    let alterations = [
+        Alteration::Shape(shape),
+        Alteration::Color(Some([0.1, 0.2, 0.3])),
+        Alteration::Name(Some("Long Bench".to_owned())),
+        Alteration::Visibility(Visibility::Hidden),
+        Alteration::Solidity(Solidity::Hollow),
+    ];
+    for alteration in alterations {
+        client.command(Command::Alter { id: bench, alteration }).expect("it can be so");
+    }
+    let info = client.entity(bench).expect("it answers").expect("it lives").info;
+    assert_eq!(
+        (info.shape, info.color, info.name.as_deref()),
+        (shape, Some([0.1, 0.2, 0.3]), Some("Long Bench"))
+    );
+    assert_eq!((info.visibility, info.solidity), (Visibility::Hidden, Solidity::Hollow));
+    let alteration = Alteration::Color(Some([2.0, 0.0, 0.0]));
+    let error = client.command(Command::Alter { id: bench, alteration }).unwrap_err();
+    assert!(error.to_string().contains("2 is no share of a primary colour"), "{error}");
+    client.watch(everywhere(), 1).expect("it lets us watch");
+    let order = TrafficOrder::TurnRound { who: car };
+    client.command(Command::Traffic(order.clone())).expect("it is passed on");
+    client.tick(1).expect("it steps");
+    let events = client.observation().expect("it comes").events;
+    assert!(
+        events.iter().any(|event| event.kind == order.refused("this world has no traffic")),
+        "{events:?}"
+    );
+    let (_, recording) = server.stop();
+    assert_eq!(recording.commands.len(), 6);
     assert_eq!(replay(&recording), recording);
 }
 

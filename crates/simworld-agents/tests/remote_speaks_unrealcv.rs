@@ -6,9 +6,14 @@ mod remote_common;
 use std::io::{Read, Write};
 use std::net::TcpStream;
 
-use remote_common::{Unreal, replay, serve};
+use remote_common::{Unreal, replay, roads, serve};
 use simworld_agents::remote::{CameraPlace, Mount, ServerConfig, Token};
+use simworld_core::alteration::Alteration;
+use simworld_core::command::Command;
 use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::net::SignalGroup;
+use simworld_core::scene::Solidity;
+use simworld_core::traffic::{SignalTiming, TrafficOrder};
 
 const HUMANOID: &str = "/Game/TrafficSystem/Pedestrian/Base_User_Agent.Base_User_Agent_C";
 
@@ -80,11 +85,20 @@ fn things_are_brought_placed_changed_and_taken_away() {
     assert_eq!(client.ask("vget /object/Crate/location"), "error Can not find object: Crate");
     assert!(near(&client.numbers("vget /object/Box/scale"), &[2.0, 1.0, 3.0]));
     assert!(client.ask("vset /object/Box/name Ada").starts_with("error Renaming"));
+    assert_eq!(client.ask("vset /object/Box/collision False"), "ok");
+    assert_eq!(client.ask("vset /object/Box/hide"), "ok");
+    let information = client.ask("vget /objects");
+    assert!(information.contains("Box") && !information.contains("Crate"), "{information}");
     assert_eq!(client.ask("vset /object/box/destroy"), "ok");
     assert_eq!(client.ask("vset /object/Box/destroy"), "error Can not find object: Box");
     assert_eq!(client.ask("vset /action/tick"), "ok");
     let (_, recording) = server.stop();
     assert_eq!(recording.trail.len(), 1);
+    let hollow = |command: &Command| {
+        matches!(command, Command::Alter { alteration: Alteration::Solidity(Solidity::Hollow), .. })
+    };
+    let hollowed = recording.commands.iter().filter(|stamped| hollow(&stamped.command)).count();
+    assert_eq!(hollowed, 1, "the collision of a bench was switched off, that of a person is its own");
     assert_eq!(replay(&recording), recording);
 }
 
@@ -104,7 +118,13 @@ fn nothing_is_met_with_silence() {
             "error Argument Invalid: give vset /object/[str]/location [float] [float] [float]",
         ),
         ("vset /objects/spawn Zeppelin Z", "error Can not find a class with name 'Zeppelin'"),
-        ("vbp Ada MakeUTurn", "error Ada has no counterpart here"),
+        ("vbp Ada MakeUTurn", "error a U-turn of a person has no counterpart here"),
+        (
+            "vbp Ada Listening 0",
+            "error this has no counterpart here: who listens does nothing that others see",
+        ),
+        ("vbp Ada SwitchVehicleFrontGreen", "error Ada stands at no junction with signals"),
+        ("vbp Nobody StartSimulation", "error Can not find object: Nobody"),
         ("vget /camera/7/lit png", "error there is no camera 7: ask for the list of cameras"),
         (
             "vget /camera/0/lit out.png",
@@ -212,6 +232,15 @@ fn cameras_are_worn_and_show_pictures() {
         npy[128..].chunks_exact(4).map(|bytes| f32::from_le_bytes(bytes.try_into().expect("four"))).collect();
     assert_eq!((npy.len(), values[0]), (128 + 8 * 6 * 4, 65_504.0));
     assert!((values[3 * 8 + 4] - 375.0).abs() < 0.01, "Ada's near side, in cm: {}", values[3 * 8 + 4]);
+    let middle = |client: &mut Unreal| {
+        let npy = client.bytes("vget /camera/0/depth npy");
+        let at = 128 + (3 * 8 + 4) * 4;
+        f32::from_le_bytes(npy[at..at + 4].try_into().expect("four"))
+    };
+    assert_eq!(client.ask("vset /object/Ada/hide"), "ok");
+    assert!((middle(&mut client) - 470.0).abs() < 0.01, "the bench behind her: {}", middle(&mut client));
+    assert_eq!(client.ask("vset /object/Ada/show"), "ok");
+    assert!((middle(&mut client) - 375.0).abs() < 0.01, "and there she is again");
     client.ask("vset /object/Ada/color 1 2 3");
     let mask = client.bytes("vget /camera/0/object_mask bmp");
     let pixel = 54 + ((5 - 3) * 8 + 4) * 4;
@@ -290,4 +319,93 @@ fn a_token_is_asked_for_as_in_the_original() {
     assert_eq!(client.ask("vset /unrealcv/auth the-right-token-of-today"), "Authentication succeeded");
     assert!(client.ask("vget /objects").contains("Ada"));
     drop(server.stop());
+}
+
+#[test]
+fn cars_turn_round_and_drive_ways() {
+    let server = serve(ServerConfig::on_free_ports());
+    let mut client = Unreal::connect(server.unrealcv);
+    client.ask("vset /objects/spawn_bp_asset /Game/TrafficSystem/Vehicle/BP_Hatchback.BP_Hatchback_C Hatch");
+    assert_eq!(client.ask("vset /object/Hatch/location 0 5000 0"), "ok");
+    assert_eq!(client.ask("vset /action/tick_interval 0.1"), "ok");
+    assert_eq!(client.ask("vbp Hatch MakeUTurn"), "ok");
+    for _ in 0..200 {
+        client.ask("vset /action/tick");
+    }
+    let (end, rotation) =
+        (client.numbers("vget /object/Hatch/location"), client.numbers("vget /object/Hatch/rotation"));
+    assert!(rotation[1].abs() > 170.0, "it looks back: {rotation:?}");
+    assert!((3500.0..4400.0).contains(&end[1]), "across the oncoming lane, to its left: {end:?}");
+    client.ask("vset /action/tick");
+    assert!(near(&client.numbers("vget /object/Hatch/location"), &end), "and stands there");
+    // On along a way, to the west and then to the north, which is negative y here.
+    assert_eq!(client.ask(&format!("vbp Hatch SetWaypoints -3000,{};-5000,2000", end[1])), "ok");
+    assert_eq!(client.ask("vbp Hatch SetMaxSpeed 400"), "ok");
+    assert_eq!(client.ask("vbp Hatch FollowPath"), "ok");
+    for _ in 0..250 {
+        client.ask("vset /action/tick");
+    }
+    let there = client.numbers("vget /object/Hatch/location");
+    assert!((there[0] + 5000.0).abs() + (there[1] - 2000.0).abs() < 600.0, "{there:?}");
+    // A car that no client brought is the traffic's to turn round; this world has none, and says so.
+    assert_eq!(client.ask("vbp car_1 MakeUTurn"), "ok");
+    client.ask("vset /action/tick");
+    let (_, recording) = server.stop();
+    let order = recording.commands.iter().rev().find_map(|stamped| match &stamped.command {
+        Command::Traffic(order) => Some(order.name()),
+        _ => None,
+    });
+    assert_eq!(order, Some("turn_round"));
+    assert_eq!(replay(&recording), recording);
+}
+
+#[test]
+fn lights_are_switched_timed_and_let_go() {
+    let network = roads();
+    let crossing = &network.crossings[0];
+    let walk = crossing.signal.expect("the crossroads has signals");
+    let green = network.connections.iter().find_map(|way| {
+        (network.lanes[way.from.index()].road == crossing.road).then_some(way.signal).flatten()
+    });
+    let green = green.expect("vehicles come there too");
+    let server = serve(ServerConfig::on_free_ports());
+    let mut client = Unreal::connect(server.unrealcv);
+    let light = "/Game/city_props/BP/props/street_light/BP_street_light.BP_street_light_C";
+    client.ask(&format!("vset /objects/spawn_bp_asset {light} Light"));
+    let far = client.ask("vset /object/Light/location 0 4000 0");
+    assert_eq!(far, "ok");
+    let none = client.ask("vbp Light SwitchVehicleFrontGreen");
+    assert_eq!(none, "error Light stands at no junction with signals");
+    let (x, y) = (crossing.start.x * 100.0 + 50.0, -crossing.start.y * 100.0);
+    assert_eq!(client.ask(&format!("vset /object/Light/location {x} {y} 0")), "ok");
+    client.ask("vset /objects/spawn_bp_asset /Game/Traffic/BP_Intersection.BP_Intersection_C Middle");
+    for line in [
+        "vbp Light SwitchVehicleFrontGreen",
+        "vbp Light SetPedestrianWalk",
+        "vbp Light SetDuration 30 4 9",
+        "vbp Middle AddVehicleSignal Light",
+        "vbp Middle AddPedSignal Light",
+        "vbp Middle StartSimulation",
+    ] {
+        assert_eq!(client.ask(line), "ok", "{line}");
+    }
+    assert_eq!(client.ask("vbp Light AddVehicleSignal Light"), "error Can not find object: Light");
+    let (_, recording) = server.stop();
+    let orders: Vec<&TrafficOrder> = recording
+        .commands
+        .iter()
+        .filter_map(|stamped| match &stamped.command {
+            Command::Traffic(order) => Some(order),
+            _ => None,
+        })
+        .collect();
+    let hold = |group: SignalGroup| TrafficOrder::HoldSignal { group, seconds: None };
+    let timing = SignalTiming { green: 30.0, yellow: 4.0, walk: 9.0 };
+    let wanted = [
+        hold(green),
+        hold(walk),
+        TrafficOrder::TimeSignal { group: green, timing },
+        TrafficOrder::FreeSignal { group: green },
+    ];
+    assert!(orders.into_iter().eq(&wanted), "{:?}", recording.commands);
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::action::Action;
+use crate::alteration::Alteration;
 use crate::environment::{Environment, EnvironmentError};
 use crate::geometry::{Pose, Twist};
 use crate::id::EntityId;
@@ -64,6 +65,13 @@ pub enum Command {
         key: String,
         /// Its new value.
         value: Option<Value>,
+    },
+    /// Changes what an entity is made of: shape, colour, name, whether it is seen and met.
+    Alter {
+        /// Which.
+        id: EntityId,
+        /// In what.
+        alteration: Alteration,
     },
     /// Hangs an entity on a carrier or, with `None`, frees it.
     Attach {
@@ -177,6 +185,10 @@ impl World {
             Command::SetAttribute { id, key, value } => {
                 let old = self.set_attribute(*id, key, value.clone())?;
                 Some(Command::SetAttribute { id: *id, key: key.clone(), value: old })
+            }
+            Command::Alter { id, alteration } => {
+                let alteration = self.alter(*id, alteration.clone())?;
+                Some(Command::Alter { id: *id, alteration })
             }
             Command::Attach { child, bond } => {
                 let undo = self.reset_of(*child)?;

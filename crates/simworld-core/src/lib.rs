@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod action;
+pub mod alteration;
 pub mod asset;
 pub mod camera;
 pub mod clock;

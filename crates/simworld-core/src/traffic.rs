@@ -2,13 +2,18 @@
 //!
 //! Orders are passed on by [`Command::Traffic`](crate::command::Command::Traffic), so that they are recorded and replayed like
 //! everything else that comes from outside. Whoever moves the traffic reads [`World::orders`](crate::scene::World::orders) in
-//! its step, does what it can, and reports what it cannot as an event.
+//! its step, does what it can, and reports what it cannot as an event. What nobody takes in the step in which it was asked is
+//! reported by the world itself.
 
 use serde::{Deserialize, Serialize};
 
+use crate::event::EventKind;
 use crate::geometry::Point2;
 use crate::id::{EntityId, LaneId, RoadId};
-use crate::net::LaneDirection;
+use crate::net::{LaneDirection, SignalGroup};
+
+/// The name of the event that an order was not carried out, with the facts `order` and `reason`.
+pub const REFUSED: &str = "traffic_refused";
 
 /// One direction of a road.
 pub type RoadLeg = (RoadId, LaneDirection);
@@ -38,6 +43,18 @@ pub enum LaneChoice {
     Right,
     /// Wherever the traffic's own driver would drive.
     AsDriven,
+}
+
+/// How long the stages of a junction's signals last, s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SignalTiming {
+    /// Green of vehicles, 5 to 600 s; longer where the walkers beside them need it, for `walk` and the time to clear the crossing.
+    pub green: f64,
+    /// Yellow of vehicles, 2 to 10 s.
+    pub yellow: f64,
+    /// Walk, 4 to 600 s. The time to clear a crossing follows it, and depends on its length alone.
+    pub walk: f64,
 }
 
 /// An order to the traffic. Vehicles and walkers are named by their entities.
@@ -131,6 +148,39 @@ pub enum TrafficOrder {
         /// Whether it crosses at red where there is a gap.
         dares: bool,
     },
+    /// Lets a signal group go green as soon as that is safe, and keeps its junction so.
+    HoldSignal {
+        /// Which.
+        group: SignalGroup,
+        /// For how long from now, s, or until it is freed.
+        seconds: Option<f64>,
+    },
+    /// Lets the signals of a junction change by themselves again.
+    FreeSignal {
+        /// One of its groups.
+        group: SignalGroup,
+    },
+    /// Times the signals of a junction anew, from their next changes on.
+    TimeSignal {
+        /// One of its groups.
+        group: SignalGroup,
+        /// How long its stages last.
+        timing: SignalTiming,
+    },
+    /// Turns a vehicle round: it takes the quickest open way to the other direction of its road, and goes on from there to where
+    /// it was going.
+    TurnRound {
+        /// Which.
+        who: EntityId,
+    },
+    /// Sends a vehicle on another way from where it is, by the quickest open way to each of these legs in turn; it leaves at the
+    /// end of the last.
+    Reroute {
+        /// Which.
+        who: EntityId,
+        /// Through which legs.
+        through: Vec<RoadLeg>,
+    },
     /// Hands a vehicle or a walker over to whoever moves its entity: a physics body, an agent, a user.
     HandOver {
         /// Which.
@@ -157,12 +207,17 @@ impl TrafficOrder {
             Self::SendWalker { .. } => "send_walker",
             Self::Drive { .. } => "drive",
             Self::Guide { .. } => "guide",
+            Self::HoldSignal { .. } => "hold_signal",
+            Self::FreeSignal { .. } => "free_signal",
+            Self::TimeSignal { .. } => "time_signal",
+            Self::TurnRound { .. } => "turn_round",
+            Self::Reroute { .. } => "reroute",
             Self::HandOver { .. } => "hand_over",
             Self::GiveBack { .. } => "give_back",
         }
     }
 
-    /// Whom it concerns; nobody for closures and those who are yet to come.
+    /// Whom it concerns; nobody for closures, signals and those who are yet to come.
     pub const fn who(&self) -> Option<EntityId> {
         match self {
             Self::Halt { who, .. }
@@ -171,11 +226,22 @@ impl TrafficOrder {
             | Self::SendWalker { who, .. }
             | Self::Drive { who, .. }
             | Self::Guide { who, .. }
+            | Self::TurnRound { who }
+            | Self::Reroute { who, .. }
             | Self::HandOver { who }
             | Self::GiveBack { who } => Some(*who),
-            Self::Close { .. } | Self::Reopen { .. } | Self::SendVehicle { .. } | Self::AddWalker { .. } => {
-                None
-            }
+            Self::Close { .. }
+            | Self::Reopen { .. }
+            | Self::SendVehicle { .. }
+            | Self::AddWalker { .. }
+            | Self::HoldSignal { .. }
+            | Self::FreeSignal { .. }
+            | Self::TimeSignal { .. } => None,
         }
+    }
+
+    /// The event that it was not carried out, and why.
+    pub fn refused(&self, reason: impl Into<String>) -> EventKind {
+        EventKind::task(REFUSED, self.who()).with("order", self.name()).with("reason", reason.into())
     }
 }

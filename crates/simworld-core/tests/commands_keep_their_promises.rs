@@ -4,12 +4,17 @@ mod common;
 
 use common::{any_change, any_command, bytes, contents, small_world};
 use proptest::prelude::*;
+use simworld_core::alteration::Alteration;
 use simworld_core::command::Command;
-use simworld_core::geometry::{Pose, Twist, Vector3};
+use simworld_core::event::EventKind;
+use simworld_core::geometry::{Point2, Point3, Pose, Ray, Twist, Vector3};
 use simworld_core::hash::StateHash;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Attachment, Role, Scene, WorldError};
+use simworld_core::scene::{
+    Attachment, EntityKind, RayCast, Role, Scene, Shape, Solidity, Visibility, World, WorldError,
+};
 use simworld_core::testing::check_scene;
+use simworld_core::traffic::{REFUSED, TrafficOrder};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
@@ -112,10 +117,65 @@ fn the_digest_sees_every_change() {
         Command::SetAttribute { id, key: "charge".to_owned(), value: Some(1_i64.into()) },
         Command::Attach { child: id, bond: Some(bond) },
         Command::SetEnvironment(weather),
+        Command::Alter { id, alteration: Alteration::Shape(Shape::cuboid(0.5, 0.5, 1.0)) },
+        Command::Alter { id, alteration: Alteration::Color(Some([0.5, 0.0, 0.0])) },
+        Command::Alter { id, alteration: Alteration::Name(Some("throne".to_owned())) },
+        Command::Alter { id, alteration: Alteration::Visibility(Visibility::Hidden) },
+        Command::Alter { id, alteration: Alteration::Solidity(Solidity::Solid) },
+        Command::Alter { id, alteration: Alteration::Solidity(Solidity::Hollow) },
     ] {
         let mut world = small_world();
         world.apply(&change).unwrap();
         world.finish_step();
         assert_ne!(world.digest(), base, "{change:?} went unnoticed");
     }
+}
+
+/// Which thing a ray eastwards at a height meets, from the west of the small world.
+fn met(world: &World, height: f64) -> Option<EntityKind> {
+    let ray = Ray::towards(Point3::new(-5.0, 0.0, height), Point3::new(5.0, 0.0, height))?;
+    let chair = |id| world.entity(id).is_some_and(|entity| entity.kind == EntityKind::Chair);
+    world.cast_ray(&ray, 20.0, &chair).and_then(|hit| world.entity(hit.entity)).map(|entity| entity.kind)
+}
+
+#[test]
+fn what_is_altered_is_found_and_met_as_it_is_now() {
+    let mut world = small_world();
+    let (id, revision) = (EntityId::new(1, 0), world.revision());
+    let alter = |world: &mut World, alteration| world.apply(&Command::Alter { id, alteration });
+    assert_eq!(met(&world, 2.0), None, "a chair is 0.9 m high");
+    alter(&mut world, Alteration::Shape(Shape::cuboid(0.5, 3.0, 2.5))).unwrap();
+    assert_eq!(met(&world, 2.0), Some(EntityKind::Chair));
+    assert!(world.revision() > revision, "who keeps shapes looks anew");
+    let chair = |entity: &simworld_core::scene::EntityRef<'_>| entity.kind == EntityKind::Chair;
+    assert!(world.nearest(Point2::new(0.4, 2.0), 0.6, &chair).is_some(), "it is filed as broad as it is");
+    alter(&mut world, Alteration::Solidity(Solidity::Hollow)).unwrap();
+    assert_eq!(met(&world, 2.0), None, "one passes through it");
+    for (old, new) in [("nobody", "throne"), ("throne", "stool")] {
+        alter(&mut world, Alteration::Name(Some(format!("the {new}")))).unwrap();
+        let names = world.names().unwrap();
+        assert!(names.bearers(new).eq([id]) && names.count(old) == 0, "the index of names follows");
+    }
+    let before = bytes(&world);
+    for (wrong, says) in [
+        (Alteration::Shape(Shape::cuboid(0.5, -3.0, 2.5)), "width = -3"),
+        (Alteration::Color(Some([0.0, 1.5, 0.0])), "1.5 is no share of a primary colour"),
+        (Alteration::Color(Some([f32::NAN, 0.0, 0.0])), "NaN is no share"),
+    ] {
+        let error = alter(&mut world, wrong).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+    }
+    assert_eq!(before, bytes(&world));
+}
+
+#[test]
+fn an_order_that_nobody_takes_is_refused() {
+    let mut world = small_world();
+    let who = EntityId::new(4, 0);
+    world.apply(&Command::Traffic(TrafficOrder::TurnRound { who })).unwrap();
+    world.finish_step();
+    let [event] = world.events() else { panic!("one event: {:?}", world.events()) };
+    let EventKind::Task { name, who: whom, data } = &event.kind else { panic!("{event:?}") };
+    assert_eq!((name.as_str(), *whom), (REFUSED, Some(who)));
+    assert_eq!(data["reason"].as_str(), Some("this world has no traffic"));
 }

@@ -85,7 +85,9 @@ impl DrawList {
         let signals = scene.signals();
         let region = shadow.map_or_else(|| view.region(), |shadow| view.region().union(&shadow.region()));
         let _ = scene.visit(&region.inflated(OVERHANG), &mut |entity| {
-            self.consider(&entity, view, shadow, min_pixels, hidden, |entity| looks.of(entity, signals));
+            if entity.is_visible() {
+                self.consider(&entity, view, shadow, min_pixels, hidden, |entity| looks.of(entity, signals));
+            }
             ControlFlow::Continue(())
         });
         self.arrange();

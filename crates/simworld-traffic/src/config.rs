@@ -131,6 +131,14 @@ pub enum TrafficError {
         /// Its index.
         plan: usize,
     },
+    /// A signal group that cannot do what is asked.
+    #[error("signal group {group}: {reason}")]
+    Signal {
+        /// Its number.
+        group: u32,
+        /// Why not.
+        reason: &'static str,
+    },
     /// A route that cannot be driven.
     #[error("leg {leg} of the route: {reason}")]
     Route {

@@ -150,6 +150,14 @@ pub enum ControlError {
         /// Why not.
         reason: &'static str,
     },
+    /// No way leads where a vehicle is sent.
+    #[error("vehicle {id} cannot be sent there: {reason}")]
+    NoWay {
+        /// Its number.
+        id: u32,
+        /// Why not.
+        reason: &'static str,
+    },
     /// The body cannot go back among the others from where it is.
     #[error("{what} {id} at ({x:.1}, {y:.1}) cannot be given back: {reason}", x = at.x, y = at.y)]
     NoPlace {

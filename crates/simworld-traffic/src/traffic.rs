@@ -8,6 +8,8 @@ mod incidents;
 mod interest;
 mod kerbs;
 mod outline;
+mod reroute;
+mod signals;
 mod takeover;
 mod takeover_walkers;
 mod walkers;
@@ -28,7 +30,7 @@ use simworld_core::seed::{Seed, Stream};
 use crate::crowd::Person;
 use crate::demand::{DemandManager, Flow, Kerbs, OF_FLOW, Trip, TripEnd, VehicleChoice};
 use crate::pedestrian::{self, Pedestrian, PedestrianManager};
-use crate::signal::{Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
+use crate::signal::{ByHand, Controllers, Detectors, IntersectionManager, SignalPolicy, Stage, StageShown};
 use crate::vehicle::{self, Tracks, VehicleKind, VehicleManager};
 use crate::{DrivingConditions, Route, Stop, TrafficConfig, TrafficError};
 
@@ -63,6 +65,8 @@ pub struct Traffic {
     ways: WaypointGraph,
     finder: Finder,
     signals: IntersectionManager,
+    /// The plans as they were given, before anybody timed them anew by an order.
+    plans: Vec<SignalPlan>,
     state: State,
     placed: Placed,
     // Buffers kept from step to step.
@@ -87,6 +91,7 @@ pub(crate) struct State {
     demand: DemandManager,
     pedestrians: PedestrianManager,
     controllers: Controllers,
+    by_hand: ByHand,
     detectors: Detectors,
     aspects: Vec<Aspect>,
     /// How long each group has shown its aspect, s.
@@ -140,6 +145,7 @@ impl Traffic {
             threats: Vec::new(),
             finder: Finder::new(&tracks),
             walkers: vec![0; crossings],
+            plans: signals.plans().to_vec(),
             signals,
             tracks,
             ways,
@@ -289,27 +295,6 @@ impl Traffic {
         (!self.stages(plan).is_empty()).then(|| controller.shown())
     }
 
-    /// Gives the signals other plans, for the same groups; they begin at once, where their clocks stand now.
-    ///
-    /// # Errors
-    /// Plans that are not for the same intersections and groups, or that have a phase without duration.
-    pub fn set_plans(&mut self, plans: Vec<SignalPlan>) -> Result<(), TrafficError> {
-        let own = self.signals.plans();
-        let differs = |(old, new): (&SignalPlan, &SignalPlan)| {
-            old.intersection != new.intersection
-                || old.groups != new.groups
-                || !new.offset.is_finite()
-                || new.phases.iter().any(|phase| !(phase.duration > 0.0 && phase.duration.is_finite()))
-        };
-        let other = own.iter().zip(&plans).position(differs);
-        if let Some(plan) = other.or((own.len() != plans.len()).then_some(own.len().min(plans.len()))) {
-            return Err(TrafficError::Plan { plan });
-        }
-        self.signals.set_plans(plans);
-        self.restart_signals();
-        Ok(())
-    }
-
     /// One step of `dt` s; one that is not positive and finite is none, and changes nothing.
     pub fn step(&mut self, dt: f64) {
         self.step_among(&[], dt);
@@ -385,28 +370,6 @@ impl Traffic {
         pedestrians.step(&sight, &around, self.streams.named("pedestrians"), time, counters);
     }
 
-    fn update_signals(&mut self, dt: f64) {
-        let State { vehicles, pedestrians, controllers, detectors, seconds, .. } = &mut self.state;
-        if self.signals.watches() {
-            detectors.look(&self.tracks, vehicles, &pedestrians.waiting, &self.signals.aspects, dt);
-        } else if !detectors.is_ready() {
-            detectors.rest();
-        }
-        self.signals.step(controllers, *seconds, detectors.demand(), dt);
-        let State { aspects, shown, .. } = &mut self.state;
-        for ((old, new), shown) in aspects.iter_mut().zip(&self.signals.aspects).zip(shown) {
-            *shown = if old == new { *shown + dt } else { 0.0 };
-            *old = *new;
-        }
-    }
-
-    fn restart_signals(&mut self) {
-        self.state.controllers = self.signals.start(self.state.seconds);
-        self.signals.show(&self.state.controllers);
-        self.state.aspects.clone_from(&self.signals.aspects);
-        self.state.shown = vec![0.0; self.signals.aspects.len()];
-    }
-
     /// The settings it was made with.
     pub fn config(&self) -> &TrafficConfig {
         &self.config
@@ -465,11 +428,13 @@ impl Traffic {
             && state.interest.iter().flatten().all(Interest::is_sound)
             && state.detectors.fits(state.aspects.len())
             && self.signals.fits(&state.controllers)
+            && state.by_hand.fits(&|plan| self.stages(plan).len())
             && state.pedestrians.fits(&self.ways, self.walkers.len());
         if fits {
             self.signals.aspects.clone_from(&state.aspects);
             self.driving = state.conditions.applied(&self.config);
             self.state = state;
+            self.retime();
             self.mark_far();
         }
         fits
@@ -487,6 +452,7 @@ impl StateHash for Traffic {
         for controller in &self.state.controllers {
             controller.state_hash(hasher);
         }
+        self.state.by_hand.state_hash(hasher);
         self.state.detectors.state_hash(hasher);
     }
 }

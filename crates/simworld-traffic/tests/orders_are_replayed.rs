@@ -5,19 +5,24 @@ use std::sync::Arc;
 use simworld_core::command::Command;
 use simworld_core::environment::{Environment, Weather};
 use simworld_core::event::EventKind;
-use simworld_core::geometry::{Point2, Twist, direction, pose_facing, yaw_of};
+use simworld_core::geometry::{Point2, Twist, direction, planar, pose_facing, yaw_of};
 use simworld_core::hash::StateHash;
 use simworld_core::id::{EntityId, LaneId, RoadId};
-use simworld_core::net::{CrossSection, LaneDirection, NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::net::{
+    CrossSection, LaneDirection, NetworkConfig, RoadNetwork, SignalGroup, Street, StreetPlan, polyline,
+};
+use simworld_core::ops::wrap_angle;
 use simworld_core::record::Recording;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
-use simworld_core::traffic::{ClosedWay, LaneChoice, TrafficOrder};
-use simworld_traffic::{TrafficConfig, TrafficDynamics};
+use simworld_core::traffic::{ClosedWay, LaneChoice, SignalTiming, TrafficOrder};
+use simworld_traffic::vehicle::VehicleKind;
+use simworld_traffic::{Leg, Route, Traffic, TrafficConfig, TrafficDynamics, TripEnd};
 
 const STEPS: u64 = 1500;
+const TIMING: SignalTiming = SignalTiming { green: 12.0, yellow: 4.0, walk: 9.0 };
 
 /// A town with traffic, and the entities of its vehicles and walkers.
 fn town() -> (Simulation, Vec<EntityId>, Vec<EntityId>) {
@@ -74,7 +79,15 @@ fn orders(step: u64, vehicles: &[EntityId], walkers: &[EntityId]) -> Vec<Command
             TrafficOrder::HandOver { who: vehicles[11] },
             TrafficOrder::HandOver { who: walkers[5] },
         ],
+        350 => vec![
+            TrafficOrder::HoldSignal { group: SignalGroup(2), seconds: Some(20.0) },
+            TrafficOrder::HoldSignal { group: SignalGroup(9), seconds: None },
+            TrafficOrder::TimeSignal { group: SignalGroup(20), timing: TIMING },
+            TrafficOrder::TurnRound { who: vehicles[14] },
+            TrafficOrder::Reroute { who: vehicles[15], through: vec![(RoadId(3), LaneDirection::Forward)] },
+        ],
         600 => vec![
+            TrafficOrder::FreeSignal { group: SignalGroup(9) },
             TrafficOrder::Reopen { number: 1 },
             TrafficOrder::GiveBack { who: vehicles[10] },
             TrafficOrder::GiveBack { who: vehicles[11] },
@@ -97,6 +110,19 @@ fn orders(step: u64, vehicles: &[EntityId], walkers: &[EntityId]) -> Vec<Command
             TrafficOrder::Close { what: ClosedWay::Stretch(LaneId(2), 9.0, 4.0), seconds: None },
             TrafficOrder::GiveBack { who: vehicles[13] },
             TrafficOrder::Guide { who: walkers[1], speed: -1.0, keep_right: 0.0, dares: false },
+            TrafficOrder::HoldSignal { group: SignalGroup(7000), seconds: None },
+            TrafficOrder::HoldSignal { group: SignalGroup(2), seconds: Some(f64::NAN) },
+            TrafficOrder::FreeSignal { group: SignalGroup(2) },
+            TrafficOrder::TimeSignal {
+                group: SignalGroup(2),
+                timing: SignalTiming { yellow: 0.0, ..TIMING },
+            },
+            TrafficOrder::TurnRound { who: walkers[1] },
+            TrafficOrder::Reroute { who: vehicles[12], through: vec![] },
+            TrafficOrder::Reroute {
+                who: vehicles[12],
+                through: vec![(RoadId(7000), LaneDirection::Forward)],
+            },
         ],
         _ => Vec::new(),
     };
@@ -141,13 +167,13 @@ fn a_replay_takes_the_same_way_and_what_cannot_be_is_reported() {
         }
         most = most.max(simulation.world().len());
     }
-    assert_eq!((refused, closed.len()), (10, 2), "{closed:?}");
+    assert_eq!((refused, closed.len()), (17, 2), "{closed:?}");
     let world = simulation.world();
     assert!(world.entity(vehicles[7]).is_none() && world.entity(walkers[7]).is_none());
     assert!(most >= 120, "somebody entered: {most}");
     assert!(world.entity(vehicles[4]).is_some_and(|broken| broken.twist.ground_speed() == 0.0));
     let recording: Recording = simulation.recording().clone();
-    assert_eq!(recording.commands.len(), 29);
+    assert_eq!(recording.commands.len(), 42);
     assert_eq!(recording.trail.len() as u64, STEPS / 10);
     let (mut replay, vehicles, _) = town();
     for step in 0..STEPS {
@@ -241,4 +267,81 @@ fn an_ambulance_leaves_the_kerb_by_order_and_its_siren_is_switched() {
         step(&mut world, &mut traffic);
     }
     assert!(world.entity(who).is_none(), "it came to its place and is gone");
+}
+
+/// The leg on whose lanes a vehicle stands or drives; none in a junction.
+fn leg_of(traffic: &Traffic, id: u32) -> Option<Leg> {
+    let body = traffic.vehicle(id)?;
+    let network = traffic.network();
+    let lane = (0..network.lanes.len()).map(LaneId::from_index).find(|lane| {
+        let path = &network.lanes[lane.index()].path;
+        polyline::closest(path, &planar(&body.pose)).is_some_and(|near| {
+            let along = polyline::at(path, near.station).1;
+            near.distance < 0.5 && wrap_angle(along - yaw_of(&body.pose)).abs() < 0.3
+        })
+    });
+    lane.map(|lane| Leg::of(network, lane))
+}
+
+fn opposite(leg: Leg) -> Leg {
+    let backward = Leg::new(leg.road(), LaneDirection::Backward);
+    if leg == backward { Leg::new(leg.road(), LaneDirection::Forward) } else { backward }
+}
+
+#[test]
+fn vehicles_turn_round_and_drive_on() {
+    let network = RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default());
+    let network = Arc::new(network.expect("a grid is a network"));
+    let config = TrafficConfig { vehicles: 20, pedestrians: 0, ..TrafficConfig::default() };
+    let mut traffic =
+        Traffic::new(Arc::clone(&network), &config, Seed(6)).expect("the settings are in range");
+    for _ in 0..100 {
+        traffic.step(0.1);
+    }
+    let mut turning: Vec<(u32, Leg)> = (0..20).filter_map(|id| Some((id, leg_of(&traffic, id)?))).collect();
+    assert!(turning.len() >= 10, "most are between junctions");
+    // Who has leave to cross already turns round on the road to which it comes.
+    for (id, _) in &turning {
+        traffic.turn_round(*id).expect("every road of a grid has two directions");
+    }
+    // And one that has a way to go, first straight on.
+    let east = Leg::new(RoadId(0), LaneDirection::Forward);
+    let router = simworld_traffic::Router::new(&network);
+    let goal = Leg::new(RoadId(1), LaneDirection::Forward);
+    let route = router.quickest(east, goal).unwrap_or(Route(vec![east]));
+    traffic.insert(route, VehicleKind::Truck).expect("it can be driven");
+    let (mut truck, mut truck_turned, mut truck_end) = (None, false, None);
+    for step in 0..4000 {
+        traffic.step(0.1);
+        if let (None, [id]) = (truck, traffic.entered()) {
+            truck = Some(*id);
+            traffic.turn_round(*id).expect("its road has two directions");
+        }
+        if step % 5 == 0 {
+            turning.retain(|(id, leg)| leg_of(&traffic, *id) != Some(opposite(*leg)));
+            truck_turned |= truck.and_then(|id| leg_of(&traffic, id)) == Some(opposite(east));
+        }
+        truck_end =
+            truck_end.or(traffic.ended().iter().find(|trip| Some(trip.id) == truck).map(|trip| trip.end));
+    }
+    assert!(turning.len() <= 3, "they never came back: {turning:?}");
+    assert!((0..20).all(|id| traffic.vehicle(id).is_some()), "who drives as it likes drives on");
+    assert!(truck_turned, "the truck turned round before it went on");
+    assert_eq!(truck_end, Some(TripEnd::Arrived), "and came where it was going");
+}
+
+#[test]
+fn nobody_turns_round_in_a_street_of_one_direction() {
+    let mut plan =
+        StreetPlan { nodes: vec![Point2::new(0.0, 0.0), Point2::new(300.0, 0.0)], ..StreetPlan::default() };
+    let section = plan.add_section(CrossSection::two_way(1, 0));
+    plan.streets.push(Street { section, ..Street::simple(0, 1) });
+    let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a street is a network");
+    let config = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+    let mut traffic = Traffic::new(Arc::new(network), &config, Seed(6)).expect("the settings are in range");
+    let leg = Leg::new(RoadId(0), LaneDirection::Forward);
+    traffic.insert(Route(vec![leg]), VehicleKind::Car).expect("it can be driven");
+    traffic.step(0.1);
+    let error = traffic.turn_round(traffic.entered()[0]).expect_err("there is no way back");
+    assert_eq!(error.to_string(), "vehicle 0 cannot be sent there: its road has no lanes the other way");
 }

@@ -3,11 +3,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use simworld_core::id::ConnectionId;
-use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan};
+use simworld_core::id::{ConnectionId, RoadId};
+use simworld_core::net::{Aspect, LaneDirection, NetworkConfig, RoadNetwork, SignalGroup, StreetPlan};
 use simworld_core::seed::{Seed, StreamRng};
+use simworld_core::traffic::SignalTiming;
 use simworld_traffic::signal::{Actuated, FixedTime, JunctionView, MaxPressure, SignalPolicy};
-use simworld_traffic::{Traffic, TrafficConfig};
+use simworld_traffic::vehicle::VehicleKind;
+use simworld_traffic::{Leg, Route, Traffic, TrafficConfig};
 
 const DT: f64 = 0.1;
 
@@ -32,17 +34,21 @@ impl SignalPolicy for Whim {
     }
 }
 
-#[test]
-fn no_policy_can_make_signals_unsafe() {
-    let mut traffic = traffic(30, 60);
-    traffic.set_policy(Box::new(Whim(Seed(9).stream("whim").rng())));
+/// Steps traffic and watches that its signals stay safe, whoever operates them; returns how often they changed.
+fn watch(
+    traffic: &mut Traffic,
+    steps: u32,
+    (green, yellow): (f64, f64),
+    mut operate: impl FnMut(&mut Traffic, u32),
+) -> u32 {
     let network = Arc::clone(traffic.network());
     let is_walker = |index: usize| {
         network.crossings.iter().any(|crossing| crossing.signal.is_some_and(|group| group.index() == index))
     };
     let mut shown = vec![(Aspect::Red, 1e9); network.signal_groups()];
     let mut changes = 0;
-    for step in 0..20_000 {
+    for step in 0..steps {
+        operate(traffic, step);
         traffic.step(DT);
         for (index, (aspect, now)) in shown.iter_mut().zip(traffic.signals()).enumerate() {
             aspect.1 += DT;
@@ -56,9 +62,9 @@ fn no_policy_can_make_signals_unsafe() {
                 continue; // the first stage may have begun before the start
             }
             assert!((old, *now) != (Aspect::Green, Aspect::Red), "group {index}: no yellow at step {step}");
-            assert!(old != Aspect::Green || lasted > 4.9, "group {index}: green of {lasted} s");
-            // Three seconds of yellow for vehicles; a strip of 7 m at 1 m/s for people.
-            let least = if is_walker(index) { 6.9 } else { 2.9 };
+            assert!(old != Aspect::Green || lasted > green - 0.1, "group {index}: green of {lasted} s");
+            // The yellow of the plan for vehicles; a strip of 7 m at 1 m/s for people.
+            let least = if is_walker(index) { 6.9 } else { yellow - 0.1 };
             assert!(old != Aspect::Yellow || lasted > least, "group {index}: yellow of {lasted} s");
         }
         let green = |id: ConnectionId| {
@@ -74,7 +80,128 @@ fn no_policy_can_make_signals_unsafe() {
             }
         }
     }
+    changes
+}
+
+#[test]
+fn no_policy_can_make_signals_unsafe() {
+    let mut traffic = traffic(30, 60);
+    traffic.set_policy(Box::new(Whim(Seed(9).stream("whim").rng())));
+    let changes = watch(&mut traffic, 20_000, (5.0, 3.0), |_, _| {});
     assert!(changes > 2000, "the whims were carried out: {changes}");
+}
+
+#[test]
+fn no_order_can_make_signals_unsafe() {
+    let mut traffic = traffic(30, 60);
+    let groups = traffic.network().signal_groups();
+    let mut rng = Seed(10).stream("hand").rng();
+    let (mut held, mut refused) = (0, 0);
+    let changes = watch(&mut traffic, 10_000, (4.0, 2.0), |traffic, step| {
+        if step % 10 != 0 {
+            return;
+        }
+        // One group too many is among them.
+        let group = SignalGroup(rng.below(groups + 1) as u32);
+        let done = match rng.below(4) {
+            0 | 1 => traffic.hold_signal(group, rng.uniform(0.0, 40.0)),
+            2 => traffic.free_signal(group),
+            _ => {
+                let (green, yellow, walk) =
+                    (rng.uniform(5.0, 30.0), rng.uniform(2.0, 5.0), rng.uniform(4.0, 20.0));
+                traffic.time_signal(group, SignalTiming { green, yellow, walk })
+            }
+        };
+        held += u32::from(done.is_ok());
+        refused += u32::from(done.is_err());
+    });
+    assert!(held > 300 && refused > 20, "{held} orders were carried out, {refused} refused");
+    assert!(changes > 1000, "{changes}");
+}
+
+/// Vehicles of each of two ways through a crossroads, straight on, that have arrived.
+fn arrived(traffic: &mut Traffic, seconds: u32) -> [u32; 2] {
+    let mut arrived = [0; 2];
+    for _ in 0..seconds * 10 {
+        traffic.step(DT);
+        for trip in traffic.ended() {
+            // Cars go one way, vans the other.
+            arrived[usize::from(trip.kind == VehicleKind::Van)] += 1;
+        }
+    }
+    arrived
+}
+
+#[test]
+fn drivers_go_where_a_signal_is_held_and_stand_where_it_is_not() {
+    let network = RoadNetwork::derive(&StreetPlan::crossroads(100.0), &NetworkConfig::default());
+    let network = Arc::new(network.expect("it is a network"));
+    let config = TrafficConfig { vehicles: 0, pedestrians: 0, ..TrafficConfig::default() };
+    let mut traffic =
+        Traffic::new(Arc::clone(&network), &config, Seed(3)).expect("the settings are in range");
+    let arm = |road, direction| Leg::new(RoadId(road), direction);
+    let (mut groups, mut routes) = ([SignalGroup(0); 2], Vec::new());
+    for (way, kind) in [VehicleKind::Car, VehicleKind::Van].into_iter().enumerate() {
+        let (from, to) = (way as u32, way as u32 + 2);
+        let legs = [arm(from, LaneDirection::Backward), arm(to, LaneDirection::Forward)];
+        let lane = network.lanes[legs[0].lanes(&network)[0].index()].outgoing[0];
+        groups[way] = network.connections[lane.index()].signal.expect("a crossroads has signals");
+        routes.extend((0..4).map(|_| (Route(legs.to_vec()), kind)));
+    }
+    traffic.hold_signal(groups[0], f64::INFINITY).expect("it is there");
+    assert_eq!(arrived(&mut traffic, 40), [0, 0], "what had begun ends");
+    for (route, kind) in routes {
+        traffic.insert(route, kind).expect("it leads across");
+    }
+    assert_eq!(
+        arrived(&mut traffic, 120),
+        [4, 0],
+        "who has green for good goes, the others stand for two minutes"
+    );
+    traffic.hold_signal(groups[1], 60.0).expect("it is there");
+    assert_eq!(arrived(&mut traffic, 60), [0, 4]);
+    // What is held for a time is free after it.
+    assert!(traffic.free_signal(groups[1]).is_err());
+    let mut seen = [false; 2];
+    for _ in 0..1200 {
+        traffic.step(DT);
+        for (seen, group) in seen.iter_mut().zip(groups) {
+            *seen |= traffic.signals()[group.index()] == Aspect::Green;
+        }
+    }
+    assert_eq!(seen, [true; 2], "both have their turn again");
+    let error = traffic.hold_signal(SignalGroup(99), 1.0).expect_err("there are no hundred groups");
+    assert_eq!(error.to_string(), "signal group 99: there is no such group");
+    assert!(traffic.hold_signal(groups[0], f64::NAN).is_err());
+}
+
+#[test]
+fn signals_last_as_long_as_they_are_timed() {
+    let mut traffic = traffic(0, 0);
+    let group = traffic.plans()[1].groups[0];
+    let timing = SignalTiming { green: 40.0, yellow: 5.0, walk: 6.0 };
+    traffic.time_signal(group, timing).expect("it is in range");
+    let mut lasted = Vec::new();
+    let (mut shown, mut since) = (traffic.signals()[group.index()], 0.0);
+    for _ in 0..6000 {
+        traffic.step(DT);
+        since += DT;
+        let now = traffic.signals()[group.index()];
+        if now != shown {
+            lasted.push((shown, since));
+            (shown, since) = (now, 0.0);
+        }
+    }
+    // The first of each had begun before, or was cut to meet the clock of the plan.
+    for (aspect, wanted) in [(Aspect::Green, timing.green), (Aspect::Yellow, timing.yellow)] {
+        let times = lasted.iter().filter(|(own, _)| *own == aspect);
+        let times: Vec<f64> = times.map(|(_, seconds)| *seconds).skip(1).collect();
+        assert!(times.len() >= 3, "{lasted:?}");
+        assert!(times.iter().all(|time| (time - wanted).abs() < 0.25), "{aspect:?}: {times:?}");
+    }
+    for wrong in [SignalTiming { yellow: 0.5, ..timing }, SignalTiming { green: f64::NAN, ..timing }] {
+        assert!(traffic.time_signal(group, wrong).is_err(), "{wrong:?}");
+    }
 }
 
 #[test]

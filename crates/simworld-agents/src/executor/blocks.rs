@@ -1,20 +1,29 @@
-//! Where in a plan the executor is: blocks within blocks, and the guards that end them.
+//! Where in a plan an executor is: blocks within blocks, and the guards that end them. Every executor has one of these.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::action::Action;
 use simworld_core::scene::{EntityRef, Scene};
-use simworld_core::seam::{Condition, Goal, PlanStep};
+use simworld_core::seam::{Condition, Goal, Plan, PlanStep};
 
-use super::{RuleExecutor, Stage, condition};
+use super::condition;
 
 /// How deep blocks may nest in a plan.
 const DEEPEST: u32 = 16;
 /// How often a block may be repeated.
 const MOST_TIMES: u32 = 1_000_000;
 
+/// A plan under way.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Blocks {
+    plan: Plan,
+    /// A place for each block that it is in, the outermost first; none when there is nothing to do any more.
+    place: Vec<Place>,
+    /// Since when it waits for the condition of a guard without steps, in ticks of the list that it stands in.
+    guarding: Option<u64>,
+}
+
 /// A place in one list of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Place {
+struct Place {
     /// The step under way.
     step: usize,
     /// Whether the steps are those of an `otherwise`.
@@ -26,24 +35,52 @@ pub(super) struct Place {
 }
 
 /// What there is to do now.
-pub(super) enum Entered {
+pub(crate) enum Entered {
     /// A step that is no block.
     Step(PlanStep),
-    /// Nothing, until a condition holds or the next step of the simulation.
+    /// Nothing, until a condition holds.
+    Guarding,
+    /// Nothing, until the next step of the simulation: a block begins anew.
     Waiting,
     /// Nothing any more.
     End,
 }
 
-impl RuleExecutor {
-    /// Looks at the guards of the blocks that it is in, and goes into blocks until there is something to do.
-    pub(super) fn enter(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, out: &mut Vec<Action>) -> Entered {
-        for place in &mut self.state.place {
+impl Blocks {
+    /// At the beginning of a plan.
+    pub(crate) fn new(plan: Plan) -> Self {
+        let place = if plan.steps.is_empty() { Vec::new() } else { vec![Place::default()] };
+        Self { plan, place, guarding: None }
+    }
+
+    /// Whether there is nothing to do any more.
+    pub(crate) fn is_over(&self) -> bool {
+        self.place.is_empty()
+    }
+
+    /// Another step of the simulation: whether a guard has come to hold, so that its block is left, the outermost first. What was
+    /// under way in it is to be given up.
+    pub(crate) fn tick(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) -> bool {
+        for place in &mut self.place {
             place.ticks += 1;
         }
-        self.break_off(scene, me, out);
+        for depth in 1..self.place.len() {
+            let elapsed = self.place[depth].ticks as f64 * scene.clock().dt();
+            let Some(PlanStep::Until { condition, .. }) = self.block_at(depth) else { continue };
+            if condition::holds(condition, scene, me, elapsed) {
+                self.place.truncate(depth);
+                self.move_on();
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Goes into blocks until there is something to do; and whether that is another step than the one it was at.
+    pub(crate) fn enter(&mut self, scene: &dyn Scene, me: &EntityRef<'_>) -> (Entered, bool) {
+        let mut is_new = false;
         loop {
-            let Some(step) = self.current() else { return Entered::End };
+            let Some(step) = self.current() else { return (Entered::End, is_new) };
             let inner = match step {
                 PlanStep::If { condition, then, otherwise } => {
                     let holds = condition::holds(condition, scene, me, 0.0);
@@ -54,96 +91,77 @@ impl RuleExecutor {
                     (*times > 0 && !steps.is_empty()).then_some(Place::default())
                 }
                 PlanStep::Until { condition, steps } => {
-                    let waited = self.state.place.last().map_or(0, |place| place.ticks);
-                    let begun = matches!(self.state.stage, Stage::Guarding(_));
-                    let since = if let Stage::Guarding(since) = self.state.stage { since } else { waited };
-                    let elapsed = (waited - since) as f64 * scene.clock().dt();
+                    let now = self.place.last().map_or(0, |place| place.ticks);
+                    let since = self.guarding.unwrap_or(now);
+                    let elapsed = (now - since) as f64 * scene.clock().dt();
                     if condition::holds(condition, scene, me, elapsed) {
                         None
                     } else if steps.is_empty() {
-                        if !begun {
-                            self.state.stage = Stage::Guarding(waited);
-                        }
-                        self.tell_speed(0.0, out);
-                        return Entered::Waiting;
+                        self.guarding = Some(since);
+                        return (Entered::Guarding, is_new);
                     } else {
                         Some(Place::default())
                     }
                 }
-                plain => return Entered::Step(plain.clone()),
+                plain => return (Entered::Step(plain.clone()), is_new),
             };
-            self.state.stage = Stage::Fresh;
+            is_new = true;
             if let Some(place) = inner {
-                self.state.place.push(place);
+                self.guarding = None;
+                self.place.push(place);
             } else if self.move_on() {
-                return Entered::Waiting; // begun anew: in the next step of the simulation
-            }
-        }
-    }
-
-    /// Leaves the outermost block whose condition has come to hold.
-    fn break_off(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, out: &mut Vec<Action>) {
-        for depth in 1..self.state.place.len() {
-            let elapsed = self.state.place[depth].ticks as f64 * scene.clock().dt();
-            let Some(PlanStep::Until { condition, .. }) = self.block_at(depth) else { continue };
-            if condition::holds(condition, scene, me, elapsed) {
-                self.state.place.truncate(depth);
-                self.state.stage = Stage::Fresh;
-                self.state.told_speed = None;
-                self.tell_speed(0.0, out);
-                self.move_on();
-                return;
+                return (Entered::Waiting, is_new);
             }
         }
     }
 
     /// The block in which the place at that depth lies.
     fn block_at(&self, depth: usize) -> Option<&PlanStep> {
-        let mut steps = &self.state.plan.steps[..];
+        let mut steps = &self.plan.steps[..];
         let mut block = None;
-        for (at, place) in self.state.place.iter().enumerate().take(depth) {
+        for (at, place) in self.place.iter().enumerate().take(depth) {
             block = steps.get(place.step);
-            steps = inner(block?, self.state.place.get(at + 1)?);
+            steps = inner(block?, self.place.get(at + 1)?);
         }
         block
     }
 
     /// The step under way, block or not.
-    pub(super) fn current(&self) -> Option<&PlanStep> {
-        let mut steps = &self.state.plan.steps[..];
+    pub(crate) fn current(&self) -> Option<&PlanStep> {
+        let mut steps = &self.plan.steps[..];
         let mut current = None;
-        for (at, place) in self.state.place.iter().enumerate() {
+        for (at, place) in self.place.iter().enumerate() {
             current = Some(steps.get(place.step)?);
-            if let (Some(step), Some(next)) = (current, self.state.place.get(at + 1)) {
+            if let (Some(step), Some(next)) = (current, self.place.get(at + 1)) {
                 steps = inner(step, next);
             }
         }
         current
     }
 
-    /// On to the next step, out of the blocks that end with this one; whether one of them began anew.
-    pub(super) fn move_on(&mut self) -> bool {
+    /// On to the next step, out of the blocks that end with this one; whether one of them begins anew.
+    pub(crate) fn move_on(&mut self) -> bool {
+        self.guarding = None;
         loop {
-            let depth = self.state.place.len();
-            let Some(place) = self.state.place.last_mut() else { return false };
+            let depth = self.place.len();
+            let Some(place) = self.place.last_mut() else { return false };
             place.step += 1;
             if self.current().is_some() {
                 return false;
             }
             // The list is at its end: the block around it is done, or goes round once more.
-            let around = self.block_at(depth - 1).cloned();
-            let Some(place) = self.state.place.last_mut() else { return false };
-            place.rounds += 1;
-            let again = match around {
-                Some(PlanStep::Until { .. }) => true,
-                Some(PlanStep::Repeat { times, .. }) => place.rounds < times,
-                _ => false,
+            let (is_until, times) = match self.block_at(depth - 1) {
+                Some(PlanStep::Until { .. }) => (true, 0),
+                Some(PlanStep::Repeat { times, .. }) => (false, *times),
+                _ => (false, 0),
             };
-            if again {
+            let Some(place) = self.place.last_mut() else { return false };
+            place.rounds += 1;
+            if is_until || place.rounds < times {
                 place.step = 0;
                 return true;
             }
-            self.state.place.pop();
+            self.place.pop();
         }
     }
 }

@@ -16,9 +16,7 @@ mod sight;
 
 use std::sync::Arc;
 
-use blocks::{Entered, Place};
-#[cfg(feature = "thought")]
-pub(crate) use condition::holds;
+pub(crate) use blocks::{Blocks, Entered};
 use drive::{Driving, vehicle_of};
 use navigate::{Arrival, Navigation};
 use serde::{Deserialize, Serialize};
@@ -103,9 +101,8 @@ pub struct RuleExecutor {
 /// Everything that a snapshot holds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct State {
-    plan: Plan,
-    /// Where it is in the plan, a place for each block that it is in, the outermost first.
-    place: Vec<Place>,
+    /// Where it is in its plan.
+    blocks: Blocks,
     stage: Stage,
     /// The speed the body was told last, m/s; unknown after anybody else may have told it something.
     told_speed: Option<f64>,
@@ -125,8 +122,6 @@ enum Stage {
     Acted,
     /// Waiting, with the number of steps left.
     Waiting(u64),
-    /// Waiting for a condition, since so many steps of the list that it stands in.
-    Guarding(u64),
 }
 
 impl RuleExecutor {
@@ -164,12 +159,12 @@ impl RuleExecutor {
 
     /// The step of the plan under way; of blocks the innermost.
     pub fn under_way(&self) -> Option<&PlanStep> {
-        self.current()
+        self.state.blocks.current()
     }
 
     /// Whether it has nothing to do.
     pub fn is_idle(&self) -> bool {
-        self.state.place.is_empty()
+        self.state.blocks.is_over()
     }
 
     /// On foot, or by whatever one is or sits in.
@@ -188,10 +183,27 @@ impl RuleExecutor {
         }
     }
 
+    /// Looks at the guards of the blocks that it is in, and goes into blocks until there is something to do.
+    fn enter(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, out: &mut Vec<Action>) -> Entered {
+        if self.state.blocks.tick(scene, me) {
+            self.state.stage = Stage::Fresh;
+            self.state.told_speed = None;
+            self.tell_speed(0.0, out);
+        }
+        let (entered, is_new) = self.state.blocks.enter(scene, me);
+        if is_new {
+            self.state.stage = Stage::Fresh;
+        }
+        if matches!(entered, Entered::Guarding) {
+            self.tell_speed(0.0, out);
+        }
+        entered
+    }
+
     /// Goes on to what comes next.
     fn next_step(&mut self) -> Progress {
         self.state.stage = Stage::Fresh;
-        self.move_on();
+        self.state.blocks.move_on();
         if self.is_idle() { Progress::Done } else { Progress::Running }
     }
 
@@ -217,8 +229,7 @@ impl Executor for RuleExecutor {
         if let Some(step) = plan.steps.iter().find(|step| !blocks::can_be_done(step, 0)) {
             return Err(ExecutorError::Unsupported { step: format!("{step:?}") });
         }
-        let place = if plan.steps.is_empty() { Vec::new() } else { vec![Place::default()] };
-        self.state = State { plan, place, ..State::default() };
+        self.state = State { blocks: Blocks::new(plan), ..State::default() };
         Ok(())
     }
 
@@ -234,7 +245,7 @@ impl Executor for RuleExecutor {
         let me = scene.entity(who).ok_or(ExecutorError::Missing { id: who })?;
         let step = match self.enter(scene, &me, out) {
             Entered::Step(step) => step,
-            Entered::Waiting => return Ok(Progress::Running),
+            Entered::Guarding | Entered::Waiting => return Ok(Progress::Running),
             Entered::End => return Ok(Progress::Done),
         };
         Ok(match step {

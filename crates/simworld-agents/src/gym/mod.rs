@@ -67,7 +67,9 @@ pub use reward::NormaliseReward;
 use simworld_core::seam::{Env, EnvError, ParallelEnv, SpaceValue};
 pub use stack::FrameStack;
 pub use time_limit::TimeLimit;
-pub use vector::{Boundary, VectorConfig, VectorEnv, VectorError, VectorTransition};
+pub use vector::{
+    Boundary, ParallelVectorEnv, ParallelVectorStep, VectorConfig, VectorEnv, VectorError, VectorTransition,
+};
 
 /// Wrappers around environments of one agent.
 pub trait EnvExt: Env + Sized {

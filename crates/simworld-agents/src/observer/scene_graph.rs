@@ -166,7 +166,7 @@ impl SceneGraphObserver {
         seen.clear();
         screens.clear();
         let _ = scene.visit(&Aabb::column_around(here, *radius), &mut |entity| {
-            if entity.id == me.id || !is_thing(entity.kind) {
+            if entity.id == me.id || !is_thing(entity.kind) || !entity.is_visible() {
                 return ControlFlow::Continue(());
             }
             let (hides, in_view) = (!through && hides(&entity), view.holds(me, &entity));

@@ -57,8 +57,12 @@ pub struct Limits {
     pub idle_seconds: f64,
     /// Steps that one request may ask for, 1 to 1e9.
     pub steps: u32,
-    /// Things that clients may bring into the world, all together, 1 to 1e7.
+    /// Things that clients may bring into the world, all together, 1 to 1e7. Vehicles and walkers that they let the traffic send, ways
+    /// on which they send vehicles, and closures are among them, for good: the traffic does not tell who asked for what.
     pub spawned: usize,
+    /// Bytes that clients may leave in names, attributes and ways of what is there, all together, 1024 to 2^32. What they do is
+    /// recorded besides, for as long as the server runs.
+    pub kept_bytes: usize,
     /// Cameras, 1 to 10000.
     pub cameras: usize,
     /// Pixels of a picture, 1 to 2^26.
@@ -81,6 +85,7 @@ impl Default for Limits {
             idle_seconds: 3600.0,
             steps: 100_000,
             spawned: 100_000,
+            kept_bytes: 64 << 20,
             cameras: 256,
             pixels: 1 << 22,
             entities: 10_000,
@@ -111,6 +116,7 @@ impl Limits {
             ("limits.idle_seconds", self.idle_seconds, (0.01, 86_400.0, "0.01 to 86400 s")),
             ("limits.steps", f64::from(self.steps), (1.0, 1e9, "1 to 1e9")),
             ("limits.spawned", self.spawned as f64, (1.0, 1e7, "1 to 1e7")),
+            ("limits.kept_bytes", self.kept_bytes as f64, (1024.0, 4_294_967_296.0, "1024 to 2^32 bytes")),
             ("limits.cameras", self.cameras as f64, (1.0, 10_000.0, "1 to 10000")),
             ("limits.pixels", f64::from(self.pixels), (1.0, 67_108_864.0, "1 to 2^26")),
             ("limits.entities", self.entities as f64, (1.0, 1e6, "1 to 1e6")),

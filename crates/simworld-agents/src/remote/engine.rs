@@ -6,11 +6,13 @@ use std::time::{Duration, Instant};
 
 use simworld_core::command::{Applied, Command};
 use simworld_core::id::EntityId;
+use simworld_core::traffic::TrafficOrder;
 
 use super::cameras::Cameras;
 use super::clock::{now, span};
 use super::frame::Framing;
 use super::hub::{ClientId, GLANCE, Hub};
+use super::kept::{Kept, Note, brought_by};
 use super::link::Link;
 use super::unrealcv::Desk;
 use super::watch::Watcher;
@@ -32,22 +34,37 @@ pub(super) struct Served<'a> {
     pub(super) name: &'a str,
     /// Things that clients brought and did not take away.
     spawned: usize,
+    /// What they left in things.
+    pub(super) kept: Kept,
 }
 
 impl Served<'_> {
     /// Carries out a command, within what clients may bring.
     pub(super) fn apply(&mut self, command: Command) -> Result<Applied, Refused> {
-        let change = match &command {
-            Command::Spawn(_) | Command::Respawn { .. } => 1,
-            Command::Remove { .. } => -1,
-            _ => 0,
-        };
+        let change = change_by(&command);
         if change > 0 && self.spawned >= self.limits.spawned {
             return Err(Refused::Full(self.limits.spawned));
         }
+        self.room_for(brought_by(&command))?;
+        let note = Note::of(&command);
         let applied = self.stage.apply(command).map_err(Refused::Stage)?;
         self.spawned = self.spawned.saturating_add_signed(change);
+        if let Some(note) = note {
+            self.kept.count(&note, &applied);
+        }
         Ok(applied)
+    }
+
+    /// Whether so many bytes more may be left in the world.
+    pub(super) fn room_for(&mut self, bytes: usize) -> Result<(), Refused> {
+        if bytes == 0 {
+            return Ok(());
+        }
+        let fits = |kept: &Kept| kept.total().saturating_add(bytes) <= self.limits.kept_bytes;
+        if !fits(&self.kept) {
+            self.kept.forget_gone(self.stage.scene());
+        }
+        if fits(&self.kept) { Ok(()) } else { Err(Refused::Kept(self.limits.kept_bytes)) }
     }
 
     /// What a camera sees.
@@ -65,6 +82,23 @@ impl Served<'_> {
     }
 }
 
+/// How many things more a command brings.
+fn change_by(command: &Command) -> isize {
+    match command {
+        Command::Spawn(_)
+        | Command::Respawn { .. }
+        | Command::Traffic(
+            TrafficOrder::SendVehicle { .. }
+            | TrafficOrder::AddWalker { .. }
+            | TrafficOrder::Close { .. }
+            | TrafficOrder::Reroute { .. }
+            | TrafficOrder::TurnRound { .. },
+        ) => 1,
+        Command::Remove { .. } => -1,
+        _ => 0,
+    }
+}
+
 /// Why a request was not done.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Refused {
@@ -72,6 +106,10 @@ pub(super) enum Refused {
     Stage(StageError),
     #[error("clients have brought {0} things into the world, and more are not allowed: take some away")]
     Full(usize),
+    #[error(
+        "clients may leave {0} bytes in names, attributes and ways of things, and this is more: take some away"
+    )]
+    Kept(usize),
     #[error("there is no camera {0}: ask for the list of cameras")]
     NoCamera(u32),
     #[error("whoever wore camera {0} is gone")]
@@ -136,6 +174,7 @@ impl<'a> Engine<'a> {
             limits: &config.limits,
             name: &config.name,
             spawned: 0,
+            kept: Kept::default(),
         };
         Self {
             served,

@@ -43,6 +43,7 @@ mod engine;
 mod error;
 mod frame;
 mod hub;
+mod kept;
 mod link;
 mod reader;
 mod server;

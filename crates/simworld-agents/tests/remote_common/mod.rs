@@ -1,4 +1,4 @@
-//! A served world for the tests of the remote interface: walkers without physics, and an eye that casts rays.
+//! A served world for the tests of the remote interface: walkers and cars without physics, and an eye that casts rays.
 #![allow(dead_code, reason = "each test uses its part")]
 #![allow(unreachable_pub, reason = "shared by several test crates")]
 
@@ -6,9 +6,14 @@ use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+#[path = "../car_common/mod.rs"]
+mod car_common;
+
+use car_common::Bicycle;
 use simworld_agents::remote::{
     Decoder, Eye, Framing, Limits, Picture, PictureKind, Report, Server, ServerConfig, SimulationStage,
     StageError, Stopper, View,
@@ -18,12 +23,13 @@ use simworld_core::geometry::{Aabb, Point2, Point3, Vector3, pose_facing};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::kinematic::{KinematicBody, KinematicDynamics};
+use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::record::Recording;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
-use simworld_core::seam::{Dynamics, DynamicsError};
+use simworld_core::seam::{Dynamics, DynamicsError, Embodiment};
 use simworld_core::simulation::Simulation;
 
-/// Gives whoever walks a body as soon as it is there.
+/// Gives whoever walks or drives a body as soon as it is there.
 #[derive(Default)]
 struct Walkers {
     bodies: KinematicDynamics,
@@ -33,8 +39,15 @@ struct Walkers {
 impl Dynamics for Walkers {
     fn step(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
         for entity in world.iter() {
-            if matches!(entity.kind, EntityKind::Person | EntityKind::Dog) && self.known.insert(entity.id) {
-                self.bodies.insert(entity.id, Box::new(KinematicBody::with_max_speed(*entity.pose, 20.0)));
+            let body: Box<dyn Embodiment> = match entity.kind {
+                EntityKind::Person | EntityKind::Dog => {
+                    Box::new(KinematicBody::with_max_speed(*entity.pose, 20.0))
+                }
+                EntityKind::Car => Box::new(Bicycle::at(*entity.pose)),
+                _ => continue,
+            };
+            if self.known.insert(entity.id) {
+                self.bodies.insert(entity.id, body);
             }
         }
         self.bodies.step(world, dt)
@@ -53,9 +66,16 @@ impl Dynamics for Walkers {
     }
 }
 
+/// The crossroads around the square, with signals.
+pub fn roads() -> Arc<RoadNetwork> {
+    let network = RoadNetwork::derive(&StreetPlan::crossroads(100.0), &NetworkConfig::default());
+    Arc::new(network.expect("it is a network"))
+}
+
 /// A square with a bench, a car and somebody who stands there.
 pub fn simulation() -> Simulation {
     let mut world = World::new();
+    world.set_roads(roads());
     for (_, asset) in Catalogue::standard().iter() {
         world.add_asset(asset.clone()).expect("standard assets are sound");
     }
@@ -101,7 +121,7 @@ fn cast(scene: &dyn Scene, view: &View, origin: Vector3, ahead: Vector3) -> (f64
     let swept = Aabb::new(origin.into(), (origin + ahead * 100.0).into());
     let _ = scene.visit(&swept, &mut |entity| {
         let depth = enters(entity.bounds, origin, ahead).filter(|_| view.hidden != Some(entity.id));
-        if let Some(depth) = depth.filter(|depth| *depth < best.0) {
+        if let Some(depth) = depth.filter(|depth| *depth < best.0 && entity.is_visible()) {
             best = (depth, entity.id.index() as u32 + 1);
         }
         ControlFlow::Continue(())

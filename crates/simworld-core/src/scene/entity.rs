@@ -40,6 +40,30 @@ pub struct Attachment {
     pub parent_from_body: Pose,
 }
 
+/// Whether eyes and cameras see something.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Visibility {
+    /// They do.
+    #[default]
+    Shown,
+    /// Nobody sees it, and it throws no shadow; bodies collide with it as before.
+    Hidden,
+}
+
+/// Whether bodies collide with something.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Solidity {
+    /// As [its kind](EntityKind::is_solid) says.
+    #[default]
+    OfItsKind,
+    /// They do, whatever it is.
+    Solid,
+    /// They pass through it, whatever it is.
+    Hollow,
+}
+
 /// What an entity is made of, apart from where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EntityInfo {
@@ -57,6 +81,12 @@ pub struct EntityInfo {
     pub color: Option<[f32; 3]>,
     /// Mass, kg; `None` lets physics derive it from the shape.
     pub mass: Option<f64>,
+    /// Whether eyes and cameras see it.
+    #[serde(default)]
+    pub visibility: Visibility,
+    /// Whether bodies collide with it.
+    #[serde(default)]
+    pub solidity: Solidity,
     /// Anything else, by name.
     pub attributes: BTreeMap<String, Value>,
 }
@@ -91,6 +121,8 @@ impl EntityDesc {
                 access: None,
                 color: None,
                 mass: None,
+                visibility: Visibility::Shown,
+                solidity: Solidity::OfItsKind,
                 attributes: BTreeMap::new(),
             },
             attachment: None,
@@ -129,6 +161,20 @@ impl EntityDesc {
     #[must_use]
     pub fn weighing(mut self, mass: f64) -> Self {
         self.info.mass = Some(mass);
+        self
+    }
+
+    /// Seen by eyes and cameras, or not.
+    #[must_use]
+    pub fn seen(mut self, visibility: Visibility) -> Self {
+        self.info.visibility = visibility;
+        self
+    }
+
+    /// Met by bodies, or not.
+    #[must_use]
+    pub fn met(mut self, solidity: Solidity) -> Self {
+        self.info.solidity = solidity;
         self
     }
 
@@ -180,9 +226,23 @@ impl EntityRef<'_> {
         self.info.access.unwrap_or_else(|| self.position())
     }
 
-    /// Whether bodies collide with it now: a door only while it is closed.
-    pub fn is_solid(&self) -> bool {
+    /// Whether bodies collide with things of its kind as it stands: a door only while it is closed.
+    pub fn is_solid_by_kind(&self) -> bool {
         self.kind.is_solid() || self.kind == EntityKind::Door && !self.is_open()
+    }
+
+    /// Whether bodies collide with it now: as its [`Solidity`] says, or [its kind](Self::is_solid_by_kind).
+    pub fn is_solid(&self) -> bool {
+        match self.info.solidity {
+            Solidity::OfItsKind => self.is_solid_by_kind(),
+            Solidity::Solid => true,
+            Solidity::Hollow => false,
+        }
+    }
+
+    /// Whether eyes and cameras see it.
+    pub fn is_visible(&self) -> bool {
+        self.info.visibility == Visibility::Shown
     }
 
     /// Whether it is a door, or something with one, that stands open.
@@ -251,6 +311,13 @@ impl EntityInfo {
         for (key, value) in &self.attributes {
             hasher.str(key);
             value.state_hash(hasher);
+        }
+        // Only what differs from its kind: digests of worlds without such things stay what they were.
+        if self.visibility != Visibility::Shown {
+            hasher.str("hidden");
+        }
+        if self.solidity != Solidity::OfItsKind {
+            hasher.str("solidity").u64(self.solidity as u64);
         }
     }
 }

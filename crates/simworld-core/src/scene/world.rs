@@ -140,8 +140,8 @@ impl World {
         (0..self.infos.len()).filter_map(|slot| self.in_slot(slot))
     }
 
-    /// A count that changes whenever an entity is spawned, removed or changes its shape: what a cache of
-    /// static things (colliders, meshes) compares.
+    /// A count that changes whenever an entity is spawned, removed or [altered](Self::alter): what a cache of
+    /// static things (colliders, meshes, names) compares.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -235,8 +235,27 @@ impl World {
         })
     }
 
+    /// Changes what a living entity is made of: those who keep things of it look anew.
+    pub(crate) fn change_info<R>(
+        &mut self,
+        id: EntityId,
+        change: impl FnOnce(&mut EntityInfo) -> R,
+    ) -> Result<R, WorldError> {
+        self.check_alive(id)?;
+        let info = self.infos[id.index()].as_mut().ok_or(WorldError::Missing { id })?;
+        let old = info.clone();
+        let changed = change(info);
+        if info.name != old.name {
+            let names = Arc::make_mut(&mut self.names);
+            names.remove(id, &old);
+            names.insert(id, info);
+        }
+        self.revision += 1;
+        Ok(changed)
+    }
+
     /// Moves a living entity to a checked pose.
-    pub(super) fn place(&mut self, id: EntityId, pose: Pose) {
+    pub(crate) fn place(&mut self, id: EntityId, pose: Pose) {
         let slot = id.index();
         let Some(info) = &self.infos[slot] else { return };
         let bounds = info.shape.aabb(&pose);
@@ -275,9 +294,14 @@ impl World {
         &self.intents
     }
 
-    /// What is asked of the traffic this step, in the order it was said.
+    /// What is asked of the traffic this step and was not taken yet, in the order it was said.
     pub fn orders(&self) -> &[TrafficOrder] {
         &self.orders
+    }
+
+    /// Takes what is asked of the traffic this step, to carry it out. What nobody takes is refused at the end of the step.
+    pub fn take_orders(&mut self) -> Vec<TrafficOrder> {
+        std::mem::take(&mut self.orders)
     }
 
     /// What happened since the step began, in order.
@@ -330,7 +354,9 @@ impl World {
         self.renew_digests();
         self.actuations.clear();
         self.intents.clear();
-        self.orders.clear();
+        for order in std::mem::take(&mut self.orders) {
+            self.emit(order.refused("this world has no traffic"));
+        }
         self.clock.advance();
     }
 

@@ -3,12 +3,13 @@
 
 use proptest::prelude::*;
 use simworld_core::action::{Action, ActionKind};
+use simworld_core::alteration::Alteration;
 use simworld_core::command::Command;
 use simworld_core::environment::Environment;
 use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::scene::{Attachment, EntityDesc, EntityKind, Role, Shape, World};
+use simworld_core::scene::{Attachment, EntityDesc, EntityKind, Role, Shape, Solidity, Visibility, World};
 use simworld_core::testing::sample_action;
 
 pub(crate) fn any_number() -> impl Strategy<Value = f64> {
@@ -53,6 +54,19 @@ pub(crate) fn any_desc() -> impl Strategy<Value = EntityDesc> {
     )
 }
 
+fn any_alteration() -> impl Strategy<Value = Alteration> {
+    let sizes = (0.2..3.0, 0.2..3.0, any_number());
+    prop_oneof![
+        2 => sizes.prop_map(|(x, y, z)| Alteration::Shape(Shape::cuboid(x, y, z))),
+        // Some are no colours.
+        1 => prop::option::of(prop::array::uniform3(-0.2..1.2_f32)).prop_map(Alteration::Color),
+        1 => prop::option::of("[a-z]{0,8}").prop_map(Alteration::Name),
+        1 => prop::sample::select(vec![Visibility::Shown, Visibility::Hidden]).prop_map(Alteration::Visibility),
+        1 => prop::sample::select(vec![Solidity::OfItsKind, Solidity::Solid, Solidity::Hollow])
+            .prop_map(Alteration::Solidity),
+    ]
+}
+
 /// A command that can be taken back.
 pub(crate) fn any_change() -> impl Strategy<Value = Command> {
     let place = (any_id(), any_pose(), any_number(), prop::option::of(any_bond()));
@@ -71,6 +85,7 @@ pub(crate) fn any_change() -> impl Strategy<Value = Command> {
             let value = value.filter(|number| !number.is_nan()).map(Into::into);
             Command::SetAttribute { id, key: "charge".to_owned(), value }
         }),
+        3 => (any_id(), any_alteration()).prop_map(|(id, alteration)| Command::Alter { id, alteration }),
         3 => (any_id(), prop::option::of(any_bond()))
             .prop_map(|(child, bond)| Command::Attach { child, bond }),
         1 => any_number().prop_map(|rain| {

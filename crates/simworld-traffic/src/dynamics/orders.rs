@@ -12,28 +12,19 @@ use crate::{
     AtDestination, Closed, Closure, ControlError, Drive, Kerbs, LaneWish, Leg, Route, Stroll, TrafficError,
 };
 
-/// The event of an order that could not be carried out.
-const REFUSED: &str = "traffic_refused";
 /// The event of a closure.
 const CLOSED: &str = "closed";
 
 impl TrafficDynamics {
     /// Carries out what was asked of the traffic in this step.
     pub(super) fn obey(&mut self, world: &mut World) {
-        if world.orders().is_empty() {
-            return;
-        }
-        for order in world.orders().to_vec() {
+        for order in world.take_orders() {
             match self.carry_out(world, &order) {
                 Ok(None) => {}
                 Ok(Some(number)) => {
                     world.emit(EventKind::task(CLOSED, None).with("number", i64::from(number)));
                 }
-                Err(error) => world.emit(
-                    EventKind::task(REFUSED, order.who())
-                        .with("order", order.name())
-                        .with("reason", error.to_string()),
-                ),
+                Err(error) => world.emit(order.refused(error.to_string())),
             }
         }
     }
@@ -89,11 +80,33 @@ impl TrafficDynamics {
                 let id = self.walker_of(*who)?;
                 self.traffic.guide_walker(id, stroll)?;
             }
+            order => self.operate(world, order)?,
+        }
+        Ok(None)
+    }
+
+    /// Carries out an order to signals, or to somebody's way or driver.
+    fn operate(&mut self, world: &World, order: &TrafficOrder) -> Result<(), TrafficError> {
+        match order {
+            TrafficOrder::HoldSignal { group, seconds } => {
+                self.traffic.hold_signal(*group, seconds.unwrap_or(f64::INFINITY))?;
+            }
+            TrafficOrder::FreeSignal { group } => self.traffic.free_signal(*group)?,
+            TrafficOrder::TimeSignal { group, timing } => self.traffic.time_signal(*group, *timing)?,
+            TrafficOrder::TurnRound { who } => {
+                let id = self.vehicle_of(*who)?;
+                self.traffic.turn_round(id)?;
+            }
+            TrafficOrder::Reroute { who, through } => {
+                let through: Vec<Leg> = through.iter().copied().map(leg).collect();
+                let id = self.vehicle_of(*who)?;
+                self.traffic.reroute(id, &through)?;
+            }
             TrafficOrder::HandOver { who } => self.hand_over(*who)?,
             TrafficOrder::GiveBack { who } => self.give_back(world, *who)?,
             _ => return Err(TrafficError::Order { name: order.name() }),
         }
-        Ok(None)
+        Ok(())
     }
 
     fn vehicle_of(&self, entity: EntityId) -> Result<u32, ControlError> {

@@ -7,7 +7,7 @@ use simworld_core::hash::StateHasher;
 use simworld_core::net::{Aspect, RoadNetwork, SignalPlan};
 
 use super::stage::{Stage, stages};
-use super::{Demand, FixedTime, JunctionView, SignalPolicy};
+use super::{ByHand, Demand, FixedTime, JunctionView, SignalPolicy};
 
 /// Sums of steps are compared with this much tolerance, s.
 const ROUNDING: f64 = 1e-6;
@@ -105,9 +105,17 @@ impl IntersectionManager {
     }
 
     /// Moves every controller on by `dt` s and shows what it says.
-    pub(crate) fn step(&mut self, controllers: &mut Controllers, seconds: f64, demand: Demand<'_>, dt: f64) {
+    pub(crate) fn step(
+        &mut self,
+        controllers: &mut Controllers,
+        by_hand: &ByHand,
+        seconds: f64,
+        demand: Demand<'_>,
+        dt: f64,
+    ) {
         let Self { plans, stages, policy, aspects } = self;
-        for ((plan, stages), controller) in plans.iter().zip(stages).zip(controllers.iter_mut()) {
+        let plans = plans.iter().zip(stages).zip(controllers.iter_mut());
+        for (number, ((plan, stages), controller)) in plans.enumerate() {
             if stages.is_empty() {
                 continue;
             }
@@ -123,7 +131,8 @@ impl IntersectionManager {
                     seconds,
                     demand,
                 };
-                let wish = policy.next_stage(&junction);
+                let held = by_hand.held(number);
+                let wish = held.unwrap_or_else(|| policy.next_stage(&junction));
                 if wish < stages.len() && wish != controller.stage as usize {
                     controller.next = wish as u32;
                     controller.ending = 1;

@@ -4,6 +4,7 @@
 //! yellow and the all-red of the plan. No policy can therefore show two conflicting greens or a green cut short.
 
 mod actuated;
+mod by_hand;
 mod controller;
 mod detect;
 mod fixed;
@@ -12,6 +13,7 @@ mod self_organizing;
 mod stage;
 
 pub use actuated::Actuated;
+pub(crate) use by_hand::{ByHand, check as check_timing};
 pub use controller::StageShown;
 pub(crate) use controller::{Controllers, IntersectionManager};
 pub(crate) use detect::Detectors;

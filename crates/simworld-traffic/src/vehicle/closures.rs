@@ -192,6 +192,6 @@ impl VehicleManager {
 }
 
 /// Whether a vehicle crosses a junction, or has leave to.
-fn is_committed(tracks: &Tracks, track: Track, vehicle: &Vehicle) -> bool {
+pub(super) fn is_committed(tracks: &Tracks, track: Track, vehicle: &Vehicle) -> bool {
     tracks.connection(track).is_some() || (vehicle.holding != NONE && vehicle.holding == vehicle.next)
 }

@@ -151,6 +151,7 @@ impl VehicleManager {
         };
         self.halts.remove(id);
         self.controls.forget(id);
+        self.rounds.forget(id);
         self.sirens.switch(id, false);
         self.free.push(id);
         self.ended.push(trip(tracks, config, track, (&vehicle, &path), end, now));

@@ -23,6 +23,7 @@ use super::entry::route_way;
 use super::halts::Halts;
 use super::junction::Junctions;
 use super::part::{Part, Tail, Transfer};
+use super::reroute::Rounds;
 use super::sirens::Sirens;
 use super::slabs::Slabs;
 use super::storage::Storage;
@@ -249,6 +250,7 @@ pub(crate) struct VehicleManager {
     pub(super) halts: Halts,
     /// Who is driven by somebody else.
     pub(super) controls: Controls,
+    pub(super) rounds: Rounds,
     /// Who has a siren on.
     pub(crate) sirens: Sirens,
     /// Numbers that nobody has any more.
@@ -396,6 +398,7 @@ impl VehicleManager {
     ) {
         self.unlock(tracks, config, (at.now, at.dt), counters);
         self.steer(tracks, config, streams);
+        self.come_round(tracks, config, streams);
         self.mind_haste(config);
         self.hear_sirens(tracks);
         self.tails.resize_with(self.parts.len(), Vec::new);
@@ -452,6 +455,7 @@ impl VehicleManager {
         for trip in &self.ended[begin..] {
             self.halts.remove(trip.id);
             self.controls.forget(trip.id);
+            self.rounds.forget(trip.id);
             self.sirens.switch(trip.id, false);
             self.free.push(trip.id);
         }

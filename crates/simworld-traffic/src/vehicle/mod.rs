@@ -26,6 +26,7 @@ mod patience;
 mod perception;
 mod precedence;
 mod ragged;
+mod reroute;
 mod saved;
 mod sirens;
 mod slabs;

@@ -32,6 +32,7 @@ impl VehicleManager {
                 self.routes.len(),
                 &self.whereabouts.iter().collect::<Vec<_>>(),
             )
+            && self.rounds.fits(tracks, count)
             && self.sirens.fits(count)
             && self.free.iter().all(|id| (*id as usize) < count)
             && self.iter(tracks).all(|(track, v, path)| {
@@ -60,5 +61,6 @@ impl VehicleManager {
             hasher.u64(u64::from(vehicle.granted));
         }
         self.controls.state_hash(hasher);
+        self.rounds.state_hash(hasher);
     }
 }

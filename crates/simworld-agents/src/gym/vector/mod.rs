@@ -1,12 +1,14 @@
 //! Many environments stepped together.
 
 mod crew;
+mod parallel;
 mod slot;
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use crew::{Crew, Make};
+pub use parallel::{ParallelVectorEnv, ParallelVectorStep};
 use serde::{Deserialize, Serialize};
 use simworld_core::seam::{Autoreset, Env, EnvError, Info, Options, Space, Transition};
 use simworld_core::seed::Seed;

@@ -12,7 +12,7 @@ use crate::remote::{ServerConfig, Token};
 pub const SIGNATURE: [u8; 8] = *b"simworld";
 
 /// The version of the messages. Any change of their layout is a new one.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 
 /// The server lets the client in.
 const WELCOME: u8 = 0;

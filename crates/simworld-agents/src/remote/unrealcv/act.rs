@@ -6,12 +6,14 @@ use simworld_core::command::Command;
 use simworld_core::geometry::yaw_of;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{ARM_REACH, EARSHOT, EntityKind, EntityRef, Role};
+use simworld_core::traffic::TrafficOrder;
 use simworld_core::value::Value;
 
 use super::answer::{Answered, Failed, Said, success};
 use super::command::{Order, Verb};
 use super::convert::{metres, planar_in_world, turn_in_world};
 use super::desk::{Desk, entity};
+use super::errand::way_bytes;
 use super::objects;
 use crate::remote::engine::Served;
 
@@ -32,19 +34,26 @@ pub(super) fn answer(desk: &mut Desk, served: &mut Served<'_>, order: &Order<'_>
     }
     let who = desk.find(served.stage, order.word(0))?;
     match order.verb {
-        Verb::SetState => set_state(served, who, order.numbers(0)),
+        Verb::SetState => {
+            desk.errands.cancel(who);
+            set_state(served, who, order.numbers(0))
+        }
         Verb::SetMaxSpeed => set_max_speed(served, who, metres(order.numbers::<1>(0)[0])),
         Verb::SetPath => {
-            desk.errands.set_way(who, way(order.word(1))?);
+            let way = way(order.word(1))?;
+            served.room_for(way_bytes(&way))?;
+            desk.errands.set_way(who, way);
+            served.kept.set_ways(desk.errands.bytes());
             Ok(Said::Done)
         }
         Verb::FollowPath => {
-            let speed = speed_of(&entity(served, who)?);
-            if desk.errands.follow(who, speed) {
+            let body = entity(served, who)?;
+            if desk.errands.follow(&body, speed_of(&body)) {
                 return Ok(Said::Done);
             }
             Err(Failed::State("it has no path: set one first".to_owned()))
         }
+        Verb::TurnRound => turn_round(desk, served, who),
         Verb::CollisionCount => Ok(collisions(desk, who)),
         Verb::EnableController if order.whole(0) == 1 => Ok(Said::Done),
         Verb::EnableController => Err(Failed::Unsupported("a body that does not obey".to_owned())),
@@ -90,6 +99,21 @@ fn set_state(served: &mut Served<'_>, who: EntityId, [throttle, brake, steering]
     Ok(Said::Done)
 }
 
+/// A vehicle that a client brought is driven round by its wheel; another is the traffic's.
+fn turn_round(desk: &mut Desk, served: &mut Served<'_>, who: EntityId) -> Answered {
+    let body = entity(served, who)?;
+    if !body.kind.is_vehicle() {
+        return Err(Failed::Unsupported(format!("a U-turn of a {}", body.kind)));
+    }
+    if desk.names.is_brought(who) {
+        let side = served.stage.scene().roads().map(|roads| roads.driving_side).unwrap_or_default();
+        desk.errands.turn_round(&body, side);
+        return Ok(Said::Done);
+    }
+    served.apply(Command::Traffic(TrafficOrder::TurnRound { who }))?;
+    Ok(Said::Done)
+}
+
 /// States of several vehicles; all that can be set are.
 fn set_states(desk: &mut Desk, served: &mut Served<'_>, text: &str) -> Answered {
     let mut wrong = Vec::new();
@@ -99,7 +123,10 @@ fn set_states(desk: &mut Desk, served: &mut Served<'_>, text: &str) -> Answered 
         let numbers: Vec<f64> =
             parts.filter_map(|part| part.parse().ok()).filter(|number: &f64| number.is_finite()).collect();
         let done = match <[f64; 3]>::try_from(numbers) {
-            Ok(numbers) => desk.find(served.stage, name).and_then(|who| set_state(served, who, numbers)),
+            Ok(numbers) => desk.find(served.stage, name).and_then(|who| {
+                desk.errands.cancel(who);
+                set_state(served, who, numbers)
+            }),
             Err(_) => Err(Failed::Value("give name,throttle,brake,steering".to_owned())),
         };
         if let Err(failed) = done {

@@ -36,6 +36,8 @@ pub(super) enum Failed {
     Exists(String),
     #[error("Renaming an object to overwrite an existing object is not allowed, {0}")]
     Overwrites(String),
+    #[error("this has no counterpart here: {0}")]
+    NoCounterpart(&'static str),
     #[error("{0} has no counterpart here")]
     Unsupported(String),
     #[error("{0}")]

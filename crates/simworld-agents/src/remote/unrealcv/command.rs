@@ -44,7 +44,9 @@ commands! {
     GetMobility: "vget /object/[str]/mobility" => "Movable or Static";
     SetMobility: "vset /object/[str]/object_mobility [bool]" => "whether location and rotation may be set";
     SetPhysics: "vset /object/[str]/physics [bool]" => "whether it is a body of the physics: its attribute `physics`";
-    SetCollision: "vset /object/[str]/collision [bool]" => "ok if it is so already: solids are solid here";
+    SetCollision: "vset /object/[str]/collision [bool]" => "whether bodies collide with it";
+    Show: "vset /object/[str]/show" => "eyes and cameras see it";
+    Hide: "vset /object/[str]/hide" => "nobody sees it, and it throws no shadow; bodies still collide with it";
     SetName: "vset /object/[str]/name [str]" => "gives it another name";
     GetClass: "vget /object/[str]/uclass_name" => "the class that it was brought as, or its kind";
     GetBounds: "vget /object/[str]/bounds" => "the box around it: least and greatest x, y, z, cm";
@@ -84,7 +86,8 @@ commands! {
     MoveSpeed: "vbp [str] Move_Speed [float] [float] [float]" => "speed in cm/s, seconds, direction as for stepping forward";
     SetMaxSpeed: "vbp [str] SetMaxSpeed [float]" => "its speed, cm/s; 140 until it is set";
     SetPath: "vbp [str] SetPath [str]", "vbp [str] SetWaypoints [str]" => "keeps a way: x,y;x,y;... in cm";
-    FollowPath: "vbp [str] FollowPath", "vbp [str] MovementSimulation" => "walks the way that was set";
+    FollowPath: "vbp [str] FollowPath", "vbp [str] MovementSimulation" => "goes the way that was set; vehicles drive it";
+    TurnRound: "vbp [str] MakeUTurn" => "a vehicle turns round: one that a client brought by its wheel, in a half circle; others by the quickest way to the other direction of their road";
     LookUp: "vbp [str] lookup" => "raises the gaze by 15°";
     LookDown: "vbp [str] lookdown" => "lowers the gaze by 15°";
     SitDown: "vbp [str] SitDown" => "on the nearest free seat in reach; Success";
@@ -111,11 +114,15 @@ commands! {
     SetFog: "vbp [str] SetFog [float] [float] [float]" => "density 0 to 100 as visibility: 4 is 1 km; distance and falloff have no counterpart";
     GetFog: "vbp [str] GetFog" => "density; distance and falloff are 0";
 
-    Unsupported: "vbp [str] MakeUTurn", "vbp [str] PSetState [str]", "vbp [str] Listening",
-        "vbp [str] SwitchVehicleFrontGreen", "vbp [str] SetPedestrianWalk", "vbp [str] SetDuration [float] [float] [float]",
-        "vbp [str] AddVehicleSignal [str]", "vbp [str] AddPedSignal [str]", "vbp [str] StartSimulation",
-        "vbp [str] SetAtmosphere [float] [float]", "vbp [str] GetAtmosphere",
-        "vset /object/[str]/show", "vset /object/[str]/hide" => "refused: it has no counterpart here";
+    SwitchGreen: "vbp [str] SwitchVehicleFrontGreen" => "vehicles that come to this light go as soon as that is safe, until the junction is started again";
+    SwitchWalk: "vbp [str] SetPedestrianWalk" => "people at this light walk as soon as that is safe, until the junction is started again";
+    SetDuration: "vbp [str] SetDuration [float] [float] [float]" => "green, yellow and walk of the junction of this light, s: 5 to 600, 2 to 10, 4 to 600";
+    AddSignal: "vbp [str] AddVehicleSignal [str]", "vbp [str] AddPedSignal [str]" => "a manager that is an intersection takes note of the light's junction";
+    StartSignals: "vbp [str] StartSimulation" => "the junctions that the manager took note of change by themselves";
+
+    PedestrianStates: "vbp [str] PSetState [str]" => "refused: the release says nowhere what it sends here";
+    Listen: "vbp [str] Listening [uint]" => "refused: who listens does nothing that others see";
+    Sky: "vbp [str] SetAtmosphere [float] [float]", "vbp [str] GetAtmosphere" => "refused: the sky of this world is made of sun, clouds and visibility alone";
 }
 
 /// A line that was understood: the words and the numbers in it, in their order.

@@ -9,7 +9,7 @@ use super::command::{COMMANDS, Order, Verb, parse};
 use super::errand::Errands;
 use super::names::Names;
 use super::tally::Tally;
-use super::{LineError, act, farewell, manage, objects, read_line, views};
+use super::{LineError, act, farewell, manage, objects, read_line, signals, views};
 use crate::remote::engine::{Later, Outcome, Served};
 use crate::remote::{Pace, Stage};
 
@@ -65,8 +65,10 @@ impl Desk {
             act::answer(self, served, order)
         } else if verb <= Verb::GetFog {
             manage::answer(self, served, order)
+        } else if verb <= Verb::StartSignals {
+            signals::answer(self, served, order)
         } else {
-            Err(Failed::Unsupported(order.words.join(" ")))
+            Err(Failed::NoCounterpart(reason(verb)))
         }
     }
 
@@ -118,6 +120,12 @@ impl Desk {
 /// An entity that was found a moment ago.
 pub(super) fn entity<'a>(served: &'a Served<'_>, id: EntityId) -> Result<EntityRef<'a>, Failed> {
     served.stage.scene().entity(id).ok_or_else(|| Failed::NoObject(id.to_string()))
+}
+
+/// Why a command is refused whatever it says: what the table says of it.
+fn reason(verb: Verb) -> &'static str {
+    let help = COMMANDS.iter().find(|(own, ..)| *own == verb).map_or("", |(_, _, help)| help);
+    help.strip_prefix("refused: ").unwrap_or(help)
 }
 
 /// Commands about the server itself.

@@ -3,23 +3,33 @@
 //! It speaks to bodies by commands, as the client could itself: they are recorded, and a replay needs no errands.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 use simworld_core::action::Action;
 use simworld_core::clock::Tick;
 use simworld_core::command::Command;
-use simworld_core::geometry::{Point2, heading, yaw_of};
+use simworld_core::control::Driver;
+use simworld_core::geometry::{Point2, Pose, Vector2, direction, heading, yaw_of};
 use simworld_core::id::EntityId;
-use simworld_core::ops::wrap_angle;
-use simworld_core::scene::Scene;
+use simworld_core::net::DrivingSide;
+use simworld_core::ops::{tan, wrap_angle};
+use simworld_core::scene::{EntityRef, Scene};
 
 use crate::remote::engine::Served;
 
 /// A point of a way is reached within this distance, m.
 const REACHED: f64 = 0.4;
+/// Who drives reaches it within this distance, m.
+const DRIVEN: f64 = 2.0;
 /// Turns smaller than this are not taken, rad.
 const STRAIGHT: f64 = 0.03;
 /// One who has to turn by more than this stands meanwhile, rad.
 const ABOUT: f64 = 0.8;
+/// Half circles are driven at this speed, m/s, and by this much wider than the wheels could.
+const TURNING: f64 = 3.0;
+const WIDER: f64 = 1.3;
+/// Of the length of a vehicle its axles are apart by this share.
+const AXLES: f64 = 0.6;
 
 /// Errands of everybody.
 #[derive(Default)]
@@ -33,11 +43,19 @@ pub(super) struct Errands {
 
 /// Somebody on a way.
 struct Following {
+    /// Where it began, and the points after that.
     way: Vec<Point2>,
     next: usize,
     speed: f64,
-    /// The speed it was told last.
-    told: f64,
+    manner: Manner,
+}
+
+/// How somebody follows a way.
+enum Manner {
+    /// On foot; the speed that was told last, m/s.
+    Walking(f64),
+    /// By pedals and wheel.
+    Driving(Driver),
 }
 
 impl Errands {
@@ -46,15 +64,24 @@ impl Errands {
         self.ways.insert(who, way);
     }
 
+    /// Bytes that all ways take.
+    pub(super) fn bytes(&self) -> usize {
+        let followed = self.followed.values().map(|following| &following.way);
+        self.ways.values().chain(followed).map(|way| way_bytes(way)).sum()
+    }
+
     /// Sends somebody on the way that was kept; false if there is none.
-    pub(super) fn follow(&mut self, who: EntityId, speed: f64) -> bool {
-        self.until.remove(&who);
-        let way = self.ways.get(&who).cloned();
-        if let Some(way) = way {
-            self.followed.insert(who, Following { way, next: 0, speed, told: -1.0 });
-            return true;
-        }
-        false
+    pub(super) fn follow(&mut self, body: &EntityRef<'_>, speed: f64) -> bool {
+        self.until.remove(&body.id);
+        let Some(way) = self.ways.get(&body.id) else { return false };
+        self.followed.insert(body.id, Following::new(body, way, speed));
+        true
+    }
+
+    /// Lets a vehicle turn round in a half circle across the oncoming lanes, and stop behind it.
+    pub(super) fn turn_round(&mut self, body: &EntityRef<'_>, side: DrivingSide) {
+        self.until.remove(&body.id);
+        self.followed.insert(body.id, Following::new(body, &half_circle(body, side), TURNING));
     }
 
     /// Lets somebody stop at a tick.
@@ -94,12 +121,25 @@ impl Errands {
 }
 
 impl Following {
+    fn new(body: &EntityRef<'_>, way: &[Point2], speed: f64) -> Self {
+        let manner = if body.kind.is_vehicle() {
+            let mut driver = Driver::default();
+            driver.wheelbase = body.info.shape.size().x * AXLES;
+            Manner::Driving(driver)
+        } else {
+            Manner::Walking(-1.0)
+        };
+        let way = std::iter::once(body.planar()).chain(way.iter().copied()).collect();
+        Self { way, next: 1, speed, manner }
+    }
+
     /// Says what is to be done for the next point; false at the end of the way.
     fn advance(&mut self, scene: &dyn Scene, who: EntityId, told: &mut Vec<(EntityId, Action)>) -> bool {
         let Some(body) = scene.entity(who) else { return false };
-        let at = body.planar();
+        let (at, dt) = (body.planar(), scene.clock().dt());
+        let near = if matches!(self.manner, Manner::Driving(_)) { DRIVEN } else { REACHED };
         // Whoever is fast reaches a point between two steps.
-        let reach = REACHED.max(body.twist.ground_speed() * scene.clock().dt());
+        let reach = near.max(body.twist.ground_speed() * dt);
         while self.way.get(self.next).is_some_and(|point| (point - at).norm() < reach) {
             self.next += 1;
         }
@@ -107,15 +147,62 @@ impl Following {
             told.push((who, Action::Stop));
             return false;
         };
-        let turn = wrap_angle(heading(&(point - at)) - yaw_of(body.pose));
-        if turn.abs() > STRAIGHT {
-            told.push((who, Action::Rotate { angle: turn }));
-        }
-        let speed = if turn.abs() > ABOUT { 0.0 } else { self.speed };
-        if speed != self.told {
-            self.told = speed;
-            told.push((who, Action::MoveForward { speed }));
+        match &mut self.manner {
+            Manner::Walking(last) => walk(body.pose, *point - at, self.speed, last, who, told),
+            Manner::Driving(driver) => {
+                // Of a way that crosses itself the part ahead counts.
+                let ahead = &self.way[self.next - 1..(self.next + 3).min(self.way.len())];
+                let actions = driver.drive(body.pose, body.twist.ground_speed(), ahead, self.speed, dt);
+                told.extend(actions.map(|action| (who, action)));
+            }
         }
         true
     }
+}
+
+/// What is to be done to walk towards a point.
+fn walk(
+    pose: &Pose,
+    offset: Vector2,
+    speed: f64,
+    last: &mut f64,
+    who: EntityId,
+    told: &mut Vec<(EntityId, Action)>,
+) {
+    let turn = wrap_angle(heading(&offset) - yaw_of(pose));
+    if turn.abs() > STRAIGHT {
+        told.push((who, Action::Rotate { angle: turn }));
+    }
+    let speed = if turn.abs() > ABOUT { 0.0 } else { speed };
+    if speed != *last {
+        *last = speed;
+        told.push((who, Action::MoveForward { speed }));
+    }
+}
+
+/// Bytes that a way takes.
+pub(super) fn way_bytes(way: &[Point2]) -> usize {
+    size_of_val(way)
+}
+
+/// The points of a half circle as narrow as the vehicle can drive, and a straight way behind it.
+fn half_circle(body: &EntityRef<'_>, side: DrivingSide) -> Vec<Point2> {
+    const POINTS: u32 = 12;
+    let (length, lock) = (body.info.shape.size().x, Driver::default().lock);
+    let radius = WIDER * length * AXLES / tan(lock);
+    let across = match side {
+        DrivingSide::Right => 1.0,
+        DrivingSide::Left => -1.0,
+    };
+    let yaw = yaw_of(body.pose);
+    let middle = body.planar() + direction(yaw + across * PI / 2.0) * radius;
+    let mut way: Vec<Point2> = (1..=POINTS)
+        .map(|index| {
+            let turned = PI * f64::from(index) / f64::from(POINTS);
+            middle + direction(yaw + across * (turned - PI / 2.0)) * radius
+        })
+        .collect();
+    let end = way[way.len() - 1];
+    way.push(end - direction(yaw) * (length + DRIVEN));
+    way
 }

@@ -11,6 +11,7 @@ mod image;
 mod manage;
 mod names;
 mod objects;
+mod signals;
 mod tally;
 mod views;
 

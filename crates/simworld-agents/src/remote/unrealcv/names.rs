@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::id::EntityId;
+use simworld_core::net::SignalGroup;
 use simworld_core::scene::EntityRef;
 use simworld_core::value::Value;
 
@@ -26,7 +27,8 @@ pub(super) struct Names {
     /// Colours in pictures of instances that somebody chose, by slot.
     colors: BTreeMap<u32, [u8; 3]>,
     /// Managers of the release, which stand for the engine itself and are no entities.
-    managers: BTreeSet<String>,
+    /// Each with the signal groups that it took note of.
+    managers: BTreeMap<String, BTreeSet<SignalGroup>>,
 }
 
 impl Names {
@@ -35,7 +37,7 @@ impl Names {
         let key = name.to_ascii_lowercase();
         if let Some((_, id)) = self.ids.get(&key)
             && let Some(entity) = stage.scene().entity(*id)
-            && (is_called(&entity, name) || by_number(&entity).eq_ignore_ascii_case(name))
+            && (has_name(&entity, name) || by_number(&entity).eq_ignore_ascii_case(name))
         {
             return Some(*id);
         }
@@ -60,12 +62,22 @@ impl Names {
         if self.complete != Some(stage.revision()) {
             self.scan(stage);
         }
-        self.ids.values().map(|(name, _)| name.as_str()).chain(self.managers.iter().map(String::as_str))
+        self.ids.values().map(|(name, _)| name.as_str()).chain(self.managers.keys().map(String::as_str))
     }
 
-    /// Takes note of something that came, or has another name; `before` is the revision before that.
+    /// Takes note of something that a client brought; `before` is the revision before that.
     pub(super) fn came(&mut self, stage: &dyn Stage, before: u64, id: EntityId) {
         self.brought.insert(id);
+        self.is_called(stage, before, id);
+    }
+
+    /// Whether a client brought it.
+    pub(super) fn is_brought(&self, id: EntityId) -> bool {
+        self.brought.contains(&id)
+    }
+
+    /// Takes note of what something is called that came or has another name; `before` is the revision before that.
+    pub(super) fn is_called(&mut self, stage: &dyn Stage, before: u64, id: EntityId) {
         let Some(entity) = stage.scene().entity(id) else { return };
         let name = own_name(&entity).unwrap_or_else(|| by_number(&entity));
         self.ids.insert(name.to_ascii_lowercase(), (name, id));
@@ -90,16 +102,32 @@ impl Names {
         self.brought.iter().copied().collect()
     }
 
-    pub(super) fn add_manager(&mut self, name: &str) {
-        self.managers.insert(name.to_ascii_lowercase());
+    /// Adds a manager; false if there are too many.
+    pub(super) fn add_manager(&mut self, name: &str, most: usize) -> bool {
+        let has_room = self.managers.len() < most;
+        if has_room {
+            self.managers.insert(name.to_ascii_lowercase(), BTreeSet::new());
+        }
+        has_room
+    }
+
+    /// Lets a manager take note of a signal group; false if there is no manager of that name.
+    pub(super) fn give_signal(&mut self, name: &str, group: SignalGroup) -> bool {
+        let groups = self.managers.get_mut(&name.to_ascii_lowercase());
+        groups.map(|groups| groups.insert(group)).is_some()
+    }
+
+    /// The signal groups that a manager took note of; none if there is no manager of that name.
+    pub(super) fn signals_of(&self, name: &str) -> Option<Vec<SignalGroup>> {
+        Some(self.managers.get(&name.to_ascii_lowercase())?.iter().copied().collect())
     }
 
     pub(super) fn is_manager(&self, name: &str) -> bool {
-        self.managers.contains(&name.to_ascii_lowercase())
+        self.managers.contains_key(&name.to_ascii_lowercase())
     }
 
     pub(super) fn remove_manager(&mut self, name: &str) -> bool {
-        self.managers.remove(&name.to_ascii_lowercase())
+        self.managers.remove(&name.to_ascii_lowercase()).is_some()
     }
 
     pub(super) fn set_color(&mut self, id: EntityId, color: [u8; 3]) {
@@ -145,7 +173,7 @@ fn own_name(entity: &EntityRef<'_>) -> Option<String> {
     entity.info.name.as_ref().filter(|name| is_name(name)).cloned()
 }
 
-fn is_called(entity: &EntityRef<'_>, name: &str) -> bool {
+fn has_name(entity: &EntityRef<'_>, name: &str) -> bool {
     entity.info.name.as_deref().is_some_and(|own| own.eq_ignore_ascii_case(name))
 }
 

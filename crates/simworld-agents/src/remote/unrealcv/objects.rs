@@ -1,10 +1,11 @@
 //! Commands about things: bringing them, placing them, changing them, taking them away.
 
 use nalgebra::Translation3;
+use simworld_core::alteration::Alteration;
 use simworld_core::command::Command;
 use simworld_core::geometry::Pose;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityDesc, Shape};
+use simworld_core::scene::{EntityDesc, Shape, Solidity, Visibility};
 use simworld_core::value::Value;
 
 use super::answer::{Answered, Failed, Said, numbers};
@@ -66,7 +67,9 @@ fn spawn(desk: &mut Desk, served: &mut Served<'_>, order: &Order<'_>) -> Answere
             return Err(Failed::Exists(name.to_owned()));
         }
         if assets::is_manager(class) {
-            desk.names.add_manager(name);
+            if !desk.names.add_manager(name, served.limits.spawned) {
+                return Err(Failed::State(format!("there are {} managers already", served.limits.spawned)));
+            }
             return Ok(Said::Text(name.to_owned()));
         }
     }
@@ -125,14 +128,16 @@ fn write(desk: &mut Desk, served: &mut Served<'_>, order: &Order<'_>, id: Entity
         Verb::SetMobility => set(served, id, MOVABLE, Some((order.whole(0) == 1).into()))?,
         Verb::SetPhysics => set(served, id, PHYSICS, Some((order.whole(0) == 1).into()))?,
         Verb::SetCollision => {
-            let (is_solid, wanted) = (entity(served, id)?.is_solid(), order.whole(0) == 1);
-            if is_solid != wanted {
-                let state = if is_solid { "solid" } else { "not solid" };
-                return Err(Failed::Unsupported(format!(
-                    "another collision than that of its kind, which is {state},"
-                )));
-            }
+            let (is_own, wanted) = (entity(served, id)?.is_solid_by_kind(), order.whole(0) == 1);
+            let solidity = match wanted {
+                _ if is_own == wanted => Solidity::OfItsKind,
+                true => Solidity::Solid,
+                false => Solidity::Hollow,
+            };
+            alter(desk, served, id, Alteration::Solidity(solidity))?;
         }
+        Verb::Show => alter(desk, served, id, Alteration::Visibility(Visibility::Shown))?,
+        Verb::Hide => alter(desk, served, id, Alteration::Visibility(Visibility::Hidden))?,
         Verb::SetName => return rename(desk, served, order, id),
         _ => {
             let before = served.stage.revision();
@@ -162,18 +167,19 @@ fn place(served: &mut Served<'_>, order: &Order<'_>, id: EntityId) -> Result<(),
 }
 
 fn set_scale(desk: &mut Desk, served: &mut Served<'_>, order: &Order<'_>, id: EntityId) -> Answered {
-    let mut desc = entity(served, id)?.to_desc();
+    let desc = entity(served, id)?.to_desc();
     let (old, new): ([f64; 3], [f64; 3]) = (scale_of(&desc), order.numbers(0));
     if old == new {
         return Ok(Said::Done);
     }
     let by: [f64; 3] = std::array::from_fn(|axis| new[axis] / old[axis]);
-    desc.info.shape = scaled(desc.info.shape, by)?;
-    desc.info.shape.validate().map_err(|error| Failed::Value(error.to_string()))?;
+    let shape = scaled(desc.info.shape, by)?;
+    shape.validate().map_err(|error| Failed::Value(error.to_string()))?;
+    alter(desk, served, id, Alteration::Shape(shape))?;
     for (key, value) in SCALE.iter().zip(new) {
-        desc.info.attributes.insert((*key).to_owned(), Value::Number(value));
+        set(served, id, key, Some(Value::Number(value)))?;
     }
-    renew(desk, served, id, desc)
+    Ok(Said::Done)
 }
 
 fn scaled(shape: Shape, [x, y, z]: [f64; 3]) -> Result<Shape, Failed> {
@@ -208,23 +214,24 @@ fn rename(desk: &mut Desk, served: &mut Served<'_>, order: &Order<'_>, id: Entit
         None if desk.names.is_manager(new) => return Err(Failed::Overwrites(new.to_owned())),
         None => {}
     }
-    let mut desc = entity(served, id)?.to_desc();
-    desc.info.name = Some(new.to_owned());
+    let before = served.stage.revision();
+    served.apply(Command::Alter { id, alteration: Alteration::Name(Some(new.to_owned())) })?;
     desk.names.forget(old);
-    renew(desk, served, id, desc)
+    desk.names.is_called(served.stage, before, id);
+    Ok(Said::Done)
 }
 
-/// Puts a changed recipe in the place of an entity, under the same id and with what hung on it.
-fn renew(desk: &mut Desk, served: &mut Served<'_>, id: EntityId, desc: EntityDesc) -> Answered {
+/// Alters something; its name stays.
+fn alter(
+    desk: &mut Desk,
+    served: &mut Served<'_>,
+    id: EntityId,
+    alteration: Alteration,
+) -> Result<(), Failed> {
     let before = served.stage.revision();
-    let removed = served.apply(Command::Remove { id })?;
-    let load = match removed.undo {
-        Some(Command::Respawn { load, .. }) => load,
-        _ => Vec::new(),
-    };
-    served.apply(Command::Respawn { id, desc: Box::new(desc), load })?;
-    desk.names.came(served.stage, before, id);
-    Ok(Said::Done)
+    served.apply(Command::Alter { id, alteration })?;
+    desk.names.still_complete(served.stage, before);
+    Ok(())
 }
 
 /// Sets an attribute.

@@ -1,6 +1,5 @@
 //! The visual executor: plans carried out by what a camera shows.
 
-mod agenda;
 mod aim;
 mod config;
 mod movement;
@@ -8,7 +7,6 @@ mod movement;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use agenda::{Agenda, Next};
 use aim::Aim;
 pub use config::{VisualConfig, VisualConfigError};
 use movement::{Deed, Moving};
@@ -22,7 +20,7 @@ use simworld_core::seam::{Executor, ExecutorError, Observer, Plan, Progress};
 use super::prompts::{Prompt, Prompts, one_line};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
 use super::schema::{any_of, object, words};
-use crate::executor::RuleExecutor;
+use crate::executor::{Blocks, Entered, RuleExecutor};
 use crate::model::{ChatModel, Image};
 use crate::observer::Frame;
 
@@ -45,7 +43,7 @@ pub struct VisualExecutor {
 /// Everything that a snapshot holds, beside the hands.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct State {
-    agenda: Agenda,
+    blocks: Blocks,
     /// What is looked for, once it is begun.
     aim: Option<Aim>,
     moving: Option<Moving>,
@@ -113,9 +111,9 @@ impl VisualExecutor {
 
     /// Forgets what belongs to the step under way.
     fn leave_step(&mut self) {
-        let agenda = std::mem::take(&mut self.state.agenda);
+        let blocks = std::mem::take(&mut self.state.blocks);
         let frames = std::mem::take(&mut self.state.frames);
-        self.state = State { agenda, frames, claims: self.state.claims, ..State::default() };
+        self.state = State { blocks, frames, claims: self.state.claims, ..State::default() };
     }
 
     /// The step under way, by hand.
@@ -260,7 +258,7 @@ impl Executor for VisualExecutor {
         // The hands know which plans can be carried out.
         RuleExecutor::straight().start(plan.clone(), scene, who)?;
         self.hands.cancel(&mut Vec::new());
-        self.state = State { agenda: Agenda::new(plan), ..State::default() };
+        self.state = State { blocks: Blocks::new(plan), ..State::default() };
         Ok(())
     }
 
@@ -270,18 +268,18 @@ impl Executor for VisualExecutor {
         who: EntityId,
         out: &mut Vec<Action>,
     ) -> Result<Progress, ExecutorError> {
-        if self.state.agenda.is_empty() {
+        if self.state.blocks.is_over() {
             return Ok(Progress::Idle);
         }
         let me = scene.entity(who).ok_or(ExecutorError::Missing { id: who })?;
-        if self.state.agenda.tick(scene, &me) {
+        if self.state.blocks.tick(scene, &me) {
             self.hands.cancel(out);
             self.leave_step();
         }
-        let step = match self.state.agenda.next(scene, &me) {
-            Next::Step(step) => step,
-            Next::Wait => return Ok(Progress::Running),
-            Next::End => return Ok(Progress::Done),
+        let step = match self.state.blocks.enter(scene, &me).0 {
+            Entered::Step(step) => step,
+            Entered::Guarding | Entered::Waiting => return Ok(Progress::Running),
+            Entered::End => return Ok(Progress::Done),
         };
         let aim = self.state.aim.or_else(|| Aim::of(&step));
         let stand = match aim {
@@ -302,11 +300,8 @@ impl Executor for VisualExecutor {
                     out.push(Action::Stop);
                 }
                 self.leave_step();
-                self.state.agenda.done();
-                match self.state.agenda.next(scene, &me) {
-                    Next::End => Progress::Done,
-                    _ => Progress::Running,
-                }
+                self.state.blocks.move_on();
+                if self.state.blocks.is_over() { Progress::Done } else { Progress::Running }
             }
         })
     }

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::alteration::ColorError;
 use crate::asset::AssetError;
 use crate::id::{AssetId, EntityId};
 use crate::scene::ShapeError;
@@ -41,6 +42,9 @@ pub enum WorldError {
     /// The shape is no solid.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// The colour is none.
+    #[error(transparent)]
+    Color(#[from] ColorError),
     /// The world has no such asset.
     #[error("there is no asset {asset}, for the world has {count}: add it first")]
     Asset {
