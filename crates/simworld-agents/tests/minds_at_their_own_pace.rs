@@ -7,6 +7,8 @@
 )]
 
 mod episode_common;
+#[cfg(feature = "http")]
+mod fault_server;
 
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -239,6 +241,50 @@ fn the_world_does_not_wait_for_a_mind() {
     let Fate::Applied { tick } = receipt.fate else { panic!("it is taken: {receipt:?}") };
     assert_eq!(begun, Some((FIRST, MindState::Thinking { seen: receipt.seen })));
     assert!(tick.0 >= receipt.seen.0 + 100, "it answers to what it saw long ago");
+    drop(go);
+    let (episode, _) = run.finish();
+    replay(1, &episode);
+}
+
+/// A mind behind a real connection: its server answers when it is let go, and the world steps on meanwhile.
+#[cfg(feature = "http")]
+#[test]
+fn the_world_does_not_wait_for_a_server() {
+    use fault_server::{FaultServer, says};
+    use simworld_agents::model::{ChatModel, ChatRequest, Message, OpenAiChat, OpenAiConfig};
+
+    let (go, may_go) = channel::<()>();
+    let may_go = Mutex::new(may_go);
+    let server = FaultServer::by_rule(move |_| {
+        let _ = may_go.lock().unwrap().recv();
+        says("stop")
+    });
+    let mut model = OpenAiChat::new(OpenAiConfig { timeout: 60.0, ..server.config() }).unwrap();
+    let mind = does(move |_, out| {
+        let reply = model.chat(&ChatRequest::new([Message::user("What now?")]));
+        out.push(words(&reply.map_err(|error| error.to_string())?.text));
+        Ok(())
+    });
+    let mut run = begin(1, fast(), vec![(FIRST, mind)]);
+    while server.heard().is_empty() {
+        run.step().unwrap();
+        sleep(Duration::from_millis(1));
+    }
+    let asked = run.episode().simulation().world().clock().tick();
+    for _ in 0..100 {
+        run.step().unwrap();
+    }
+    assert!(run.take_receipts().is_empty(), "nothing was answered yet");
+    go.send(()).unwrap();
+    let receipt = loop {
+        run.step().unwrap();
+        if let Some(receipt) = run.take_receipts().pop() {
+            break receipt;
+        }
+        sleep(Duration::from_millis(1));
+    };
+    let Fate::Applied { tick } = receipt.fate else { panic!("it is taken: {receipt:?}") };
+    assert!(tick.0 >= asked.0 + 100 && receipt.seen <= asked, "{receipt:?}, asked at {asked}");
     drop(go);
     let (episode, _) = run.finish();
     replay(1, &episode);

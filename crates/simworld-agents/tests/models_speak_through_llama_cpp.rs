@@ -206,3 +206,14 @@ fn a_run_replays_without_the_server(server: ModelServer) {
     let replayed: Vec<_> = requests.iter().map(|request| nobody.chat(request)).collect();
     assert_eq!(replayed, recorded);
 }
+
+/// The model of random weights as a file, for whoever starts the server by hand: `SIMWORLD_MODEL_FILE` says where.
+#[test]
+fn the_random_model_is_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = folder.path().join("random.gguf");
+    let path = std::env::var_os("SIMWORLD_MODEL_FILE").map_or(own, std::path::PathBuf::from);
+    model_server::write_model(&path);
+    let bytes = std::fs::read(&path).unwrap();
+    assert!(bytes.starts_with(b"GGUF") && bytes.len() < 1 << 20, "{} bytes", bytes.len());
+}

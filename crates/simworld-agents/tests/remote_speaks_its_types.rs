@@ -8,7 +8,7 @@ use std::net::TcpStream;
 
 use remote_common::{replay, serve};
 use simworld_agents::remote::typed::{
-    Answer, ClientConfig, Done, HelloError, Query, Refusal, Request, SIGNATURE, read_welcome,
+    Answer, ClientConfig, Done, HelloError, Query, Refusal, Request, SIGNATURE, VERSION, read_welcome,
 };
 use simworld_agents::remote::{
     CameraPlace, Client, ClientError, Decoder, Framing, Mount, PictureKind, ServerConfig, Token,
@@ -139,6 +139,8 @@ fn who_watches_is_told_after_every_so_many_steps() {
         .command(Command::Actuate { who: ada, action: Action::MoveForward { speed: 3.0 } })
         .expect("she walks");
     for tick in [2, 4, 6] {
+        // What is on its way to the client keeps the next observation back: the server's thread has to see that it went.
+        std::thread::sleep(std::time::Duration::from_millis(50));
         client.tick(2).expect("it steps");
         let observation = client.observation().expect("it comes");
         assert_eq!(observation.tick, Tick(tick));
@@ -211,8 +213,8 @@ fn other_versions_and_unknown_requests_get_typed_errors() {
         (decoder_next(&mut socket, &mut decoder), socket)
     };
     let (answer, _) = hello(999);
-    assert_eq!(read_welcome(&answer), Err(HelloError::Version { server: 1 }));
-    let (answer, mut socket) = hello(1);
+    assert_eq!(read_welcome(&answer), Err(HelloError::Version { server: VERSION }));
+    let (answer, mut socket) = hello(VERSION);
     assert!(read_welcome(&answer).is_ok());
     // Call 5, and a request that no version has.
     socket.write_all(&Framing::Typed.frame(&[5, 240, 9])).expect("it reads");

@@ -123,7 +123,6 @@ fn nothing_is_met_with_silence() {
             "vbp Ada Listening 0",
             "error this has no counterpart here: who listens does nothing that others see",
         ),
-        ("vbp Ada SwitchVehicleFrontGreen", "error Ada stands at no junction with signals"),
         ("vbp Nobody StartSimulation", "error Can not find object: Nobody"),
         ("vget /camera/7/lit png", "error there is no camera 7: ask for the list of cameras"),
         (

@@ -1,6 +1,6 @@
-//! A thousand broken clients: none ends the server, or leaves a thread or a socket behind.
+//! A thousand broken clients: none ends the server, or leaves a thread, a socket or memory behind.
 //!
-//! Threads and sockets are counted for the whole process, so this test has it to itself.
+//! Threads, sockets and memory are counted for the whole process, so this test has it to itself.
 #![cfg(all(feature = "remote", target_os = "linux"))]
 
 mod remote_common;
@@ -10,9 +10,16 @@ use std::thread;
 use std::time::Duration;
 
 use remote_common::{Running, Unreal, becomes, connect, impatient, serve};
-use simworld_agents::remote::typed::{Parting, SIGNATURE};
+use simworld_agents::remote::typed::{Parting, SIGNATURE, VERSION};
 use simworld_agents::remote::{Client, Framing, Limits, Pace, ServerConfig};
 use simworld_core::seed::Seed;
+
+/// Memory that the process has in use, MiB.
+fn memory() -> u64 {
+    let text = std::fs::read_to_string("/proc/self/statm").expect("Linux has it");
+    let pages = text.split_whitespace().nth(1).and_then(|pages| pages.parse::<u64>().ok());
+    pages.expect("the second number is that of resident pages") / 256
+}
 
 fn count(folder: &str) -> usize {
     std::fs::read_dir(folder).expect("Linux has it").count()
@@ -25,7 +32,7 @@ fn misbehave(kind: u64, server: &Running, seed: Seed) {
     let (address, framing) =
         if text { (server.unrealcv, Framing::UnrealCv) } else { (server.typed, Framing::Typed) };
     let Some(mut socket) = connect(address) else { return };
-    let hello: Vec<u8> = SIGNATURE.iter().copied().chain([1, 0]).collect();
+    let hello: Vec<u8> = SIGNATURE.iter().copied().chain(VERSION.to_le_bytes()).collect();
     let says_hello = !matches!(kind, 0 | 5);
     if !text && says_hello && socket.write_all(&framing.frame(&hello)).is_err() {
         return;
@@ -69,26 +76,36 @@ fn misbehave(kind: u64, server: &Running, seed: Seed) {
     }
 }
 
+/// Lets broken clients of these numbers come, six at a time.
+fn send(numbers: std::ops::Range<u64>, server: &Running) {
+    let next = std::sync::atomic::AtomicU64::new(numbers.start);
+    thread::scope(|scope| {
+        for _ in 0..6 {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, std::sync::atomic::Ordering::SeqCst);
+                    if index >= numbers.end {
+                        break;
+                    }
+                    misbehave(index % 8, server, Seed(index));
+                }
+            });
+        }
+    });
+}
+
 #[test]
 fn a_thousand_broken_clients_leave_nothing_behind() {
     let (threads, sockets) = (count("/proc/self/task"), count("/proc/self/fd"));
     let limits = Limits { hello_seconds: 0.1, ..impatient() };
     let config = ServerConfig { limits, pace: Pace::RealTime(1.0), ..ServerConfig::on_free_ports() };
     let server = serve(config);
-    let next = std::sync::atomic::AtomicU64::new(0);
-    thread::scope(|scope| {
-        for _ in 0..6 {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, std::sync::atomic::Ordering::SeqCst);
-                    if index >= 1000 {
-                        break;
-                    }
-                    misbehave(index % 8, &server, Seed(index));
-                }
-            });
-        }
-    });
+    // The first five hundred make the allocator warm; what the second take must not stay.
+    send(0..500, &server);
+    let before = memory();
+    send(500..1000, &server);
+    let more = memory().saturating_sub(before);
+    assert!(more < 32, "five hundred clients left {more} MiB behind");
     // Nobody of them is left, and whoever behaves is served.
     becomes("one who behaves is let in", || Client::connect(server.typed, None).is_ok());
     becomes("all threads of clients have ended", || count("/proc/self/task") <= threads + 3);

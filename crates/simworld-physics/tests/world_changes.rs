@@ -4,10 +4,11 @@ mod common;
 
 use common::{PERSON, Stage, at};
 use simworld_core::action::Action;
+use simworld_core::alteration::Alteration;
 use simworld_core::command::Command;
 use simworld_core::event::EventKind;
 use simworld_core::geometry::Twist;
-use simworld_core::scene::{EntityKind, Scene, Shape};
+use simworld_core::scene::{EntityKind, Scene, Shape, Solidity, Visibility};
 use simworld_physics::HumanoidConfig;
 
 #[test]
@@ -42,6 +43,27 @@ fn a_wall_that_is_removed_or_moved_no_longer_blocks() {
     stage.world.remove(wall).unwrap();
     stage.run(20);
     assert!(stage.position(person).x > 9.0);
+}
+
+#[test]
+fn a_wall_that_is_altered_blocks_as_it_is_now() {
+    let mut stage = Stage::new();
+    let wall = stage.building(3.0, 0.0, (1.0, 10.0, 3.0));
+    let person = stage.person(at(0.0, 0.0, 0.0));
+    let alter = |stage: &mut Stage, alteration| {
+        stage.world.apply(&Command::Alter { id: wall, alteration }).unwrap();
+    };
+    alter(&mut stage, Alteration::Shape(Shape::cuboid(3.0, 10.0, 3.0)));
+    stage.tell(person, Action::MoveForward { speed: 2.0 });
+    stage.run(30);
+    let there = stage.position(person).x;
+    assert!(there > 1.0 && there < 1.3, "stopped where the thicker wall begins: {there}");
+    alter(&mut stage, Alteration::Visibility(Visibility::Hidden));
+    stage.run(10);
+    assert!(stage.position(person).x < 1.3, "what nobody sees is met all the same");
+    alter(&mut stage, Alteration::Solidity(Solidity::Hollow));
+    stage.run(40);
+    assert!(stage.position(person).x > 5.0, "and what is hollow is walked through");
 }
 
 #[test]

@@ -2,7 +2,8 @@
 mod common;
 
 use common::{draw, looking_east, put, renderer};
-use simworld_core::scene::{EntityKind, Scene, Shape, World};
+use simworld_core::alteration::Alteration;
+use simworld_core::scene::{EntityKind, Scene, Shape, Visibility, World};
 use simworld_render::{AntiAliasing, Frame, RenderConfig, classes};
 
 #[test]
@@ -43,6 +44,19 @@ fn the_nearer_of_two_is_seen() {
     assert_eq!(frame.entity_at(40, 30), Some(near));
     assert_eq!(frame.entity_at(40, 22), Some(far));
     assert_eq!(frame.drawn, [far, near]);
+}
+
+#[test]
+fn what_is_hidden_is_not_drawn() {
+    let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
+    let mut world = World::new();
+    let far = put(&mut world, EntityKind::Prop, [20.0, 0.0, 0.0], 0.0, Shape::cuboid(1.0, 9.0, 9.0));
+    let near = put(&mut world, EntityKind::Prop, [8.0, 0.0, 0.0], 0.0, Shape::cuboid(1.0, 1.0, 1.0));
+    for (visibility, seen) in [(Visibility::Hidden, far), (Visibility::Shown, near)] {
+        world.alter(near, Alteration::Visibility(visibility)).expect("it lives");
+        let frame = draw(&mut renderer, &world, &looking_east(0.5, 81, 61));
+        assert_eq!(frame.entity_at(40, 30), Some(seen), "{visibility:?}");
+    }
 }
 
 /// A slot that is used again has the id of its new owner.

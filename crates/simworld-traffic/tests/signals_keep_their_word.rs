@@ -192,10 +192,10 @@ fn signals_last_as_long_as_they_are_timed() {
             (shown, since) = (now, 0.0);
         }
     }
-    // The first of each had begun before, or was cut to meet the clock of the plan.
+    // The first had begun before, and the second is shortened to meet the clock of the new plan.
     for (aspect, wanted) in [(Aspect::Green, timing.green), (Aspect::Yellow, timing.yellow)] {
         let times = lasted.iter().filter(|(own, _)| *own == aspect);
-        let times: Vec<f64> = times.map(|(_, seconds)| *seconds).skip(1).collect();
+        let times: Vec<f64> = times.map(|(_, seconds)| *seconds).skip(2).collect();
         assert!(times.len() >= 3, "{lasted:?}");
         assert!(times.iter().all(|time| (time - wanted).abs() < 0.25), "{aspect:?}: {times:?}");
     }

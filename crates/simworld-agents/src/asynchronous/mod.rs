@@ -9,6 +9,12 @@
 //! somebody wants one and nobody is reading the old pointer at that very moment. What happened while a mind thought it is told in
 //! order before it thinks again ([`Mind::notice`]). One that fails or panics is dead, and its body goes on with the plan it has.
 //!
+//! A thought cannot be ended from outside, for nothing ends a thread but itself: one that never ends keeps its thread and its mind for as
+//! long as the process lives. It keeps nothing else. The world does not wait for it, and neither does the end of the run, which waits
+//! for [`AsynchronousConfig::patience`] and then lets it go, named in [`Ending::still_thinking`]; what it hands in after that is
+//! refused. A mind that asks others should give up by itself: models behind servers
+//! have timeouts, and retries a limit of time.
+//!
 //! Nothing handed in is lost or used twice: each intent ends as [`Fate::Applied`], [`Fate::Late`] or [`Fate::Refused`], with a
 //! [`Receipt`].
 

@@ -21,7 +21,8 @@ pub(crate) fn sees(scene: &dyn Scene, me: &EntityRef<'_>, other: &EntityRef<'_>,
     }
     let distance = other.info.shape.planar_distance(other.pose, &me.planar());
     let bearing = wrap_angle(heading(&offset) - yaw_of(me.pose));
-    distance <= range && bearing.abs() <= FIELD_OF_VIEW * 0.5 && is_visible(scene, me, other)
+    let is_ahead = distance <= range && bearing.abs() <= FIELD_OF_VIEW * 0.5;
+    is_ahead && other.is_visible() && is_in_sight(scene, me, other)
 }
 
 /// The eyes of a body, world frame.
@@ -31,7 +32,7 @@ pub(crate) fn eyes(me: &EntityRef<'_>) -> Point3 {
 }
 
 /// Whether the middle or the top of a thing is in a clear line of sight.
-fn is_visible(scene: &dyn Scene, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
+fn is_in_sight(scene: &dyn Scene, me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
     let eye = eyes(me);
     let (middle, top) = looked_at(other, eye.xy());
     [middle, top].iter().any(|point| clear_between(scene, &eye, point, me.id, other.id))
@@ -60,7 +61,8 @@ pub(crate) fn clear_between(
 ) -> bool {
     let mut clear = true;
     let _ = scene.visit(&Aabb::new(*from, *to), &mut |between| {
-        if between.id != me && between.id != other && hides(&between) && crosses(&between.obb(), from, to) {
+        let may_hide = between.id != me && between.id != other && between.is_visible();
+        if may_hide && hides(&between) && crosses(&between.obb(), from, to) {
             clear = false;
             return ControlFlow::Break(());
         }

