@@ -41,7 +41,7 @@ struct Arguments {
     /// A sentence to carry out instead of reading from the terminal; may be given several times.
     #[arg(long, value_name = "SENTENCE")]
     say: Vec<String>,
-    /// Plans with a language model behind this OpenAI-compatible address (http), instead of the grammar.
+    /// Plans with a language model behind this OpenAI-compatible address (http or https), instead of the grammar.
     #[arg(long, value_name = "URL")]
     model: Option<String>,
     /// The model's name, where the server has several.
