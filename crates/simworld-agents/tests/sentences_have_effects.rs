@@ -20,7 +20,7 @@ fn the_world_shows_what_was_asked_for() {
         for said in said_in(name) {
             let Some(expected) = &said.outcome else { continue };
             tried += 1;
-            let plan = match understand(&mut GrammarPlanner::default(), &city, &said) {
+            let plan = match understand(&GrammarPlanner::default(), &city, &said) {
                 Ok(plan) => plan,
                 Err(error) => {
                     faults.push(format!("{name}: {:?}: {error}", said.words));

@@ -243,6 +243,8 @@ pub(super) struct Traits {
     pub(super) paint: Option<Paint>,
     pub(super) free: bool,
     pub(super) parked: bool,
+    /// An attribute of doors that is set or not.
+    pub(super) state: Option<(&'static str, bool)>,
     /// Not the one spoken of last.
     pub(super) other: bool,
 }

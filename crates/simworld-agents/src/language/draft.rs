@@ -1,6 +1,8 @@
 //! Orders to a plan: each is worked out from where the earlier ones leave the agent.
 
-use simworld_core::action::{Action, ActionKind, ActionSet};
+use std::f64::consts::FRAC_PI_2;
+
+use simworld_core::action::{Action, ActionKind, ActionSet, StepDirection};
 use simworld_core::geometry::{Point2, Point3, heading};
 use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
@@ -152,6 +154,12 @@ impl<'a> Draft<'a> {
             Clause::Board { what, to } => self.board(what).and_then(|()| self.go_on_to(to.as_ref())),
             Clause::Drive { to, pace } => self.drive(to, *pace),
             Clause::Alight { from } => self.alight(*from),
+            Clause::Step { direction: StepDirection::Left, .. } if self.drives() => {
+                self.turn_driving(FRAC_PI_2)
+            }
+            Clause::Step { direction: StepDirection::Right, .. } if self.drives() => {
+                self.turn_driving(-FRAC_PI_2)
+            }
             Clause::Step { direction, distance } => {
                 self.get_up()?;
                 self.act(Action::Step { direction: *direction, distance: *distance })
@@ -217,8 +225,9 @@ impl<'a> Draft<'a> {
         if let Condition::Holds(Some(item)) = &condition {
             self.held.get_or_insert(Load::Thing(*item));
         }
+        let spoken_of = self.view.it;
         let then = self.block(then)?;
-        let it = self.view.it;
+        let it = std::mem::replace(&mut self.view.it, spoken_of);
         // What else is done starts from where the first would have.
         (self.held, self.carried, self.posture, self.beside, self.there) =
             (held, carried, posture, beside, there);

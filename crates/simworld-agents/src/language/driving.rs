@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use simworld_core::action::ActionKind;
+use simworld_core::action::{ActionKind, StepDirection};
 use simworld_core::geometry::{Point2, Point3};
 use simworld_core::id::LaneId;
 use simworld_core::net::{Control, RoadNetwork, Turn, polyline};
@@ -102,6 +102,15 @@ impl Parser<'_> {
             Ok(clauses) => match clauses[..] {
                 [Clause::Turn { angle }] => Some(turn_of(angle)),
                 [
+                    Clause::Step { direction: StepDirection::Left, .. }
+                    | Clause::Walk { course: Course::Relative(StepDirection::Left), .. },
+                ] => Some(Turn::Left),
+                [
+                    Clause::Step { direction: StepDirection::Right, .. }
+                    | Clause::Walk { course: Course::Relative(StepDirection::Right), .. },
+                ] => Some(Turn::Right),
+                [Clause::Step { direction: StepDirection::Backward, .. }] => None,
+                [
                     Clause::Walk { course: Course::Relative(_), .. } | Clause::Forward | Clause::Step { .. },
                 ] => Some(Turn::Straight),
                 _ => None,
@@ -198,7 +207,7 @@ impl Parser<'_> {
                 "further",
                 "farther",
             ]);
-            let course = Course::Relative(simworld_core::action::StepDirection::Forward);
+            let course = Course::Relative(StepDirection::Forward);
             return Ok(vec![Clause::Walk { course, distance, pace }]);
         }
         self.at = start;

@@ -2,7 +2,7 @@
 
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{category, longest_phrase};
-use super::politeness::HESITATIONS;
+use super::politeness::{FILLERS, HESITATIONS};
 use super::verbs::longest_verb;
 
 /// Contractions of a verb and "not".
@@ -126,7 +126,7 @@ fn in_full(lexemes: &[Lexeme], text: &str) -> Vec<Lexeme> {
 fn owner(word: &str, lexeme: &Lexeme, text: &str) -> Option<String> {
     let written = &text[lexeme.start..lexeme.end];
     let is_contracted = written.ends_with("'s") || written.ends_with("’s");
-    (is_contracted && !WHOLE.contains(&word)).then(|| word[..word.len() - 1].to_owned())
+    (is_contracted && (word == "its" || !WHOLE.contains(&word))).then(|| word[..word.len() - 1].to_owned())
 }
 
 fn is_state(rest: &[Lexeme]) -> bool {
@@ -141,7 +141,7 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
         let same =
             lexemes.get(at..end).is_some_and(|said| said.iter().zip(name).all(|(a, b)| a.token == b.token));
         let is_mark = |at: usize| matches!(lexemes[at].token, Token::Comma | Token::Break);
-        let begins = at == 0 || is_mark(at - 1);
+        let begins = at == 0 || is_mark(at - 1) || is_polite(&lexemes[..at]);
         let ends = end >= lexemes.len() || is_mark(end) || at == 0 && longest_verb(&lexemes[end..]).is_some();
         if same && begins && ends && lexemes.len() > name.len() {
             lexemes.drain(at..end);
@@ -149,6 +149,14 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
             at += 1;
         }
     }
+}
+
+/// Whether the words are politeness alone: "come on Rex, ...".
+fn is_polite(mut lexemes: &[Lexeme]) -> bool {
+    while let Some(count) = longest_phrase(lexemes, FILLERS) {
+        lexemes = &lexemes[count..];
+    }
+    lexemes.is_empty()
 }
 
 #[cfg(test)]

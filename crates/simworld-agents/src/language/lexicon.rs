@@ -153,7 +153,7 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["road", "street"], &[EntityKind::Road]),
     things(&["sidewalk", "pavement", "walkway"], &[EntityKind::Sidewalk]),
     things(&["crosswalk", "crossing", "zebra crossing"], &[EntityKind::Crosswalk]),
-    places(&["home", "house", "apartment", "flat", "residence", "cottage"], Place::Home),
+    places(&["home", "house", "apartment", "flat", "residence", "cottage", "dorm", "dormitory"], Place::Home),
     places(
         &["restaurant", "diner", "café", "cafe", "bistro", "eatery", "canteen", "cafeteria"],
         Place::Restaurant,
@@ -185,6 +185,8 @@ pub(super) const DETERMINERS: &[&str] = &[
     "one of the",
     "one of",
     "one",
+    "whichever",
+    "whatever",
 ];
 
 /// Words that say which of several.
@@ -248,6 +250,9 @@ pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
             "adjacent to",
             "at the side of",
             "alongside",
+            "under",
+            "underneath",
+            "beneath",
         ],
         Relation::NextTo,
     ),

@@ -83,6 +83,7 @@ const RANGE: f64 = 5000.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GrammarPlanner {
     policy: AmbiguityPolicy,
+    speaker: Option<EntityId>,
 }
 
 /// What to do when several things fit a description: "the bench" where there are two.
@@ -100,7 +101,15 @@ pub enum AmbiguityPolicy {
 impl GrammarPlanner {
     /// A planner that treats what is ambiguous so.
     pub const fn with_policy(policy: AmbiguityPolicy) -> Self {
-        Self { policy }
+        Self { policy, speaker: None }
+    }
+
+    /// The planner for what this entity says: it is who "me" stands for, and where "come here" leads. Without a speaker
+    /// "me" is nobody, and "here" is where the agent stands.
+    #[must_use]
+    pub const fn spoken_by(mut self, speaker: EntityId) -> Self {
+        self.speaker = Some(speaker);
+        self
     }
 
     /// The calls that are understood, each with its arguments; a question mark follows those that may be left out.
@@ -112,7 +121,7 @@ impl GrammarPlanner {
 impl Planner for GrammarPlanner {
     fn plan(&mut self, intent: &Intent, scene: &dyn Scene, who: EntityId) -> Result<Plan, PlanError> {
         let me = scene.entity(who).ok_or(PlanError::Missing { id: who })?;
-        let view = View::new(scene, &me, self.policy);
+        let view = View { speaker: self.speaker, ..View::new(scene, &me, self.policy) };
         let names = Names::new(scene, me.planar(), RANGE);
         let clauses = match intent {
             Intent::Words(words) if words.chars().count() > LONGEST_SENTENCE => {

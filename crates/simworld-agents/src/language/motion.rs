@@ -9,7 +9,7 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Course, Pace, Reference, Spot, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{RELATIONS, longest, longest_phrase};
+use super::lexicon::{RELATIONS, class, fits, longest, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
 
@@ -73,6 +73,9 @@ const SENSES: &[(&[&str], Sense)] = &[
 impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
         let pace = self.pace(pace)?;
+        if let Some(to) = self.speaker_calls(start) {
+            return Ok(vec![Clause::Go { to, side: None, pace, within: None }]);
+        }
         if let Some(clauses) = self.straight_at_junction() {
             return Ok(clauses);
         }
@@ -81,6 +84,9 @@ impl Parser<'_> {
         }
         if self.begins_step() {
             return self.step().map(|step| vec![step]);
+        }
+        if let Some(clauses) = self.from_place(pace)? {
+            return Ok(clauses);
         }
         if self.eat_any(TO_AND_FRO) {
             return self.back_and_forth(pace);
@@ -115,6 +121,11 @@ impl Parser<'_> {
         if self.ends_clause() && self.continues() {
             return Ok(vec![Clause::Forward]);
         }
+        let inside = self.at;
+        if self.eat_any(&["in", "inside"]) && self.ends_clause() {
+            return Ok(vec![Clause::Board { what: Reference::to(Target::It, "in".to_owned()), to: None }]);
+        }
+        self.at = inside;
         let within = self.within()?;
         self.eat_any(&[
             "to",
@@ -159,6 +170,63 @@ impl Parser<'_> {
         let to = self.reference(0)?;
         let pace = self.pace(pace)?;
         self.after_place(Clause::Go { to, side, pace, within }, pace)
+    }
+
+    /// "From the statue to the fountain"; "around until ..." leads nowhere in particular.
+    fn from_place(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        if self.eat_any(&["around", "about", "round"]) && self.goes_on() {
+            return Ok(Some(vec![Clause::Forward]));
+        }
+        self.at = start;
+        if !self.eat_any(&["from"]) {
+            let vehicle = self.by_vehicle();
+            let leads = vehicle.is_some() && self.eat_any(&["to", "over to", "back to", "towards"]);
+            let Some(board) = vehicle.filter(|_| leads) else {
+                self.at = start;
+                return Ok(None);
+            };
+            let to = self.reference(0)?;
+            return Ok(Some(vec![board, Clause::Go { to, side: None, pace, within: None }]));
+        }
+        let go = |to| Clause::Go { to, side: None, pace, within: None };
+        let one = self.reference(0)?;
+        if !self.eat_any(&["to", "over to", "towards", "on to"]) {
+            return Err(self.not_understood("say from where to where"));
+        }
+        let other = self.reference(0)?;
+        let begins_here = one.target == Target::Here;
+        Ok(Some(if begins_here { vec![go(other)] } else { vec![go(one), go(other)] }))
+    }
+
+    /// "By car", "on foot".
+    pub(super) fn by_vehicle(&mut self) -> Option<Clause> {
+        const VEHICLES: &[(&[&str], &str)] = &[
+            (&["by car", "by taxi", "by cab"], "car"),
+            (&["by bus"], "bus"),
+            (&["by scooter"], "scooter"),
+            (&["by bike", "by bicycle"], "bicycle"),
+        ];
+        let (word, count) = longest(self.rest(), VEHICLES)?;
+        self.at += count;
+        Some(Clause::Board {
+            what: Reference { indefinite: true, ..Reference::nearest(class(word)) },
+            to: None,
+        })
+    }
+
+    /// "Come", "come over here": to who says it, where that is known.
+    fn speaker_calls(&mut self, start: usize) -> Option<Reference> {
+        let speaker = self.view.speaker?;
+        let here = self.at;
+        fits(&self.lexemes[start..], "come")
+            .filter(|_| fits(&self.lexemes[start..], "come back").is_none())?;
+        self.eat_any(&["here", "over here", "over", "right here", "on over", "closer", "back here"]);
+        if !self.ends_clause() {
+            self.at = here;
+            return None;
+        }
+        Some(Reference::to(Target::Id(speaker), self.text_from(start)))
     }
 
     /// Whether what follows says how long to go on.
@@ -276,7 +344,7 @@ impl Parser<'_> {
     }
 
     pub(super) fn step(&mut self) -> Result<Clause, PlanError> {
-        self.eat_any(&["aside"]);
+        self.eat_any(&["aside", "a bit", "a little", "a little bit", "slightly"]);
         let mut direction = self.direction();
         let mut distance = 0.5;
         let number_at = self.at;
@@ -325,12 +393,16 @@ impl Parser<'_> {
             angle = if in_radians { number } else { number.to_radians() };
         }
         sense = sense.or_else(|| self.sense());
+        self.eat_any(&["turn", "hand turn"]);
         if sense.is_none()
             && let Some(compass) = self.compass()
         {
             return Ok(Clause::FaceCompass(compass));
         }
-        let Some(sense) = sense else { return Err(self.not_understood("say left, right or around")) };
+        let half_turn = (angle - PI).abs() < 1e-9;
+        let Some(sense) = sense.or(half_turn.then_some(Sense::Around)) else {
+            return Err(self.not_understood("say left, right or around"));
+        };
         if !(angle > 0.0 && angle <= 2.0 * PI) {
             self.at = number_at;
             return Err(self.not_understood("turn by more than 0 and at most 360 degrees"));
@@ -381,6 +453,9 @@ impl Parser<'_> {
                 }
                 return Ok(Clause::LookUp { angle: sign * angle });
             }
+        }
+        if self.eat_any(&["behind you", "behind yourself", "over your shoulder", "back over your shoulder"]) {
+            return Ok(Clause::Turn { angle: PI });
         }
         if longest(self.rest(), SENSES).is_some() {
             return self.turn();

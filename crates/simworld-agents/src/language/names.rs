@@ -140,6 +140,17 @@ impl<'a> Names<'a> {
         hits.max_by_key(|(count, _)| *count).map(|(count, goods)| (goods.clone(), count))
     }
 
+    /// Those within range who sell it, ascending.
+    pub(super) fn sellers(&self, goods: &str) -> Vec<EntityId> {
+        let sellers = self
+            .index()
+            .goods()
+            .find(|(sold, _)| *sold == goods)
+            .into_iter()
+            .flat_map(|(_, sellers)| sellers);
+        sellers.filter(|id| self.is_in_range(*id)).collect()
+    }
+
     /// What is sold here, for answers.
     pub(super) fn sold(&self) -> String {
         let goods: Vec<&str> = self.sold_here().iter().map(|goods| goods.label.as_str()).collect();

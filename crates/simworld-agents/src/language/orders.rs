@@ -107,6 +107,13 @@ impl Parser<'_> {
 
     fn objects(&mut self, verb: Verb, start: usize) -> Result<Vec<Clause>, PlanError> {
         let one = |clause| Ok(vec![clause]);
+        let leads =
+            [Verb::Go, Verb::Run, Verb::Stroll, Verb::Take, Verb::Follow, Verb::Drive].contains(&verb);
+        if leads && self.best_way() {
+            let pace = if verb == Verb::Run { Pace::Run } else { Pace::Usual };
+            let to = self.reference(0)?;
+            return self.after_place(Clause::Go { to, side: None, pace, within: None }, pace);
+        }
         match verb {
             Verb::Go => self.go(Pace::Usual, start),
             Verb::Run => self.go(Pace::Run, start),
@@ -123,6 +130,18 @@ impl Parser<'_> {
                 one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
             }
             Verb::Take => self.take(start),
+            Verb::Deliver
+                if self.eat_any(&[
+                    "me to",
+                    "us to",
+                    "me over to",
+                    "us over to",
+                    "me back to",
+                    "us back to",
+                ]) =>
+            {
+                self.go(Pace::Usual, start)
+            }
             Verb::Deliver => self.drop(Manner::Deliver),
             Verb::Give => self.give(),
             Verb::Drop => self.drop(Manner::DropOff),
@@ -168,9 +187,18 @@ impl Parser<'_> {
                 one(Clause::Door { what, open: verb == Verb::Open })
             }
             Verb::Photo => self.photo(1),
+            Verb::Faster | Verb::Slower if self.eat_any(&["to"]) => {
+                one(Clause::Speed { speed: self.speed()? })
+            }
             Verb::Faster => one(Clause::Speed { speed: 2.0 }),
             Verb::Slower => one(Clause::Speed { speed: super::draft::STROLLING }),
-            Verb::SetSpeed => one(Clause::Speed { speed: self.speed()? }),
+            Verb::SetSpeed => {
+                let speed = self.speed()?;
+                if longest_phrase(self.rest(), &["to", "towards", "over to"]).is_some() {
+                    return self.go(Pace::At(speed), start);
+                }
+                one(Clause::Speed { speed })
+            }
         }
     }
 
@@ -178,6 +206,8 @@ impl Parser<'_> {
     fn is_place(&self) -> bool {
         const PLACES: &[&str] = &[
             "at",
+            "between",
+            "in between",
             "halfway",
             "midway",
             "half way",
@@ -196,6 +226,10 @@ impl Parser<'_> {
     fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
         if self.eat_any(&["me to", "us to", "yourself to", "me over to", "us over to", "yourself over to"]) {
             return self.go(Pace::Usual, start);
+        }
+        let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
+        if brings_me && self.eat_any(&["to", "over to", "back to"]) {
+            return self.go(Pace::Usual, start); // "bring me to the school"
         }
         if let Some(clauses) = self.turn_to_take() {
             return Ok(clauses);
@@ -266,7 +300,20 @@ impl Parser<'_> {
     }
 
     fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
-        let places = ["at", "to", "in", "on", "into", "over to", "back to", "onto"];
+        let places = ["at", "to", "in", "on", "into", "over to", "back to", "onto", "with"];
+        self.eat_any(&[
+            "what you hold",
+            "what youre holding",
+            "what you are holding",
+            "what you have",
+            "what you are carrying",
+            "what youre carrying",
+            "what you carry",
+            "whatever you hold",
+            "whatever youre holding",
+            "whatever you are holding",
+            "everything",
+        ]);
         let what = if self.ends_clause() || longest_phrase(self.rest(), &places).is_some() {
             None
         } else {
@@ -333,7 +380,17 @@ impl Parser<'_> {
         if let Some(clauses) = self.short_of()? {
             return Ok(clauses);
         }
-        if self.eat_any(&["at", "by", "near", "next to"]) {
+        if self.eat_any(&[
+            "at",
+            "by",
+            "near",
+            "next to",
+            "beside",
+            "outside",
+            "in front of",
+            "close to",
+            "alongside",
+        ]) {
             let to = self.reference(0)?;
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
         }

@@ -17,12 +17,13 @@ use simworld_core::seam::PlanError;
 use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase};
+use super::motion::LENGTHS;
 use super::names::Names;
 use super::numbers;
 use super::politeness::{FILLERS, JOINTS, NEGATIONS};
 use super::requests;
 use super::resolve::View;
-use super::tails::over_and_over;
+use super::tails::{ON_THE_WAY, over_and_over};
 use super::verbs::{Verb, longest_verb};
 
 /// What is understood, in one line, for answers.
@@ -86,6 +87,31 @@ const REACHING: &[&str] = &[
     "getting to",
 ];
 
+/// What begins a remark of the speaker's on how he is.
+const REMARKS: &[&str] = &[
+    "im",
+    "i am",
+    "ive",
+    "i have",
+    "i feel",
+    "i cant",
+    "i cannot",
+    "i dont",
+    "we are",
+    "weve",
+    "because",
+    "my feet",
+    "my legs",
+    "its late",
+    "it is late",
+    "its hot",
+    "its cold",
+    "its getting",
+    "it is getting",
+];
+/// What begins a reason.
+const BECAUSE: &[&str] = &["because", "since i", "since we", "as i", "as we", "cause i", "cos i"];
+
 /// Reads a sentence from left to right.
 pub(super) struct Parser<'a> {
     pub(super) words: &'a str,
@@ -124,6 +150,9 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_joints();
+        if self.skip_remark(REMARKS) {
+            self.skip_joints();
+        }
         // "To the museum, then to the school" leaves the verb out.
         self.verb = longest_phrase(self.rest(), &["to", "over to", "back to", "on to"]).map(|_| Verb::Go);
         let clauses = self.orders(Extent::Sentence)?;
@@ -132,18 +161,24 @@ impl<'a> Parser<'a> {
 
     fn orders(&mut self, extent: Extent) -> Result<Vec<Clause>, PlanError> {
         let mut clauses: Vec<Clause> = Vec::new();
-        let mut group = 0;
+        let (mut whole, mut group) = (0, 0);
         while self.at < self.lexemes.len() {
             let statement = self.statement()?;
             clauses.extend(statement);
-            self.tails(&mut clauses, group)?;
+            self.tails(&mut clauses, whole, group)?;
             if extent == Extent::Group && !self.goes_on_with_and() {
                 return Ok(clauses);
             }
             let start = self.at;
             self.skip_fillers();
             self.at += requests::coda(self.rest());
-            let joined = self.skip_joints();
+            self.skip_remark(BECAUSE);
+            let joint = self.at;
+            let mut joined = self.skip_joints();
+            joined = self.skip_remark(REMARKS) && self.skip_joints() || joined;
+            if self.lexemes[joint..self.at].iter().any(|lexeme| lexeme.token == Token::Break) {
+                whole = clauses.len();
+            }
             let goes_on = longest_verb(self.rest()).is_some() || self.begins_block();
             if self.at < self.lexemes.len() && !joined && !goes_on {
                 return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
@@ -153,6 +188,22 @@ impl<'a> Parser<'a> {
             }
         }
         Ok(clauses)
+    }
+
+    /// "..., I'm in a hurry": what says how the speaker is, or why, and asks for nothing; whether there was any.
+    fn skip_remark(&mut self, beginnings: &[&str]) -> bool {
+        let is_remark = longest_phrase(self.rest(), beginnings).is_some()
+            && longest_phrase(self.rest(), FILLERS).is_none()
+            && requests::beginnings(self.rest()).is_empty();
+        let ends = |lexeme: &Lexeme| match &lexeme.token {
+            Token::Comma | Token::Break => true,
+            Token::Word(word) => ["so", "and", "then"].contains(&word.as_str()),
+            _ => false,
+        };
+        if is_remark {
+            self.at += self.rest().iter().position(ends).unwrap_or(self.rest().len());
+        }
+        is_remark
     }
 
     /// Whether "and", and no comma nor "then", joins what follows.
@@ -243,6 +294,13 @@ impl<'a> Parser<'a> {
             return Ok(Some(vec![over_and_over(body, seconds)]));
         }
         if let Some(clauses) = self.at_junction()? {
+            return Ok(Some(clauses));
+        }
+        if self.eat_any(ON_THE_WAY) {
+            let to = self.reference(0)?;
+            self.skip_joints();
+            let mut clauses = self.statement()?;
+            clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
             return Ok(Some(clauses));
         }
         if self.eat_any(&[
@@ -384,10 +442,23 @@ impl<'a> Parser<'a> {
     }
 
     pub(super) fn ends_clause(&self) -> bool {
-        const TAILS: &[&str] =
-            &["until", "till", "if", "unless", "when", "while", "before", "after", "as soon as", "for"];
+        const TAILS: &[&str] = &[
+            "until",
+            "till",
+            "if",
+            "unless",
+            "when",
+            "while",
+            "before",
+            "after",
+            "as soon as",
+            "for",
+            "because",
+        ];
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
-            || [JOINTS, FILLERS, TAILS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
+            || [JOINTS, FILLERS, TAILS, ON_THE_WAY]
+                .iter()
+                .any(|words| longest_phrase(self.rest(), words).is_some())
             || numbers::times(self.rest()).is_some()
             || self.peek_interval().is_some()
             || requests::coda(self.rest()) > 0
@@ -402,10 +473,20 @@ impl<'a> Parser<'a> {
                 matches!(self.rest().first(), Some(l) if matches!(l.token, Token::Comma | Token::Break));
             if mark {
                 self.at += 1;
-            } else if !self.eat_any(JOINTS) {
+            } else if self.counts_a_step() || !self.eat_any(JOINTS) {
                 return self.at > start;
             }
         }
+    }
+
+    /// "Step two metres to the left" is no second step of a list.
+    fn counts_a_step(&self) -> bool {
+        let number = self.rest().get(1..).filter(|_| self.peeks("step")).and_then(numbers::number);
+        number.is_some_and(|(_, count)| {
+            let after = &self.rest()[1 + count..];
+            longest_phrase(after, LENGTHS).is_some()
+                || longest_phrase(after, &["to the", "forward", "back"]).is_some()
+        })
     }
 
     /// Passes politeness, unless the words begin an order.

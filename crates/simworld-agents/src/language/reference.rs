@@ -1,5 +1,7 @@
 //! Noun phrases: what an order is about.
 
+use simworld_core::id::EntityId;
+use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Count, Reference, Side, Stands, Target};
@@ -33,6 +35,25 @@ const YOU_SEE: &[&str] = &[
     "in sight",
 ];
 const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
+/// What doors may be.
+const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
+    (&["locked"], (LOCKED, true)),
+    (&["unlocked"], (LOCKED, false)),
+    (&["open", "opened"], (OPEN, true)),
+    (&["closed", "shut"], (OPEN, false)),
+];
+/// Who sells what is said before: "the coffee shop".
+const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller", "vendor"];
+/// What begins with "by", and names nothing beside which something stands.
+const BY_WAYS: &[&str] = &[
+    "by way of",
+    "by the shortest",
+    "by the quickest",
+    "by the fastest",
+    "by the most direct",
+    "by car",
+    "by foot",
+];
 const INDEFINITE: &[&str] = &["a", "an", "any", "some", "one of the", "one of", "another"];
 
 impl Parser<'_> {
@@ -147,6 +168,9 @@ impl Parser<'_> {
                 self.at += numbers::count(self.rest()).map_or(0, |(_, words)| words);
             } else if self.eat_any(&["parked"]) {
                 reference.traits.parked = true;
+            } else if let Some((state, words)) = longest(self.rest(), DOOR_STATES) {
+                reference.traits.state = Some(state);
+                self.at += words;
             } else {
                 return;
             }
@@ -220,6 +244,16 @@ impl Parser<'_> {
                 "around here",
                 "near here",
             ]) {
+                let bare = ["nearest", "closest"]
+                    .iter()
+                    .any(|word| fits(&self.lexemes[self.at - 1..], word).is_some());
+                if bare
+                    && self.at > start
+                    && let Some(anchor) = self.bare_anchor(depth)
+                {
+                    reference.relation = Some(Stands::NearestTo(Box::new(anchor), true));
+                    continue;
+                }
                 if !(self.peeks("to")) {
                     if reference.choice == Choice::Open {
                         reference.choice = Choice::Nearest;
@@ -238,6 +272,13 @@ impl Parser<'_> {
                 "farthest",
                 "furthest",
                 "farthest away from you",
+                "farthest from here",
+                "furthest from here",
+                "farthest from me",
+                "furthest from me",
+                "farthest away from here",
+                "furthest away from here",
+                "furthest away from you",
             ]) {
                 if !self.eat_any(&["from", "away from"]) {
                     reference.choice = Choice::Farthest;
@@ -256,6 +297,19 @@ impl Parser<'_> {
                 return Ok(());
             }
         }
+    }
+
+    /// "The person nearest the museum": what follows without "to".
+    fn bare_anchor(&mut self, depth: u32) -> Option<Reference> {
+        let start = self.at;
+        let named = longest_phrase(self.rest(), DETERMINERS).is_some()
+            || category(self.rest()).is_some()
+            || self.names.exact(self.rest()).is_some();
+        let anchor = if named && depth < DEEPEST { self.reference(depth + 1).ok() } else { None };
+        if anchor.is_none() {
+            self.at = start;
+        }
+        anchor
     }
 
     /// "Where you are" is a place of its own.
@@ -281,6 +335,11 @@ impl Parser<'_> {
             "the start",
         ]) {
             return Ok(Some(Target::Here));
+        }
+        if let Some(speaker) = self.view.speaker
+            && self.eat_any(&["me", "us", "myself", "where i am", "where i stand"])
+        {
+            return Ok(Some(Target::Id(speaker)));
         }
         match self.rest() {
             [Lexeme { token: Token::Id(id), .. }, ..] => {
@@ -320,6 +379,9 @@ impl Parser<'_> {
 
     /// A name or a class of things; of two that fit, the longer.
     fn noun(&mut self) -> Result<Target, PlanError> {
+        if let Some(sellers) = self.sellers() {
+            return Ok(Target::Named(sellers));
+        }
         let class = category(self.rest());
         // Names are looked up only where one may stand: the index of a large city takes time.
         let may_be_name = match class {
@@ -357,6 +419,19 @@ impl Parser<'_> {
         }
     }
 
+    /// "The coffee shop" is any that sells coffee, unless one is called so.
+    fn sellers(&mut self) -> Option<Vec<EntityId>> {
+        let rest = self.rest();
+        (1..4).find(|at| rest.get(*at..).is_some_and(|rest| longest_phrase(rest, SELLERS).is_some()))?;
+        let (goods, count) = self.names.goods(rest)?;
+        let words = count + longest_phrase(&rest[count..], SELLERS)?;
+        if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
+            return None;
+        }
+        self.at += words;
+        Some(self.names.sellers(&goods))
+    }
+
     /// How the thing stands to another, if that is said.
     pub(super) fn relation(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
         let start = self.at;
@@ -367,7 +442,8 @@ impl Parser<'_> {
             return Ok(Some(stands));
         }
         let side = longest(self.rest(), SIDES);
-        let relation = longest(self.rest(), RELATIONS);
+        let relation =
+            longest(self.rest(), RELATIONS).filter(|_| longest_phrase(self.rest(), BY_WAYS).is_none());
         if let Some((side, count)) =
             side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words))
         {

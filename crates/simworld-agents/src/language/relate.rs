@@ -14,8 +14,10 @@ use super::resolve::{Purpose, Ranked, View, sort};
 const RELATED: f64 = 30.0;
 /// "Next to" where nothing is nearer, m: across a forecourt, not across a street.
 const LOOSELY_NEXT: f64 = 8.0;
+/// "Next to" among vehicles, m: the length of one more lies between.
+const IN_A_ROW: f64 = 12.0;
 /// A part of a thing, such as its door, is within this gap of it, m.
-const PART: f64 = 15.0;
+pub(super) const PART: f64 = 15.0;
 /// How many things that fit a description are looked at for something beside them, nearest first.
 const MOST_ANCHORS: usize = 256;
 /// How far things in a direction of the compass are looked for, m.
@@ -54,10 +56,12 @@ impl View<'_> {
             Stands::To(relation, anchor) => {
                 let strict = self.beside_any(reference, anchor, purpose, &|entity, anchor| {
                     relation.holds(entity, anchor)
+                        || *relation == Relation::InFrontOf && is_before_door(entity, anchor)
                 })?;
                 if strict.is_empty() && *relation == Relation::NextTo {
                     return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
-                        gap(anchor, entity) <= LOOSELY_NEXT
+                        let in_a_row = entity.kind.is_vehicle() && anchor.kind.is_vehicle();
+                        gap(anchor, entity) <= if in_a_row { IN_A_ROW } else { LOOSELY_NEXT }
                     });
                 }
                 Ok(strict)
@@ -206,6 +210,13 @@ impl View<'_> {
         sort(&mut found);
         found
     }
+}
+
+/// Whether it stands on the side of a house where its door is: that is the front of the house for whoever looks at it.
+fn is_before_door(entity: &EntityRef<'_>, house: &EntityRef<'_>) -> bool {
+    let Some(access) = house.info.access else { return false };
+    let (out, way) = (access.xy() - house.planar(), entity.planar() - house.planar());
+    gap(house, entity) <= RELATED && way.dot(&out) >= way.norm() * out.norm() * AHEAD && out.norm() > 1e-6
 }
 
 /// From the footprint of a thing to the middle of another, or the other way about if that is less, m.

@@ -152,7 +152,7 @@ fn ends_as_request(words: &[Lexeme]) -> bool {
         || (0..words.len()).any(|at| word_at(words, at).is_some_and(|word| WELCOME.contains(&word)));
     // "Can I get you to" ends in "to"; "let me have you" in "you".
     ENDINGS.lines().any(ends_with)
-        || ends_with("if you") && welcome()
+        || (ends_with("if you") || ends_with("if youd")) && welcome()
         || ends_with("have you") && words.len() > 2
 }
 

@@ -48,6 +48,8 @@ pub(super) struct View<'a> {
     pub(super) them: Option<EntityId>,
     /// What one has given away or put down by then: where it is, it is not taken from again.
     pub(super) gone: Vec<EntityId>,
+    /// Who says it, if that is known.
+    pub(super) speaker: Option<EntityId>,
     /// What to do if several things fit.
     pub(super) policy: AmbiguityPolicy,
 }
@@ -69,6 +71,7 @@ impl<'a> View<'a> {
             it: None,
             them: None,
             gone: Vec::new(),
+            speaker: None,
             policy,
         }
     }
@@ -272,6 +275,9 @@ impl<'a> View<'a> {
             && entity.id != self.who
             && !(traits.other && (self.it == Some(entity.id) || self.them == Some(entity.id)))
             && traits.paint.is_none_or(|paint| entity.info.color.map(Paint::of) == Some(paint))
+            && traits.state.is_none_or(|(key, set)| {
+                entity.info.attributes.get(key).is_some_and(|value| *value == true.into()) == set
+            })
             && (!traits.parked || entity.info.attributes.get("parked") == Some(&true.into()))
             && (!traits.free || self.is_free(entity, Purpose::Seat) && self.is_free(entity, Purpose::Item))
             && self.is_free(entity, purpose)

@@ -26,7 +26,12 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
         }
         let follows_verb =
             here > 0 && matches!(&lexemes[here - 1].token, Token::Word(word) if verbs::is_verb(word));
-        if let Some(parts) = parts(word, names) {
+        if let Some([one, other]) = shifted(word, lexemes.get(here + 1)) {
+            for (lexeme, word) in lexemes[here..].iter_mut().zip([one, other]) {
+                lexeme.lemma = base_form(&word);
+                lexeme.token = Token::Word(word);
+            }
+        } else if let Some(parts) = parts(word, names) {
             let lexeme = lexemes[here].clone();
             let both = parts.map(|part| Lexeme {
                 lemma: base_form(&part),
@@ -41,6 +46,22 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     }
 }
 
+/// Words so frequent that a blank slips into them.
+const SHIFTED: &[&str] = &[
+    "to", "the", "at", "on", "in", "and", "of", "for", "by", "go", "with", "then", "it", "up", "a", "into",
+    "from",
+];
+
+/// "Tot he" for "to the": a letter on the wrong side of the blank between two words.
+fn shifted(word: &str, next: Option<&Lexeme>) -> Option<[String; 2]> {
+    let Token::Word(next) = &next?.token else { return None };
+    let (last, first) = (word.chars().next_back()?, next.chars().next()?);
+    let back = [word[..word.len() - last.len_utf8()].to_owned(), format!("{last}{next}")];
+    let forth = [format!("{word}{first}"), next[first.len_utf8()..].to_owned()];
+    let are_words = |words: &[String; 2]| words.iter().all(|word| SHIFTED.contains(&word.as_str()));
+    [back, forth].into_iter().find(are_words)
+}
+
 /// "Icecream", "busstop": two words of names, or two of the grammar, that are written as one.
 fn parts(word: &str, names: &Names<'_>) -> Option<[String; 2]> {
     let has_meaning = |part: &str| find(part).is_some_and(|known| known.means);
@@ -48,7 +69,9 @@ fn parts(word: &str, names: &Names<'_>) -> Option<[String; 2]> {
     let mut splits =
         word.char_indices().map(|(at, _)| word.split_at(at)).filter(|(one, other)| long(one) && long(other));
     let fitting = splits.find(|(one, other)| {
-        has_meaning(one) && has_meaning(other) || names.has_word(one) && names.has_word(other)
+        let shop = ["shop", "store", "stand", "stall"].contains(other);
+        let (known, named) = (has_meaning(other), names.has_word(one));
+        has_meaning(one) && known || named && (shop || names.has_word(other))
     });
     fitting.map(|(one, other)| [one.to_owned(), other.to_owned()])
 }
@@ -222,8 +245,8 @@ impl<'a> Said<'a> {
             return None;
         }
         if sounds(word).eq(sounds(candidate)) {
-            // Other letters for the same sound are likelier than letters out of order: "foto" is no "foot".
-            return Some((usize::from(self.letters == letters), Slip::Count));
+            // What sounds the same is likelier than letters out of order: "foto" is no "foot".
+            return Some((0, Slip::Count));
         }
         let may_be_vowels = length >= 4 && self.letters.same_consonants(letters);
         if least > tolerance && !may_be_vowels || !alike(word, candidate) {

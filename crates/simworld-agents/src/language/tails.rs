@@ -10,11 +10,30 @@ use super::numbers;
 use super::parser::{IF, Parser};
 use super::requests;
 
+/// Before where one goes in the end.
+pub(super) const ON_THE_WAY: &[&str] = &[
+    "on the way to",
+    "on your way to",
+    "on the way over to",
+    "on your way over to",
+    "en route to",
+    "along the way to",
+];
+
 impl Parser<'_> {
-    /// What follows an order and says how often, how long or when.
-    pub(super) fn tails(&mut self, clauses: &mut Vec<Clause>, group: usize) -> Result<(), PlanError> {
+    /// What follows an order and says how often, how long or when; `whole` is where the sentence begins, and `group` what
+    /// "and" joins.
+    pub(super) fn tails(
+        &mut self,
+        clauses: &mut Vec<Clause>,
+        whole: usize,
+        group: usize,
+    ) -> Result<(), PlanError> {
         loop {
             let start = self.at;
+            if self.peeks("first") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
+                self.at += 1; // "go there first, but before that ..."
+            }
             self.eat_any(&["again and again", "over and over", "over and over again", "repeatedly"]);
             self.skip_fillers();
             self.at += requests::coda(self.rest());
@@ -36,7 +55,7 @@ impl Parser<'_> {
             };
             if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
-                repeat(clauses, group, times, comma);
+                repeat(clauses, if comma { whole } else { group }, times, comma);
             } else if comma && !goes_on() || !self.tail(clauses, comma)? {
                 self.at = start;
                 return Ok(());
@@ -83,6 +102,9 @@ impl Parser<'_> {
         } else if self.eat_any(&["when", "once", "as soon as"]) {
             let test = self.test()?;
             clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
+        } else if self.eat_any(ON_THE_WAY) {
+            let to = self.reference(0)?;
+            clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
         } else if self.eat_any(&["before"]) {
             clauses.extend(self.order()?);
         } else if self.eat_any(&[
@@ -92,6 +114,7 @@ impl Parser<'_> {
             "but first of all",
             "but beforehand",
         ]) {
+            self.eat_any(&["youve", "you have", "you had", "having", "you are done", "youre done"]);
             let earlier = self.order()?;
             let at = clauses.len() - 1;
             clauses.splice(at..at, earlier);

@@ -161,7 +161,7 @@ impl Parser<'_> {
             }
             self.at = start;
         }
-        for rule in [Self::seen, Self::there_is, Self::mine] {
+        for rule in [Self::sat_on, Self::seen, Self::there_is, Self::mine] {
             if let Some(test) = rule(self)? {
                 return Ok(test);
             }
@@ -232,6 +232,27 @@ impl Parser<'_> {
             return Ok(None);
         }
         self.reference(0).map(|what| Some(Test::Sees(what)))
+    }
+
+    /// "Somebody is sitting on the bench", "nobody is in the chair".
+    fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
+        const SOMEBODY: &[&str] =
+            &["somebody", "someone", "anybody", "anyone", "a person", "some person", "another person"];
+        const NOBODY: &[&str] = &["nobody", "no one", "noone", "nobody else", "no person"];
+        self.eat_any(&["there is", "theres"]);
+        let nobody = self.eat_any(NOBODY);
+        if !nobody && !self.eat_any(SOMEBODY) {
+            return Ok(None);
+        }
+        self.eat_any(&["else"]);
+        self.eat_any(&["is", "is already"]);
+        let not = self.eat_any(&["not"]);
+        self.eat_any(&["sitting", "seated", "sits", "sat", "already sitting"]);
+        if !self.eat_any(&["on", "in", "using"]) {
+            return Ok(None);
+        }
+        let taken = Test::InUse(self.reference(0)?);
+        Ok(Some(if nobody == not { taken } else { Test::Not(Box::new(taken)) }))
     }
 
     fn there_is(&mut self) -> Result<Option<Test>, PlanError> {

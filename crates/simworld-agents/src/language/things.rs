@@ -9,6 +9,7 @@ use simworld_core::value::Value;
 use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test};
 use super::draft::{Draft, Load, Posture};
 use super::lexicon::{Category, class, is_animate};
+use super::relate::PART;
 use super::resolve::Purpose;
 use super::tests_of::NEARBY;
 
@@ -222,6 +223,11 @@ impl<'a> Draft<'a> {
         let action = match vehicle.kind {
             EntityKind::Scooter => Action::RideScooter { scooter: vehicle.id },
             EntityKind::Car | EntityKind::Truck | EntityKind::Bus => Action::EnterCar { car: vehicle.id },
+            EntityKind::Door if what.target == Target::It => {
+                let house =
+                    self.view.scene.nearest(vehicle.planar(), PART, &|at| at.kind == EntityKind::Building);
+                return self.go_beside(&house.unwrap_or(vehicle)); // "go in"
+            }
             EntityKind::Building | EntityKind::Door => return self.go_beside(&vehicle),
             other => {
                 let near = format!("a {other} cannot be; scooters, cars, trucks and buses can");

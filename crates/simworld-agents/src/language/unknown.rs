@@ -12,7 +12,7 @@ use super::politeness::{FILLERS, JOINTS};
 /// Words that end a phrase whose words are not known.
 const BOUNDARIES: &[&str] = &[
     "to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless",
-    "when", "from", "of", "or", "that", "while", "before", "after",
+    "when", "from", "of", "or", "that", "while", "before", "after", "via", "past",
 ];
 
 impl<'a> Parser<'a> {

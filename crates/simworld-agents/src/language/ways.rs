@@ -101,6 +101,9 @@ impl Parser<'_> {
         if self.eat_any(HALFWAY) {
             return self.halfway(pace).map(Some);
         }
+        if longest_phrase(self.rest(), &["between", "in between"]).is_some() {
+            return self.halfway(pace).map(Some);
+        }
         self.at = start;
         Ok(None)
     }
@@ -204,11 +207,54 @@ impl Parser<'_> {
         Ok(Some(vec![Clause::Go { to: self.reference(0)?, side: None, pace: Pace::Usual, within }]))
     }
 
+    /// "The shortest way to", before a place.
+    pub(super) fn best_way(&mut self) -> bool {
+        let start = self.at;
+        self.eat_any(&["the", "a", "your"]);
+        self.eat_any(&[
+            "shortest",
+            "quickest",
+            "fastest",
+            "most direct",
+            "direct",
+            "best",
+            "easiest",
+            "shortest possible",
+            "quickest possible",
+            "straightest",
+        ]);
+        let way = self.eat_any(&["way", "route", "path", "road"])
+            && self.eat_any(&["to", "over to", "back to", "towards", "into", "for"]);
+        if !way {
+            self.at = start;
+        }
+        way
+    }
+
     /// What follows a place one goes to: by way of another, or only halfway.
     pub(super) fn after_place(&mut self, go: Clause, pace: Pace) -> Result<Vec<Clause>, PlanError> {
         if self.eat_any(&["via", "by way of", "passing by", "passing through", "going via", "through"]) {
             let over = Clause::Go { to: self.reference(0)?, side: None, pace, within: None };
             return Ok(vec![over, go]);
+        }
+        self.eat_any(&[
+            "by the shortest way",
+            "by the shortest route",
+            "by the shortest path",
+            "by the quickest way",
+            "by the quickest route",
+            "by the fastest way",
+            "by the fastest route",
+            "by the most direct way",
+            "by the most direct route",
+            "the shortest way",
+            "the quickest way",
+            "the short way",
+            "the quick way",
+        ]);
+        self.eat_any(&["on foot", "by foot"]);
+        if let Some(board) = self.by_vehicle() {
+            return Ok(vec![board, go]);
         }
         if self.eat_any(&["past", "going past", "passing"]) {
             return Ok(vec![Clause::Past { what: self.reference(0)?, pace }, go]);

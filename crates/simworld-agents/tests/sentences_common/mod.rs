@@ -57,8 +57,9 @@ fn said_in_file(name: &str) -> Vec<Said> {
 }
 
 /// What is made of one sentence.
-pub(crate) fn understand(planner: &mut GrammarPlanner, city: &City, said: &Said) -> Result<Plan, PlanError> {
+pub(crate) fn understand(planner: &GrammarPlanner, city: &City, said: &Said) -> Result<Plan, PlanError> {
     let intent = if said.family == "call" { call(&said.words) } else { Intent::Words(said.words.clone()) };
+    let mut planner = if said.family == "dog" { planner.spoken_by(city.me) } else { *planner };
     planner.plan(&intent, &city.world, city.spoken_to(&said.family))
 }
 
@@ -90,12 +91,12 @@ pub(crate) enum Verdict {
 
 /// Plans for what is said, and judges what comes of it.
 pub(crate) fn verdict(city: &City, said: &Said) -> Verdict {
-    let got = understand(&mut GrammarPlanner::default(), city, said);
+    let got = understand(&GrammarPlanner::default(), city, said);
     let Some(meant) = said.meaning.strip_prefix("? ") else { return judge(city, said, &got) };
     // Who is told to ask names all that could be meant; who is not takes the first of them.
     let mut meant: Vec<&str> = meant.split(" | ").collect();
     let first = meant[0];
-    let asked = understand(&mut GrammarPlanner::with_policy(AmbiguityPolicy::Ask), city, said);
+    let asked = understand(&GrammarPlanner::with_policy(AmbiguityPolicy::Ask), city, said);
     let mut named = match asked {
         Err(PlanError::Ambiguous { candidates, .. }) => {
             candidates.iter().map(|(id, _)| city.key(*id)).collect::<Vec<_>>()
