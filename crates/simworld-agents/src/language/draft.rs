@@ -9,7 +9,7 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityKind, EntityRef, Role};
 use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 
-use super::clause::{Clause, Pace, Reference, Spot, Target, Test, Vehicle};
+use super::clause::{Clause, Pace, Reference, Spot, Target, Test};
 use super::compass::Compass;
 use super::lexicon::{class, is_animate};
 use super::relate::spot_on_side;
@@ -459,16 +459,6 @@ impl<'a> Draft<'a> {
         let distance = |end: &Point3| (end.xy() - self.view.from).norm();
         let far = if distance(&ends[0]) >= distance(&ends[1]) { ends[0] } else { ends[1] };
         self.navigate(Goal::Point(far), AT_POINT, None)
-    }
-
-    fn alight(&mut self, from: Vehicle) -> Result<(), PlanError> {
-        let scooter = match from {
-            Vehicle::Scooter => true,
-            Vehicle::Car => false,
-            Vehicle::Any => self.posture != Posture::Aboard,
-        };
-        self.posture = Posture::Standing;
-        self.act(if scooter { Action::GetOffScooter } else { Action::ExitCar })
     }
 
     /// Nobody walks while sitting or aboard.

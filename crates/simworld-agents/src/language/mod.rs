@@ -24,10 +24,12 @@ mod parser;
 mod politeness;
 mod reference;
 mod relate;
+mod remarks;
 mod requests;
 mod resolve;
 mod speech;
 mod spelling;
+mod staying;
 #[cfg(feature = "thought")]
 mod structured;
 mod tails;

@@ -85,7 +85,7 @@ impl Parser<'_> {
         if self.begins_step() {
             return self.step().map(|step| vec![step]);
         }
-        if let Some(clauses) = self.from_place(pace)? {
+        if let Some(clauses) = self.between_places(pace)? {
             return Ok(clauses);
         }
         if self.eat_any(TO_AND_FRO) {
@@ -173,7 +173,7 @@ impl Parser<'_> {
     }
 
     /// "From the statue to the fountain"; "around until ..." leads nowhere in particular.
-    fn from_place(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
+    fn between_places(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
         if self.eat_any(&["around", "about", "round"]) && self.goes_on() {
             return Ok(Some(vec![Clause::Forward]));

@@ -87,31 +87,6 @@ const REACHING: &[&str] = &[
     "getting to",
 ];
 
-/// What begins a remark of the speaker's on how he is.
-const REMARKS: &[&str] = &[
-    "im",
-    "i am",
-    "ive",
-    "i have",
-    "i feel",
-    "i cant",
-    "i cannot",
-    "i dont",
-    "we are",
-    "weve",
-    "because",
-    "my feet",
-    "my legs",
-    "its late",
-    "it is late",
-    "its hot",
-    "its cold",
-    "its getting",
-    "it is getting",
-];
-/// What begins a reason.
-const BECAUSE: &[&str] = &["because", "since i", "since we", "as i", "as we", "cause i", "cos i"];
-
 /// Reads a sentence from left to right.
 pub(super) struct Parser<'a> {
     pub(super) words: &'a str,
@@ -150,7 +125,7 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_joints();
-        if self.skip_remark(REMARKS) {
+        if self.skip_remark() {
             self.skip_joints();
         }
         // "To the museum, then to the school" leaves the verb out.
@@ -172,10 +147,10 @@ impl<'a> Parser<'a> {
             let start = self.at;
             self.skip_fillers();
             self.at += requests::coda(self.rest());
-            self.skip_remark(BECAUSE);
+            self.skip_reason();
             let joint = self.at;
             let mut joined = self.skip_joints();
-            joined = self.skip_remark(REMARKS) && self.skip_joints() || joined;
+            joined = self.skip_remark() && self.skip_joints() || joined;
             if self.lexemes[joint..self.at].iter().any(|lexeme| lexeme.token == Token::Break) {
                 whole = clauses.len();
             }
@@ -188,22 +163,6 @@ impl<'a> Parser<'a> {
             }
         }
         Ok(clauses)
-    }
-
-    /// "..., I'm in a hurry": what says how the speaker is, or why, and asks for nothing; whether there was any.
-    fn skip_remark(&mut self, beginnings: &[&str]) -> bool {
-        let is_remark = longest_phrase(self.rest(), beginnings).is_some()
-            && longest_phrase(self.rest(), FILLERS).is_none()
-            && requests::beginnings(self.rest()).is_empty();
-        let ends = |lexeme: &Lexeme| match &lexeme.token {
-            Token::Comma | Token::Break => true,
-            Token::Word(word) => ["so", "and", "then"].contains(&word.as_str()),
-            _ => false,
-        };
-        if is_remark {
-            self.at += self.rest().iter().position(ends).unwrap_or(self.rest().len());
-        }
-        is_remark
     }
 
     /// Whether "and", and no comma nor "then", joins what follows.

@@ -1,6 +1,5 @@
 //! Noun phrases: what an order is about.
 
-use simworld_core::id::EntityId;
 use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
@@ -42,8 +41,6 @@ const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
     (&["open", "opened"], (OPEN, true)),
     (&["closed", "shut"], (OPEN, false)),
 ];
-/// Who sells what is said before: "the coffee shop".
-const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller", "vendor"];
 /// What begins with "by", and names nothing beside which something stands.
 const BY_WAYS: &[&str] = &[
     "by way of",
@@ -417,19 +414,6 @@ impl Parser<'_> {
                 }
             }
         }
-    }
-
-    /// "The coffee shop" is any that sells coffee, unless one is called so.
-    fn sellers(&mut self) -> Option<Vec<EntityId>> {
-        let rest = self.rest();
-        (1..4).find(|at| rest.get(*at..).is_some_and(|rest| longest_phrase(rest, SELLERS).is_some()))?;
-        let (goods, count) = self.names.goods(rest)?;
-        let words = count + longest_phrase(&rest[count..], SELLERS)?;
-        if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
-            return None;
-        }
-        self.at += words;
-        Some(self.names.sellers(&goods))
     }
 
     /// How the thing stands to another, if that is said.

@@ -1,5 +1,6 @@
 //! Orders with words in them: what is said, and what is bought.
 
+use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Count, Reference, Target};
@@ -9,6 +10,8 @@ use super::numbers;
 use super::parser::{Parser, shortened};
 use super::verbs::Verb;
 
+/// Who sells what is said before: "the coffee shop".
+const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller", "vendor"];
 /// What one says where no words are given.
 const HELLO: &str = "hello";
 /// The most that is said at once, in characters.
@@ -133,6 +136,19 @@ impl Parser<'_> {
         self.at += after.map_or(0, |(_, count)| count);
         let times = after.map_or(times, |(more, _)| more * times);
         Ok(vec![Clause::Buy { goods, times, at }])
+    }
+
+    /// "The coffee shop" is any that sells coffee, unless one is called so.
+    pub(super) fn sellers(&mut self) -> Option<Vec<EntityId>> {
+        let rest = self.rest();
+        (1..4).find(|at| rest.get(*at..).is_some_and(|rest| longest_phrase(rest, SELLERS).is_some()))?;
+        let (goods, count) = self.names.goods(rest)?;
+        let words = count + longest_phrase(&rest[count..], SELLERS)?;
+        if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
+            return None;
+        }
+        self.at += words;
+        Some(self.names.sellers(&goods))
     }
 
     /// Him, her or them: whoever was spoken of last.

@@ -31,6 +31,9 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
                 lexeme.lemma = base_form(&word);
                 lexeme.token = Token::Word(word);
             }
+        } else if let Some(right) = nearest(word, names, follows_verb) {
+            lexemes[here].lemma = base_form(&right);
+            lexemes[here].token = Token::Word(right);
         } else if let Some(parts) = parts(word, names) {
             let lexeme = lexemes[here].clone();
             let both = parts.map(|part| Lexeme {
@@ -39,9 +42,6 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
                 ..lexeme.clone()
             });
             lexemes.splice(here..=here, both);
-        } else if let Some(right) = nearest(word, names, follows_verb) {
-            lexemes[here].lemma = base_form(&right);
-            lexemes[here].token = Token::Word(right);
         }
     }
 }

@@ -148,7 +148,7 @@ impl Parser<'_> {
     fn peek_for(&self) -> Option<(f64, usize)> {
         let words = longest_phrase(self.rest(), &["for", "for about", "during", "for at least"])?;
         let (seconds, count) = numbers::duration(&self.rest()[words..])?;
-        (seconds > 0.0 && seconds <= super::orders::LONGEST_WAIT).then_some((seconds, words + count))
+        (seconds > 0.0 && seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
     }
 
     /// "Every five seconds", "once a minute".
@@ -164,7 +164,7 @@ impl Parser<'_> {
             // "Every bit" is no time, and a bare number is no interval.
             None => numbers::duration(after).filter(|(_, count)| *count > 1)?,
         };
-        (seconds > 0.0 && seconds <= super::orders::LONGEST_WAIT).then_some((seconds, words + count))
+        (seconds > 0.0 && seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
     }
 }
 

@@ -6,7 +6,7 @@ use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
 use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
 use simworld_core::value::Value;
 
-use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test};
+use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test, Vehicle};
 use super::draft::{Draft, Load, Posture};
 use super::lexicon::{Category, class, is_animate};
 use super::relate::PART;
@@ -244,6 +244,16 @@ impl<'a> Draft<'a> {
         self.go_beside(&vehicle)?;
         self.posture = if vehicle.kind == EntityKind::Scooter { Posture::Riding } else { Posture::Aboard };
         self.act(action)
+    }
+
+    pub(super) fn alight(&mut self, from: Vehicle) -> Result<(), PlanError> {
+        let scooter = match from {
+            Vehicle::Scooter => true,
+            Vehicle::Car => false,
+            Vehicle::Any => self.posture != Posture::Aboard,
+        };
+        self.posture = Posture::Standing;
+        self.act(if scooter { Action::GetOffScooter } else { Action::ExitCar })
     }
 
     /// Goes by what one is in or on, or else by the nearest car.

@@ -1,0 +1,59 @@
+//! What people say beside their orders: how they are, and why they want it.
+
+use super::lexer::{Lexeme, Token};
+use super::lexicon::longest_phrase;
+use super::parser::Parser;
+use super::politeness::FILLERS;
+use super::requests;
+
+/// What begins a remark of the speaker's on how he is.
+const REMARKS: &[&str] = &[
+    "im",
+    "i am",
+    "ive",
+    "i have",
+    "i feel",
+    "i cant",
+    "i cannot",
+    "i dont",
+    "we are",
+    "weve",
+    "because",
+    "my feet",
+    "my legs",
+    "its late",
+    "it is late",
+    "its hot",
+    "its cold",
+    "its getting",
+    "it is getting",
+];
+/// What begins a reason.
+const BECAUSE: &[&str] = &["because", "since i", "since we", "as i", "as we", "cause i", "cos i"];
+
+impl Parser<'_> {
+    /// "..., I'm in a hurry": what says how the speaker is, or why, and asks for nothing; whether there was any.
+    pub(super) fn skip_remark(&mut self) -> bool {
+        self.skip_saying(REMARKS)
+    }
+
+    /// "... because it is late".
+    pub(super) fn skip_reason(&mut self) -> bool {
+        self.skip_saying(BECAUSE)
+    }
+
+    fn skip_saying(&mut self, beginnings: &[&str]) -> bool {
+        let is_remark = longest_phrase(self.rest(), beginnings).is_some()
+            && longest_phrase(self.rest(), FILLERS).is_none()
+            && requests::beginnings(self.rest()).is_empty();
+        let ends = |lexeme: &Lexeme| match &lexeme.token {
+            Token::Comma | Token::Break => true,
+            Token::Word(word) => ["so", "and", "then"].contains(&word.as_str()),
+            _ => false,
+        };
+        if is_remark {
+            self.at += self.rest().iter().position(ends).unwrap_or(self.rest().len());
+        }
+        is_remark
+    }
+}

@@ -1,0 +1,143 @@
+//! Orders to stay: sitting down, stopping, waiting.
+
+use simworld_core::scene::Relation;
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
+use super::lexicon::{Category, RELATIONS, fits, longest};
+use super::numbers::{self, MOMENT};
+use super::parser::Parser;
+
+/// The longest wait, s.
+pub(super) const LONGEST_WAIT: f64 = 86_400.0;
+
+impl Parser<'_> {
+    pub(super) fn sit(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["there", "here", "down"]);
+        let start = self.at;
+        let beside = if self.eat_any(&["at"]) {
+            Some(Stands::To(Relation::NextTo, Box::new(self.reference(0)?)))
+        } else {
+            self.relation(0)?
+        };
+        if beside.is_some() {
+            // "Sit by the tree" asks for any seat there.
+            let text = format!("seat {}", self.text_from(start));
+            let seat = Reference::nearest(Category::seat());
+            let seat = Reference { choice: super::clause::Choice::Open, relation: beside, text, ..seat };
+            return Ok(vec![Clause::Sit { on: Some(seat) }]);
+        }
+        Ok(vec![Clause::Sit { on: self.tail_place(&["on", "in", "onto", "upon", "down on"])? }])
+    }
+
+    pub(super) fn stop(&mut self) -> Result<Vec<Clause>, PlanError> {
+        if self.peeks("for") || self.peeks("until") || self.peeks("till") || self.peek_time().is_some() {
+            return self.wait();
+        }
+        if let Some(clauses) = self.short_of()? {
+            return Ok(clauses);
+        }
+        if self.eat_any(&[
+            "at",
+            "by",
+            "near",
+            "next to",
+            "beside",
+            "outside",
+            "in front of",
+            "close to",
+            "alongside",
+        ]) {
+            let to = self.reference(0)?;
+            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
+        self.eat_any(&[
+            "moving",
+            "walking",
+            "there",
+            "here",
+            "running",
+            "that",
+            "what you are doing",
+            "everything",
+            "the car",
+            "the vehicle",
+            "the taxi",
+            "the bus",
+            "the truck",
+            "the van",
+            "driving",
+            "moving around",
+            "right there",
+            "right here",
+            "dead",
+        ]);
+        Ok(vec![Clause::Stop])
+    }
+
+    pub(super) fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["here", "there", "right here", "right there", "where you are"]);
+        if self.eat_any(&["until", "till", "up until"]) {
+            return Ok(vec![Clause::Until { test: self.test()?, body: Vec::new() }]);
+        }
+        if self.eat_any(&["while", "as long as", "so long as"]) {
+            let test = Test::Not(Box::new(self.test()?));
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        let mut clauses = Vec::new();
+        if let Some((relation, count)) = longest(self.rest(), RELATIONS)
+            .or_else(|| fits(self.rest(), "at").map(|count| (Relation::NextTo, count)))
+        {
+            self.at += count;
+            let to = self.reference(0)?;
+            let side = Some(relation);
+            clauses.push(Clause::Go { to, side: side.map(Spot::Beside), pace: Pace::Usual, within: None });
+        }
+        let is_for = self.eat_any(&["for", "for about", "for at least"]);
+        self.eat_any(&["about"]);
+        let number_at = self.at;
+        let Some((seconds, count)) = self.peek_time() else {
+            if !clauses.is_empty() {
+                clauses.push(Clause::Wait { seconds: MOMENT });
+                return Ok(clauses);
+            }
+            if is_for && !self.ends_clause() {
+                return self.wait_for();
+            }
+            return Err(self.not_understood("say how long, as in \"wait 5 seconds\""));
+        };
+        self.at += count;
+        if !(seconds > 0.0 && seconds <= LONGEST_WAIT) {
+            self.at = number_at;
+            return Err(self.not_understood("wait for more than 0 and at most 86400 seconds"));
+        }
+        clauses.push(Clause::Wait { seconds });
+        Ok(clauses)
+    }
+
+    /// "Wait for Anna", "wait for a green light".
+    fn wait_for(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(&["the", "a"]);
+        if self.eat_any(&[
+            "green light",
+            "green",
+            "light to turn green",
+            "light to be green",
+            "lights to turn green",
+        ]) {
+            let test = Test::Light { light: None, shows: simworld_core::net::Aspect::Green };
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = start;
+        let what = self.reference(0)?;
+        self.eat_any(&["to arrive", "to come", "to come here", "to get here", "to reach you"]);
+        let test = Test::Near { what, within: super::tests_of::NEXT_TO_ME };
+        Ok(vec![Clause::Until { test, body: Vec::new() }])
+    }
+
+    /// A length of time; a bare number is seconds.
+    pub(super) fn peek_time(&self) -> Option<(f64, usize)> {
+        numbers::duration(self.rest())
+    }
+}
