@@ -21,8 +21,8 @@ pub(super) const MARGINS: [f64; 2] = [40.0, 160.0];
 const FARTHEST: f64 = 400.0;
 /// Gap kept to whatever is solid, m: more than the 0.02 m of bodies under physics.
 const GAP: f64 = 0.05;
-/// What is no larger than this is walked round without a search, m.
-const SMALL: f64 = 1.0;
+/// Houses and whatever is longer than this are walls; other things are walked round as one comes to them, m.
+const WALL: f64 = 10.0;
 /// What ends lower above one's feet is stepped over, m.
 const SILL: f64 = 0.25;
 /// Who is faster than this will be elsewhere, m/s.
@@ -67,21 +67,21 @@ fn stands(me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
         && other.bounds.min.z < me.bounds.max.z
 }
 
-/// Whether something larger than a post stands on the straight way between two places.
+/// Whether a wall stands on the straight way between two places.
 pub(super) fn is_blocked(scene: &dyn Scene, me: &EntityRef<'_>, from: Point2, to: Point2) -> bool {
     let (reach, way) = (reach_of(me), to - from);
     let region = Aabb::column(from.inf(&to), from.sup(&to)).inflated(reach);
     let pieces = (way.norm() / CELL).ceil().max(1.0);
     let visited = scene.visit(&region, &mut |other| {
         let size = other.info.shape.size();
-        let is_large = size.x.max(size.y) > SMALL;
+        let is_wall = other.kind == EntityKind::Building || size.x.max(size.y) > WALL;
         let meets = || {
             (0..=pieces as u32).any(|piece| {
                 let at = from + way * (f64::from(piece) / pieces);
                 other.info.shape.planar_distance(other.pose, &at) < reach
             })
         };
-        if is_large && stands(me, &other) && meets() {
+        if is_wall && stands(me, &other) && meets() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
