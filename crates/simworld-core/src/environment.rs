@@ -39,6 +39,24 @@ impl Default for Sun {
 }
 
 impl Sun {
+    /// The sun of a clear day at an hour of solar time, 0 to 24, at 40° north on the day of an equinox: up from 6 to 18, 50°
+    /// high at noon. Illuminance after the clear-sky model of the IES, 133 100 lux exp(-0.21 / sin of the elevation).
+    ///
+    /// ```
+    /// use simworld_core::environment::Sun;
+    /// let noon = Sun::at_hour(12.0);
+    /// assert!((noon.elevation.to_degrees() - 50.0).abs() < 1e-9 && (noon.azimuth.to_degrees() - 180.0).abs() < 1e-9);
+    /// assert!(Sun::at_hour(20.0).elevation < 0.0);
+    /// ```
+    pub fn at_hour(hour: f64) -> Self {
+        let (sin_latitude, cos_latitude) = ops::sin_cos(40.0_f64.to_radians());
+        let (sin_hour, cos_hour) = ops::sin_cos((hour - 12.0) * std::f64::consts::PI / 12.0);
+        let height = cos_latitude * cos_hour;
+        let azimuth = ops::atan2(-sin_hour, -sin_latitude * cos_hour);
+        let illuminance = if height > 0.0 { 133_100.0 * ops::exp(-0.21 / height) } else { 0.0 };
+        Self { azimuth: azimuth.rem_euclid(std::f64::consts::TAU), elevation: ops::asin(height), illuminance }
+    }
+
     /// The unit vector from the ground towards the sun, world frame.
     pub fn direction(&self) -> Vector3 {
         let (sin_az, cos_az) = ops::sin_cos(self.azimuth);

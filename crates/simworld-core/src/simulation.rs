@@ -151,6 +151,17 @@ impl Simulation {
         self.world.apply(command)
     }
 
+    /// Changes the world from outside between the halves of a step, and says at once what it did: for editors, who build on
+    /// what they made. The command is recorded, and a replay carries it out at the same place.
+    ///
+    /// # Errors
+    /// The command is impossible; then nothing has changed, and nothing is recorded.
+    pub fn apply_from_outside(&mut self, command: &Command) -> Result<Applied, CommandError> {
+        let applied = self.world.apply(command)?;
+        self.recording.commands.push(Stamped { tick: self.world.clock().tick(), command: command.clone() });
+        Ok(applied)
+    }
+
     /// Reports, from inside the step, that something happened.
     pub fn emit(&mut self, kind: EventKind) {
         self.world.emit(kind);

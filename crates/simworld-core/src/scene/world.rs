@@ -390,8 +390,10 @@ impl StateHash for World {
         for aspect in &self.signals {
             hasher.u64(*aspect as u64);
         }
-        hasher.u64(self.digests.len() as u64);
-        for digest in &self.digests {
+        // Free slots at the end count for nothing: what came and is gone leaves no trace.
+        let used = self.digests.iter().rposition(|digest| *digest != 0).map_or(0, |last| last + 1);
+        hasher.u64(used as u64);
+        for digest in &self.digests[..used] {
             hasher.u64(*digest);
         }
     }
