@@ -7,13 +7,15 @@ mod delivery_common;
 use delivery_common::{Town, quiet, simulation, world};
 use simworld_agents::asynchronous::{AsynchronousConfig, AsynchronousEpisode, FreeMind, Pace};
 use simworld_agents::delivery::{
-    Account, Cents, CourierAction, CourierMind, DeliveryConfig, DeliveryTask, Errand, OrderId, Persona,
-    PolicyKind, Shopping, Split, Stage,
+    Account, BatteryConfig, Cents, CourierAction, CourierMind, DeliveryConfig, DeliveryTask, Errand, OrderId, Persona,
+    PolicyKind, Power, Shopping, Split, Stage,
 };
 use simworld_agents::episode::{Agent, Episode};
 use simworld_agents::executor::RuleExecutor;
 use simworld_agents::language::GrammarPlanner;
 use simworld_agents::mind::Silent;
+use simworld_core::command::Command;
+use simworld_core::environment::Environment;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Role, Scene};
 use simworld_core::seam::Task;
@@ -218,6 +220,115 @@ fn at_the_store_means_going_there() {
     assert_eq!(purse(&town, 0), Cents(10_000), "not there yet");
     town.until("scooter_bought", 600);
     assert_eq!(purse(&town, 0), Cents::ZERO);
+}
+
+/// Ground speed of the first courier, m/s.
+fn speed(town: &Town) -> f64 {
+    town.simulation.world().entity(town.couriers[0]).unwrap().twist.ground_speed()
+}
+
+#[test]
+fn an_empty_scooter_is_pushed_to_the_station_and_charged_for_money() {
+    let mut config = quiet();
+    // Enough for some forty metres.
+    config.battery = BatteryConfig { power: Power::Battery, capacity: 0.5, ..BatteryConfig::default() };
+    config.initial_money = Cents(20_000);
+    let mut town = Town::new(config, 1, 1);
+    assert!(town.act(0, CourierAction::SwapBattery).is_err(), "there is no scooter yet");
+    town.act(0, CourierAction::PurchaseScooter).unwrap();
+    town.until("scooter_mounted", 5);
+    assert!(town.act(0, CourierAction::SwapBattery).is_err(), "it is full");
+    win(&mut town);
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+    town.until("battery_empty", 100);
+    let row = town.task.report().unwrap().couriers[0].clone();
+    assert!((row.power - 0.5).abs() < 1e-9, "{} Wh of 0.5 were used", row.power);
+    let view = town.task.view(town.couriers[0]).unwrap();
+    assert!(view.is_dragging() && !view.is_riding() && view.charge() == Some(0.0));
+    let energy = view.energy();
+    for _ in 0..10 {
+        town.step(&[]);
+    }
+    assert!((speed(&town) - 0.9).abs() < 1e-9, "{} m/s", speed(&town));
+    let spent = energy - town.task.view(town.couriers[0]).unwrap().energy();
+    let expected = 0.9 * 0.1 * (0.9 / 1.4) * 1.5;
+    assert!((spent - expected).abs() < 0.1 * expected, "{spent} for a second of pushing");
+    let pushed = town.simulation.world().attached(town.couriers[0], Role::Part).expect("a hand at its bar");
+    assert_eq!(town.simulation.world().entity(pushed).unwrap().kind, EntityKind::Scooter);
+
+    let before = purse(&town, 0);
+    town.act(0, CourierAction::SwapBattery).unwrap();
+    town.until("battery_swapped", 2000);
+    assert_eq!(before - purse(&town, 0), Cents(200));
+    town.until("scooter_mounted", 5);
+    town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+    town.step(&[]);
+    town.step(&[]);
+    assert!(speed(&town) > 6.0, "{} m/s", speed(&town));
+    assert!(town.task.view(town.couriers[0]).unwrap().charge().unwrap() < 1.0);
+}
+
+#[test]
+fn rain_and_snow_slow_and_tire() {
+    let mut spent = Vec::new();
+    for (rain, snow, pace) in [(0.0, 0.0, 1.0), (10.0, 0.0, 0.9), (0.0, 5.0, 0.7)] {
+        let mut town = Town::new(quiet(), 1, 1);
+        win(&mut town);
+        town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
+        town.step(&[]);
+        assert!((speed(&town) - 1.4).abs() < 1e-9);
+        // It comes on while the courier is under way.
+        let mut sky = Environment::default();
+        (sky.weather.rain, sky.weather.snow) = (rain, snow);
+        town.simulation.submit(Command::SetEnvironment(sky));
+        town.step(&[]);
+        town.step(&[]);
+        assert!((speed(&town) - 1.4 * pace).abs() < 1e-9, "{} m/s at {rain}, {snow}", speed(&town));
+        let before = (town.task.report().unwrap().couriers[0].clone(), town.log.len());
+        for _ in 0..30 {
+            town.step(&[]);
+        }
+        let row = town.task.report().unwrap().couriers[0].clone();
+        spent.push((row.energy - before.0.energy) / (row.distance - before.0.distance) / pace);
+    }
+    // A metre costs more by the factor of the weather, at the same speed.
+    assert!(
+        (spent[1] / spent[0] - 1.1).abs() < 1e-6 && (spent[2] / spent[0] - 1.3).abs() < 1e-6,
+        "{spent:?}"
+    );
+}
+
+#[test]
+fn couriers_are_told_of_what_is_near_and_wake_for_it_alone() {
+    let mut config = quiet();
+    config.orders.told_within = 100.0;
+    config.orders.initial = 8;
+    config.orders.hunger_rate = 1.0;
+    config.orders.per_customer_hour = 20.0;
+    let mut town = Town::new(config, 4, 1);
+    for _ in 0..300 {
+        let posted = town.count("order_posted");
+        let before: Vec<u64> =
+            town.couriers.iter().map(|id| town.task.view(*id).unwrap().notices()).collect();
+        town.step(&[]);
+        for (who, seen) in town.couriers.iter().zip(before) {
+            let view = town.task.view(*who).unwrap();
+            let told: Vec<OrderId> = view.open_orders().map(|order| order.id).collect();
+            let near = |order: &&simworld_agents::delivery::Order| {
+                let open = matches!(order.stage, Stage::Open(_));
+                open && (order.pickup.xy() - view.position()).norm() <= 100.0
+            };
+            let expected: Vec<OrderId> =
+                town.task.orders().iter().filter(near).map(|order| order.id).collect();
+            assert_eq!(told, expected);
+            let new = town.task.orders().iter().filter(near).any(|order| order.id.index() >= posted);
+            assert!(!new || view.notices() > seen, "what is new and near wakes");
+        }
+    }
+    assert!(
+        town.task.orders().iter().any(|order| (order.pickup.x - 66.0).abs() < 1.0),
+        "both restaurants sell"
+    );
 }
 
 #[test]

@@ -12,6 +12,7 @@ pub mod environment;
 pub mod evaluation;
 pub mod event;
 pub mod geometry;
+pub mod grid;
 pub mod hash;
 pub mod id;
 pub mod intent;

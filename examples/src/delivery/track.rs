@@ -33,7 +33,7 @@ pub enum Doing {
     Carrying,
     /// On its way to a meet-point, or waiting there.
     Meeting,
-    /// On its way to a store.
+    /// On its way to a store, or to a charging station.
     Shopping,
     /// Exhausted, until it has rested.
     Resting,
@@ -51,7 +51,7 @@ impl Doing {
             Errand::PickUp(_) => Self::Fetching,
             Errand::Deliver(_) => Self::Carrying,
             Errand::Meet(_) => Self::Meeting,
-            Errand::Shop(_) => Self::Shopping,
+            Errand::Shop(_) | Errand::Swap => Self::Shopping,
         }
     }
 

@@ -1,4 +1,4 @@
-//! The ten high-level actions of the paper, as a type and as calls.
+//! The ten high-level actions of the paper, and the swap of a battery, as a type and as calls.
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
@@ -62,6 +62,8 @@ pub enum CourierAction {
     },
     /// Lets the moment pass: `do_nothing()`.
     DoNothing,
+    /// Goes to the nearest charging station and swaps the battery of its scooter, where they have any: `swap_battery()`.
+    SwapBattery,
 }
 
 /// A call that is no courier action.
@@ -87,6 +89,7 @@ impl CourierAction {
         "purchase_drinks",
         "adjust_speed",
         "do_nothing",
+        "swap_battery",
     ];
 
     /// The position of this action's name in [`NAMES`](Self::NAMES).
@@ -102,6 +105,7 @@ impl CourierAction {
             Self::PurchaseDrinks => 7,
             Self::AdjustSpeed { .. } => 8,
             Self::DoNothing => 9,
+            Self::SwapBattery => 10,
         }
     }
 
@@ -131,7 +135,10 @@ impl From<CourierAction> for Intent {
                 if bounty > Cents::ZERO { call.arg("bounty", bounty.dollars()) } else { call }
             }
             CourierAction::AdjustSpeed { speed } => call.arg("speed", speed),
-            CourierAction::PurchaseScooter | CourierAction::PurchaseDrinks | CourierAction::DoNothing => call,
+            CourierAction::PurchaseScooter
+            | CourierAction::PurchaseDrinks
+            | CourierAction::SwapBattery
+            | CourierAction::DoNothing => call,
         }
     }
 }
@@ -159,6 +166,7 @@ impl TryFrom<&Intent> for CourierAction {
             "purchase_drinks" => Self::PurchaseDrinks,
             "adjust_speed" => Self::AdjustSpeed { speed: arguments.number("speed")? },
             "do_nothing" => Self::DoNothing,
+            "swap_battery" => Self::SwapBattery,
             _ => return Err(arguments.fault(format!("the calls are {}", Self::NAMES.join(", ")))),
         })
     }
@@ -217,6 +225,7 @@ mod tests {
             CourierAction::PurchaseDrinks,
             CourierAction::AdjustSpeed { speed: 1.7 },
             CourierAction::DoNothing,
+            CourierAction::SwapBattery,
         ];
         for action in actions {
             let call = Intent::from(action);

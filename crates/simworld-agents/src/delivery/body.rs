@@ -12,9 +12,11 @@ use simworld_core::value::Value;
 
 use super::config::EnergyConfig;
 use super::order::{OrderId, Stage};
-use super::state::{Errand, Ride};
+use super::state::{Courier, Errand, Ride, State};
 use super::turn::{Turn, fact};
 
+/// How far to the left of its owner a scooter stands, m.
+pub(super) const BESIDE: f64 = 0.9;
 /// Slower than this is rest, m/s.
 const STANDING: f64 = 0.1;
 
@@ -38,19 +40,20 @@ impl Turn<'_> {
         if speed < STANDING {
             courier.energy = (before + energy.rest * self.state.dt).min(energy.capacity);
         } else {
-            let cost = moved * energy.per_metre(speed, courier.is_riding());
+            let drags = courier.is_dragging();
+            let effort = if drags { self.config.battery.dragging_effort } else { 1.0 } * self.state.effort;
+            let cost = moved * energy.per_metre(speed, courier.is_riding()) * effort;
             courier.energy = (before - cost).max(0.0);
             courier.tally.energy += before - courier.energy;
             courier.tally.distance += moved;
         }
-        for id in &self.state.live {
-            if let Some(Stage::Carried(carried)) =
-                self.state.orders.get_mut(id.index()).map(|order| &mut order.stage)
-                && carried.carrier == index
-            {
+        let State { couriers, orders, .. } = &mut *self.state;
+        for id in &couriers[index].held {
+            if let Stage::Carried(carried) = &mut orders[id.index()].stage {
                 carried.distance += moved;
             }
         }
+        self.drain(index, moved, speed);
         self.tire(index);
     }
 
@@ -97,8 +100,7 @@ impl Turn<'_> {
 
     /// Where the next parcel of a courier goes.
     pub(super) fn grip(&self, index: usize, who: EntityId) -> Attachment {
-        let holds = |stage: &Stage| matches!(stage, Stage::Carried(carried) if carried.carrier == index);
-        let others = self.state.live_orders().filter(|order| holds(&order.stage)).count().saturating_sub(1);
+        let others = self.state.carried_by(index).saturating_sub(1);
         let (role, x, y, z) = match others {
             0 => (Role::Held, 0.35, -0.25, 0.9),
             behind => (Role::Part, -0.3, 0.0, 0.9 + 0.22 * (behind - 1) as f64),
@@ -108,16 +110,12 @@ impl Turn<'_> {
 
     /// Learns which entity is the parcel of an order, a step after it was spawned.
     pub(super) fn find_parcels(&mut self, index: usize) {
-        let who = self.state.couriers[index].id;
-        for position in 0..self.state.live.len() {
-            let id = self.state.live[position];
-            let Some(Stage::Carried(carried)) =
-                self.state.orders.get_mut(id.index()).map(|order| &mut order.stage)
-            else {
-                continue;
-            };
-            if carried.carrier == index && carried.parcel.is_none() {
-                let wanted = fact(id);
+        let State { couriers, orders, .. } = &mut *self.state;
+        let who = couriers[index].id;
+        for id in &couriers[index].held {
+            let Stage::Carried(carried) = &mut orders[id.index()].stage else { continue };
+            if carried.parcel.is_none() {
+                let wanted = fact(*id);
                 self.scene.visit_attached(who, &mut |child| {
                     if child.info.attributes.get("order") == Some(&wanted) {
                         carried.parcel = Some(child.id);
@@ -134,14 +132,18 @@ impl Turn<'_> {
             .weighing(15.0)
             .with("owner", body.id);
         self.command(Command::Spawn(Box::new(scooter)));
-        self.state.couriers[index].ride = Ride::Ordered;
+        let courier = &mut self.state.couriers[index];
+        courier.ride = Ride::Ordered;
+        courier.charge = self.config.battery.when_bought();
     }
 
     /// Brings a courier and its scooter together.
     pub(super) fn mount(&mut self, index: usize) {
-        let who = self.state.couriers[index].id;
+        let Courier { id: who, mut ride, .. } = self.state.couriers[index];
+        if ride == Ride::None {
+            return;
+        }
         let Some(body) = self.scene.entity(who) else { return };
-        let mut ride = self.state.couriers[index].ride;
         if ride == Ride::Ordered {
             let owner = Value::Entity(who);
             let _ = self.scene.visit(&Aabb::column_around(body.planar(), 20.0), &mut |entity| {
@@ -152,12 +154,15 @@ impl Turn<'_> {
                 ControlFlow::Continue(())
             });
         }
-        let (Ride::Beside(id) | Ride::Riding(id)) = ride else { return };
+        let (Ride::Beside(id) | Ride::Riding(id) | Ride::Dragging(id)) = ride else { return };
         let Some(scooter) = self.scene.entity(id) else {
             self.state.couriers[index].ride = Ride::None;
             self.tell("scooter_lost", Some(index), &[]);
             return;
         };
+        if matches!(ride, Ride::Dragging(_)) {
+            return;
+        }
         let mounted = scooter.attachment.is_some_and(|bond| bond.parent == who && bond.role == Role::Ridden);
         let was = self.state.couriers[index].ride;
         self.state.couriers[index].ride = if mounted { Ride::Riding(id) } else { Ride::Beside(id) };
@@ -183,5 +188,5 @@ impl Turn<'_> {
 
 /// A pose to the left of a body, upright.
 fn beside(body: &Pose) -> Pose {
-    pose_facing(body * Point3::new(0.0, 0.9, 0.0), yaw_of(body))
+    pose_facing(body * Point3::new(0.0, BESIDE, 0.0), yaw_of(body))
 }

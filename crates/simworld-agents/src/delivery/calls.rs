@@ -4,14 +4,12 @@ use simworld_core::geometry::{Point2, Point3};
 
 use super::action::CourierAction;
 use super::auction::Bid;
+use super::board::Notice;
 use super::config::{Shopping, Split};
 use super::money::{Account, Cents};
 use super::order::{Offer, Order, OrderId, Stage};
 use super::state::{Errand, Item};
 use super::turn::{Turn, fact};
-
-/// A meet-point lies at most this far from every place that anybody orders from or to, m.
-const OUTSKIRTS: f64 = 1000.0;
 
 impl Turn<'_> {
     /// Does what a courier decided.
@@ -25,6 +23,7 @@ impl Turn<'_> {
             CourierAction::GoToMeetPoint { order } => self.go_meet(index, order),
             CourierAction::PurchaseScooter => self.shop(index, Item::Scooter),
             CourierAction::PurchaseDrinks => self.shop(index, Item::Drink),
+            CourierAction::SwapBattery => self.go_swap(index),
             CourierAction::AdjustSpeed { speed } => self.adjust_speed(index, speed),
             CourierAction::DoNothing => Ok(()),
         }?;
@@ -60,7 +59,7 @@ impl Turn<'_> {
     }
 
     /// Sets out on an errand, unless the courier cannot move.
-    fn set_out(&mut self, index: usize, errand: Errand) -> Result<(), String> {
+    pub(super) fn set_out(&mut self, index: usize, errand: Errand) -> Result<(), String> {
         if self.state.couriers[index].exhausted {
             return Err("you are exhausted: rest or drink".to_owned());
         }
@@ -104,7 +103,7 @@ impl Turn<'_> {
             return Err("give no bounty: the pay is split".to_owned());
         }
         let meet = match meet {
-            Some(point) => self.meet_point(point)?,
+            Some(point) => self.places.meet_point(point).ok_or("meet within the city")?,
             None => self.halfway(index, id)?,
         };
         let payment = self.pay(Account::Courier(index), Account::Escrow, bounty, Some(id));
@@ -113,7 +112,7 @@ impl Turn<'_> {
             terms.offer = Some(Offer { meet, bounty, accepted: None });
         }
         self.state.couriers[index].tally.shared += 1;
-        self.state.notices += 1;
+        self.state.board.put_up(meet.xy(), Notice::Offer, id);
         let facts = [
             ("order", fact(id)),
             ("x", meet.x.into()),
@@ -124,13 +123,6 @@ impl Turn<'_> {
         Ok(())
     }
 
-    fn meet_point(&self, point: Point2) -> Result<Point3, String> {
-        let sites = self.state.restaurants.iter().chain(&self.state.customers);
-        let near = sites.clone().any(|site| (site.access.xy() - point).norm() <= OUTSKIRTS);
-        let z = sites.map(|site| site.access.z).next().unwrap_or(0.0);
-        if near { Ok(Point3::new(point.x, point.y, z)) } else { Err("meet within the city".to_owned()) }
-    }
-
     /// The place nearest to the middle of what is left of the way: somewhere one can walk to.
     fn halfway(&self, index: usize, id: OrderId) -> Result<Point3, String> {
         let order = self.order(id)?;
@@ -139,9 +131,7 @@ impl Turn<'_> {
             _ => order.pickup.xy(),
         };
         let middle = nalgebra::center(&from, &order.dropoff.xy());
-        let distance = |point: &Point3| (point.xy() - middle).norm();
-        let sites = self.state.restaurants.iter().chain(&self.state.customers).map(|site| site.access);
-        sites.min_by(|a, b| distance(a).total_cmp(&distance(b))).ok_or_else(|| "there is no place".to_owned())
+        self.places.door(middle).ok_or_else(|| "there is no place".to_owned())
     }
 
     fn cancel_share(&mut self, index: usize, id: OrderId) -> Result<(), String> {
@@ -160,6 +150,7 @@ impl Turn<'_> {
         if let Some(terms) = self.state.orders[id.index()].stage.terms_mut() {
             terms.offer = Some(Offer { accepted: None, ..offer });
         }
+        self.state.disagree(index, id);
         if self.state.couriers[index].errand == Errand::Meet(id) {
             self.halt(index);
         }
@@ -194,6 +185,7 @@ impl Turn<'_> {
         if let Some(terms) = self.state.orders[id.index()].stage.terms_mut() {
             terms.offer = Some(Offer { accepted: Some(index), ..offer });
         }
+        self.state.agree(index, id);
         if let Some(holder) = holder {
             self.state.couriers[holder].notices += 1;
         }

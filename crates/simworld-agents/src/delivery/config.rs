@@ -10,7 +10,10 @@ use serde::{Deserialize, Serialize};
 use simworld_core::seam::TaskError;
 
 use super::auction::AuctionRule;
+use super::battery::BatteryConfig;
+use super::board::EVERYWHERE;
 use super::money::Cents;
+use super::weather::WeatherConfig;
 
 /// The settings of a [`DeliveryTask`](super::DeliveryTask). The default is the paper's main setting.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +39,10 @@ pub struct DeliveryConfig {
     pub speed: SpeedConfig,
     /// What is sold, and how prices move.
     pub prices: PriceConfig,
+    /// What moves scooters.
+    pub battery: BatteryConfig,
+    /// What the weather does.
+    pub weather: WeatherConfig,
     /// How couriers work together.
     pub sharing: SharingConfig,
     /// When one has arrived.
@@ -54,6 +61,8 @@ impl Default for DeliveryConfig {
             energy: EnergyConfig::default(),
             speed: SpeedConfig::default(),
             prices: PriceConfig::default(),
+            battery: BatteryConfig::default(),
+            weather: WeatherConfig::default(),
             sharing: SharingConfig::default(),
             reach: ReachConfig::default(),
         }
@@ -64,14 +73,14 @@ impl Default for DeliveryConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OrderConfig {
-    /// Customers, each living in a home drawn at reset, in [1, 100 000]. Chosen so that some sixty orders come in
+    /// Customers, each living in a home drawn at reset, in [1, 10⁷]. Chosen so that some sixty orders come in
     /// the main setting, half again what twenty couriers deliver by the paper's success counts.
     pub customers: u32,
     /// Orders a customer places in an hour when hungry all the time, in [0, 10 000]. Chosen as `customers`.
     pub per_customer_hour: f64,
     /// The share of that rate which is in force, in [0, 1]. Paper: 0.9 in the competition; else open, 0.5 chosen.
     pub hunger_rate: f64,
-    /// Orders that are open at the start, in [0, 10 000]. Chosen as many as there are couriers, so that nobody begins idle.
+    /// Orders that are open at the start, in [0, 100 000]. Chosen as many as there are couriers, so that nobody begins idle.
     pub initial: u32,
     /// Ceiling price before distance, cents, in [0, 10⁷]. Ancestor: prices uniform in $15 to $25.
     pub base: Cents,
@@ -85,6 +94,9 @@ pub struct OrderConfig {
     /// [1, 10⁶]. Chosen so that an order is a walk of about 500 m, the way to the restaurant included, as the paper's
     /// counts imply.
     pub radius: f64,
+    /// Couriers are told of orders whose restaurant is within this distance of them, and of offers to share that meet there,
+    /// m, in [100, 10⁶]; from 10⁶ on of all. Chosen: of all, as in the paper; in a large city platforms tell those who are near.
+    pub told_within: f64,
     /// Time allowed for an order over that of walking from where it was won through the restaurant to the home,
     /// in [0.1, 100]. Ancestor: 1.25.
     pub allowance: f64,
@@ -108,6 +120,7 @@ impl Default for OrderConfig {
             least_factor: 0.75,
             greatest_factor: 1.35,
             radius: 400.0,
+            told_within: EVERYWHERE,
             allowance: 1.25,
             allowance_speed: 1.6,
             late_per_second: Cents(30),
@@ -311,6 +324,8 @@ impl DeliveryConfig {
         self.energy.validate()?;
         self.speed.validate()?;
         self.prices.validate()?;
+        self.battery.validate()?;
+        self.weather.validate()?;
         within("reach.walking", self.reach.walking, 0.5, 100.0)?;
         within("reach.riding", self.reach.riding, 0.5, 100.0)?;
         within("reach.meeting", self.reach.meeting, 0.5, 100.0)
@@ -319,15 +334,16 @@ impl DeliveryConfig {
 
 impl OrderConfig {
     fn validate(&self) -> Result<(), TaskError> {
-        within("orders.customers", self.customers, 1, 100_000)?;
+        within("orders.customers", self.customers, 1, 10_000_000)?;
         within("orders.per_customer_hour", self.per_customer_hour, 0.0, 1e4)?;
         within("orders.hunger_rate", self.hunger_rate, 0.0, 1.0)?;
-        within("orders.initial", self.initial, 0, 10_000)?;
+        within("orders.initial", self.initial, 0, 100_000)?;
         within("orders.base", self.base.0, 0, 10_000_000)?;
         within("orders.per_kilometre", self.per_kilometre.0, 0, 10_000_000)?;
         within("orders.least_factor", self.least_factor, 0.01, 100.0)?;
         within("orders.greatest_factor", self.greatest_factor, self.least_factor, 100.0)?;
         within("orders.radius", self.radius, 1.0, 1e6)?;
+        within("orders.told_within", self.told_within, 100.0, EVERYWHERE)?;
         within("orders.allowance", self.allowance, 0.1, 100.0)?;
         within("orders.allowance_speed", self.allowance_speed, 0.1, 50.0)?;
         within("orders.late_per_second", self.late_per_second.0, 0, 1_000_000)?;
@@ -370,7 +386,12 @@ impl PriceConfig {
 }
 
 /// An incomparable value, such as NaN, is out of every range.
-fn within<T: PartialOrd + Display + Copy>(field: &str, value: T, low: T, high: T) -> Result<(), TaskError> {
+pub(super) fn within<T: PartialOrd + Display + Copy>(
+    field: &str,
+    value: T,
+    low: T,
+    high: T,
+) -> Result<(), TaskError> {
     if value >= low && value <= high {
         return Ok(());
     }

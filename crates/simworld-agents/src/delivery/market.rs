@@ -1,9 +1,10 @@
 //! Demand: orders come, auctions close, prices move.
 
 use super::auction::Bid;
+use super::board::Notice;
 use super::money::{Account, Cents};
 use super::order::{Open, Order, OrderId, Stage};
-use super::state::{BidResult, Site};
+use super::state::BidResult;
 use super::turn::{Turn, fact};
 
 /// Results of bids that a courier remembers.
@@ -22,7 +23,7 @@ impl Turn<'_> {
     fn next_arrival(&mut self, after: f64) -> f64 {
         let orders = &self.config.orders;
         let each = orders.per_customer_hour * orders.hunger_rate / 3600.0;
-        let rate = each * self.state.customers.len() as f64;
+        let rate = each * self.places.sites.customers() as f64;
         if rate > 0.0 { after + self.state.arrivals.exponential(rate) } else { f64::INFINITY }
     }
 
@@ -35,9 +36,10 @@ impl Turn<'_> {
     }
 
     fn post_order(&mut self) {
-        let Some(home) = self.state.arrivals.choose(&self.state.customers).copied() else { return };
-        let Some(restaurant) = self.choose_restaurant(&home) else { return };
+        let Some(home) = self.places.sites.draw_home(&mut self.state.arrivals) else { return };
         let orders = &self.config.orders;
+        let restaurant = self.places.draw_restaurant(&home, orders.radius, &mut self.state.arrivals);
+        let Some(restaurant) = restaurant else { return };
         let route = self.routes.length(&restaurant.access, &home.access);
         let factor = self.state.arrivals.uniform(orders.least_factor, orders.greatest_factor);
         let kilometres = route / 1000.0;
@@ -56,8 +58,8 @@ impl Turn<'_> {
             posted: self.state.tick,
             stage: Stage::Open(Open { closes: self.state.tick + window, bids: Vec::new() }),
         });
-        self.state.live.push(id);
-        self.state.notices += 1;
+        self.state.open.push(id);
+        self.state.board.put_up(restaurant.access.xy(), Notice::Open, id);
         let facts = [
             ("order", fact(id)),
             ("restaurant", restaurant.entity.into()),
@@ -68,34 +70,22 @@ impl Turn<'_> {
         self.tell("order_posted", None, &facts);
     }
 
-    /// One of the restaurants around a home, or the nearest.
-    fn choose_restaurant(&mut self, home: &Site) -> Option<Site> {
-        let distance = |site: &Site| (site.access.xy() - home.access.xy()).norm();
-        let radius = self.config.orders.radius;
-        let near: Vec<Site> =
-            self.state.restaurants.iter().filter(|site| distance(site) <= radius).copied().collect();
-        match self.state.arrivals.choose(&near) {
-            Some(site) => Some(*site),
-            None => self.state.restaurants.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied(),
-        }
-    }
-
+    /// Orders close in the order in which they were posted: the window is the same for all.
     pub(super) fn close_auctions(&mut self) {
-        let due: Vec<OrderId> = self.state.live_orders().filter_map(|order| self.is_closing(order)).collect();
-        for id in due {
+        let tick = self.state.tick;
+        let is_due = |order: &Order| matches!(&order.stage, Stage::Open(open) if open.closes <= tick);
+        let due = |id: &&OrderId| self.state.order(**id).is_some_and(is_due);
+        let due = self.state.open.iter().take_while(due).count();
+        for id in self.state.open.drain(..due).collect::<Vec<_>>() {
             self.close_auction(id);
         }
-    }
-
-    fn is_closing(&self, order: &Order) -> Option<OrderId> {
-        let closing = matches!(&order.stage, Stage::Open(open) if open.closes <= self.state.tick);
-        closing.then_some(order.id)
     }
 
     /// Awards an order to a bidder who can still take it, or lets it go.
     fn close_auction(&mut self, id: OrderId) {
         let Some(order) = self.state.order(id).cloned() else { return };
         let Stage::Open(open) = order.stage else { return };
+        self.state.board.take_down(order.pickup.xy(), Notice::Open, id);
         let free = |bid: &&Bid| self.state.load(bid.courier) < self.config.capacity as usize;
         let bids: Vec<Bid> = open.bids.iter().filter(free).copied().collect();
         let award = self.auction.award(order.ceiling, &bids, &mut self.state.lots);
@@ -111,7 +101,6 @@ impl Turn<'_> {
         let Some((courier, pay)) = winner else {
             self.state.market.unwanted += 1;
             self.state.orders[id.index()].stage = Stage::Expired;
-            self.state.live.retain(|live| *live != id);
             self.tell("order_expired", None, &[("order", fact(id)), ("bids", (bids.len() as i64).into())]);
             return;
         };
@@ -123,6 +112,7 @@ impl Turn<'_> {
         let bidders = open.bids.len() as i64;
         let awarded = open.award(courier, pay, self.state.tick, due);
         self.state.orders[id.index()].stage = Stage::Awarded(awarded);
+        self.state.hold(courier, id);
         self.state.couriers[courier].tally.won += 1;
         self.state.last_clearing = Some(pay.0 as f64 / order.ceiling.0 as f64);
         let facts = [

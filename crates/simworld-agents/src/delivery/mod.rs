@@ -10,12 +10,15 @@
 
 mod action;
 mod auction;
+mod battery;
+mod board;
 mod body;
 mod calls;
 mod config;
 mod market;
 mod money;
 mod order;
+mod places;
 mod policy;
 mod report;
 mod routes;
@@ -23,10 +26,12 @@ mod state;
 mod task;
 mod turn;
 mod view;
+mod weather;
 mod work;
 
 pub use action::{CallError, CourierAction};
 pub use auction::{Auction, AuctionRule, Award, Bid, FirstPrice, Softmin, Vickrey};
+pub use battery::{BatteryConfig, Power};
 pub use config::{
     AuctionConfig, DeliveryConfig, EnergyConfig, OrderConfig, PriceConfig, ReachConfig, SharingConfig,
     Shopping, SpeedConfig, Split,
@@ -38,3 +43,4 @@ pub use report::{CourierRow, DeliveryReport};
 pub use state::{BidResult, Errand, Item};
 pub use task::{AuditError, DeliveryTask};
 pub use view::{CourierView, HeldOrder, OpenOrder, SharedOffer};
+pub use weather::WeatherConfig;

@@ -38,6 +38,10 @@ pub struct CourierRow {
     pub scooters: u32,
     /// Drinks bought.
     pub drinks: u32,
+    /// Batteries swapped.
+    pub swaps: u32,
+    /// Energy taken out of the battery of its scooter, Wh.
+    pub power: f64,
     /// Times it ran out of energy.
     pub exhaustions: u32,
     /// Energy consumed.
@@ -136,6 +140,8 @@ fn row(config: &DeliveryConfig, state: &State, index: usize) -> CourierRow {
         handed_over: tally.handed_over,
         scooters: tally.scooters,
         drinks: tally.drinks,
+        swaps: tally.swaps,
+        power: tally.power,
         exhaustions: tally.exhaustions,
         energy: tally.energy,
         distance: tally.distance,

@@ -1,19 +1,13 @@
 //! Everything the task knows, as data: what a snapshot keeps and the state hash covers.
 
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Point2, Point3};
+use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
 use simworld_core::seed::StreamRng;
 
+use super::board::{Board, insert, remove};
 use super::money::{Cents, Ledger};
-use super::order::{Order, OrderId};
-
-/// A place that somebody goes to.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Site {
-    pub(super) entity: EntityId,
-    pub(super) access: Point3,
-}
+use super::order::{Order, OrderId, Stage};
 
 /// What a courier can buy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,6 +33,8 @@ pub enum Errand {
     Meet(OrderId),
     /// To buy something at the nearest store.
     Shop(Item),
+    /// To swap the battery of its scooter at the nearest charging station.
+    Swap,
 }
 
 /// A courier's scooter.
@@ -53,6 +49,8 @@ pub(super) enum Ride {
     Beside(EntityId),
     /// Its owner rides it.
     Riding(EntityId),
+    /// Its battery is empty, and its owner pushes it.
+    Dragging(EntityId),
 }
 
 /// How a bid of a courier ended.
@@ -70,7 +68,7 @@ pub struct BidResult {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Tally {
     /// Actions taken, by [`CourierAction::index`](super::CourierAction::index).
-    pub(super) actions: [u32; 10],
+    pub(super) actions: [u32; 11],
     pub(super) refused: u32,
     pub(super) bids: u32,
     pub(super) bid_sum: Cents,
@@ -82,6 +80,9 @@ pub(super) struct Tally {
     pub(super) handed_over: u32,
     pub(super) scooters: u32,
     pub(super) drinks: u32,
+    pub(super) swaps: u32,
+    /// Taken out of batteries, Wh.
+    pub(super) power: f64,
     pub(super) exhaustions: u32,
     pub(super) earned: Cents,
     pub(super) energy: f64,
@@ -104,7 +105,15 @@ pub(super) struct Courier {
     /// Speed wanted on a scooter, m/s.
     pub(super) riding: f64,
     pub(super) ride: Ride,
+    /// What the battery of its scooter holds, Wh.
+    pub(super) charge: f64,
+    /// Whether it was told that this is little.
+    pub(super) low_charge: bool,
     pub(super) errand: Errand,
+    /// The orders it has won or carries, ascending.
+    pub(super) held: Vec<OrderId>,
+    /// The orders it agreed to take over, ascending.
+    pub(super) accepted: Vec<OrderId>,
     /// Counts what happened to this courier: a mind that sees it change has something to think about.
     pub(super) notices: u64,
     /// How its last bids ended, oldest first, and how many ended before those.
@@ -118,6 +127,12 @@ impl Courier {
         matches!(self.ride, Ride::Riding(_))
     }
 
+    /// Whether it pushes a scooter without power.
+    pub(super) fn is_dragging(&self) -> bool {
+        matches!(self.ride, Ride::Dragging(_))
+    }
+
+    /// The speed that it chose, m/s.
     pub(super) fn speed(&self) -> f64 {
         if self.is_riding() { self.riding } else { self.walking }
     }
@@ -147,21 +162,24 @@ pub(super) struct State {
     pub(super) ledger: Ledger,
     pub(super) couriers: Vec<Courier>,
     pub(super) orders: Vec<Order>,
-    /// Orders that are open, awarded or carried, ascending.
-    pub(super) live: Vec<OrderId>,
-    pub(super) restaurants: Vec<Site>,
-    pub(super) customers: Vec<Site>,
-    pub(super) stores: Vec<Site>,
+    /// Orders that take bids, ascending, which is the order in which they close.
+    pub(super) open: Vec<OrderId>,
+    /// Where couriers are told of them, and of offers.
+    pub(super) board: Board,
+    /// The bodies of the couriers, ascending, each with its place in the list of agents.
+    pub(super) seats: Vec<(EntityId, u32)>,
     pub(super) arrivals: StreamRng,
     pub(super) lots: StreamRng,
     pub(super) moves: StreamRng,
     /// When the next order comes, s; infinite if nobody orders.
     pub(super) next_arrival: f64,
     pub(super) market: Market,
-    /// Counts what concerns everybody: posted orders and offers.
-    pub(super) notices: u64,
     /// The last winning bid as a share of its ceiling.
     pub(super) last_clearing: Option<f64>,
+    /// Factor of the weather on speeds.
+    pub(super) pace: f64,
+    /// Factor of the weather on what moving costs.
+    pub(super) effort: f64,
 }
 
 impl State {
@@ -174,20 +192,42 @@ impl State {
     }
 
     pub(super) fn courier_of(&self, who: EntityId) -> Option<usize> {
-        self.couriers.iter().position(|courier| courier.id == who)
+        let seat = self.seats.binary_search_by_key(&who, |seat| seat.0).ok()?;
+        Some(self.seats[seat].1 as usize)
     }
 
-    /// The orders that are open, awarded or carried.
-    pub(super) fn live_orders(&self) -> impl Iterator<Item = &Order> {
-        self.live.iter().filter_map(|id| self.order(*id))
+    /// The orders a courier has won or carries, the oldest first.
+    pub(super) fn held_by(&self, courier: usize) -> impl Iterator<Item = &Order> {
+        self.couriers[courier].held.iter().filter_map(|id| self.order(*id))
+    }
+
+    /// How many parcels a courier has with it.
+    pub(super) fn carried_by(&self, courier: usize) -> usize {
+        self.held_by(courier).filter(|order| matches!(order.stage, Stage::Carried(_))).count()
     }
 
     /// The orders a courier has won or carries, and those it agreed to take over.
     pub(super) fn load(&self, courier: usize) -> usize {
-        let concerns = |order: &&Order| {
-            let accepted = order.stage.terms().and_then(|terms| terms.offer).and_then(|offer| offer.accepted);
-            order.stage.holder() == Some(courier) || accepted == Some(courier)
-        };
-        self.live_orders().filter(concerns).count()
+        self.couriers[courier].held.len() + self.couriers[courier].accepted.len()
+    }
+
+    /// Notes that a courier has an order now.
+    pub(super) fn hold(&mut self, courier: usize, id: OrderId) {
+        insert(&mut self.couriers[courier].held, id);
+    }
+
+    /// Notes that it has it no longer.
+    pub(super) fn release(&mut self, courier: usize, id: OrderId) {
+        remove(&mut self.couriers[courier].held, id);
+    }
+
+    /// Notes that a courier agreed to take an order over.
+    pub(super) fn agree(&mut self, courier: usize, id: OrderId) {
+        insert(&mut self.couriers[courier].accepted, id);
+    }
+
+    /// Notes that it no longer does.
+    pub(super) fn disagree(&mut self, courier: usize, id: OrderId) {
+        remove(&mut self.couriers[courier].accepted, id);
     }
 }

@@ -1,24 +1,25 @@
 //! The task itself: settings, an auction and a state, behind core's [`Task`] seam.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use simworld_core::geometry::{Aabb, Point2};
+use simworld_core::geometry::Point2;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Place, Scene};
+use simworld_core::scene::Scene;
 use simworld_core::seam::{Metric, Outcome, Task, TaskContext, TaskError, TaskOutput};
-use simworld_core::seed::Seed;
+use simworld_core::seed::{Seed, Stream};
 use thiserror::Error;
 
 use super::action::CourierAction;
 use super::auction::Auction;
-use super::config::{DeliveryConfig, Shopping};
+use super::board::{Board, Notice};
+use super::config::DeliveryConfig;
 use super::money::{Account, Cents, Ledger};
-use super::order::Order;
+use super::order::{Order, Stage};
+use super::places::{Places, Sites};
 use super::report::DeliveryReport;
 use super::routes::Routes;
-use super::state::{Courier, Errand, Market, Ride, Site, State, Tally};
+use super::state::{Courier, Errand, Market, Ride, State, Tally};
 use super::turn::Turn;
 use super::view::CourierView;
 
@@ -32,6 +33,7 @@ pub struct DeliveryTask {
     config: DeliveryConfig,
     auction: Arc<dyn Auction>,
     routes: Routes,
+    places: Option<Arc<Places>>,
     pub(super) state: Option<State>,
 }
 
@@ -53,8 +55,8 @@ pub enum AuditError {
         /// What it owes: ceilings of orders under way, and bounties.
         owed: Cents,
     },
-    /// An order is listed as live and is not, or the other way about.
-    #[error("order {order} is {stage} and is listed otherwise")]
+    /// An order is listed where it does not belong, or is not where it does.
+    #[error("order {order} is {stage} and is listed otherwise, or in too many places")]
     Listing {
         /// Which.
         order: u32,
@@ -71,7 +73,7 @@ impl DeliveryTask {
     pub fn new(config: DeliveryConfig) -> Result<Self, TaskError> {
         config.validate()?;
         let auction = Arc::from(config.auction.rule.auction());
-        Ok(Self { config, auction, routes: Routes::default(), state: None })
+        Ok(Self { config, auction, routes: Routes::default(), places: None, state: None })
     }
 
     /// With an auction of one's own in place of the one in the settings.
@@ -108,7 +110,7 @@ impl DeliveryTask {
     }
 
     /// Checks the books: money is conserved, nobody is overdrawn, the escrow holds exactly what it owes, and the
-    /// list of live orders agrees with their stages.
+    /// lists of orders agree with their stages.
     ///
     /// # Errors
     /// What contradicts itself.
@@ -124,32 +126,18 @@ impl DeliveryTask {
         if held != owed {
             return Err(AuditError::Escrow { held, owed });
         }
-        for order in &state.orders {
-            let live = !matches!(order.stage.name(), "delivered" | "expired");
-            if live != state.live.binary_search(&order.id).is_ok() {
-                return Err(AuditError::Listing { order: order.id.0, stage: order.stage.name() });
-            }
-        }
-        Ok(())
+        audit_lists(state)
     }
 
-    fn begin(&self, scene: &dyn Scene, agents: &[EntityId], seed: Seed) -> Result<State, TaskError> {
-        let stream = seed.stream("agents/delivery");
-        let mut homes = stream.named("customers").rng();
-        let [restaurants, dwellings, stores] = sites(scene);
+    fn begin(
+        &self,
+        scene: &dyn Scene,
+        agents: &[EntityId],
+        places: &Places,
+        stream: Stream,
+    ) -> Result<State, TaskError> {
         let missing =
             |missing: &str, hint: &str| TaskError::Scene { missing: missing.into(), hint: hint.into() };
-        if restaurants.is_empty() {
-            return Err(missing("restaurant", "spawn a building used as Place::Restaurant"));
-        }
-        if dwellings.is_empty() {
-            return Err(missing("home", "spawn a building used as Place::Home"));
-        }
-        if stores.is_empty() && self.config.prices.shopping == Shopping::AtStore {
-            return Err(missing("store", "spawn a building used as Place::Store, or set prices.shopping"));
-        }
-        let draw = |_| homes.choose(&dwellings).copied();
-        let customers = (0..self.config.orders.customers).filter_map(draw).collect();
         let mut couriers = Vec::with_capacity(agents.len());
         for id in agents {
             let body = scene
@@ -157,16 +145,18 @@ impl DeliveryTask {
                 .ok_or_else(|| missing(&format!("courier {id}"), "spawn the agents before the reset"))?;
             couriers.push(self.courier(*id, body.planar()));
         }
+        let mut seats: Vec<(EntityId, u32)> = agents.iter().copied().zip(0..).collect();
+        seats.sort_unstable();
+        let doors = places.sites.restaurants.iter().map(|site| site.access.xy());
         Ok(State {
             tick: 0,
             dt: scene.clock().dt(),
             ledger: Ledger::new(agents.len(), self.config.initial_money),
             couriers,
             orders: Vec::new(),
-            live: Vec::new(),
-            restaurants,
-            customers,
-            stores,
+            open: Vec::new(),
+            board: Board::new(self.config.orders.told_within, doors),
+            seats,
             arrivals: stream.named("arrivals").rng(),
             lots: stream.named("lots").rng(),
             moves: stream.named("prices").rng(),
@@ -181,8 +171,9 @@ impl DeliveryTask {
                 scooters: 0,
                 drinks: 0,
             },
-            notices: 0,
             last_clearing: None,
+            pace: 1.0,
+            effort: 1.0,
         })
     }
 
@@ -196,12 +187,53 @@ impl DeliveryTask {
             walking: self.config.speed.walking,
             riding: self.config.speed.riding,
             ride: Ride::None,
+            charge: 0.0,
+            low_charge: false,
             errand: Errand::Idle,
+            held: Vec::new(),
+            accepted: Vec::new(),
             notices: 0,
             results: Vec::new(),
             results_before: 0,
             tally: Tally::default(),
         }
+    }
+}
+
+/// Whether every order is listed where its stage says, and nowhere else.
+fn audit_lists(state: &State) -> Result<(), AuditError> {
+    let mut listed = 0;
+    for order in &state.orders {
+        let offer = order.stage.terms().and_then(|terms| terms.offer);
+        let has = |list: &[super::order::OrderId]| list.binary_search(&order.id).is_ok();
+        let mut sound = true;
+        if matches!(order.stage, Stage::Open(_)) {
+            sound &= has(&state.open) && state.board.shows(order.pickup.xy(), Notice::Open, order.id);
+            listed += 2;
+        }
+        if let Some(holder) = order.stage.holder() {
+            sound &= has(&state.couriers[holder].held);
+            listed += 1;
+        }
+        if let Some(offer) = offer {
+            sound &= state.board.shows(offer.meet.xy(), Notice::Offer, order.id);
+            listed += 1;
+        }
+        if let Some(second) = offer.and_then(|offer| offer.accepted) {
+            sound &= has(&state.couriers[second].accepted);
+            listed += 1;
+        }
+        if !sound {
+            return Err(AuditError::Listing { order: order.id.0, stage: order.stage.name() });
+        }
+    }
+    let lists = state.couriers.iter().map(|courier| courier.held.len() + courier.accepted.len());
+    let found = state.open.len() + state.board.len() + lists.sum::<usize>();
+    match state.orders.last() {
+        Some(order) if found != listed => {
+            Err(AuditError::Listing { order: order.id.0, stage: order.stage.name() })
+        }
+        _ => Ok(()),
     }
 }
 
@@ -211,31 +243,12 @@ fn owed(state: &State) -> Cents {
         let Some(terms) = order.stage.terms() else { return Cents::ZERO };
         let bounty = terms.offer.map_or(Cents::ZERO, |offer| offer.bounty);
         let leg = match &order.stage {
-            super::order::Stage::Carried(carried) => carried.first.map_or(Cents::ZERO, |leg| leg.bounty),
+            Stage::Carried(carried) => carried.first.map_or(Cents::ZERO, |leg| leg.bounty),
             _ => Cents::ZERO,
         };
         order.ceiling + bounty + leg
     };
     state.orders.iter().map(of).fold(Cents::ZERO, |sum, part| sum + part)
-}
-
-/// Restaurants, homes and stores, each by ascending id.
-fn sites(scene: &dyn Scene) -> [Vec<Site>; 3] {
-    let mut found = [Vec::new(), Vec::new(), Vec::new()];
-    let _ = scene.visit(&Aabb::column_around(Point2::origin(), 1e9), &mut |entity| {
-        let group = match entity.info.place {
-            Some(Place::Restaurant) => 0,
-            Some(Place::Home) => 1,
-            Some(Place::Store) => 2,
-            _ => return ControlFlow::Continue(()),
-        };
-        found[group].push(Site { entity: entity.id, access: entity.access() });
-        ControlFlow::Continue(())
-    });
-    for group in &mut found {
-        group.sort_by_key(|site| site.entity);
-    }
-    found
 }
 
 impl Task for DeliveryTask {
@@ -254,17 +267,20 @@ impl Task for DeliveryTask {
         }
         self.routes = Routes::default();
         self.routes.prepare(scene)?;
-        let mut state = self.begin(scene, agents, seed)?;
+        let stream = seed.stream("agents/delivery");
+        let places = Places::new(Sites::of(scene, &self.config, stream)?);
+        let mut state = self.begin(scene, agents, &places, stream)?;
         Turn {
             config: &self.config,
             auction: &*self.auction,
             routes: &mut self.routes,
+            places: &places,
             state: &mut state,
             scene,
             out,
         }
         .open_shop();
-        self.state = Some(state);
+        (self.places, self.state) = (Some(Arc::new(places)), Some(state));
         Ok(())
     }
 
@@ -274,10 +290,9 @@ impl Task for DeliveryTask {
         out: &mut TaskOutput,
         outcome: &mut Outcome,
     ) -> Result<(), TaskError> {
-        let state = self
-            .state
-            .as_mut()
-            .ok_or_else(|| TaskError::Other("a delivery task is reset before its first step".to_owned()))?;
+        let (Some(places), Some(state)) = (&self.places, &mut self.state) else {
+            return Err(TaskError::Other("a delivery task is reset before its first step".to_owned()));
+        };
         self.routes.prepare(context.scene)?;
         let purse = |state: &State, index: usize| state.ledger.balance(Account::Courier(index));
         let before: Vec<Cents> = (0..state.couriers.len()).map(|index| purse(state, index)).collect();
@@ -285,6 +300,7 @@ impl Task for DeliveryTask {
             config: &self.config,
             auction: &*self.auction,
             routes: &mut self.routes,
+            places,
             state,
             scene: context.scene,
             out,
@@ -305,25 +321,29 @@ impl Task for DeliveryTask {
     }
 
     fn save(&self) -> Vec<u8> {
-        postcard::to_allocvec(&(&self.config, &self.state))
+        let sites = self.places.as_ref().map(|places| &places.sites);
+        postcard::to_allocvec(&(&self.config, sites, &self.state))
             .expect("plain data without maps of unknown length can be written to memory")
     }
 
     /// False also for bytes that were saved under other settings.
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let Ok((config, state)) = postcard::from_bytes::<(DeliveryConfig, Option<State>)>(saved) else {
-            return false;
-        };
-        if config != self.config {
+        type Saved = (DeliveryConfig, Option<Sites>, Option<State>);
+        let Ok((config, sites, state)) = postcard::from_bytes::<Saved>(saved) else { return false };
+        if config != self.config || sites.is_some() != state.is_some() {
             return false;
         }
         self.routes = Routes::default();
-        self.state = state;
+        (self.places, self.state) = (sites.map(|sites| Arc::new(Places::new(sites))), state);
         true
     }
 
     fn state_hash(&self, hasher: &mut StateHasher) {
-        let saved = self.save();
+        if let Some(places) = &self.places {
+            places.state_hash(hasher);
+        }
+        let saved = postcard::to_allocvec(&(&self.config, &self.state))
+            .expect("plain data without maps of unknown length can be written to memory");
         hasher.u64(saved.len() as u64).bytes(&saved);
     }
 }

@@ -12,6 +12,7 @@ use super::auction::Auction;
 use super::config::DeliveryConfig;
 use super::money::{Account, Cents, Overdrawn};
 use super::order::OrderId;
+use super::places::Places;
 use super::routes::Routes;
 use super::state::{Errand, State};
 
@@ -20,6 +21,7 @@ pub(super) struct Turn<'a> {
     pub(super) config: &'a DeliveryConfig,
     pub(super) auction: &'a dyn Auction,
     pub(super) routes: &'a mut Routes,
+    pub(super) places: &'a Places,
     pub(super) state: &'a mut State,
     pub(super) scene: &'a dyn Scene,
     pub(super) out: &'a mut TaskOutput,
@@ -28,6 +30,7 @@ pub(super) struct Turn<'a> {
 impl Turn<'_> {
     pub(super) fn run(&mut self, context: &TaskContext<'_>) {
         self.state.tick += 1;
+        self.weather();
         for index in 0..self.state.couriers.len() {
             self.find_parcels(index);
             self.mount(index);
@@ -129,6 +132,9 @@ impl Turn<'_> {
     /// Sends a courier on its errand, at its present speed.
     pub(super) fn send(&mut self, index: usize) {
         let courier = &self.state.couriers[index];
+        let dragging = self.config.battery.dragging_speed;
+        let most = if courier.is_dragging() { dragging } else { f64::INFINITY };
+        let speed = courier.speed().min(most) * self.state.pace;
         // A plan ends well inside the circle in which the task sees an arrival.
         let (at_place, at_meeting) = (self.reach(index) * 0.5, self.config.reach.meeting * 0.3);
         let order = |id: OrderId| self.state.order(id);
@@ -139,10 +145,11 @@ impl Turn<'_> {
             Errand::Meet(id) => order(id)
                 .and_then(|order| order.stage.terms()?.offer)
                 .map(|offer| (Goal::Point(offer.meet), at_meeting)),
-            Errand::Shop(_) => self.nearest_store(index).map(|store| (Goal::Point(store), at_place)),
+            Errand::Shop(_) => self.places.store(courier.position).map(|at| (Goal::Point(at), at_place)),
+            Errand::Swap => self.places.station(courier.position).map(|at| (Goal::Point(at), at_place)),
         };
         if let Some((to, within)) = goal {
-            let steps = vec![PlanStep::Navigate { to, within, speed: Some(courier.speed()) }];
+            let steps = vec![PlanStep::Navigate { to, within, speed: Some(speed) }];
             self.out.plans.push((courier.id, Plan { steps }));
         }
     }
@@ -153,13 +160,6 @@ impl Turn<'_> {
         courier.errand = Errand::Idle;
         let stop = PlanStep::Act(simworld_core::action::Action::Stop);
         self.out.plans.push((courier.id, Plan { steps: vec![stop] }));
-    }
-
-    pub(super) fn nearest_store(&self, index: usize) -> Option<Point3> {
-        let from = self.state.couriers[index].position;
-        let distance = |point: &Point3| (point.xy() - from).norm();
-        let nearest = self.state.stores.iter().map(|store| store.access);
-        nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     pub(super) fn command(&mut self, command: Command) {

@@ -2,6 +2,8 @@
 
 use simworld_core::geometry::{Point2, Point3};
 
+use super::battery::Power;
+use super::board::Notice;
 use super::config::DeliveryConfig;
 use super::money::{Account, Cents};
 use super::order::{Order, OrderId, Stage};
@@ -103,7 +105,7 @@ impl<'a> CourierView<'a> {
 
     /// A count that grows whenever something happened that this courier may want to act on.
     pub fn notices(&self) -> u64 {
-        self.state.notices + self.courier().notices
+        self.state.board.news(self.position()) + self.courier().notices
     }
 
     /// Whether it is time to think: `due` has come, or something happened that was not `seen` before, to which the courier reacts
@@ -136,7 +138,7 @@ impl<'a> CourierView<'a> {
         self.courier().exhausted
     }
 
-    /// The speed at which it moves when it moves, m/s.
+    /// The speed at which it moves when it moves, before what the weather takes of it, m/s.
     pub fn speed(&self) -> f64 {
         self.courier().speed()
     }
@@ -149,6 +151,23 @@ impl<'a> CourierView<'a> {
     /// Whether it rides.
     pub fn is_riding(&self) -> bool {
         self.courier().is_riding()
+    }
+
+    /// Whether it pushes a scooter whose battery is empty.
+    pub fn is_dragging(&self) -> bool {
+        self.courier().is_dragging()
+    }
+
+    /// The share that the battery of its scooter holds; `None` without a scooter, or where scooters have no batteries.
+    pub fn charge(&self) -> Option<f64> {
+        let battery = &self.config.battery;
+        let powered = battery.power == Power::Battery && self.has_scooter();
+        powered.then(|| self.courier().charge / battery.capacity)
+    }
+
+    /// The factor of the weather on speeds: 1 where nothing falls.
+    pub fn pace(&self) -> f64 {
+        self.state.pace
     }
 
     /// What it is on its way to do.
@@ -188,10 +207,20 @@ impl<'a> CourierView<'a> {
         (point.xy() - self.position()).norm()
     }
 
-    /// The orders that take bids, oldest first.
+    /// What hangs on the board within reach, the oldest order first.
+    fn told(&self, notice: Notice) -> impl Iterator<Item = &'a Order> + use<'a> {
+        let near = self.state.board.near(self.position(), notice);
+        let state = self.state;
+        near.into_iter().filter_map(|id| state.order(id))
+    }
+
+    /// The orders that take bids and of which it is told, oldest first.
     pub fn open_orders(&self) -> impl Iterator<Item = OpenOrder> + '_ {
-        self.state.live_orders().filter_map(|order| {
+        self.told(Notice::Open).filter_map(|order| {
             let Stage::Open(open) = &order.stage else { return None };
+            if !self.state.board.reaches(self.distance_to(&order.pickup)) {
+                return None;
+            }
             Some(OpenOrder {
                 id: order.id,
                 ceiling: order.ceiling,
@@ -205,7 +234,7 @@ impl<'a> CourierView<'a> {
 
     /// The orders it has won or carries, oldest first.
     pub fn held_orders(&self) -> impl Iterator<Item = HeldOrder> + '_ {
-        self.state.live_orders().filter_map(|order| self.held(order))
+        self.state.held_by(self.index).filter_map(|order| self.held(order))
     }
 
     fn held(&self, order: &Order) -> Option<HeldOrder> {
@@ -234,11 +263,18 @@ impl<'a> CourierView<'a> {
 
     /// The offers of others that this courier accepted or may accept.
     pub fn offers(&self) -> impl Iterator<Item = SharedOffer> + '_ {
-        self.state.live_orders().filter_map(|order| {
+        // What it accepted it knows of wherever it is.
+        let accepted = self.courier().accepted.iter().filter_map(|id| self.state.order(*id));
+        let offered = self.told(Notice::Offer).filter(|order| {
+            let offer = order.stage.terms().and_then(|terms| terms.offer);
+            offer.is_some_and(|offer| {
+                offer.accepted.is_none() && self.state.board.reaches(self.distance_to(&offer.meet))
+            })
+        });
+        accepted.chain(offered).filter_map(|order| {
             let terms = order.stage.terms()?;
             let offer = terms.offer?;
-            let open = offer.accepted.is_none_or(|second| second == self.index);
-            if order.stage.holder() == Some(self.index) || !open {
+            if order.stage.holder() == Some(self.index) {
                 return None;
             }
             Some(SharedOffer {

@@ -2,6 +2,7 @@
 
 use simworld_core::command::Command;
 
+use super::board::Notice;
 use super::config::Split;
 use super::money::{Account, Cents};
 use super::order::{Carried, OrderId, Stage};
@@ -27,9 +28,19 @@ impl Turn<'_> {
             }
             Errand::Meet(id) => self.meet(id),
             Errand::Shop(item) => {
-                if self.nearest_store(index).is_some_and(|store| self.is_at(index, &store, reach)) {
+                let store = self.places.store(self.state.couriers[index].position);
+                if store.is_some_and(|store| self.is_at(index, &store, reach)) {
                     self.state.couriers[index].errand = Errand::Idle;
                     if let Err(reason) = self.buy(index, item) {
+                        self.tell("errand_failed", Some(index), &[("reason", reason.into())]);
+                    }
+                }
+            }
+            Errand::Swap => {
+                let station = self.places.station(self.state.couriers[index].position);
+                if station.is_some_and(|station| self.is_at(index, &station, reach)) {
+                    self.state.couriers[index].errand = Errand::Idle;
+                    if let Err(reason) = self.swap(index) {
                         self.tell("errand_failed", Some(index), &[("reason", reason.into())]);
                     }
                 }
@@ -60,6 +71,10 @@ impl Turn<'_> {
         }
         let Some(carried) = carried.hand_over() else { return };
         let parcel = carried.parcel;
+        self.state.board.take_down(offer.meet.xy(), Notice::Offer, id);
+        self.state.release(first, id);
+        self.state.disagree(second, id);
+        self.state.hold(second, id);
         self.state.orders[id.index()].stage = Stage::Carried(carried);
         for index in [first, second] {
             self.state.couriers[index].errand = Errand::Idle;
@@ -67,7 +82,7 @@ impl Turn<'_> {
         }
         self.state.couriers[first].tally.handed_over += 1;
         let second_id = self.state.couriers[second].id;
-        if let Some(child) = parcel {
+        if let Some(child) = parcel.filter(|parcel| self.scene.entity(*parcel).is_some()) {
             let bond = Some(self.grip(second, second_id));
             self.command(Command::Attach { child, bond });
         }
@@ -81,7 +96,8 @@ impl Turn<'_> {
         let late = (self.state.now() - carried.terms.due).max(0.0);
         let paid = self.reward(&carried, late);
         self.settle(id, &carried, self.state.orders[id.index()].ceiling, paid);
-        if let Some(parcel) = carried.parcel {
+        // Somebody may have taken it out of the world.
+        if let Some(parcel) = carried.parcel.filter(|parcel| self.scene.entity(*parcel).is_some()) {
             self.command(Command::Remove { id: parcel });
         }
         let tally = &mut self.state.couriers[index].tally;
@@ -89,7 +105,7 @@ impl Turn<'_> {
         tally.late += u32::from(late > 0.0);
         tally.completion += (self.state.tick - carried.terms.tick) as f64 * self.state.dt;
         self.state.orders[id.index()].stage = Stage::Delivered(carried.deliver(self.state.tick, paid, late));
-        self.state.live.retain(|live| *live != id);
+        self.state.release(index, id);
         let facts = [("order", fact(id)), ("paid", paid.dollars().into()), ("late", late.into())];
         self.tell("order_delivered", Some(index), &facts);
     }
@@ -137,6 +153,10 @@ impl Turn<'_> {
         let Some(stage) = self.state.orders.get_mut(id.index()).map(|order| &mut order.stage) else { return };
         let Some(holder) = stage.holder() else { return };
         let Some(offer) = stage.terms_mut().and_then(|terms| terms.offer.take()) else { return };
+        self.state.board.take_down(offer.meet.xy(), Notice::Offer, id);
+        if let Some(second) = offer.accepted {
+            self.state.disagree(second, id);
+        }
         self.transfer(id, Account::Courier(holder), offer.bounty);
         for index in offer.accepted.into_iter().chain([holder]) {
             if self.state.couriers[index].errand == Errand::Meet(id) {

@@ -50,6 +50,8 @@ pub struct Episode<T: Task> {
     task: T,
     agents: Vec<Agent<T>>,
     ids: Vec<EntityId>,
+    /// The bodies, ascending, each with its place in the list of agents.
+    seats: Vec<(EntityId, usize)>,
     outcome: Outcome,
     failed: bool,
     returns: Vec<f64>,
@@ -79,13 +81,14 @@ impl<T: Task> Episode<T> {
         seed: Seed,
     ) -> Result<Self, EpisodeError> {
         let ids: Vec<EntityId> = agents.iter().map(|agent| agent.id).collect();
-        check_bodies(&ids, simulation.world())?;
+        let seats = seats(&ids, simulation.world())?;
         let mut episode = Self {
             returns: vec![0.0; ids.len()],
             simulation,
             task,
             agents,
             ids,
+            seats,
             outcome: Outcome::default(),
             failed: false,
             trail: Vec::new(),
@@ -248,7 +251,7 @@ impl<T: Task> Episode<T> {
 
     fn plan(&mut self, who: EntityId, intent: &Intent) {
         let world = self.simulation.world();
-        let reason = match self.agents.iter_mut().find(|agent| agent.id == who) {
+        let reason = match seat(&self.seats, who).map(|seat| &mut self.agents[seat]) {
             Some(agent) => match agent.planner.plan(intent, world, who) {
                 Ok(plan) => agent.executor.start(plan, world, who).err().map(|error| error.to_string()),
                 Err(error) => Some(error.to_string()),
@@ -305,7 +308,7 @@ impl<T: Task> Episode<T> {
 
     fn start(&mut self, who: EntityId, plan: Plan) {
         let world = self.simulation.world();
-        let reason = match self.agents.iter_mut().find(|agent| agent.id == who) {
+        let reason = match seat(&self.seats, who).map(|seat| &mut self.agents[seat]) {
             Some(agent) => agent.executor.start(plan, world, who).err().map(|error| error.to_string()),
             None => Some(format!("{who} is no agent of this episode")),
         };
@@ -341,19 +344,25 @@ impl<T: Task> Episode<T> {
     }
 }
 
-/// Every agent has a body of its own.
-fn check_bodies(ids: &[EntityId], scene: &dyn Scene) -> Result<(), EpisodeError> {
-    for (index, id) in ids.iter().enumerate() {
-        let reason = if scene.entity(*id).is_none() {
-            "there is no such entity: spawn its body before the episode"
-        } else if ids[..index].contains(id) {
-            "it was given twice: one agent a body"
-        } else {
-            continue;
-        };
+/// Every agent has a body of its own; the bodies in ascending order.
+fn seats(ids: &[EntityId], scene: &dyn Scene) -> Result<Vec<(EntityId, usize)>, EpisodeError> {
+    if let Some(id) = ids.iter().find(|id| scene.entity(**id).is_none()) {
+        let reason = "there is no such entity: spawn its body before the episode";
         return Err(EpisodeError::Agent { id: *id, reason });
     }
-    Ok(())
+    let mut seats: Vec<(EntityId, usize)> = ids.iter().copied().zip(0..).collect();
+    seats.sort_unstable();
+    match seats.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        Some(pair) => {
+            let reason = "it was given twice: one agent a body";
+            Err(EpisodeError::Agent { id: pair[0].0, reason })
+        }
+        None => Ok(seats),
+    }
+}
+
+fn seat(seats: &[(EntityId, usize)], who: EntityId) -> Option<usize> {
+    seats.binary_search_by_key(&who, |seat| seat.0).ok().map(|place| seats[place].1)
 }
 
 impl<T: Task> StateHash for Episode<T> {

@@ -36,7 +36,7 @@ fn building(place: Place, x: f64, y: f64) -> EntityDesc {
         .accessed_at(Point3::new(x + 6.0, y, 0.0))
 }
 
-/// Two restaurants, three homes and a store around the origin, and walkers in a row.
+/// Two restaurants, three homes, a store and a charging station around the origin, and walkers in a row.
 pub(crate) fn world(couriers: usize) -> (World, Vec<EntityId>) {
     let mut world = World::new();
     let places = [
@@ -46,6 +46,7 @@ pub(crate) fn world(couriers: usize) -> (World, Vec<EntityId>) {
         (Place::Home, -80.0, 10.0),
         (Place::Home, 20.0, -90.0),
         (Place::Store, -20.0, -30.0),
+        (Place::ChargingStation, 40.0, 60.0),
     ];
     for (place, x, y) in places {
         world.spawn(building(place, x, y)).unwrap();
@@ -103,7 +104,12 @@ impl Town {
         self.task.step(&context, &mut out, &mut outcome).unwrap();
         self.outcome = outcome;
         for command in &out.commands {
-            self.simulation.apply(command).unwrap_or_else(|error| panic!("{command:?}: {error}"));
+            // What a body cannot do is a fact of the world, as in an episode.
+            let applied = self.simulation.apply(command);
+            assert!(
+                applied.is_ok() || matches!(command, Command::Actuate { .. }),
+                "{command:?}: {applied:?}"
+            );
         }
         for event in out.events {
             self.simulation.emit(event);
@@ -127,7 +133,7 @@ impl Town {
             };
             match step {
                 PlanStep::Navigate { to: Goal::Point(point), within, speed } => {
-                    let body = self.simulation.world().entity(who).unwrap();
+                    let Some(body) = self.simulation.world().entity(who) else { continue };
                     let way = point.xy() - body.planar();
                     if way.norm() <= within {
                         act(&mut self.simulation, Action::Stop);
@@ -169,6 +175,14 @@ impl Town {
             }
         }
         panic!("no {name} within {steps} steps");
+    }
+
+    /// The plan of a courier fails: in the next step it is told so.
+    pub(crate) fn fail_plan(&mut self, who: EntityId) {
+        if self.plans.remove(&who).is_some() {
+            let kind = EventKind::PlanFailed { who, reason: "the way is blocked".to_owned() };
+            self.last.push(Event { tick: self.simulation.world().clock().tick(), kind });
+        }
     }
 
     pub(crate) fn count(&self, name: &str) -> usize {

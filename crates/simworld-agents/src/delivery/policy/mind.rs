@@ -68,6 +68,7 @@ impl CourierMind {
             return CourierAction::DoNothing;
         }
         self.invest(view)
+            .or_else(|| swap(view))
             .or_else(|| self.meet(view))
             .or_else(|| work(view))
             .or_else(|| hurry(view))
@@ -138,6 +139,14 @@ impl CourierMind {
         let price = admissible(price * self.persona.price_factor() * noise, order.ceiling);
         Some(CourierAction::BidOrder { order: order.id, price })
     }
+}
+
+/// Has the battery swapped when it is empty, or low and nothing else is to be done.
+fn swap(view: &CourierView<'_>) -> Option<CourierAction> {
+    let low = view.charge().is_some_and(|charge| charge < view.config().battery.low);
+    let free = view.errand() == Errand::Idle || (view.is_dragging() && view.errand() != Errand::Swap);
+    let can_pay = view.purse() >= view.config().battery.swap;
+    (low && free && can_pay).then_some(CourierAction::SwapBattery)
 }
 
 /// Delivers or picks up, whichever is nearer; what is late goes first.

@@ -35,6 +35,7 @@ share_order(order, bounty_cents): offers to hand an order over half-way
 cancel_share_order(order): takes that back, or steps back from an offer that you accepted
 go_to_meet_point(order): goes to where an order changes hands, and accepts the offer if it is another's
 purchase_scooter(), purchase_drinks(): buys one
+swap_battery(): goes to a charging station and swaps the battery of the scooter
 adjust_speed(decimetres_per_second): moves at another speed from now on
 do_nothing(): lets the moment pass";
 
@@ -77,6 +78,11 @@ impl<'a> CourierMenu<'a> {
         let thirsty = view.energy() < THIRSTY * view.config().energy.capacity;
         if shops && thirsty && view.purse() >= view.drink_price() {
             branches.push(object([act("purchase_drinks")]));
+        }
+        let can_pay = view.purse() >= view.config().battery.swap;
+        let worth_it = view.charge().is_some_and(|charge| charge < 1.0) && view.errand() != Errand::Swap;
+        if worth_it && can_pay && !view.is_exhausted() {
+            branches.push(object([act("swap_battery")]));
         }
         let (low, high) = self.speeds();
         if low <= high {
@@ -132,6 +138,7 @@ impl<'a> CourierMenu<'a> {
             "adjust_speed" => {
                 CourierAction::AdjustSpeed { speed: whole(&deed["decimetres_per_second"])? as f64 / 10.0 }
             }
+            "swap_battery" => CourierAction::SwapBattery,
             "do_nothing" => CourierAction::DoNothing,
             _ => return None,
         })
@@ -145,9 +152,14 @@ impl<'a> CourierMenu<'a> {
             Errand::PickUp(id) => format!("on the way to pick up order {id}"),
             Errand::Deliver(id) => format!("on the way to deliver order {id}"),
             Errand::Meet(id) => format!("on the way to meet over order {id}"),
+            Errand::Swap => "on the way to swap the battery".to_owned(),
             Errand::Shop(item) => format!("on the way to buy a {}", format!("{item:?}").to_lowercase()),
         };
-        let ride = if view.is_riding() { ", riding" } else { "" };
+        let ride = match view.charge() {
+            _ if view.is_dragging() => ", pushing a scooter whose battery is empty".to_owned(),
+            Some(charge) if view.is_riding() => format!(", riding, battery {:.0} %", charge * 100.0),
+            _ => if view.is_riding() { ", riding" } else { "" }.to_owned(),
+        };
         let tired = if view.is_exhausted() { ", exhausted" } else { "" };
         format!(
             "{} cents, energy {:.0} of {:.0}{tired}, {:.1} m/s{ride}, {errand}, room for {} more orders; a drink costs {} \

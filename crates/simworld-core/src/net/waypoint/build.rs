@@ -1,10 +1,13 @@
 //! Builds the levels of the waypoint graph from a road network.
 
-use super::grid::PointGrid;
 use super::{Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind};
 use crate::geometry::{Point2, Vector2};
+use crate::grid::PointGrid;
 use crate::id::{CrossingId, IntersectionId, LaneId, RoadId, WaypointId};
 use crate::net::{RoadNetwork, Side, polyline};
+
+/// Width of a cell of the grid in which the nearest waypoint is looked for, m.
+const CELL: f64 = 20.0;
 
 /// A graph under construction.
 #[derive(Default)]
@@ -44,7 +47,7 @@ impl Builder {
         for index in 1..starts.len() {
             starts[index] += starts[index - 1];
         }
-        let grid = PointGrid::new(&self.waypoints);
+        let grid = PointGrid::new(self.waypoints.iter().map(|waypoint| waypoint.position).collect(), CELL);
         let edges = self.edges.into_iter().map(|(_, edge)| edge).collect();
         WaypointGraph { waypoints: self.waypoints, starts, edges, grid }
     }

@@ -2,18 +2,17 @@
 //! and lanes; and shortest paths over both.
 
 mod build;
-mod grid;
 #[cfg(feature = "hierarchy")]
 mod hierarchy;
 mod route;
 #[cfg(feature = "petgraph")]
 mod visit;
 
-use grid::PointGrid;
 use serde::{Deserialize, Serialize};
 
 use super::{NetworkError, RoadNetwork};
 use crate::geometry::Point2;
+use crate::grid::PointGrid;
 use crate::id::{CrossingId, IntersectionId, LaneId, WaypointId};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::RouteHierarchy;
@@ -161,6 +160,6 @@ impl WaypointGraph {
 
     /// The waypoint nearest to a point, the lower id of two at the same distance; `None` in an empty graph.
     pub fn nearest(&self, point: Point2) -> Option<WaypointId> {
-        self.grid.nearest(&self.waypoints, point)
+        self.grid.nearest(point).map(WaypointId::from_index)
     }
 }
