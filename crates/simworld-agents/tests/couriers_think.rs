@@ -8,12 +8,13 @@ mod thought_common;
 use delivery_common::{Town, quiet};
 use simworld_agents::delivery::{DeliveryConfig, Persona, Split};
 use simworld_agents::mind::Mind;
-use simworld_agents::model::ChatRequest;
-use simworld_agents::thought::ModelCourier;
+use simworld_agents::model::{ChatRequest, ModelError};
+use simworld_agents::observer::Frame;
+use simworld_agents::thought::{CourierConfig, ModelCourier, Waking};
 use simworld_core::event::EventKind;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
-use simworld_core::seam::Task;
+use simworld_core::seam::{ObserveError, Observer, Task};
 use simworld_core::seed::Seed;
 use thought_common::answers::at_random;
 use thought_common::{Asked, model, text};
@@ -38,6 +39,10 @@ fn refusals(town: &Town) -> Vec<String> {
         _ => None,
     };
     town.log.iter().filter_map(refusal).collect()
+}
+
+fn often() -> CourierConfig {
+    CourierConfig { interval: 1.0, ..CourierConfig::default() }
 }
 
 fn deed(deed: &str) -> String {
@@ -99,7 +104,7 @@ fn what_the_schema_offers_is_never_refused() {
             let schema = &request.schema.as_ref().expect("a call is asked for by a schema").json;
             Ok(at_random(schema, schema, &mut rng, 0.0).to_string())
         });
-        let mut mind = ModelCourier::new(model).with_interval(1.0);
+        let mut mind = ModelCourier::new(model).with_config(often()).expect("in range");
         play(&mut town, &mut mind, 6000).expect("every answer is a call");
         assert_eq!(refusals(&town), Vec::<String>::new());
         assert!(asked.all().len() > 400);
@@ -142,13 +147,23 @@ fn an_order_from_a_hostile_restaurant_changes_no_schema() {
 }
 
 #[test]
-fn rubbish_is_borne_twice_and_a_saved_mind_goes_on() {
+fn rubbish_and_silence_cost_the_turn_and_a_saved_mind_goes_on() {
     let mut town = Town::new(quiet(), 1, 4);
     let (mouth, asked) = model(|_, _| Ok("Let me think.".to_owned()));
     let mut mind = ModelCourier::new(mouth);
-    let error = play(&mut town, &mut mind, 400).expect_err("it does not go on for ever");
-    assert!(error.contains("is no JSON"), "{error}");
-    assert_eq!(asked.all().len(), 6, "three thoughts, each with one repair");
+    play(&mut town, &mut mind, 400).expect("rubbish costs no more than the turn");
+    assert!(asked.all().len() > 10 && text(&asked.last(), 1).contains("refused: "), "it is told why");
+
+    let silence =
+        || ModelError::Timeout { phase: "the answer".to_owned(), limit: std::time::Duration::from_secs(1) };
+    let (mouth, asked) =
+        model(move |nth, _| if nth % 3 == 2 { Ok(deed(r#"{"act": "do_nothing"}"#)) } else { Err(silence()) });
+    let mut mind = ModelCourier::new(mouth);
+    play(&mut town, &mut mind, 400).expect("two failures in a row are borne");
+    assert!(asked.all().len() > 10);
+    let (mouth, asked) = model(move |_, _| Err(silence()));
+    let error = play(&mut town, &mut ModelCourier::new(mouth), 400).expect_err("it does not go on for ever");
+    assert!(error.contains("1 s") && asked.all().len() == 3, "{error}");
 
     let way = |cut: Option<usize>| {
         let mut town = Town::new(quiet(), 1, 4);
@@ -161,4 +176,96 @@ fn rubbish_is_borne_twice_and_a_saved_mind_goes_on() {
         town.task.save()
     };
     assert_eq!(way(None), way(Some(333)));
+}
+
+/// Bids that no schema offers: each is refused before it reaches the auction, with a reason, and costs the turn alone.
+#[test]
+fn impossible_bids_are_refused_with_a_reason() {
+    let mut town = Town::new(quiet(), 2, 4);
+    let answers = [
+        r#"{"act": "bid_order", "order": "0", "cents": -5}"#,
+        r#"{"act": "bid_order", "order": "0", "cents": 100000000}"#,
+        r#"{"act": "bid_order", "order": "0", "cents": NaN}"#,
+        r#"{"act": "bid_order", "order": "0", "cents": 500, "courier": 1}"#,
+        r#"{"act": "bid_order", "order": "7", "cents": 500}"#,
+        r#"{"act": "deliver_order", "order": "0"}"#,
+        "",
+        "[]",
+    ];
+    let before = town.task.save();
+    for answer in answers {
+        let (mouth, asked) = model(move |_, _| Ok(deed(answer)));
+        let mut mind = ModelCourier::new(mouth);
+        let mut wanted = Vec::new();
+        let world = town.simulation.world();
+        for _ in 0..2 {
+            mind.decide(&town.task, world, town.couriers[0], &mut wanted).expect("it costs the turn");
+        }
+        assert!(wanted.is_empty(), "{answer} became {wanted:?}");
+        assert_eq!(asked.all().len(), 2, "once, and once more with what is wrong");
+        assert_eq!(town.task.save(), before);
+    }
+    // What comes too late is refused by the task itself.
+    let closing =
+        town.task.view(town.couriers[0]).expect("a courier").open_orders().next().expect("open").closes_in;
+    for _ in 0..(closing / 0.1) as usize + 2 {
+        town.step(&[]);
+    }
+    let late = simworld_core::intent::Intent::call("bid_order").arg("order", 0_i64).arg("price", 5.0);
+    town.step(&[(0, late)]);
+    assert!(
+        refusals(&town).last().expect("it is refused").contains("takes no bids"),
+        "{:?}",
+        refusals(&town)
+    );
+}
+
+/// A camera that sees one colour.
+struct Red;
+
+impl Observer for Red {
+    type Observation = Frame;
+
+    fn observe(&mut self, _: &dyn Scene, _: EntityId, out: &mut Frame) -> Result<(), ObserveError> {
+        *out = Frame { width: 2, height: 1, rgb: vec![255, 0, 0, 255, 0, 0] };
+        Ok(())
+    }
+}
+
+#[test]
+fn who_reasons_before_it_acts_takes_two_requests_remembers_and_sees() {
+    let mut town = Town::new(quiet(), 1, 4);
+    let (mouth, asked) = model(|_, request| {
+        let schema = request.schema.as_ref().expect("a call is asked for by a schema");
+        let thought = r#"{"thought": "The order is near: I bid for it."}"#;
+        let bid = r#"{"act": "bid_order", "order": "0", "cents": 500}"#;
+        let open = schema.json.to_string().contains("bid_order");
+        Ok(if schema.name == "thought" {
+            thought.to_owned()
+        } else {
+            deed(if open { bid } else { r#"{"act": "do_nothing"}"# })
+        })
+    });
+    let config = CourierConfig::patient();
+    let mut mind = ModelCourier::new(mouth).with_camera(Red).with_config(config).expect("in range");
+    play(&mut town, &mut mind, 5000).expect("the model answers");
+    let all = asked.all();
+    // 500 s: the paper asks 10,000 times.
+    assert!(all.len() >= 40 && all.len() * 50 <= 10_000, "{} requests", all.len());
+    assert!(all.len().is_multiple_of(2));
+    for pair in all.chunks(2) {
+        assert!(!text(&pair[0], 1).contains("I bid for it."), "it has not thought yet");
+        assert!(text(&pair[1], 1).contains("The order is near: I bid for it."));
+        let pictures = |request: &ChatRequest| {
+            let parts = request.messages.iter().flat_map(|message| &message.content);
+            parts.filter(|part| matches!(part, simworld_agents::model::Part::Image(_))).count()
+        };
+        assert_eq!((pictures(&pair[0]), pictures(&pair[1])), (1, 1));
+    }
+    assert!(text(all.last().expect("it was asked"), 1).contains("You remember:"));
+    let (mouth, asked) = model(|_, _| Ok(deed(r#"{"act": "do_nothing"}"#)));
+    let config = CourierConfig { waking: Waking::EveryStep, ..CourierConfig::default() };
+    let mut mind = ModelCourier::new(mouth).with_config(config).expect("in range");
+    play(&mut Town::new(quiet(), 1, 4), &mut mind, 50).expect("the model answers");
+    assert_eq!(asked.all().len(), 50);
 }

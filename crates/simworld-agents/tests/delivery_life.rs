@@ -230,8 +230,8 @@ fn speed(town: &Town) -> f64 {
 #[test]
 fn an_empty_scooter_is_pushed_to_the_station_and_charged_for_money() {
     let mut config = quiet();
-    // Enough for some forty metres.
-    config.battery = BatteryConfig { power: Power::Battery, capacity: 0.5, ..BatteryConfig::default() };
+    // Enough for some twenty metres.
+    config.battery = BatteryConfig { power: Power::Battery, capacity: 0.25, ..BatteryConfig::default() };
     config.initial_money = Cents(20_000);
     let mut town = Town::new(config, 1, 1);
     assert!(town.act(0, CourierAction::SwapBattery).is_err(), "there is no scooter yet");
@@ -242,7 +242,7 @@ fn an_empty_scooter_is_pushed_to_the_station_and_charged_for_money() {
     town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
     town.until("battery_empty", 100);
     let row = town.task.report().unwrap().couriers[0].clone();
-    assert!((row.power - 0.5).abs() < 1e-9, "{} Wh of 0.5 were used", row.power);
+    assert!((row.power - 0.25).abs() < 1e-9, "{} Wh of 0.25 were used", row.power);
     let view = town.task.view(town.couriers[0]).unwrap();
     assert!(view.is_dragging() && !view.is_riding() && view.charge() == Some(0.0));
     let energy = view.energy();

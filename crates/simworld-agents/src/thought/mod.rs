@@ -20,7 +20,7 @@ mod reasoner;
 mod relevance;
 pub mod schema;
 
-pub use courier::ModelCourier;
+pub use courier::{CourierConfig, CourierConfigError, ModelCourier, Thinking, Waking};
 pub use eyes::{VisualConfig, VisualConfigError, VisualExecutor};
 pub use known::{Sight, ViewConfig, ViewConfigError};
 pub use memory::{Memory, MemoryConfig, MemoryConfigError, Record, RecordKind, RingMemory};

@@ -35,6 +35,8 @@ pub enum Prompt {
     Look,
     /// Who a courier is and what its trade allows.
     Courier,
+    /// What a courier considers before it acts.
+    Consider,
     /// What a courier finds now.
     Shift,
 }
@@ -50,6 +52,7 @@ impl Prompt {
         Self::Eyes,
         Self::Look,
         Self::Courier,
+        Self::Consider,
         Self::Shift,
     ];
 
@@ -64,6 +67,7 @@ impl Prompt {
             Self::Eyes => "eyes",
             Self::Look => "look",
             Self::Courier => "courier",
+            Self::Consider => "consider",
             Self::Shift => "shift",
         }
     }
@@ -79,6 +83,7 @@ impl Prompt {
             Self::Eyes => include_str!("../../prompts/eyes.jinja"),
             Self::Look => include_str!("../../prompts/look.jinja"),
             Self::Courier => include_str!("../../prompts/courier.jinja"),
+            Self::Consider => include_str!("../../prompts/consider.jinja"),
             Self::Shift => include_str!("../../prompts/shift.jinja"),
         }
     }
@@ -92,8 +97,8 @@ impl Prompt {
             Self::Agent => &["body", "calls", "persona", "goal"],
             Self::Turn => &["senses", "memories", "feelings", "messages", "turns", "left"],
             Self::Look => &["aim", "deeds", "frames", "left"],
-            Self::Courier => &["calls", "persona"],
-            Self::Shift => &["oneself", "held", "open", "offers", "news"],
+            Self::Courier | Self::Consider => &["calls", "persona"],
+            Self::Shift => &["oneself", "held", "open", "offers", "news", "memories", "thought"],
         }
     }
 }

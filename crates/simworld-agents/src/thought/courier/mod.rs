@@ -1,40 +1,44 @@
 //! A courier that thinks with a model, over the calls of the delivery economy.
 
+mod config;
 mod menu;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
+pub use config::{CourierConfig, CourierConfigError, Thinking, Waking};
 use menu::{CALLS, CourierMenu};
 use serde::{Deserialize, Serialize};
 use simworld_core::event::{Event, EventKind};
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
+use simworld_core::seam::Observer;
 
+use super::memory::{Memory, Record, RecordKind, RingMemory};
 use super::persona::{Character, Persona};
 use super::prompts::{Prompt, Prompts, one_line};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
+use super::schema::{object, words};
 use crate::delivery::{CourierAction, DeliveryTask};
 use crate::mind::{Mind, MindError};
-use crate::model::ChatModel;
+use crate::model::{ChatModel, Image};
+use crate::observer::Frame;
 
-/// Longest time between two thoughts, s: that of the couriers without a model.
-const INTERVAL: f64 = 5.0;
-/// Shortest, s: news that come sooner are thought of together.
-const PAUSE: f64 = 1.0;
 /// The most lines of news that are kept.
 const NEWS: usize = 8;
-/// Answers in a row that cannot be used before the mind fails.
-const FAULTS: u32 = 3;
-
+/// How much what happened matters to a memory, and how much what one did.
+const NEWS_MATTER: u8 = 4;
+const DEEDS_MATTER: u8 = 3;
 /// A courier whose decisions come from a model, by a schema of the calls that are possible now: orders as they stand, bids in
 /// cents up to the ceiling of each.
 pub struct ModelCourier {
     reasoner: Box<dyn Reasoner>,
     prompts: Arc<Prompts>,
     persona: Box<dyn Persona>,
-    interval: f64,
+    memory: Box<dyn Memory>,
+    camera: Option<Box<dyn Observer<Observation = Frame> + Send>>,
+    config: CourierConfig,
     state: State,
 }
 
@@ -60,7 +64,8 @@ impl ModelCourier {
     pub fn with_reasoner(reasoner: Box<dyn Reasoner>) -> Self {
         let prompts = Arc::new(Prompts::standard());
         let persona = Box::new(Character::default());
-        Self { reasoner, prompts, persona, interval: INTERVAL, state: State::default() }
+        let (memory, config) = (Box::new(RingMemory::default()), CourierConfig::default());
+        Self { reasoner, prompts, persona, memory, camera: None, config, state: State::default() }
     }
 
     /// As somebody: a [`Character`], or the traits of the couriers without a model.
@@ -70,10 +75,27 @@ impl ModelCourier {
         self
     }
 
-    /// Thinks at least that often, s, 1 to 3600; what is outside is brought inside.
+    /// With other settings.
+    ///
+    /// # Errors
+    /// A setting out of range.
+    pub fn with_config(mut self, config: CourierConfig) -> Result<Self, CourierConfigError> {
+        config.validate()?;
+        self.config = config;
+        Ok(self)
+    }
+
+    /// With a memory of one's own; how much of it comes to mind is a setting.
     #[must_use]
-    pub fn with_interval(mut self, seconds: f64) -> Self {
-        self.interval = if seconds.is_nan() { INTERVAL } else { seconds.clamp(PAUSE, 3600.0) };
+    pub fn with_memory(mut self, memory: impl Memory + 'static) -> Self {
+        self.memory = Box::new(memory);
+        self
+    }
+
+    /// Shows the model what a camera sees at each thought.
+    #[must_use]
+    pub fn with_camera(mut self, camera: impl Observer<Observation = Frame> + Send + 'static) -> Self {
+        self.camera = Some(Box::new(camera));
         self
     }
 
@@ -84,34 +106,106 @@ impl ModelCourier {
         self
     }
 
+    /// What comes to mind of what happened before, a line each.
+    fn recollections(&mut self, about: &str, now: f64) -> String {
+        let records = self.memory.recall(about, now, self.config.memories);
+        records.iter().map(|record| one_line(&record.text)).collect::<Vec<_>>().join("\n")
+    }
+
+    /// What the camera shows, if it has one.
+    fn sight(&mut self, scene: &dyn Scene, who: EntityId) -> Result<Vec<Image>, ReasonError> {
+        let Some(camera) = &mut self.camera else { return Ok(Vec::new()) };
+        let blind = |reason: String| ReasonError::Other(format!("the camera gives no picture: {reason}"));
+        let mut frame = Frame::default();
+        camera.observe(scene, who, &mut frame).map_err(|error| blind(error.to_string()))?;
+        let file = frame.to_png().map_err(|error| blind(error.to_string()))?;
+        Ok(vec![Image::png(file)])
+    }
+
     fn think(
         &mut self,
         task: &DeliveryTask,
         scene: &dyn Scene,
+        who: EntityId,
         menu: &CourierMenu<'_>,
     ) -> Result<CourierAction, ReasonError> {
+        let now = scene.clock().seconds();
         let news: Vec<&str> = self.state.news.iter().map(String::as_str).collect();
-        let orders = task.orders();
-        let system = self
-            .prompts
-            .render(Prompt::Courier, &[("calls", CALLS), ("persona", &self.persona.describe())])?;
-        let user = self.prompts.render(
-            Prompt::Shift,
-            &[
-                ("oneself", &menu.oneself()),
-                ("held", &menu.held(orders, scene)),
-                ("open", &menu.open(orders, scene)),
-                ("offers", &menu.offers(orders, scene)),
-                ("news", &news.join("\n")),
-            ],
-        )?;
-        let question = Question { system, user, images: Vec::new(), name: "call", schema: menu.schema() };
+        let (orders, news) = (task.orders(), news.join("\n"));
+        let (oneself, held) = (menu.oneself(), menu.held(orders, scene));
+        let (open, offers) = (menu.open(orders, scene), menu.offers(orders, scene));
+        let memories = self.recollections(&[held.as_str(), &open, &news].join("\n"), now);
+        let images = self.sight(scene, who)?;
+        let persona = self.persona.describe();
+        let ask = |system: Prompt, thought: &str| -> Result<(String, String), ReasonError> {
+            let user = [
+                ("oneself", oneself.as_str()),
+                ("held", &held),
+                ("open", &open),
+                ("offers", &offers),
+                ("news", &news),
+                ("memories", &memories),
+                ("thought", thought),
+            ];
+            let system = self.prompts.render(system, &[("calls", CALLS), ("persona", &persona)])?;
+            Ok((system, self.prompts.render(Prompt::Shift, &user)?))
+        };
+        let mut thought = String::new();
+        if self.config.thinking == Thinking::ReasonThenAct {
+            let (system, user) = ask(Prompt::Consider, "")?;
+            let schema = object([("thought", words(600))]);
+            let question = Question { system, user, images: images.clone(), name: "thought", schema };
+            let answer = self.reasoner.reason(&question, &mut |_| Ok(()))?;
+            thought = one_line(answer["thought"].as_str().unwrap_or_default());
+        }
+        let (system, user) = ask(Prompt::Courier, &thought)?;
+        let question = Question { system, user, images, name: "call", schema: menu.schema() };
         let mut action = None;
-        self.reasoner.reason(&question, &mut |answer| {
+        let answer = self.reasoner.reason(&question, &mut |answer| {
             action = Some(CourierMenu::read(&answer["deed"]).ok_or("deed cannot be read")?);
             Ok(())
         })?;
-        action.ok_or_else(|| ReasonError::Other("the reasoner did not have its answer checked".to_owned()))
+        let action = action
+            .ok_or_else(|| ReasonError::Other("the reasoner did not have its answer checked".to_owned()))?;
+        self.remember(now, action, answer["because"].as_str().unwrap_or_default());
+        Ok(action)
+    }
+
+    /// Keeps what was learnt since the last decision, and what was decided.
+    fn remember(&mut self, now: f64, action: CourierAction, because: &str) {
+        if self.config.memories == 0 {
+            return;
+        }
+        for line in self.state.news.drain(..) {
+            self.memory.remember(Record::new(now, RecordKind::Saw, line, NEWS_MATTER));
+        }
+        if action != CourierAction::DoNothing {
+            let deed = format!("at {now:.0} s: {}, because {}", Intent::from(action), one_line(because));
+            self.memory.remember(Record::new(now, RecordKind::Did, deed, DEEDS_MATTER));
+        }
+    }
+
+    /// An answer that cannot be used costs the turn, and the courier is told; a model that fails is borne for a while.
+    fn bear(&mut self, who: EntityId, error: &ReasonError) -> Result<(), MindError> {
+        let borne = match error {
+            ReasonError::Answer { fault, .. } => {
+                self.hear(&format!("refused: {fault}"));
+                true
+            }
+            ReasonError::Model(error) => {
+                self.state.faults += 1;
+                error.is_passing() && self.state.faults < self.config.patience
+            }
+            _ => false,
+        };
+        if borne { Ok(()) } else { Err(MindError { who, reason: error.to_string() }) }
+    }
+
+    fn hear(&mut self, line: &str) {
+        self.state.news.push_back(one_line(line));
+        if self.state.news.len() > NEWS {
+            self.state.news.pop_front();
+        }
     }
 }
 
@@ -128,28 +222,20 @@ impl Mind<DeliveryTask> for ModelCourier {
         };
         let now = view.now();
         let rested = self.state.rested;
-        if !view.wakes(&mut self.state.seen, &mut self.state.due, || rested) {
+        let woken = view.wakes(&mut self.state.seen, &mut self.state.due, || rested);
+        if !woken && self.config.waking == Waking::Events {
             return Ok(());
         }
-        self.state.due = now + self.interval;
-        self.state.rested = now + PAUSE;
-        match self.think(task, scene, &CourierMenu::new(view)) {
+        self.state.due = now + self.config.interval;
+        self.state.rested = now + self.config.pause;
+        match self.think(task, scene, who, &CourierMenu::new(view)) {
             Ok(action) => {
                 self.state.faults = 0;
                 self.state.news.clear();
                 out.push(action.into());
                 Ok(())
             }
-            Err(error) => {
-                self.state.faults += 1;
-                let passing = match &error {
-                    ReasonError::Answer { .. } => true,
-                    ReasonError::Model(error) => error.is_passing(),
-                    _ => false,
-                };
-                let bears = passing && self.state.faults < FAULTS;
-                if bears { Ok(()) } else { Err(MindError { who, reason: error.to_string() }) }
-            }
+            Err(error) => self.bear(who, &error),
         }
     }
 
@@ -170,23 +256,20 @@ impl Mind<DeliveryTask> for ModelCourier {
                 }
                 _ => continue,
             };
-            self.state.news.push_back(one_line(&line));
-            if self.state.news.len() > NEWS {
-                self.state.news.pop_front();
-            }
+            self.hear(&line);
         }
     }
 
     fn save(&self) -> Vec<u8> {
         // Plain data, which postcard always takes.
-        postcard::to_stdvec(&self.state).expect("plain data serialises")
+        postcard::to_stdvec(&(&self.state, self.memory.save())).expect("plain data serialises")
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        match postcard::from_bytes(saved) {
-            Ok(state) => {
+        match postcard::from_bytes::<(State, Vec<u8>)>(saved) {
+            Ok((state, memories)) => {
                 self.state = state;
-                true
+                self.memory.restore(&memories)
             }
             Err(_) => false,
         }

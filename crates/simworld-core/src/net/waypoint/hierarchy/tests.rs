@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::geometry::Point2;
-use crate::net::waypoint::grid::PointGrid;
+use crate::grid::PointGrid;
 use crate::net::{
     NetworkConfig, RoadNetwork, StreetPlan, Waypoint, WaypointConfig, WaypointEdge, WaypointKind,
 };
@@ -25,7 +25,7 @@ fn graph_of(count: usize, edges: &[(usize, usize, u32)]) -> WaypointGraph {
         }));
         starts.push(all.len() as u32);
     }
-    let grid = PointGrid::new(&waypoints);
+    let grid = PointGrid::new((0..count).map(at).collect(), 20.0);
     WaypointGraph { waypoints, starts, edges: all, grid }
 }
 
