@@ -13,7 +13,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, replay};
+use simworld_agents::thought::Waking;
+use simworld_examples::delivery::{Brain, Eyes, OutputFolder, RunConfig, Watch, play, replay};
 use simworld_examples::experiment::{Preset, Results, conduct};
 use simworld_examples::report::{holds_run, keep_index, write_report};
 
@@ -65,12 +66,39 @@ struct Arguments {
     /// Threads to use [default: one a core].
     #[arg(long)]
     threads: Option<usize>,
-    /// An experiment of the paper: main, competition, orders, money or persona.
+    /// An experiment: main, competition, orders, money or persona of the paper, or scale.
     #[arg(long, value_name = "NAME", conflicts_with = "replay")]
     preset: Option<Preset>,
     /// Goes on with the experiment of this folder; give the same settings.
     #[arg(long, value_name = "DIR", requires = "preset", conflicts_with = "out")]
     resume: Option<PathBuf>,
+    /// Who decides, dealt to the couriers in turn: policies by name, and `model` [default: the twelve policies].
+    #[arg(long, value_name = "MINDS", value_delimiter = ',')]
+    mind: Vec<Brain>,
+    /// Couriers think with the model behind this OpenAI-compatible address.
+    #[arg(long, value_name = "URL")]
+    model: Option<String>,
+    /// The model's name, where the server has several.
+    #[arg(long, value_name = "NAME")]
+    model_name: Option<String>,
+    /// The environment variable that holds the server's key.
+    #[arg(long, value_name = "VARIABLE")]
+    model_key: Option<String>,
+    /// A folder of recordings of the model, one a seed: what is on one is not asked again, and without --model nothing else is.
+    #[arg(long, value_name = "DIR")]
+    tape: Option<PathBuf>,
+    /// A folder of templates that replace prompts of the same name.
+    #[arg(long, value_name = "DIR")]
+    prompts: Option<PathBuf>,
+    /// Shows the model what is before the courier; needs a graphics adapter.
+    #[arg(long)]
+    eyes: bool,
+    /// Lets couriers with a model think in every step, as in the paper.
+    #[arg(long)]
+    every_step: bool,
+    /// Longest time between two thoughts of a courier with a model, s [default: 20].
+    #[arg(long, value_name = "SECONDS")]
+    think: Option<f64>,
     /// Runs the logs of this folder again and confirms every hash; all other options are ignored.
     #[arg(long, value_name = "DIR")]
     replay: Option<PathBuf>,
@@ -168,8 +196,30 @@ fn configure(arguments: &Arguments) -> Result<RunConfig, Fault> {
     if arguments.city.is_some() {
         config.city_file.clone_from(&arguments.city);
     }
+    configure_minds(&mut config, arguments);
     config.validate()?;
     Ok(config)
+}
+
+/// Who decides, and how those with a model think.
+fn configure_minds(config: &mut RunConfig, arguments: &Arguments) {
+    if !arguments.mind.is_empty() {
+        config.policies.clone_from(&arguments.mind);
+    }
+    let model = &mut config.model;
+    set(&mut model.url, arguments.model.clone().map(Some).as_ref());
+    set(&mut model.name, arguments.model_name.as_ref());
+    set(&mut model.key_variable, arguments.model_key.clone().map(Some).as_ref());
+    set(&mut model.tape, arguments.tape.clone().map(Some).as_ref());
+    set(&mut model.prompts, arguments.prompts.clone().map(Some).as_ref());
+    set(&mut model.thinking.interval, arguments.think.as_ref());
+    model.thinking.pause = model.thinking.pause.min(model.thinking.interval.max(0.1));
+    if arguments.eyes {
+        model.eyes = Eyes::Open;
+    }
+    if arguments.every_step {
+        model.thinking.waking = Waking::EveryStep;
+    }
 }
 
 /// Takes over what the command line says, if it says anything.

@@ -7,14 +7,16 @@ use simworld_agents::delivery::{DeliveryConfig, DeliveryTask};
 use simworld_agents::episode::{Agent, Episode, EpisodeError};
 use simworld_agents::executor::RuleExecutor;
 use simworld_agents::language::GrammarPlanner;
+use simworld_agents::mind::{Mind, Silent};
 use simworld_citygen::files::save::SaveError;
 use simworld_citygen::python::{FormatError, Warning, read_roads};
 use simworld_citygen::{City, CityError};
+use simworld_core::environment::EnvironmentError;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::net::{NetworkError, WaypointConfig, WaypointGraph};
 use simworld_core::scene::{EntityDesc, EntityKind, Place, Shape, World, WorldError};
-use simworld_core::seam::TaskError;
+use simworld_core::seam::{Dynamics, TaskError};
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
 use simworld_physics::{HumanoidConfig, PhysicsDynamics, PhysicsError};
@@ -22,7 +24,10 @@ use simworld_traffic::{TrafficConfig, TrafficDynamics, TrafficError};
 use thiserror::Error;
 
 use super::RunConfig;
-use super::players::{Player, players};
+use super::bodies::CourierBodies;
+use super::config::EVERYWHERE;
+use super::players::{Brain, Player, players};
+use super::thinkers::{ThinkError, Thinkers};
 
 /// Why the parts do not fit together.
 #[derive(Debug, Error)]
@@ -64,6 +69,12 @@ pub enum AssembleError {
     /// No walkways.
     #[error(transparent)]
     Network(#[from] NetworkError),
+    /// Sun or weather out of range.
+    #[error("environment.{0}")]
+    Environment(#[from] EnvironmentError),
+    /// Couriers cannot think.
+    #[error(transparent)]
+    Thinking(#[from] ThinkError),
     /// The world refused an entity.
     #[error(transparent)]
     World(#[from] WorldError),
@@ -84,6 +95,10 @@ pub struct Assembly {
     pub episode: Episode<DeliveryTask>,
     /// The couriers' bodies.
     pub couriers: Vec<EntityId>,
+    /// What thinks for those that think with a model, if it does.
+    pub thinkers: Option<Thinkers>,
+    /// How many of them are under physics at the start.
+    pub physical: u32,
 }
 
 /// The city of a configuration, the same for all its seeds; and what was mended in its file of roads.
@@ -104,13 +119,29 @@ pub fn make_city(config: &RunConfig) -> Result<(City, Vec<Warning>), AssembleErr
     Ok((City::from_plan(plan, &config.city, seed)?, warnings))
 }
 
-/// The run of one seed in that city.
+/// The run of one seed in that city; a model is that of the settings.
 ///
 /// # Errors
 /// A part that cannot be made.
 pub fn assemble(config: &RunConfig, city: &City, seed: Seed) -> Result<Assembly, AssembleError> {
+    let think = players(config, seed).iter().any(|player| player.policy == Brain::Model);
+    let thinkers = think.then(|| Thinkers::new(&config.model, seed)).transpose()?;
+    assemble_with(config, city, seed, thinkers)
+}
+
+/// The same with what thinks for those that think with a model; without it they are silent, as in a replay.
+///
+/// # Errors
+/// A part that cannot be made.
+pub fn assemble_with(
+    config: &RunConfig,
+    city: &City,
+    seed: Seed,
+    mut thinkers: Option<Thinkers>,
+) -> Result<Assembly, AssembleError> {
     let mut world = World::new();
     city.populate(&mut world)?;
+    world.set_environment(config.environment)?;
     let traffic_config = TrafficConfig {
         vehicles: config.vehicles,
         pedestrians: config.pedestrians,
@@ -118,20 +149,36 @@ pub fn assemble(config: &RunConfig, city: &City, seed: Seed) -> Result<Assembly,
     };
     let traffic = TrafficDynamics::new(&mut world, &traffic_config, seed)?;
     let couriers = spawn_couriers(&mut world, city, config.agents, seed)?;
-    let mut physics = PhysicsDynamics::new(config.physics.clone())?;
-    for courier in &couriers {
-        physics.add_humanoid(&world, *courier, HumanoidConfig::default())?;
-    }
+    let (bodies, physical) = courier_bodies(config, &world, &couriers)?;
     let mut simulation = Simulation::new(world);
     simulation.add_dynamics("traffic", Box::new(traffic));
-    simulation.add_dynamics("physics", Box::new(physics));
+    simulation.add_dynamics("physics", bodies);
     simulation.set_trail_interval(0); // the episode keeps the trail, task and executors included
     let delivery = DeliveryConfig { steps: config.steps, ..config.delivery.clone() };
     let task = DeliveryTask::new(delivery)?;
-    let agents = make_agents(config, city, &couriers, seed)?;
+    let agents = make_agents(config, city, &couriers, seed, thinkers.as_mut())?;
     let mut episode = Episode::new(simulation, task, agents, seed.stream("delivery").seed())?;
     episode.set_trail_interval(config.digest_interval);
-    Ok(Assembly { episode, couriers })
+    Ok(Assembly { episode, couriers, thinkers, physical })
+}
+
+/// Bodies under physics, or where only some are, those that change with the place; and how many are under physics.
+fn courier_bodies(
+    config: &RunConfig,
+    world: &World,
+    couriers: &[EntityId],
+) -> Result<(Box<dyn Dynamics>, u32), AssembleError> {
+    if config.physical_within < EVERYWHERE {
+        let (physics, radius) = (config.physics.clone(), config.physical_within);
+        let bodies = CourierBodies::new(world, couriers, physics, radius)?;
+        let physical = bodies.physical();
+        return Ok((Box::new(bodies), physical));
+    }
+    let mut physics = PhysicsDynamics::new(config.physics.clone())?;
+    for courier in couriers {
+        physics.add_humanoid(world, *courier, HumanoidConfig::default())?;
+    }
+    Ok((Box::new(physics), couriers.len() as u32))
 }
 
 /// Couriers begin before restaurants and stores, one at each door in turn, out of each other's way.
@@ -173,15 +220,26 @@ fn make_agents(
     city: &City,
     couriers: &[EntityId],
     seed: Seed,
+    mut thinkers: Option<&mut Thinkers>,
 ) -> Result<Vec<Agent<DeliveryTask>>, AssembleError> {
     let ways = Arc::new(WaypointGraph::walkable(&city.network, &WaypointConfig::default())?);
     let minds = seed.stream("minds");
     let players = players(config, seed);
-    let agent = |(index, (id, player)): (usize, (&EntityId, &Player))| Agent {
-        id: *id,
-        mind: player.policy.mind(player.persona, minds.indexed(index as u64)),
-        planner: Box::new(GrammarPlanner::default()),
-        executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
+    let mut mind = |index: usize, player: &Player| -> Result<Box<dyn Mind<DeliveryTask>>, ThinkError> {
+        Ok(match (player.policy, &mut thinkers) {
+            (Brain::Policy(policy), _) => policy.mind(player.persona, minds.indexed(index as u64)),
+            (Brain::Model, Some(thinkers)) => Box::new(thinkers.mind(index, player.persona)?),
+            (Brain::Model, None) => Box::new(Silent),
+        })
     };
-    Ok(couriers.iter().zip(&players).enumerate().map(agent).collect())
+    let mut agents = Vec::with_capacity(couriers.len());
+    for (index, (id, player)) in couriers.iter().zip(&players).enumerate() {
+        agents.push(Agent {
+            id: *id,
+            mind: mind(index, player)?,
+            planner: Box::new(GrammarPlanner::default()),
+            executor: Box::new(RuleExecutor::new(Arc::clone(&ways))),
+        });
+    }
+    Ok(agents)
 }

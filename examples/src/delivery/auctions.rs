@@ -29,17 +29,24 @@ impl Auction {
 /// Gathers auctions event by event.
 #[derive(Clone, Debug, Default)]
 pub(super) struct AuctionBook {
+    /// The place of each courier in the list of them.
+    seats: BTreeMap<EntityId, usize>,
     /// By the number of the order.
     auctions: BTreeMap<i64, Auction>,
 }
 
 impl AuctionBook {
-    /// Takes in an event of a run with those couriers.
-    pub(super) fn take(&mut self, event: &Event, couriers: &[EntityId]) {
+    /// An empty book of a run with those couriers.
+    pub(super) fn new(couriers: &[EntityId]) -> Self {
+        Self { seats: couriers.iter().copied().zip(0..).collect(), auctions: BTreeMap::new() }
+    }
+
+    /// Takes in an event.
+    pub(super) fn take(&mut self, event: &Event) {
         let EventKind::Task { name, who, data } = &event.kind else { return };
         let Some(order) = data.get("order").and_then(Value::as_i64) else { return };
         let number = |key: &str| data.get(key).and_then(Value::as_f64).unwrap_or_default();
-        let who = who.and_then(|who| couriers.iter().position(|courier| *courier == who));
+        let who = who.and_then(|who| self.seats.get(&who).copied());
         match (name.as_str(), who) {
             ("order_posted", _) => {
                 self.auctions.insert(order, Auction { ceiling: number("ceiling"), ..Auction::default() });
@@ -68,9 +75,9 @@ impl AuctionBook {
 
 /// The auctions of a run with those couriers, from its events.
 pub fn auctions_of(events: &[Event], couriers: &[EntityId]) -> Vec<Auction> {
-    let mut book = AuctionBook::default();
+    let mut book = AuctionBook::new(couriers);
     for event in events {
-        book.take(event, couriers);
+        book.take(event);
     }
     book.finish()
 }
@@ -84,11 +91,11 @@ mod tests {
     #[test]
     fn a_later_bid_replaces_an_earlier_one() {
         let couriers = [EntityId::from(4), EntityId::from(9)];
-        let mut book = AuctionBook::default();
+        let mut book = AuctionBook::new(&couriers);
         let mut tell = |name: &str, who: Option<usize>, facts: &[(&str, Value)]| {
             let kind = EventKind::task(name, who.map(|who| couriers[who]));
             let kind = facts.iter().fold(kind, |kind, (key, value)| kind.with(key, value.clone()));
-            book.take(&Event { tick: Tick(1), kind }, &couriers);
+            book.take(&Event { tick: Tick(1), kind });
         };
         let order = ("order", Value::Integer(3));
         tell("order_posted", None, &[order.clone(), ("ceiling", Value::Number(20.0))]);

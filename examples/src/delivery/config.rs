@@ -3,13 +3,19 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use simworld_agents::delivery::{DeliveryConfig, Persona, PolicyKind};
+use simworld_agents::delivery::{DeliveryConfig, Persona};
 use simworld_citygen::CityConfig;
+use simworld_core::environment::Environment;
 use simworld_physics::PhysicsConfig;
 use simworld_traffic::TrafficConfig;
 use thiserror::Error;
 
 use super::locate::line_of;
+use super::players::Brain;
+use super::thinkers::ModelSettings;
+
+/// From this distance on all bodies are under physics, m.
+pub(super) const EVERYWHERE: f64 = 1e6;
 
 /// Everything that determines a run. The same configuration gives the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,10 +37,17 @@ pub struct RunConfig {
     pub frames: u32,
     /// Steps between two digests of the trail, in [1, 10 000].
     pub digest_interval: u64,
-    /// Who plays: the policies are dealt to the couriers in turn.
-    pub policies: Vec<PolicyKind>,
+    /// Who plays: policies, and `model`, are dealt to the couriers in turn.
+    pub policies: Vec<Brain>,
+    /// The model of those that think with one.
+    pub model: ModelSettings,
     /// What they are like: the personas are dealt in turn; without any each courier's is drawn.
     pub personas: Vec<Persona>,
+    /// Couriers within this distance of the middle of the city have bodies under physics, m, in [0, 10⁶]; those beyond move
+    /// as points at the speed that they are told. Bodies change when couriers come or go.
+    pub physical_within: f64,
+    /// Sun and weather.
+    pub environment: Environment,
     /// A `roads.json` of the Python release to use instead of grown roads.
     pub roads: Option<PathBuf>,
     /// A saved city to use instead of a grown one; it comes before roads and settings of a city.
@@ -61,8 +74,11 @@ impl Default for RunConfig {
             pedestrians: 80,
             frames: 3,
             digest_interval: 10,
-            policies: PolicyKind::ALL.to_vec(),
+            policies: Brain::policies(),
+            model: ModelSettings::default(),
             personas: Vec::new(),
+            physical_within: EVERYWHERE,
+            environment: Environment::default(),
             roads: None,
             city_file: None,
             city: CityConfig::default(),
@@ -173,11 +189,18 @@ impl RunConfig {
         if let Some(fault) = self.personas.iter().find_map(|persona| persona.validate().err()) {
             return Err(OutOfRange { key: "personas".to_owned(), message: format!("personas: {fault}") });
         }
+        if !(0.0..=EVERYWHERE).contains(&self.physical_within) {
+            let message =
+                format!("physical_within = {} is out of range: give 0 to 1000000 m", self.physical_within);
+            return Err(OutOfRange { key: "physical_within".to_owned(), message });
+        }
         self.check_parts()
     }
 
     /// Checks the settings of the crates; their errors name a key below the part's.
     fn check_parts(&self) -> Result<(), OutOfRange> {
+        part("environment", self.environment.validate())?;
+        part("model.thinking", self.model.thinking.validate())?;
         part("city", self.city.validate())?;
         part("traffic", self.traffic.validate())?;
         part("physics", self.physics.validate())?;

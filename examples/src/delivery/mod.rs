@@ -5,6 +5,7 @@
 
 mod assemble;
 mod auctions;
+mod bodies;
 mod config;
 mod frames;
 mod locate;
@@ -15,19 +16,21 @@ mod players;
 mod replay;
 mod report;
 mod run;
+mod thinkers;
 mod track;
 mod watch;
 
-pub use assemble::{AssembleError, Assembly, assemble, make_city};
+pub use assemble::{AssembleError, Assembly, assemble, assemble_with, make_city};
 pub use auctions::{Auction, auctions_of};
 pub use config::{ConfigError, RunConfig};
 pub use frames::{FrameError, FrameTaker};
 pub use log::{LogError, LogRecord, LogWriter, ReadLog, read_log};
 pub use map::draw_map;
 pub use output::{OutputError, OutputFolder};
-pub use players::{Player, players};
+pub use players::{Brain, BrainError, Player, players};
 pub use replay::{ReplayError, ReplayReport, replay};
 pub use report::{COLUMNS, PAPER, RunReport, SeedReport};
+pub use thinkers::{Eyes, ModelSettings, ModelUsage, ThinkError, Thinkers};
 pub use run::{RunError, SeedRun, play, run_seed};
 pub use track::{Doing, Mount, Spot, Track, TrackWriter, Tracked, read_track};
 pub use watch::{Progress, Watch};

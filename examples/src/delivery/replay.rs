@@ -12,7 +12,7 @@ use simworld_core::scene::Scene;
 use simworld_core::seed::Seed;
 use thiserror::Error;
 
-use super::assemble::{AssembleError, assemble, make_city};
+use super::assemble::{AssembleError, assemble_with, make_city};
 use super::config::ConfigError;
 use super::log::{LogError, ReadLog, read_log};
 use super::{RunConfig, Watch};
@@ -102,7 +102,7 @@ enum Fault {
 }
 
 fn replay_log(config: &RunConfig, city: &City, log: &ReadLog, watch: &Watch) -> Result<usize, Fault> {
-    let mut assembly = assemble(config, city, log.seed).map_err(|error| Fault::Failed(error.into()))?;
+    let mut assembly = assemble_with(config, city, log.seed, None).map_err(|error| Fault::Failed(error.into()))?;
     let progress = watch.begin(&format!("replay {}", log.seed.0), log.end.0);
     let mut confirmed = 0;
     while assembly.episode.simulation().world().clock().tick() < log.end && !watch.is_stopped() {

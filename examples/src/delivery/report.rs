@@ -10,6 +10,8 @@ use simworld_core::hash::StateDigest;
 use simworld_core::seam::Metric;
 use simworld_core::seed::Seed;
 
+use super::thinkers::ModelUsage;
+
 /// What one seed came to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeedReport {
@@ -21,6 +23,10 @@ pub struct SeedReport {
     pub metrics: Vec<Metric>,
     /// The digest of the final state.
     pub digest: StateDigest,
+    /// Couriers with bodies under physics at the start; the others were points.
+    pub physical: u32,
+    /// What models were asked, if couriers think with any.
+    pub model: Option<ModelUsage>,
 }
 
 impl SeedReport {
@@ -121,6 +127,11 @@ impl fmt::Display for RunReport {
              counts over all agents.\nEnergy efficiency is energy consumed per dollar earned, as the paper defines it; \
              its inverse stands below.\n"
         )?;
+        for seed in &self.seeds {
+            if let Some(usage) = &seed.model {
+                writeln!(f, "Seed {}: {usage}.\n", seed.seed.0)?;
+            }
+        }
         writeln!(f, "{}", self.details())
     }
 }

@@ -155,8 +155,8 @@ pub fn run_seed(
     let mut track = folder.map(track).transpose()?;
     let progress = watch.begin(&format!("seed {}", seed.0), config.steps);
     let mut trails: Vec<Vec<Point2>> = vec![Vec::new(); assembly.couriers.len()];
-    let (mut written, mut book) = (Written::default(), AuctionBook::default());
-    assembly.episode.events().iter().for_each(|event| book.take(event, &assembly.couriers));
+    let (mut written, mut book) = (Written::default(), AuctionBook::new(&assembly.couriers));
+    assembly.episode.events().iter().for_each(|event| book.take(event));
     if let Some(log) = &mut log {
         Written::log_events(&assembly, log)?;
     }
@@ -169,7 +169,7 @@ pub fn run_seed(
             track.take_if_due(&assembly)?;
         }
         stepped?;
-        assembly.episode.events().iter().for_each(|event| book.take(event, &assembly.couriers));
+        assembly.episode.events().iter().for_each(|event| book.take(event));
         assembly.episode.task().audit()?;
         let tick = assembly.episode.simulation().world().clock().tick().0;
         if tick.is_multiple_of(TRAIL_STEP) {
@@ -209,6 +209,8 @@ pub(super) fn seed_report(assembly: &Assembly, seed: Seed, end: Tick) -> SeedRep
         steps: end.0,
         metrics: assembly.episode.task().metrics(),
         digest: assembly.episode.digest(),
+        physical: assembly.physical,
+        model: assembly.thinkers.as_ref().map(|thinkers| thinkers.usage(end.0)),
     }
 }
 

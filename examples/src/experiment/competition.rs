@@ -10,6 +10,7 @@ use super::findings::Finding;
 use super::results::{Chart, Results};
 use super::table::Table;
 use super::trial::Trial;
+use crate::delivery::Brain;
 
 /// Fewer bids than this say nothing of a policy.
 const FEW: u64 = 5;
@@ -39,13 +40,13 @@ pub(super) fn results(trials: &[Trial]) -> Results {
 }
 
 /// The policies that play, in the order of declaration.
-fn policies(trials: &[Trial]) -> Vec<PolicyKind> {
-    let plays = |policy: &PolicyKind| trials.iter().any(|t| t.players.iter().any(|p| p.policy == *policy));
-    PolicyKind::ALL.into_iter().filter(plays).collect()
+fn policies(trials: &[Trial]) -> Vec<Brain> {
+    let plays = |policy: &Brain| trials.iter().any(|t| t.players.iter().any(|p| p.policy == *policy));
+    Brain::all().filter(plays).collect()
 }
 
-fn bidding(trials: &[Trial]) -> BTreeMap<PolicyKind, Bidding> {
-    let mut all: BTreeMap<PolicyKind, Bidding> = BTreeMap::new();
+fn bidding(trials: &[Trial]) -> BTreeMap<Brain, Bidding> {
+    let mut all: BTreeMap<Brain, Bidding> = BTreeMap::new();
     for trial in trials {
         for (who, share, won) in trial.bids() {
             let bidding = all.entry(trial.players[who].policy).or_default();
@@ -59,7 +60,7 @@ fn bidding(trials: &[Trial]) -> BTreeMap<PolicyKind, Bidding> {
 }
 
 /// How often one policy won where another bid too.
-fn wins(trials: &[Trial]) -> BTreeMap<(PolicyKind, PolicyKind), u32> {
+fn wins(trials: &[Trial]) -> BTreeMap<(Brain, Brain), u32> {
     let mut wins = BTreeMap::new();
     for trial in trials {
         for auction in &trial.auctions {
@@ -73,9 +74,9 @@ fn wins(trials: &[Trial]) -> BTreeMap<(PolicyKind, PolicyKind), u32> {
     wins
 }
 
-fn by_policy(trials: &[Trial], policies: &[PolicyKind], bidding: &BTreeMap<PolicyKind, Bidding>) -> Table {
-    let mut profits: Groups<PolicyKind> = Groups::default();
-    let mut delivered: Groups<PolicyKind> = Groups::default();
+fn by_policy(trials: &[Trial], policies: &[Brain], bidding: &BTreeMap<Brain, Bidding>) -> Table {
+    let mut profits: Groups<Brain> = Groups::default();
+    let mut delivered: Groups<Brain> = Groups::default();
     for (player, row) in trials.iter().flat_map(Trial::couriers) {
         profits.push(player.policy, row.profit.dollars());
         delivered.push(player.policy, f64::from(row.delivered));
@@ -84,7 +85,7 @@ fn by_policy(trials: &[Trial], policies: &[PolicyKind], bidding: &BTreeMap<Polic
     let mut table = Table::new("Bids, wins and profit by policy", &header);
     for policy in policies {
         let Bidding { shares, wins, .. } = bidding.get(policy).cloned().unwrap_or_default();
-        let of = |groups: &Groups<PolicyKind>| groups.get(policy).map_or("-".to_owned(), ToString::to_string);
+        let of = |groups: &Groups<Brain>| groups.get(policy).map_or("-".to_owned(), ToString::to_string);
         table.add(
             policy.as_str(),
             [
@@ -100,7 +101,7 @@ fn by_policy(trials: &[Trial], policies: &[PolicyKind], bidding: &BTreeMap<Polic
     table
 }
 
-fn violin_chart(policies: &[PolicyKind], bidding: &BTreeMap<PolicyKind, Bidding>) -> Chart {
+fn violin_chart(policies: &[Brain], bidding: &BTreeMap<Brain, Bidding>) -> Chart {
     let groups: Vec<(String, Dots)> = policies
         .iter()
         .map(|policy| {
@@ -115,10 +116,10 @@ fn violin_chart(policies: &[PolicyKind], bidding: &BTreeMap<PolicyKind, Bidding>
     }
 }
 
-fn matrix(policies: &[PolicyKind], wins: &BTreeMap<(PolicyKind, PolicyKind), u32>) -> Chart {
+fn matrix(policies: &[Brain], wins: &BTreeMap<(Brain, Brain), u32>) -> Chart {
     let names: Vec<String> = policies.iter().map(ToString::to_string).collect();
-    let count = |a: PolicyKind, b: PolicyKind| f64::from(wins.get(&(a, b)).copied().unwrap_or_default());
-    let share = |a: PolicyKind, b: PolicyKind| {
+    let count = |a: Brain, b: Brain| f64::from(wins.get(&(a, b)).copied().unwrap_or_default());
+    let share = |a: Brain, b: Brain| {
         let both = count(a, b) + count(b, a);
         (both > 0.0).then(|| count(a, b) / both)
     };
@@ -131,7 +132,7 @@ fn matrix(policies: &[PolicyKind], wins: &BTreeMap<(PolicyKind, PolicyKind), u32
     }
 }
 
-fn findings(trials: &[Trial], bidding: &BTreeMap<PolicyKind, Bidding>) -> Vec<Finding> {
+fn findings(trials: &[Trial], bidding: &BTreeMap<Brain, Bidding>) -> Vec<Finding> {
     let seen: Vec<&Bidding> = bidding.values().filter(|bidding| bidding.shares.count() >= FEW).collect();
     let of =
         |figure: fn(&Bidding) -> f64| -> Vec<f64> { seen.iter().map(|bidding| figure(bidding)).collect() };
@@ -157,7 +158,7 @@ fn findings(trials: &[Trial], bidding: &BTreeMap<PolicyKind, Bidding>) -> Vec<Fi
 fn head_to_head(trials: &[Trial]) -> Vec<f64> {
     let excess = |trial: &Trial| {
         let (bidding, wins) = (bidding(std::slice::from_ref(trial)), wins(std::slice::from_ref(trial)));
-        let mean = |policy: &PolicyKind| bidding.get(policy).map(|bidding| bidding.shares.mean());
+        let mean = |policy: &Brain| bidding.get(policy).map(|bidding| bidding.shares.mean());
         let lower: Accumulator = wins
             .iter()
             .flat_map(|((winner, loser), count)| {
@@ -175,7 +176,7 @@ pub(super) fn inactive(trials: &[Trial]) -> Finding {
     let (idle, busy): (Vec<_>, Vec<_>) = trials
         .iter()
         .flat_map(Trial::couriers)
-        .partition(|(player, _)| player.policy == PolicyKind::NearlyInactive);
+        .partition(|(player, _)| player.policy == Brain::Policy(PolicyKind::NearlyInactive));
     let earned = |rows: Vec<(_, &simworld_agents::delivery::CourierRow)>| -> Vec<f64> {
         rows.into_iter().map(|(_, row): (_, _)| row.earned.dollars()).collect()
     };

@@ -17,7 +17,7 @@ mod trial;
 
 pub use conduct::{ExperimentError, conduct, recorded};
 pub use findings::{Finding, Verdict};
-pub use preset::{Arm, Preset, PresetError};
+pub use preset::{Arm, Preset, PresetError, at_scale};
 pub use results::{Chart, Results};
 pub use table::Table;
 pub(crate) use table::escaped;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use simworld_agents::delivery::{Cents, DeliveryConfig, Persona, PolicyKind};
 use thiserror::Error;
 
-use crate::delivery::RunConfig;
+use crate::delivery::{Brain, RunConfig};
 
 /// An experiment of the paper's case study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,11 +21,14 @@ pub enum Preset {
     Money,
     /// Ten personas, two couriers each, one way of bidding.
     Persona,
+    /// Ten thousand couriers and the orders of a million people.
+    Scale,
 }
 
 impl Preset {
     /// Every preset.
-    pub const ALL: [Self; 5] = [Self::Main, Self::Competition, Self::Orders, Self::Money, Self::Persona];
+    pub const ALL: [Self; 6] =
+        [Self::Main, Self::Competition, Self::Orders, Self::Money, Self::Persona, Self::Scale];
 
     /// Its name on the command line.
     pub fn as_str(self) -> &'static str {
@@ -35,6 +38,7 @@ impl Preset {
             Self::Orders => "orders",
             Self::Money => "money",
             Self::Persona => "persona",
+            Self::Scale => "scale",
         }
     }
 
@@ -46,6 +50,7 @@ impl Preset {
             Self::Orders => "What do couriers do when there is more to deliver?",
             Self::Money => "What do couriers do when they begin with more money?",
             Self::Persona => "What does character change in how a courier works?",
+            Self::Scale => "How do ten thousand couriers serve a million people?",
         }
     }
 
@@ -59,6 +64,7 @@ impl Preset {
             }
             Self::Money => PURSES.map(|purse| Arm::new("money", purse, with_purse(base, purse))).into(),
             Self::Persona => vec![Arm::new("persona", 0.0, personas(base))],
+            Self::Scale => vec![Arm::new("scale", 0.0, at_scale(base, 10_000))],
         }
     }
 }
@@ -84,6 +90,9 @@ pub struct Arm {
 impl Arm {
     fn new(name: &str, level: f64, config: RunConfig) -> Self {
         let name = if level > 0.0 { format!("{name}-{level}") } else { name.to_owned() };
+        let mut config = config;
+        // Each arm asks its models other things.
+        config.model.tape = config.model.tape.map(|folder| folder.join(&name));
         Self { name, level, config }
     }
 }
@@ -93,7 +102,6 @@ fn competition(base: &RunConfig) -> RunConfig {
     RunConfig {
         agents: 24,
         steps: rules.steps,
-        policies: PolicyKind::ALL.to_vec(),
         delivery: rules,
         ..base.clone()
     }
@@ -127,12 +135,49 @@ fn personas(base: &RunConfig) -> RunConfig {
         ]
     };
     let personas = [marked(MARKED), marked(-MARKED)].concat();
-    RunConfig { agents: 20, policies: vec![PolicyKind::CostPlusMedium], personas, ..base.clone() }
+    let policies = match base.policies.as_slice() {
+        [Brain::Model] => vec![Brain::Model],
+        _ => vec![Brain::Policy(PolicyKind::CostPlusMedium)],
+    };
+    RunConfig { agents: 20, policies, personas, ..base.clone() }
+}
+
+/// Couriers for each street of a large city. Chosen: as dense as gives each some restaurants within its reach.
+const COURIERS_PER_STREET: f64 = 2.0;
+/// People for each courier: a million for ten thousand.
+const PEOPLE_PER_COURIER: u32 = 100;
+/// Orders of a hungry person in an hour: twice what the couriers of the paper deliver, at half hunger as much as they do.
+const ORDERS_PER_HOUR: f64 = 0.2;
+/// How far couriers of a large city are told of orders, m.
+const TOLD_WITHIN: f64 = 600.0;
+/// Within this distance of the middle of a large city couriers have bodies under physics, m.
+const PHYSICAL_WITHIN: f64 = 300.0;
+
+/// So many couriers in a city that is as dense whatever their number, with a person in traffic for every four and a vehicle
+/// for every ten.
+pub fn at_scale(base: &RunConfig, couriers: u32) -> RunConfig {
+    let mut config = RunConfig {
+        seeds: 1,
+        agents: couriers,
+        steps: 600,
+        vehicles: couriers / 10,
+        pedestrians: couriers / 4,
+        frames: 0,
+        digest_interval: 100,
+        physical_within: PHYSICAL_WITHIN,
+        ..base.clone()
+    };
+    config.city.roads.count = ((f64::from(couriers) / COURIERS_PER_STREET) as u32).max(12);
+    let orders = &mut config.delivery.orders;
+    orders.customers = couriers * PEOPLE_PER_COURIER;
+    (orders.per_customer_hour, orders.initial) = (ORDERS_PER_HOUR, couriers / 2);
+    orders.told_within = TOLD_WITHIN;
+    config
 }
 
 /// No preset of that name.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("there is no preset {name}: give main, competition, orders, money or persona")]
+#[error("there is no preset {name}: give main, competition, orders, money, persona or scale")]
 pub struct PresetError {
     name: String,
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use simworld_agents::delivery::{CourierRow, DeliveryReport};
 use simworld_core::hash::StateDigest;
 
-use crate::delivery::{Auction, Player, SeedRun};
+use crate::delivery::{Auction, ModelUsage, Player, SeedRun};
 
 /// What one seed of one setting came to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,6 +15,10 @@ pub struct Trial {
     pub level: f64,
     /// The seed.
     pub seed: u64,
+    /// Couriers with bodies under physics at the start; the others were points.
+    pub physical: u32,
+    /// What models were asked, if couriers think with any.
+    pub model: Option<ModelUsage>,
     /// The digest of the final state.
     pub digest: StateDigest,
     /// The five metrics and their kin, by name.
@@ -34,6 +38,8 @@ impl Trial {
             arm: arm.name.clone(),
             level: arm.level,
             seed: run.report.seed.0,
+            physical: run.report.physical,
+            model: run.report.model,
             digest: run.report.digest,
             metrics: run.report.metrics.into_iter().map(|metric| (metric.name, metric.value)).collect(),
             report: run.couriers?,
