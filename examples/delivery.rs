@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use simworld_agents::thought::Waking;
-use simworld_examples::delivery::{Brain, Eyes, OutputFolder, RunConfig, Watch, play, replay};
+use simworld_examples::delivery::{Brain, Eyes, OutputFolder, RunConfig, Watch, play, replay, resume};
 use simworld_examples::experiment::{Preset, Results, conduct};
 use simworld_examples::report::{holds_run, keep_index, write_report};
 
@@ -69,8 +69,8 @@ struct Arguments {
     /// An experiment: main, competition, orders, money or persona of the paper, or scale.
     #[arg(long, value_name = "NAME", conflicts_with = "replay")]
     preset: Option<Preset>,
-    /// Goes on with the experiment of this folder; give the same settings.
-    #[arg(long, value_name = "DIR", requires = "preset", conflicts_with = "out")]
+    /// Goes on with the run of this folder by its own settings, or with --preset with its experiment; give the same settings.
+    #[arg(long, value_name = "DIR", conflicts_with = "out")]
     resume: Option<PathBuf>,
     /// Who decides, dealt to the couriers in turn: policies by name, and `model` [default: the twelve policies].
     #[arg(long, value_name = "MINDS", value_delimiter = ',')]
@@ -140,11 +140,16 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
     if let Some(preset) = arguments.preset {
         return experiment(preset, &config, arguments, &bars, stop);
     }
-    let folder = match arguments.out.as_ref().or(arguments.report.as_ref()) {
-        Some(path) => OutputFolder::create(path)?,
-        None => OutputFolder::create_numbered("out/delivery")?,
+    let folder = match (&arguments.resume, arguments.out.as_ref().or(arguments.report.as_ref())) {
+        (Some(path), _) => OutputFolder::open(path)?,
+        (None, Some(path)) => OutputFolder::create(path)?,
+        (None, None) => OutputFolder::create_numbered("out/delivery")?,
     };
-    let report = play(&config, &folder, &bars.watch(stop))?;
+    let watch = bars.watch(stop);
+    let report = match &arguments.resume {
+        Some(_) => resume(&folder, &watch)?,
+        None => play(&config, &folder, &watch)?,
+    };
     bars.clear();
     println!("{report}");
     let page = write_report(folder.path())?;

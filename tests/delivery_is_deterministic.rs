@@ -3,7 +3,12 @@
 use simworld_core::clock::Tick;
 use simworld_core::hash::{StateDigest, StateHash};
 use simworld_core::scene::Scene;
-use simworld_examples::delivery::{OutputFolder, Watch, play, read_log, replay};
+use simworld_agents::delivery::PolicyKind;
+use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, ModelError, Part, Scripted};
+use simworld_core::seed::Seed;
+use simworld_examples::delivery::{
+    Brain, OutputFolder, ThinkError, Thinkers, Watch, assemble_with, make_city, play, read_log, replay,
+};
 use simworld_tests::{assembled, small};
 
 /// Whole runs under `SIMWORLD_SOAK=1`, shorter ones otherwise.
@@ -81,6 +86,90 @@ fn a_log_replays_and_confirms_every_hash() {
     std::fs::write(&log, forged).unwrap();
     let error = replay(&path, &Watch::silent()).unwrap_err();
     assert!(error.to_string().contains("leaves the recording at tick"), "{error}");
+}
+
+/// Bids half of what is offered for the first order that it reads of, and else lets the moment pass.
+fn scripted(request: &ChatRequest) -> Result<ChatReply, ModelError> {
+    let schema = request.schema.as_ref().expect("couriers ask by schemas");
+    if schema.name == "thought" {
+        return Ok(ChatReply::of(r#"{"thought": "I bid for what is there."}"#));
+    }
+    let words: Vec<&str> = request.messages[1]
+        .content
+        .iter()
+        .filter_map(|part| if let Part::Text(text) = part { Some(text.as_str()) } else { None })
+        .collect();
+    let offer = words.concat().lines().find(|line| line.contains("at most")).map(str::to_owned);
+    let number = |line: &str, after: &str| -> Option<i64> {
+        line.split_once(after)?.1.split_whitespace().next()?.parse().ok()
+    };
+    let bid = offer.and_then(|line| Some((number(&line, "order ")?, number(&line, "at most ")? / 2)));
+    let free = schema.json.to_string().contains("bid_order");
+    let deed = match bid.filter(|_| free) {
+        Some((order, cents)) => format!(r#"{{"act": "bid_order", "order": "{order}", "cents": {cents}}}"#),
+        None => r#"{"act": "do_nothing"}"#.to_owned(),
+    };
+    Ok(ChatReply::of(format!(r#"{{"because": "it pays", "deed": {deed}}}"#)))
+}
+
+#[test]
+fn couriers_with_models_play_again_from_their_tape_without_the_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut config = small(300);
+    config.policies = vec![Brain::Model, Brain::Policy(PolicyKind::Lowballer)];
+    config.model.tape = Some(folder.path().join("tape"));
+    let (city, _) = make_city(&config).unwrap();
+    let run = |thinkers: Thinkers| {
+        let mut assembly = assemble_with(&config, &city, Seed(3), Some(thinkers)).unwrap();
+        while !assembly.episode.is_over() {
+            assembly.episode.step().unwrap();
+        }
+        let report = assembly.episode.task().report().unwrap();
+        let bids: u32 = report.couriers.iter().step_by(2).map(|row| row.bids).sum();
+        (assembly.episode.trail().to_vec(), bids, assembly.thinkers.unwrap().usage(300))
+    };
+    let model = || Ok(Box::new(Scripted::rule(scripted)) as Box<dyn ChatModel>);
+    let (trail, bids, usage) = run(Thinkers::with_backend(&config.model, Seed(3), model).unwrap());
+    assert!(bids > 0 && usage.couriers == 4 && usage.answered == usage.requests, "{bids} bids, {usage:?}");
+    assert!(usage.requests * 50 <= usage.paper_requests, "{usage}");
+    let (again, _, replayed) = run(Thinkers::new(&config.model, Seed(3)).unwrap());
+    assert_eq!((again, replayed.answered, replayed.requests), (trail, 0, usage.requests));
+    // Without a recording and without a server there is nobody.
+    assert!(matches!(Thinkers::new(&config.model, Seed(4)), Err(ThinkError::Nobody)));
+}
+
+#[test]
+fn bodies_that_are_points_far_out_go_on_from_a_snapshot_and_never_jump() {
+    let mut config = small(800);
+    config.physical_within = 60.0;
+    let (_, mut straight) = assembled(&config);
+    assert!(straight.physical < config.agents, "some begin as points");
+    let place = |assembly: &simworld_examples::delivery::Assembly, index: usize| {
+        assembly.episode.simulation().world().entity(assembly.couriers[index]).unwrap().planar()
+    };
+    let mut saved = None;
+    let mut crossed = 0;
+    while !straight.episode.is_over() {
+        let before: Vec<_> = (0..8).map(|index| place(&straight, index)).collect();
+        straight.episode.step().unwrap();
+        for (index, from) in before.into_iter().enumerate() {
+            let to = place(&straight, index);
+            // The limit of scooters, 25 km/h, and a little for who is pushed out of a wall.
+            assert!((to - from).norm() < 0.75, "courier {index} jumped {:.2} m", (to - from).norm());
+            crossed += usize::from((from.coords.norm() <= 60.0) != (to.coords.norm() <= 60.0));
+        }
+        if straight.episode.simulation().world().clock().tick() == Tick(400) {
+            saved = Some(postcard::to_stdvec(&straight.episode.save().unwrap()).unwrap());
+        }
+    }
+    assert!(crossed > 0, "nobody came or went");
+    let (_, mut resumed) = assembled(&config);
+    resumed.episode.restore(postcard::from_bytes(&saved.unwrap()).unwrap()).unwrap();
+    while !resumed.episode.is_over() {
+        resumed.episode.step().unwrap();
+    }
+    assert!(straight.episode.trail().ends_with(resumed.episode.trail()));
+    assert_eq!(straight.episode.digest(), resumed.episode.digest());
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use simworld_examples::delivery::{OutputFolder, RunConfig, Watch};
+use simworld_core::seed::Seed;
+use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, read_log, resume};
 use simworld_examples::experiment::{Arm, ExperimentError, Preset, Results, Trial, conduct};
 
 /// A small experiment over the levels of a preset.
@@ -44,6 +45,55 @@ fn what_is_gone_on_with_ends_as_if_it_had_not_been_interrupted() {
     let again = run(&arms, &OutputFolder::open(out.path()).unwrap()).unwrap();
     assert_eq!(again, whole);
     assert_eq!(Results::of(Preset::Orders, &again), Results::of(Preset::Orders, &whole));
+}
+
+/// The folder of the run that is killed, for the process that plays it.
+const KILLED: &str = "SIMWORLD_KILLED_RUN";
+
+/// Not a test by itself: the run that the next one kills.
+#[test]
+fn a_run_that_is_killed() {
+    let Some(path) = std::env::var_os(KILLED) else { return };
+    let config = RunConfig { seeds: 1, ..simworld_tests::small(400) };
+    play(&config, &OutputFolder::create(path.as_ref()).unwrap(), &Watch::silent()).unwrap();
+}
+
+#[test]
+fn whoever_is_killed_leaves_a_whole_log_and_goes_on_to_the_same_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = RunConfig { seeds: 1, ..simworld_tests::small(400) };
+    let expected =
+        play(&config, &OutputFolder::create(&folder.path().join("whole")).unwrap(), &Watch::silent());
+    let expected = expected.unwrap().seeds[0].digest;
+    let mut rng = Seed(8).stream("test/kill").rng();
+    let moments = if std::env::var_os("SIMWORLD_SOAK").is_some() { 40 } else { 3 };
+    let mut cut = 0;
+    for moment in 0..moments {
+        let path = folder.path().join(format!("run-{moment}"));
+        let log = path.join("seed-3/events.jsonl");
+        let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "a_run_that_is_killed"])
+            .env(KILLED, &path)
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        // From its first lines on, at any moment.
+        let lines = |log: &std::path::Path| fs::metadata(log).map_or(0, |file| file.len());
+        while lines(&log) < 2000 && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        std::thread::sleep(std::time::Duration::from_millis(rng.below(600) as u64));
+        child.kill().unwrap(); // SIGKILL where there are signals
+        child.wait().unwrap();
+        let left = read_log(&log).unwrap();
+        assert!(left.end.0 > 0 || left.recording.trail.is_empty());
+        cut += usize::from(left.broken_off.is_some());
+        let whole = read_log(&folder.path().join("whole/seed-3/events.jsonl")).unwrap();
+        assert!(whole.recording.trail.starts_with(&left.recording.trail), "the log is whole up to its end");
+        let resumed = resume(&OutputFolder::open(&path).unwrap(), &Watch::silent()).unwrap();
+        assert_eq!(resumed.seeds[0].digest, expected);
+    }
+    assert!(cut > 0, "nobody was killed in time");
 }
 
 #[test]

@@ -20,7 +20,7 @@ const RIM: f64 = 1.1;
 const FASTEST: f64 = 15.0;
 
 /// Moves couriers, each by the body that its place calls for.
-pub struct CourierBodies {
+pub(super) struct CourierBodies {
     physics: PhysicsDynamics,
     /// From the middle of the city, m.
     radius: f64,
@@ -50,7 +50,7 @@ impl CourierBodies {
     ///
     /// # Errors
     /// The physics refuses its settings or a body.
-    pub fn new(
+    pub(super) fn new(
         world: &World,
         couriers: &[EntityId],
         config: PhysicsConfig,
@@ -70,7 +70,7 @@ impl CourierBodies {
     }
 
     /// How many are under physics now.
-    pub fn physical(&self) -> u32 {
+    pub(super) fn physical(&self) -> u32 {
         self.couriers.values().filter(|courier| courier.point.is_none()).count() as u32
     }
 
@@ -182,21 +182,16 @@ impl Dynamics for CourierBodies {
         self.couriers.clear();
         for Saved { id, point, told, retell } in couriers {
             let entity = world.entity(id).ok_or_else(|| refused(&format!("{id} is not in the world")))?;
-            let point = match point {
-                Some(bytes) => {
-                    let state = BodyState { pose: *entity.pose, twist: *entity.twist };
-                    let mut point = KinematicBody::with_max_speed(state.pose, FASTEST);
-                    if !point.restore(&state, &bytes) {
-                        return Err(refused(&format!("the body of {id} is of another kind")));
-                    }
-                    Some(point)
-                }
-                None => {
-                    let given = self.physics.add_humanoid(world, id, HumanoidConfig::default());
-                    given.map_err(|error| refused(&error))?;
-                    None
-                }
+            let state = BodyState { pose: *entity.pose, twist: *entity.twist };
+            if point.is_none() {
+                let given = self.physics.add_humanoid(world, id, HumanoidConfig::default());
+                given.map_err(|error| refused(&error))?;
+            }
+            let point = point.map(|bytes| (KinematicBody::with_max_speed(state.pose, FASTEST), bytes));
+            let taken_up = |(mut point, bytes): (KinematicBody, Vec<u8>)| {
+                point.restore(&state, &bytes).then_some(point).ok_or_else(|| refused(&"a body of another kind"))
             };
+            let point = point.map(taken_up).transpose()?;
             self.couriers.insert(id, Courier { point, told, retell });
         }
         self.physics.restore(world, &physics)

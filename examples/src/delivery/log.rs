@@ -115,13 +115,21 @@ impl LogWriter {
             .map_err(|source| LogError::File { path: self.path.clone(), source })
     }
 
+    /// Hands what was written to the system: whatever becomes of this process, it is in the file.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn flush(&mut self) -> Result<(), LogError> {
+        self.file.flush().map_err(|source| LogError::File { path: self.path.clone(), source })
+    }
+
     /// Ends the log.
     ///
     /// # Errors
     /// As [`write`](Self::write).
     pub fn finish(mut self, tick: Tick) -> Result<(), LogError> {
         self.write(&LogRecord::End { tick })?;
-        self.file.flush().map_err(|source| LogError::File { path: self.path.clone(), source })
+        self.flush()
     }
 }
 

@@ -30,7 +30,7 @@ pub use output::{OutputError, OutputFolder};
 pub use players::{Brain, BrainError, Player, players};
 pub use replay::{ReplayError, ReplayReport, replay};
 pub use report::{COLUMNS, PAPER, RunReport, SeedReport};
+pub use run::{RunError, SeedRun, play, resume, run_seed};
 pub use thinkers::{Eyes, ModelSettings, ModelUsage, ThinkError, Thinkers};
-pub use run::{RunError, SeedRun, play, run_seed};
 pub use track::{Doing, Mount, Spot, Track, TrackWriter, Tracked, read_track};
 pub use watch::{Progress, Watch};

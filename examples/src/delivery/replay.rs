@@ -102,7 +102,8 @@ enum Fault {
 }
 
 fn replay_log(config: &RunConfig, city: &City, log: &ReadLog, watch: &Watch) -> Result<usize, Fault> {
-    let mut assembly = assemble_with(config, city, log.seed, None).map_err(|error| Fault::Failed(error.into()))?;
+    let mut assembly =
+        assemble_with(config, city, log.seed, None).map_err(|error| Fault::Failed(error.into()))?;
     let progress = watch.begin(&format!("replay {}", log.seed.0), log.end.0);
     let mut confirmed = 0;
     while assembly.episode.simulation().world().clock().tick() < log.end && !watch.is_stopped() {

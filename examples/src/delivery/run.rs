@@ -1,7 +1,7 @@
 //! Plays a configuration, all its seeds, and writes what happened.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use rayon::prelude::*;
@@ -11,6 +11,7 @@ use simworld_citygen::City;
 use simworld_core::clock::Tick;
 use simworld_core::geometry::Point2;
 use simworld_core::hash::StateHash;
+use simworld_core::record::Divergence;
 use simworld_core::scene::Scene;
 use simworld_core::seam::Task;
 use simworld_core::seed::Seed;
@@ -18,8 +19,9 @@ use thiserror::Error;
 
 use super::assemble::{AssembleError, Assembly, assemble, make_city};
 use super::auctions::{Auction, AuctionBook};
+use super::config::ConfigError;
 use super::frames::{FrameError, FrameTaker};
-use super::log::{LogError, LogRecord, LogWriter};
+use super::log::{LogError, LogRecord, LogWriter, ReadLog, read_log};
 use super::output::{OutputError, OutputFolder};
 use super::players::{Player, players};
 use super::report::{RunReport, SeedReport};
@@ -30,6 +32,9 @@ use super::{RunConfig, Watch, draw_map};
 const TRAIL_STEP: u64 = 10;
 /// Steps between two updates of the progress display.
 const PROGRESS_STEP: u64 = 50;
+
+/// The name of the event log of a seed.
+const LOG: &str = "events.jsonl";
 
 /// Why a run ended before its time. What was logged until then is whole.
 #[derive(Debug, Error)]
@@ -50,6 +55,17 @@ pub enum RunError {
     /// The folder cannot be written to.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The settings of a run that is to go on cannot be read.
+    #[error(transparent)]
+    Settings(#[from] ConfigError),
+    /// A run that went on took another way than before.
+    #[error("{path}: {source}; was it made by another version?")]
+    Divergence {
+        /// The log.
+        path: PathBuf,
+        /// Where.
+        source: Divergence,
+    },
     /// The configuration cannot be written.
     #[error("the configuration cannot be written: {0}")]
     Config(#[from] toml::ser::Error),
@@ -86,23 +102,58 @@ pub fn play(config: &RunConfig, folder: &OutputFolder, watch: &Watch) -> Result<
     }
     let taker = Mutex::new(frame_taker(config, folder)?);
     let seeds: Vec<Seed> = (0..u64::from(config.seeds)).map(|n| Seed(config.seed.wrapping_add(n))).collect();
-    let runs: Vec<SeedRun> = seeds
+    let reports: Vec<SeedReport> = seeds
         .par_iter()
         .map(|seed| {
             let path = folder.seed_folder(*seed)?;
             // Frames are of the first seed: one renderer, one set of pictures.
             let mut taker =
                 if *seed == seeds[0] { taker.lock().ok().and_then(|mut taker| taker.take()) } else { None };
+            if let Some(finished) = finished(&path, config.steps) {
+                return Ok(finished);
+            }
+            let before = read_log(&path.join(LOG)).ok();
             let run = run_seed(config, &city, *seed, Some(&path), taker.as_mut(), watch)?;
+            if let Some(before) = before.filter(|_| !watch.is_stopped()) {
+                confirm(&before, &path)?;
+            }
             write_seed(folder, &city, &run)?;
-            Ok(run)
+            Ok(run.report)
         })
         .collect::<Result<_, RunError>>()?;
-    let report =
-        RunReport { players: names(config), seeds: runs.into_iter().map(|run| run.report).collect() };
+    let report = RunReport { players: names(config), seeds: reports };
     folder.write("report.txt", report.to_string())?;
     folder.write("report.json", to_json(&report))?;
     Ok(report)
+}
+
+/// Goes on with a run that was cut off: seeds that are finished are kept, the others are played again and must give every
+/// hash that was logged.
+///
+/// # Errors
+/// The folder holds no run, or as [`play`].
+pub fn resume(folder: &OutputFolder, watch: &Watch) -> Result<RunReport, RunError> {
+    let config = RunConfig::read(&folder.path().join("config.toml"))?;
+    play(&config, folder, watch)
+}
+
+/// The report of a seed that came to its end.
+fn finished(path: &Path, steps: u64) -> Option<SeedReport> {
+    let whole = read_log(&path.join(LOG)).ok().filter(|log| log.broken_off.is_none())?;
+    let bytes = std::fs::read(path.join("report.json")).ok()?;
+    let (report, _): (SeedReport, Option<DeliveryReport>) = serde_json::from_slice(&bytes).ok()?;
+    (report.steps == whole.end.0 && report.steps >= steps).then_some(report)
+}
+
+/// Holds the hashes of a run that was cut off against those of the run that went on.
+fn confirm(before: &ReadLog, path: &Path) -> Result<(), RunError> {
+    let log = path.join(LOG);
+    let after = read_log(&log)?;
+    for (tick, digest) in &before.recording.trail {
+        let confirmed = after.recording.confirm(*tick, *digest);
+        confirmed.map_err(|source| RunError::Divergence { path: log.clone(), source })?;
+    }
+    Ok(())
 }
 
 /// A renderer, if frames are wanted and there is an adapter; without one the reason is written beside the log.
@@ -150,7 +201,7 @@ pub fn run_seed(
     watch: &Watch,
 ) -> Result<SeedRun, RunError> {
     let mut assembly = assemble(config, city, seed)?;
-    let mut log = folder.map(|folder| LogWriter::create(&folder.join("events.jsonl"), seed)).transpose()?;
+    let mut log = folder.map(|folder| LogWriter::create(&folder.join(LOG), seed)).transpose()?;
     let track = |folder: &Path| TrackWriter::create(&folder.join("track.jsonl"), &assembly, config.steps);
     let mut track = folder.map(track).transpose()?;
     let progress = watch.begin(&format!("seed {}", seed.0), config.steps);
@@ -245,7 +296,7 @@ impl Written {
             log.write(&LogRecord::Digest { tick: *tick, digest: *digest })?;
         }
         self.digests = trail.len();
-        Ok(())
+        log.flush()
     }
 
     fn log_events(assembly: &Assembly, log: &mut LogWriter) -> Result<(), LogError> {

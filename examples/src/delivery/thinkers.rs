@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use serde::{Deserialize, Serialize};
 use simworld_agents::delivery::Persona;
 use simworld_agents::model::{
-    ChatModel, ChatReply, ChatRequest, ModelError, Models, ModelsConfig, NoModel, OpenAiChat, OpenAiConfig, Price,
-    Tape, Tariff, Unpriced, WallClock,
+    ChatModel, ChatReply, ChatRequest, ModelError, Models, ModelsConfig, NoModel, OpenAiChat, OpenAiConfig,
+    Price, Tape, Tariff, Unpriced, WallClock,
 };
 use simworld_agents::observer;
 use simworld_agents::thought::{
@@ -195,7 +195,9 @@ impl Thinkers {
         let prompts = settings.prompts.as_deref().map(Prompts::from_folder).transpose()?.unwrap_or_default();
         let renderer = match settings.eyes {
             Eyes::Closed => None,
-            Eyes::Open => Some(Arc::new(Mutex::new((Renderer::new(&RenderConfig::default())?, Frame::new())))),
+            Eyes::Open => {
+                Some(Arc::new(Mutex::new((Renderer::new(&RenderConfig::default())?, Frame::new()))))
+            }
         };
         Ok(Self {
             settings: settings.clone(),

@@ -99,12 +99,7 @@ impl Arm {
 
 fn competition(base: &RunConfig) -> RunConfig {
     let rules = DeliveryConfig::competition();
-    RunConfig {
-        agents: 24,
-        steps: rules.steps,
-        delivery: rules,
-        ..base.clone()
-    }
+    RunConfig { agents: 24, steps: rules.steps, delivery: rules, ..base.clone() }
 }
 
 fn with_volume(base: &RunConfig, volume: f64) -> RunConfig {

@@ -177,6 +177,8 @@ impl Finished {
                 level: arm.level,
                 seed: seed.0,
                 digest: report.digest,
+                physical: report.physical,
+                model: report.model,
                 metrics: report.metrics.into_iter().map(|metric| (metric.name, metric.value)).collect(),
                 report: couriers,
                 players: players(&arm.config, seed),
