@@ -1,10 +1,10 @@
 //! The whole delivery run gives the same bits: twice, on any number of threads, across a snapshot, and from its log.
 
+use simworld_agents::delivery::PolicyKind;
+use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, Part, Scripted};
 use simworld_core::clock::Tick;
 use simworld_core::hash::{StateDigest, StateHash};
 use simworld_core::scene::Scene;
-use simworld_agents::delivery::PolicyKind;
-use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, ModelError, Part, Scripted};
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{
     Brain, OutputFolder, ThinkError, Thinkers, Watch, assemble_with, make_city, play, read_log, replay,
@@ -89,10 +89,10 @@ fn a_log_replays_and_confirms_every_hash() {
 }
 
 /// Bids half of what is offered for the first order that it reads of, and else lets the moment pass.
-fn scripted(request: &ChatRequest) -> Result<ChatReply, ModelError> {
+fn scripted(request: &ChatRequest) -> ChatReply {
     let schema = request.schema.as_ref().expect("couriers ask by schemas");
     if schema.name == "thought" {
-        return Ok(ChatReply::of(r#"{"thought": "I bid for what is there."}"#));
+        return ChatReply::of(r#"{"thought": "I bid for what is there."}"#);
     }
     let words: Vec<&str> = request.messages[1]
         .content
@@ -109,7 +109,7 @@ fn scripted(request: &ChatRequest) -> Result<ChatReply, ModelError> {
         Some((order, cents)) => format!(r#"{{"act": "bid_order", "order": "{order}", "cents": {cents}}}"#),
         None => r#"{"act": "do_nothing"}"#.to_owned(),
     };
-    Ok(ChatReply::of(format!(r#"{{"because": "it pays", "deed": {deed}}}"#)))
+    ChatReply::of(format!(r#"{{"because": "it pays", "deed": {deed}}}"#))
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn couriers_with_models_play_again_from_their_tape_without_the_model() {
         let bids: u32 = report.couriers.iter().step_by(2).map(|row| row.bids).sum();
         (assembly.episode.trail().to_vec(), bids, assembly.thinkers.unwrap().usage(300))
     };
-    let model = || Ok(Box::new(Scripted::rule(scripted)) as Box<dyn ChatModel>);
+    let model = || Ok(Box::new(Scripted::rule(|request| Ok(scripted(request)))) as Box<dyn ChatModel>);
     let (trail, bids, usage) = run(Thinkers::with_backend(&config.model, Seed(3), model).unwrap());
     assert!(bids > 0 && usage.couriers == 4 && usage.answered == usage.requests, "{bids} bids, {usage:?}");
     assert!(usage.requests * 50 <= usage.paper_requests, "{usage}");

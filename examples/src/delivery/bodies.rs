@@ -189,7 +189,10 @@ impl Dynamics for CourierBodies {
             }
             let point = point.map(|bytes| (KinematicBody::with_max_speed(state.pose, FASTEST), bytes));
             let taken_up = |(mut point, bytes): (KinematicBody, Vec<u8>)| {
-                point.restore(&state, &bytes).then_some(point).ok_or_else(|| refused(&"a body of another kind"))
+                point
+                    .restore(&state, &bytes)
+                    .then_some(point)
+                    .ok_or_else(|| refused(&"a body of another kind"))
             };
             let point = point.map(taken_up).transpose()?;
             self.couriers.insert(id, Courier { point, told, retell });
