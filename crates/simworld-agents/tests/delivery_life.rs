@@ -7,8 +7,8 @@ mod delivery_common;
 use delivery_common::{Town, quiet, simulation, world};
 use simworld_agents::asynchronous::{AsynchronousConfig, AsynchronousEpisode, FreeMind, Pace};
 use simworld_agents::delivery::{
-    Account, BatteryConfig, Cents, CourierAction, CourierMind, DeliveryConfig, DeliveryTask, Errand, OrderId, Persona,
-    PolicyKind, Power, Shopping, Split, Stage,
+    Account, BatteryConfig, Cents, CourierAction, CourierMind, DeliveryConfig, DeliveryTask, Errand, OrderId,
+    Persona, PolicyKind, Power, Shopping, Split, Stage,
 };
 use simworld_agents::episode::{Agent, Episode};
 use simworld_agents::executor::RuleExecutor;

@@ -25,7 +25,8 @@ use super::view::CourierView;
 
 /// Couriers bid for orders, carry and share them, invest and tire.
 ///
-/// The scene must hold restaurants and homes (entities used as [`Place::Restaurant`] and [`Place::Home`], best with
+/// The scene must hold restaurants and homes (entities used as [`Place::Restaurant`](simworld_core::scene::Place::Restaurant) and
+/// [`Place::Home`](simworld_core::scene::Place::Home), best with
 /// an access point); stores only if purchases are made there. Agents are the couriers. A clone is what minds know of it that
 /// think at their own pace ([`AsynchronousEpisode`](crate::asynchronous::AsynchronousEpisode)).
 #[derive(Clone)]
