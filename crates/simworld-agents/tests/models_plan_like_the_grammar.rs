@@ -48,7 +48,8 @@ fn what_people_say_gives_the_same_plan_either_way() {
     let (mut same, mut unsayable, mut wrong) = (0, Vec::new(), Vec::new());
     for name in CITIES {
         let city = City::read(name);
-        for said in said_in(name) {
+        // What is said to the dog is about "me", for whom the model plans here.
+        for said in said_in(name).into_iter().filter(|said| said.family != "dog") {
             let Ok(plan) = understand(&GrammarPlanner::default(), &city, &said) else { continue };
             let Some(answer) = answer(&plan, &city.world) else {
                 unsayable.push(said.words);
