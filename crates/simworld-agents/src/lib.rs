@@ -3,6 +3,7 @@
 
 pub mod asynchronous;
 pub mod delivery;
+pub mod editing;
 pub mod episode;
 pub mod executor;
 pub mod gym;

@@ -245,6 +245,8 @@ pub(super) struct Traits {
     pub(super) parked: bool,
     /// An attribute of doors that is set or not.
     pub(super) state: Option<(&'static str, bool)>,
+    /// What is sold there.
+    pub(super) sells: Option<String>,
     /// Not the one spoken of last.
     pub(super) other: bool,
 }

@@ -26,6 +26,11 @@ impl Category {
         self.place.is_some()
     }
 
+    /// What its things are.
+    pub(super) const fn kinds(&self) -> &'static [EntityKind] {
+        self.kinds
+    }
+
     /// The class as data.
     pub(super) fn to_which(&self) -> Which {
         Which::Any { kinds: self.kinds.to_vec(), place: self.place }

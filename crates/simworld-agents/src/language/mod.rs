@@ -12,6 +12,7 @@ mod clause;
 mod compass;
 mod draft;
 mod driving;
+pub(crate) mod edits;
 mod hearing;
 mod lexer;
 mod lexicon;

@@ -32,6 +32,23 @@ pub(super) const PAINTS: &[(&[&str], Paint)] = &[
 ];
 
 impl Paint {
+    /// A colour of that name as paint has it, linear-light sRGB.
+    pub(super) const fn color(self) -> [f32; 3] {
+        match self {
+            Self::Red => [0.55, 0.03, 0.02],
+            Self::Orange => [0.8, 0.2, 0.02],
+            Self::Yellow => [0.8, 0.6, 0.03],
+            Self::Green => [0.05, 0.35, 0.06],
+            Self::Blue => [0.03, 0.08, 0.45],
+            Self::Purple => [0.2, 0.03, 0.35],
+            Self::Pink => [0.85, 0.25, 0.4],
+            Self::Brown => [0.2, 0.08, 0.03],
+            Self::White => [0.8, 0.8, 0.8],
+            Self::Grey => [0.3, 0.3, 0.31],
+            Self::Black => [0.01, 0.01, 0.012],
+        }
+    }
+
     /// The word for a colour in linear-light sRGB: by value and saturation for the greys, else by hue, with the sector
     /// borders of the usual hue circle (red 345 to 15°, orange to 38°, yellow to 70°, green to 165°, blue to 260°).
     /// Linear [0.55, 0.03, 0.02] is sRGB (194, 48, 39) and reads red.
@@ -90,6 +107,13 @@ pub(crate) fn name_of_color(linear: [f32; 3]) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn paint_is_of_its_colour() {
+        for (_, paint) in PAINTS {
+            assert_eq!(Paint::of(paint.color()), *paint);
+        }
+    }
 
     #[test]
     fn paints_have_the_names_that_people_give_them() {

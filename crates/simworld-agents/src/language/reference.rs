@@ -33,6 +33,16 @@ const YOU_SEE: &[&str] = &[
     "there is",
     "in sight",
 ];
+/// Before what is sold somewhere.
+const SELLING: &[&str] = &[
+    "that sells",
+    "which sells",
+    "selling",
+    "that sell",
+    "where they sell",
+    "where you can buy",
+    "who sells",
+];
 const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
 /// What doors may be.
 const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
@@ -283,6 +293,12 @@ impl Parser<'_> {
                 }
                 let anchor = self.reference(depth + 1)?;
                 reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
+            } else if self.eat_any(SELLING) {
+                let Some((goods, words)) = self.names.goods(self.rest()) else {
+                    return Err(self.not_understood(&format!("sold here are {}", self.names.sold())));
+                };
+                reference.traits.sells = Some(goods);
+                self.at += words;
             } else if self.eat_any(YOU_SEE) {
                 // "The first chair you see" is the nearest.
             } else if reference.relation.is_none()

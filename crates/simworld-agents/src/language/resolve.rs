@@ -54,6 +54,12 @@ pub(super) struct View<'a> {
     pub(super) policy: AmbiguityPolicy,
 }
 
+/// Whether goods of that name are sold there.
+fn sells(entity: &EntityRef<'_>, goods: &str) -> bool {
+    let sold = entity.info.attributes.get(simworld_core::scene::SELLS);
+    matches!(sold, Some(simworld_core::value::Value::Text(sold)) if sold.split(',').any(|one| one.trim().eq_ignore_ascii_case(goods)))
+}
+
 /// A thing that fits, with the figure by which to choose; less is better.
 pub(super) type Ranked = (f64, EntityId);
 
@@ -278,6 +284,7 @@ impl<'a> View<'a> {
             && traits.state.is_none_or(|(key, set)| {
                 entity.info.attributes.get(key).is_some_and(|value| *value == true.into()) == set
             })
+            && traits.sells.as_ref().is_none_or(|goods| sells(entity, goods))
             && (!traits.parked || entity.info.attributes.get("parked") == Some(&true.into()))
             && (!traits.free || self.is_free(entity, Purpose::Seat) && self.is_free(entity, Purpose::Item))
             && self.is_free(entity, purpose)

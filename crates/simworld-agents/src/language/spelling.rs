@@ -15,13 +15,19 @@ const OTHER_WORDS: &str = include_str!("other_words.txt");
 /// Puts the words of a sentence right that are unknown and near one known word, or two known words in one; the words of
 /// names and goods are known.
 pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+    correct_but(lexemes, names, &|_| false);
+}
+
+/// As [`correct`], where other words are known too.
+pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &dyn Fn(&str) -> bool) {
     let mut at = 0;
     while at < lexemes.len() {
         let here = at;
         at += 1;
         let Token::Word(word) = &lexemes[here].token else { continue };
         let is_short = word.len() < 3 || word.chars().count() < 3;
-        if is_short || lexemes[here].lemma.is_some() || is_known(word) || names.has_word(word) {
+        if is_short || lexemes[here].lemma.is_some() || is_known(word) || names.has_word(word) || known(word)
+        {
             continue;
         }
         let follows_verb =
@@ -128,7 +134,7 @@ fn words_from(beginning: &str) -> &'static [Known] {
     &words[from..from + count]
 }
 
-fn is_known(word: &str) -> bool {
+pub(super) fn is_known(word: &str) -> bool {
     let listed = |word: &str| find(word).is_some();
     listed(word)
         || word.strip_suffix('s').is_some_and(listed)

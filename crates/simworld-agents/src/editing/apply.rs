@@ -1,0 +1,332 @@
+//! Typed edits to commands, one after another, each in the scene as the ones before leave it.
+
+use std::f64::consts::TAU;
+
+use simworld_core::asset::Catalogue;
+use simworld_core::command::Command;
+use simworld_core::geometry::{Point2, Point3, Pose, heading, pose_facing, yaw_of};
+use simworld_core::id::EntityId;
+use simworld_core::ops::wrap_angle;
+use simworld_core::scene::{EntityDesc, EntityRef, Relation, Scene, Shape};
+use simworld_core::seed::Stream;
+
+use super::Placing;
+use super::describe::{describe, listed};
+use super::edit::{Edit, Make, Stand};
+use super::editor::{Editable, Edited, Memory};
+use super::error::EditError;
+use super::land::Streets;
+use super::place::Placer;
+use super::solid::Solid;
+use super::stand::Subject;
+use crate::language::edits::Focus;
+
+/// Sizes beyond these are no longer the thing, as a factor.
+const FACTORS: std::ops::RangeInclusive<f64> = 0.05..=20.0;
+/// More new things at once are refused.
+const MOST: u32 = 1000;
+
+/// Carries out edits, and can take all of them back.
+pub(super) struct Applier<'a> {
+    pub(super) scene: &'a mut dyn Editable,
+    pub(super) catalogue: &'a Catalogue,
+    pub(super) streets: Option<&'a Streets>,
+    pub(super) stream: Stream,
+    pub(super) placed: u64,
+    pub(super) focus: Focus,
+    pub(super) edited: Edited,
+    /// The commands that take back what was done, the last first to be carried out last.
+    pub(super) back: Vec<Command>,
+    pub(super) tried: Vec<Placing>,
+}
+
+impl Applier<'_> {
+    /// What was done and how to take it back; where it failed, all of it is taken back.
+    pub(super) fn finish(self, kept: bool) -> (Edited, Vec<Command>, Memory) {
+        let Self { scene, mut back, focus, placed, tried, mut edited, .. } = self;
+        back.reverse();
+        if !kept {
+            for command in &back {
+                // Nothing else changed the scene since.
+                let _ = scene.change(command);
+            }
+            back.clear();
+        }
+        edited.placings.clone_from(&tried);
+        (edited, back, Memory { focus: kept.then_some(focus), placed, tried })
+    }
+
+    pub(super) fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
+        match edit {
+            Edit::Add { make, count, stands } => self.add(make, *count, stands),
+            Edit::Remove { things } => things.iter().try_for_each(|thing| self.remove(*thing)),
+            Edit::Move { things, stands } => self.move_all(things, stands),
+            Edit::Rotate { things, angle } => things.iter().try_for_each(|thing| {
+                let pose = *self.entity(*thing)?.pose;
+                self.turn(*thing, wrap_angle(yaw_of(&pose) + angle % TAU))
+            }),
+            Edit::Face { things, towards } => {
+                let target = self.entity(*towards)?.planar();
+                things.iter().try_for_each(|thing| {
+                    let way = target - self.entity(*thing)?.planar();
+                    self.turn(*thing, heading(&way))
+                })
+            }
+            Edit::Swap { one, other } => self.swap(*one, *other),
+            Edit::Paint { things, color } => things.iter().try_for_each(|thing| {
+                let color = Some(*color);
+                self.alter(*thing, |desc| desc.info.color = color)
+            }),
+            Edit::Scale { things, factor } => things.iter().try_for_each(|thing| self.scale(*thing, *factor)),
+            Edit::Copy { thing, count, stands } => self.copy(*thing, *count, stands),
+            Edit::Name { thing, name } => self.alter(*thing, |desc| desc.info.name = Some(name.clone())),
+            Edit::SetEnvironment(environment) => self.change(&Command::SetEnvironment(*environment)),
+            Edit::Count { what, things } => {
+                self.edited.answer = Some(format!("{} {what}", things.len()));
+                Ok(())
+            }
+            Edit::List { things } => {
+                self.focus.it = things.first().copied().or(self.focus.it);
+                self.edited.answer = Some(listed(self.scene.world(), things, self.focus.from));
+                Ok(())
+            }
+            Edit::Describe { thing } => {
+                self.entity(*thing)?;
+                self.focus.it = Some(*thing);
+                self.edited.answer = Some(describe(self.scene.world(), *thing));
+                Ok(())
+            }
+        }
+    }
+
+    // ---- the edits ----
+
+    fn add(&mut self, make: &Make, count: u32, stands: &[Stand]) -> Result<(), EditError> {
+        let desc = self.recipe(make)?;
+        self.put_new(&desc, count, stands)
+    }
+
+    fn put_new(&mut self, desc: &EntityDesc, count: u32, stands: &[Stand]) -> Result<(), EditError> {
+        if count > MOST {
+            let what = format!("to add {count} things at once");
+            return Err(EditError::Impossible { what, why: format!("add at most {MOST}") });
+        }
+        for rank in 0..count {
+            let subject = Subject { id: None, kind: desc.kind, info: &desc.info };
+            let pose = self.place(subject, (rank, count), stands, &[])?;
+            let spawn = Command::Spawn(Box::new(EntityDesc { pose, ..desc.clone() }));
+            let applied = self.scene.change(&spawn)?;
+            self.back.extend(applied.undo);
+            self.edited.made.extend(applied.spawned);
+            self.focus.it = applied.spawned.or(self.focus.it);
+            self.focus.place = Some(simworld_core::geometry::planar(&pose));
+        }
+        Ok(())
+    }
+
+    /// The recipe of a new thing, still without a place.
+    fn recipe(&self, make: &Make) -> Result<EntityDesc, EditError> {
+        let unknown = || EditError::UnknownThing {
+            wanted: make.asset.clone(),
+            near: "name one of the catalogue".to_owned(),
+        };
+        let found = self.catalogue.find(&make.asset).and_then(|id| Some((id, self.catalogue.get(id)?)));
+        let (id, asset) = found.ok_or_else(unknown)?;
+        let mut desc = asset.at(id, Pose::identity());
+        // The id is one of the world's own catalogue, or none.
+        desc.info.asset = self.scene.world().assets().and_then(|assets| assets.find(&make.asset));
+        desc.info.color = make.color.or(desc.info.color);
+        desc.info.name.clone_from(&make.name);
+        check_factor(make.scale)?;
+        resize(&mut desc, make.scale);
+        Ok(desc)
+    }
+
+    fn remove(&mut self, thing: EntityId) -> Result<(), EditError> {
+        let at = self.entity(thing)?.planar();
+        self.change(&Command::Remove { id: thing })?;
+        self.focus.place = Some(at);
+        self.focus.it = self.focus.it.filter(|it| *it != thing);
+        Ok(())
+    }
+
+    fn move_all(&mut self, things: &[EntityId], stands: &[Stand]) -> Result<(), EditError> {
+        let count = things.len() as u32;
+        let mut lifted: Vec<EntityId> = things.to_vec();
+        for thing in things {
+            self.scene.world().visit_attached(*thing, &mut |load| lifted.push(load.id));
+        }
+        for (rank, thing) in things.iter().enumerate() {
+            let desc = self.entity(*thing)?.to_desc();
+            let subject = Subject { id: Some(*thing), kind: desc.kind, info: &desc.info };
+            let pose = self.place(subject, (rank as u32, count), stands, &lifted)?;
+            // Who names a point means that nothing is turned there.
+            let kept = stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
+            let pose =
+                if kept { pose_facing(pose.translation.vector.into(), yaw_of(&desc.pose)) } else { pose };
+            self.change(&Command::Move { id: *thing, pose })?;
+            lifted.retain(|id| id != thing);
+            self.focus.it = Some(*thing);
+            self.focus.place = Some(simworld_core::geometry::planar(&pose));
+        }
+        Ok(())
+    }
+
+    fn turn(&mut self, thing: EntityId, yaw: f64) -> Result<(), EditError> {
+        let entity = self.entity(thing)?;
+        let solid = Solid::standing(entity.info.shape, entity.position(), yaw);
+        let label = entity.label().to_owned();
+        self.is_clear(&solid, &[thing], &format!("to turn {label}"))?;
+        self.change(&Command::Move { id: thing, pose: solid.pose })?;
+        self.focus.it = Some(thing);
+        Ok(())
+    }
+
+    fn swap(&mut self, one: EntityId, other: EntityId) -> Result<(), EditError> {
+        let (a, b) = (self.entity(one)?.to_desc(), self.entity(other)?.to_desc());
+        let what = "to have the two change places";
+        self.is_clear(&Solid { pose: b.pose, shape: a.info.shape }, &[one, other], what)?;
+        self.is_clear(&Solid { pose: a.pose, shape: b.info.shape }, &[one, other], what)?;
+        self.change(&Command::Move { id: one, pose: b.pose })?;
+        self.change(&Command::Move { id: other, pose: a.pose })?;
+        self.focus.it = Some(one);
+        Ok(())
+    }
+
+    fn scale(&mut self, thing: EntityId, factor: f64) -> Result<(), EditError> {
+        check_factor(factor)?;
+        let mut desc = self.entity(thing)?.to_desc();
+        resize(&mut desc, factor);
+        let what = format!("to make {} so large", self.entity(thing)?.label());
+        self.is_clear(&Solid { pose: desc.pose, shape: desc.info.shape }, &[thing], &what)?;
+        self.alter(thing, |desc| resize(desc, factor))
+    }
+
+    fn copy(&mut self, thing: EntityId, count: u32, stands: &[Stand]) -> Result<(), EditError> {
+        let mut desc = self.entity(thing)?.to_desc();
+        (desc.attachment, desc.info.access) = (None, None);
+        desc.twist = simworld_core::geometry::Twist::ZERO;
+        let beside = [Stand::To { relation: Relation::Near, anchor: thing }];
+        self.put_new(&desc, count, if stands.is_empty() { &beside } else { stands })
+    }
+
+    // ---- how it is done ----
+
+    /// Finds a place, or says what was in the way and what would be possible.
+    fn place(
+        &mut self,
+        subject: Subject<'_>,
+        rank: (u32, u32),
+        stands: &[Stand],
+        lifted: &[EntityId],
+    ) -> Result<Pose, EditError> {
+        let world = self.scene.world();
+        let stream = self.stream.indexed(self.placed);
+        self.placed += 1;
+        let placer = Placer { scene: world, streets: self.streets, from: self.focus.from, lifted };
+        let placing = placer.place(subject, rank, stands, stream);
+        let pose = placing.pose();
+        let refused = pose.is_none().then(|| EditError::NoRoom {
+            what: subject.info.name.clone().unwrap_or_else(|| subject.kind.to_string().replace('_', " ")),
+            place: stands.iter().map(|stand| stand.told(world)).collect::<Vec<_>>().join(" and "),
+            why: placing.reasons(world),
+            relaxed: relaxed(&placer, subject, stands, stream),
+        });
+        self.tried.push(placing);
+        match (pose, refused) {
+            (Some(pose), _) => Ok(pose),
+            (None, Some(error)) => Err(error),
+            (None, None) => unreachable!("a thing without a place is refused"),
+        }
+    }
+
+    /// Whether nothing is where a thing would be.
+    fn is_clear(&self, solid: &Solid, besides: &[EntityId], what: &str) -> Result<(), EditError> {
+        let world = self.scene.world();
+        let mut besides = besides.to_vec();
+        for thing in besides.clone() {
+            world.visit_attached(thing, &mut |load| besides.push(load.id));
+        }
+        match super::place::in_the_way(world, solid, &besides) {
+            None => Ok(()),
+            Some(other) => {
+                let other = world.entity(other).map_or_else(String::new, |entity| entity.label().to_owned());
+                let why = format!("{other} is in the way; move it first");
+                Err(EditError::Impossible { what: what.to_owned(), why })
+            }
+        }
+    }
+
+    /// Changes what a thing is made of; it keeps its id and what hangs on it.
+    fn alter(&mut self, thing: EntityId, change: impl FnOnce(&mut EntityDesc)) -> Result<(), EditError> {
+        let mut desc = self.entity(thing)?.to_desc();
+        let load = self.scene.world().load(thing);
+        change(&mut desc);
+        self.change(&Command::Remove { id: thing })?;
+        self.change(&Command::Respawn { id: thing, desc: Box::new(desc), load })?;
+        self.focus.it = Some(thing);
+        Ok(())
+    }
+
+    fn change(&mut self, command: &Command) -> Result<(), EditError> {
+        let applied = self.scene.change(command)?;
+        self.back.extend(applied.undo);
+        Ok(())
+    }
+
+    fn entity(&self, id: EntityId) -> Result<EntityRef<'_>, EditError> {
+        let missing = || EditError::NotFound { wanted: format!("thing {id}"), near: "it is gone".to_owned() };
+        self.scene.world().entity(id).ok_or_else(missing)
+    }
+}
+
+fn check_factor(factor: f64) -> Result<(), EditError> {
+    if FACTORS.contains(&factor) {
+        return Ok(());
+    }
+    let why = format!("give a factor from {} to {}", FACTORS.start(), FACTORS.end());
+    Err(EditError::Impossible { what: format!("a size of {factor} times"), why })
+}
+
+/// Larger in all three directions; the mass grows with the volume.
+fn resize(desc: &mut EntityDesc, factor: f64) {
+    desc.info.shape = match desc.info.shape {
+        Shape::Box { size } => Shape::Box { size: size * factor },
+        Shape::Cylinder { radius, height } => {
+            Shape::Cylinder { radius: radius * factor, height: height * factor }
+        }
+        Shape::Capsule { radius, height } => {
+            Shape::Capsule { radius: radius * factor, height: height * factor }
+        }
+        Shape::Sphere { radius } => Shape::Sphere { radius: radius * factor },
+        other => other,
+    };
+    desc.info.mass = desc.info.mass.map(|mass| mass * factor * factor * factor);
+    let at: Point3 = desc.pose.translation.vector.into();
+    desc.info.access = desc.info.access.map(|access| at + (access - at) * factor);
+}
+
+/// What would be possible instead: the thing near what it was to stand to.
+fn relaxed(placer: &Placer<'_>, subject: Subject<'_>, stands: &[Stand], stream: Stream) -> String {
+    let near = |stand: &Stand| {
+        let anchor = stand.anchor();
+        let at = match stand {
+            Stand::At { point } | Stand::Around { point } => Some(*point),
+            _ => None,
+        };
+        match (anchor, at) {
+            (Some(anchor), _) => Some(Stand::To { relation: Relation::Near, anchor }),
+            (None, Some(point)) => Some(Stand::Around { point }),
+            _ => None,
+        }
+    };
+    for stand in stands.iter().filter_map(near) {
+        let placing = placer.place(subject, (0, 1), std::slice::from_ref(&stand), stream.named("relaxed"));
+        if let Some(pose) = placing.pose() {
+            let Point2 { coords } = simworld_core::geometry::planar(&pose);
+            let told = stand.told(placer.scene);
+            return format!("there is room {told}, at ({:.1}, {:.1})", coords.x, coords.y);
+        }
+    }
+    "there is no room near it either".to_owned()
+}

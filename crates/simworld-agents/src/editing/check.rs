@@ -1,0 +1,188 @@
+//! The judge of edits: what changed between two states of a world, and what is wrong with how things stand. It shares
+//! no code with the placement solver.
+
+use std::ops::ControlFlow;
+
+use simworld_core::geometry::Obb;
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
+
+/// How far above what holds it up a thing may be, or sunk into it, m.
+const SUPPORT_GAP: f64 = 0.05;
+/// Bodies that share less than this in height or width touch, m.
+const TOUCH: f64 = 2e-3;
+
+/// What changed between two states of a world, by ascending id.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// Things that are new.
+    pub added: Vec<EntityId>,
+    /// Things that are gone.
+    pub removed: Vec<EntityId>,
+    /// Things that stand elsewhere, are turned, move otherwise or hang on something else.
+    pub moved: Vec<EntityId>,
+    /// Things that look or are called otherwise.
+    pub altered: Vec<EntityId>,
+    /// Whether sun or weather is another.
+    pub environment: bool,
+}
+
+impl Difference {
+    /// What changed from one state to another.
+    pub fn between(before: &World, after: &World) -> Self {
+        let mut difference =
+            Self { environment: before.environment() != after.environment(), ..Self::default() };
+        for old in before.iter() {
+            match after.entity(old.id) {
+                None => difference.removed.push(old.id),
+                Some(new) => {
+                    if (old.pose, old.twist, old.attachment) != (new.pose, new.twist, new.attachment) {
+                        difference.moved.push(old.id);
+                    }
+                    if (old.kind, old.info) != (new.kind, new.info) {
+                        difference.altered.push(old.id);
+                    }
+                }
+            }
+        }
+        let is_new = |entity: &EntityRef<'_>| before.entity(entity.id).is_none();
+        difference.added = after.iter().filter(is_new).map(|entity| entity.id).collect();
+        difference
+    }
+
+    /// Whether nothing changed.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// What is wrong with how a thing stands.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// It is not there.
+    Missing,
+    /// Two things share space.
+    Penetrates {
+        /// The other.
+        other: EntityId,
+    },
+    /// It hangs in the air, or is sunk into what it stands on.
+    Unsupported {
+        /// How far above the nearest support its bottom is, m; below zero it is sunk in.
+        gap: f64,
+    },
+}
+
+/// What is wrong with how a thing stands in a world: nothing, if it shares no space with anything and stands on the ground
+/// or on something that holds it up. The ground is that level on which most things nearby stand.
+pub fn faults(world: &World, thing: EntityId) -> Vec<Fault> {
+    let Some(entity) = world.entity(thing) else { return vec![Fault::Missing] };
+    let own = entity.info.shape.obb(entity.pose);
+    let (low, high) = span(&own);
+    let mut found = Vec::new();
+    let mut support: Option<f64> = None;
+    let _ = world.visit(&entity.bounds.inflated(0.5), &mut |other| {
+        if other.id == thing {
+            return ControlFlow::Continue(());
+        }
+        let flat = matches!(
+            other.kind,
+            EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk
+        );
+        let box_of = other.info.shape.obb(other.pose);
+        let (other_low, other_high) = span(&box_of);
+        let above = own.footprints_overlap(&box_of);
+        if !flat && above && low + TOUCH < other_high && other_low + TOUCH < high {
+            found.push(Fault::Penetrates { other: other.id });
+        }
+        if above {
+            nearer(&mut support, low - other_high);
+        }
+        ControlFlow::Continue(())
+    });
+    if let Some(level) = ground_level(world, &entity) {
+        nearer(&mut support, low - level);
+    }
+    if let Some(gap) = support.filter(|gap| gap.abs() > SUPPORT_GAP) {
+        found.push(Fault::Unsupported { gap });
+    }
+    found
+}
+
+fn nearer(support: &mut Option<f64>, gap: f64) {
+    if support.is_none_or(|best| gap.abs() < best.abs()) {
+        *support = Some(gap);
+    }
+}
+
+/// Bottom and top of a box, m.
+fn span(own: &Obb) -> (f64, f64) {
+    let middle = own.pose.translation.z;
+    (middle - own.half_extents.z, middle + own.half_extents.z)
+}
+
+/// The level on which most things within 60 m stand, to the centimetre, m; of two as frequent the lower.
+fn ground_level(world: &World, thing: &EntityRef<'_>) -> Option<f64> {
+    let mut levels: Vec<i64> = Vec::new();
+    let _ = world.visit(&thing.bounds.inflated(60.0), &mut |other| {
+        if other.id != thing.id && other.attachment.is_none() {
+            levels.push((other.position().z * 100.0).round() as i64);
+        }
+        ControlFlow::Continue(())
+    });
+    levels.sort_unstable();
+    let groups = levels.chunk_by(|a, b| a == b);
+    let most = groups.max_by_key(|group| (group.len(), std::cmp::Reverse(group[0])))?;
+    Some(most[0] as f64 * 0.01)
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::geometry::{Point3, pose_facing};
+    use simworld_core::scene::{EntityDesc, Shape};
+
+    use super::*;
+
+    fn world() -> World {
+        let mut world = World::new();
+        for (x, z) in [(0.0, 0.0), (10.0, 0.0), (20.0, 0.0)] {
+            put(&mut world, x, z);
+        }
+        world
+    }
+
+    fn put(world: &mut World, x: f64, z: f64) -> EntityId {
+        let pose = pose_facing(Point3::new(x, 0.0, z), 0.0);
+        world.spawn(EntityDesc::new(EntityKind::Table, pose, Shape::cuboid(1.0, 1.0, 0.8))).unwrap()
+    }
+
+    #[test]
+    fn what_floats_sinks_or_runs_into_others_is_found() {
+        let mut world = world();
+        let sound = put(&mut world, 5.0, 0.0);
+        let stacked = put(&mut world, 0.0, 0.8);
+        let floats = put(&mut world, 30.0, 0.4);
+        let sunk = put(&mut world, 40.0, -0.2);
+        let inside = put(&mut world, 10.5, 0.0);
+        assert_eq!(faults(&world, sound), []);
+        assert_eq!(faults(&world, stacked), []);
+        assert!(matches!(faults(&world, floats)[..], [Fault::Unsupported { gap }] if gap > 0.3));
+        assert!(matches!(faults(&world, sunk)[..], [Fault::Unsupported { gap }] if gap < -0.1));
+        assert!(matches!(faults(&world, inside)[..], [Fault::Penetrates { .. }]));
+    }
+
+    #[test]
+    fn nothing_that_changes_escapes() {
+        let before = world();
+        let mut after = before.clone();
+        assert!(Difference::between(&before, &after).is_empty());
+        let ids: Vec<EntityId> = before.iter().map(|entity| entity.id).collect();
+        after.remove(ids[0]).unwrap();
+        after.set_attribute(ids[1], "open", Some(true.into())).unwrap();
+        let new = put(&mut after, 50.0, 0.0);
+        let difference = Difference::between(&before, &after);
+        assert_eq!((difference.removed, difference.altered), (vec![ids[0]], vec![ids[1]]));
+        assert_eq!((difference.added, difference.moved), (vec![new], vec![]));
+    }
+}

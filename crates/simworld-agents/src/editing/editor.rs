@@ -1,0 +1,267 @@
+//! The scene agent: words or typed edits to commands that take effect at once, with undo, redo and reasons.
+
+use simworld_core::asset::Catalogue;
+use simworld_core::command::{Applied, Command, CommandError};
+use simworld_core::geometry::Point2;
+use simworld_core::id::EntityId;
+use simworld_core::scene::{Scene, World};
+use simworld_core::seed::Seed;
+use simworld_core::simulation::Simulation;
+
+use super::apply::Applier;
+use super::edit::Edit;
+use super::error::EditError;
+use super::history::History;
+use super::land::Streets;
+use super::place::Placing;
+use crate::language::edits::{self, Focus, Reading};
+
+/// A world that can be edited: one by itself, or that of a running simulation between the halves of a step.
+pub trait Editable {
+    /// The world as it is.
+    fn world(&self) -> &World;
+
+    /// Carries out a command from outside.
+    ///
+    /// # Errors
+    /// The command is impossible; then nothing has changed.
+    fn change(&mut self, command: &Command) -> Result<Applied, CommandError>;
+}
+
+impl Editable for World {
+    fn world(&self) -> &World {
+        self
+    }
+
+    fn change(&mut self, command: &Command) -> Result<Applied, CommandError> {
+        self.apply(command)
+    }
+}
+
+/// The commands are recorded, so that a run that was edited replays.
+impl Editable for Simulation {
+    fn world(&self) -> &World {
+        Self::world(self)
+    }
+
+    fn change(&mut self, command: &Command) -> Result<Applied, CommandError> {
+        self.apply_from_outside(command)
+    }
+}
+
+/// What a sentence did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Edited {
+    /// What it was understood as, in order.
+    pub edits: Vec<Edit>,
+    /// Things that it made, in order.
+    pub made: Vec<EntityId>,
+    /// The answer to a question.
+    pub answer: Option<String>,
+    /// What was tried for each thing that was put somewhere.
+    pub placings: Vec<Placing>,
+}
+
+/// Edits a scene by words. What it does follows from its seed, its words and the scene alone.
+///
+/// ```
+/// use simworld_agents::editing::SceneEditor;
+/// use simworld_core::geometry::{Point3, pose_facing};
+/// use simworld_core::scene::{EntityDesc, EntityKind, Place, Scene, Shape, World};
+/// use simworld_core::seed::Seed;
+///
+/// let mut world = World::new();
+/// let house = |x, place| {
+///     let pose = pose_facing(Point3::new(x, 0.0, 0.0), 0.0);
+///     EntityDesc::new(EntityKind::Building, pose, Shape::cuboid(12.0, 12.0, 9.0)).used_as(place)
+/// };
+/// for (x, place) in [(0.0, Place::Hospital), (300.0, Place::Hospital), (325.0, Place::Museum)] {
+///     world.spawn(house(x, place))?;
+/// }
+///
+/// let mut editor = SceneEditor::new(Seed(7));
+/// let done = editor.say("add a red sports car next to the hospital near a museum", &mut world)?;
+/// let car = world.entity(done.made[0]).unwrap();
+/// assert_eq!(car.kind, EntityKind::Car);
+/// assert!((car.position().x - 300.0).abs() < 20.0, "it stands by the hospital that is near a museum");
+///
+/// editor.undo(&mut world)?;
+/// assert_eq!(world.len(), 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SceneEditor {
+    seed: Seed,
+    catalogue: Catalogue,
+    focus: Focus,
+    history: History,
+    streets: Option<Streets>,
+    /// How many things were put somewhere: each draws from a stream of its own.
+    placed: u64,
+    last: Vec<Placing>,
+}
+
+impl SceneEditor {
+    /// An editor with the standard catalogue that looks at the scene from its origin.
+    pub fn new(seed: Seed) -> Self {
+        Self {
+            seed,
+            catalogue: Catalogue::standard(),
+            focus: Focus { from: Point2::origin(), who: None, it: None, place: None },
+            history: History::default(),
+            streets: None,
+            placed: 0,
+            last: Vec::new(),
+        }
+    }
+
+    /// With other things to add.
+    #[must_use]
+    pub fn with_catalogue(mut self, catalogue: Catalogue) -> Self {
+        self.catalogue = catalogue;
+        self
+    }
+
+    /// Looks at the scene from a point of the plane: "here", and what "the nearest" is the nearest to.
+    #[must_use]
+    pub fn looking_from(mut self, point: Point2) -> Self {
+        self.focus.from = point;
+        self
+    }
+
+    /// Looks at the scene as somebody in it, who is no part of what is edited.
+    #[must_use]
+    pub fn looking_as(mut self, who: EntityId, scene: &dyn Scene) -> Self {
+        self.focus.from = scene.entity(who).map_or(self.focus.from, |me| me.planar());
+        self.focus.who = Some(who);
+        self
+    }
+
+    /// What can be added.
+    pub fn catalogue(&self) -> &Catalogue {
+        &self.catalogue
+    }
+
+    /// What was tried for the things that were put somewhere last, also where none fitted.
+    pub fn last_placings(&self) -> &[Placing] {
+        &self.last
+    }
+
+    /// Carries out a sentence: all of it, or nothing.
+    ///
+    /// # Errors
+    /// What is not understood, not there, open, or impossible; then the scene is as it was.
+    pub fn say(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
+        let reading = edits::read(words, scene.world(), &self.catalogue, &self.focus)?;
+        let mut applier = self.applier(scene);
+        let outcome = (0..reading.len()).try_for_each(|index| carry_out(&reading, index, &mut applier));
+        let (edited, back, memory) = applier.finish(outcome.is_ok());
+        self.remember(memory);
+        outcome?;
+        self.history.push(words.to_owned(), back);
+        Ok(edited)
+    }
+
+    /// Carries out edits that somebody else worked out: all of them, or none.
+    ///
+    /// # Errors
+    /// What is not there, or impossible; then the scene is as it was.
+    pub fn edit(&mut self, edits: &[Edit], scene: &mut dyn Editable) -> Result<Edited, EditError> {
+        let mut applier = self.applier(scene);
+        let outcome = edits.iter().try_for_each(|edit| applier.apply(edit));
+        applier.edited.edits = edits.to_vec();
+        let (edited, back, memory) = applier.finish(outcome.is_ok());
+        self.remember(memory);
+        outcome?;
+        self.history.push(format!("{} edits", edits.len()), back);
+        Ok(edited)
+    }
+
+    /// Takes the last sentence back; gives what it was, or nothing if there is none.
+    ///
+    /// # Errors
+    /// The world has changed since in a way that forbids it; then nothing changes, and the sentence can no longer be taken
+    /// back.
+    pub fn undo(&mut self, scene: &mut dyn Editable) -> Result<Option<String>, EditError> {
+        let Some(done) = self.history.last_done() else { return Ok(None) };
+        let again = change_all(scene, &done.back)?;
+        self.history.took_back(done.what.clone(), again);
+        Ok(Some(done.what))
+    }
+
+    /// Does again what was taken back last; gives what it was, or nothing if there is none.
+    ///
+    /// # Errors
+    /// As [`SceneEditor::undo`].
+    pub fn redo(&mut self, scene: &mut dyn Editable) -> Result<Option<String>, EditError> {
+        let Some(undone) = self.history.last_undone() else { return Ok(None) };
+        let back = change_all(scene, &undone.back)?;
+        self.history.did_again(undone.what.clone(), back);
+        Ok(Some(undone.what))
+    }
+
+    fn applier<'a>(&'a mut self, scene: &'a mut dyn Editable) -> Applier<'a> {
+        let roads = scene.world().roads();
+        if !matches!((&self.streets, roads), (Some(streets), Some(roads)) if streets.is_of(roads)) {
+            self.streets = roads.map(Streets::of);
+        }
+        Applier {
+            scene,
+            catalogue: &self.catalogue,
+            streets: self.streets.as_ref(),
+            stream: self.seed.stream("agents/editing"),
+            placed: self.placed,
+            focus: self.focus.clone(),
+            edited: Edited::default(),
+            back: Vec::new(),
+            tried: Vec::new(),
+        }
+    }
+
+    fn remember(&mut self, memory: Memory) {
+        if let Some(focus) = memory.focus {
+            self.focus = focus;
+        }
+        self.placed = memory.placed;
+        self.last = memory.tried;
+    }
+}
+
+/// Works out one wish of a sentence in the scene as it is by now, and carries it out.
+fn carry_out(reading: &Reading, index: usize, applier: &mut Applier<'_>) -> Result<(), EditError> {
+    let focus = applier.focus.clone();
+    for edit in reading.resolve(index, applier.scene.world(), applier.catalogue, &focus)? {
+        applier.apply(&edit)?;
+        applier.edited.edits.push(edit);
+    }
+    Ok(())
+}
+
+/// What an editor keeps of a sentence.
+pub(super) struct Memory {
+    pub(super) focus: Option<Focus>,
+    pub(super) placed: u64,
+    pub(super) tried: Vec<Placing>,
+}
+
+/// Carries out commands, all of them or none; gives those that take them back, in order.
+pub(super) fn change_all(
+    scene: &mut dyn Editable,
+    commands: &[Command],
+) -> Result<Vec<Command>, CommandError> {
+    let mut back = Vec::new();
+    for command in commands {
+        match scene.change(command) {
+            Ok(applied) => back.extend(applied.undo),
+            Err(error) => {
+                for command in back.iter().rev() {
+                    // What was just done can be taken back: nothing else changed since.
+                    let _ = scene.change(command);
+                }
+                return Err(error);
+            }
+        }
+    }
+    back.reverse();
+    Ok(back)
+}

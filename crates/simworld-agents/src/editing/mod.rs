@@ -1,0 +1,30 @@
+//! Scenes edited by words: "add a red sports car next to the hospital near a museum".
+//!
+//! [`SceneEditor::say`] reads a sentence, works out what its words mean in the scene, finds a place where each new thing may
+//! stand, and changes the world by [`Command`](simworld_core::command::Command)s: all of the sentence, or nothing. Typed
+//! [`Edit`]s do the same without words. Every edit can be taken back and done again, and says why it stands where it stands
+//! ([`SceneEditor::last_placings`]).
+//!
+//! What a relation means is a test, [`Stand::holds`]; the solver draws places from its region and throws out what collides,
+//! blocks a door, stands in traffic, or leaves too little of a sidewalk. [`faults`] and [`Difference`] judge the result
+//! from outside.
+
+mod apply;
+mod check;
+mod describe;
+mod edit;
+mod editor;
+mod error;
+mod history;
+mod land;
+mod place;
+mod sample;
+mod solid;
+mod stand;
+
+pub use check::{Difference, Fault, faults};
+pub use edit::{Edit, Make, Stand};
+pub use editor::{Editable, Edited, SceneEditor};
+pub use error::EditError;
+pub(crate) use place::has_flat_top;
+pub use place::{Candidate, Outcome, Placing};

@@ -1,0 +1,306 @@
+//! The placement solver: draws places from the region of a relation, throws out what collides, blocks or stands where it
+//! may not, and takes the best of what is left. It can say what became of every place that it tried.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use simworld_core::geometry::{Aabb, Point2, Point3, Pose};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityKind, Relation, Scene};
+use simworld_core::seed::{Stream, StreamRng};
+
+use super::edit::Stand;
+use super::land::Streets;
+use super::sample::{Item, Sampler, Spot};
+use super::solid::Solid;
+use super::stand::Subject;
+
+/// Places that are tried for a thing at the most.
+const TRIES: u32 = 240;
+/// So many that fit are enough to choose from.
+const ENOUGH: u32 = 16;
+/// Between things there is a hand's breadth, m.
+const HAND: f64 = 0.1;
+/// Before a door there is room for a person, m.
+const DOORWAY: f64 = 0.8;
+
+/// What became of a place that was tried.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// It is possible; the greater score is taken, from 0 to 1.
+    Fits {
+        /// Half of it how near it is to where people would look first, half how well the ground suits.
+        score: f64,
+    },
+    /// Something stands there.
+    Collides {
+        /// What.
+        with: EntityId,
+    },
+    /// It would stand in front of a door.
+    Blocks {
+        /// Whose.
+        door: EntityId,
+    },
+    /// The ground is for something else.
+    Land {
+        /// Why not.
+        why: &'static str,
+    },
+    /// Nothing holds it up there.
+    Unsupported,
+    /// Another relation that was asked for does not hold there.
+    Elsewhere,
+}
+
+/// A place that was tried.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// World from body.
+    pub pose: Pose,
+    /// What became of it.
+    pub outcome: Outcome,
+}
+
+/// What was tried for one thing, and which place was taken.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placing {
+    /// Every place, in the order of trial.
+    pub candidates: Vec<Candidate>,
+    /// Index of the one that was taken.
+    pub taken: Option<usize>,
+}
+
+impl Placing {
+    /// World from body, if a place was found.
+    pub fn pose(&self) -> Option<Pose> {
+        Some(self.candidates[self.taken?].pose)
+    }
+
+    /// Other places that would do, the best first.
+    pub fn alternatives(&self) -> Vec<&Candidate> {
+        let score = |candidate: &Candidate| match candidate.outcome {
+            Outcome::Fits { score } => Some(score),
+            _ => None,
+        };
+        let others = self.candidates.iter().enumerate().filter(|(index, _)| Some(*index) != self.taken);
+        let mut fitting: Vec<_> = others.filter(|(_, candidate)| score(candidate).is_some()).collect();
+        fitting.sort_by(|a, b| score(b.1).unwrap_or(0.0).total_cmp(&score(a.1).unwrap_or(0.0)));
+        fitting.into_iter().map(|(_, candidate)| candidate).collect()
+    }
+
+    /// What spoke against the places that were thrown out, the most frequent reason first.
+    pub fn reasons(&self, scene: &dyn Scene) -> String {
+        let label = |id: &EntityId| {
+            scene.entity(*id).map_or_else(|| id.to_string(), |entity| format!("{} ({id})", entity.label()))
+        };
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        for candidate in &self.candidates {
+            let reason = match &candidate.outcome {
+                Outcome::Fits { .. } => continue,
+                Outcome::Collides { with } => format!("{} is in the way", label(with)),
+                Outcome::Blocks { door } => format!("the door of {} would be blocked", label(door)),
+                Outcome::Land { why } => (*why).to_owned(),
+                Outcome::Unsupported => "it would not stand safely".to_owned(),
+                Outcome::Elsewhere => "not all that was asked holds there".to_owned(),
+            };
+            *counts.entry(reason).or_default() += 1;
+        }
+        let mut counts: Vec<_> = counts.into_iter().collect();
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        let all = self.candidates.len();
+        let said: Vec<String> =
+            counts.iter().take(3).map(|(why, count)| format!("{why} at {count} of {all} places")).collect();
+        if said.is_empty() { "no such place".to_owned() } else { said.join(", ") }
+    }
+}
+
+/// Finds places in a scene.
+pub(super) struct Placer<'a> {
+    pub(super) scene: &'a dyn Scene,
+    pub(super) streets: Option<&'a Streets>,
+    /// From where the scene is looked at.
+    pub(super) from: Point2,
+    /// Things that are as good as gone: those that are being moved, and what hangs on them.
+    pub(super) lifted: &'a [EntityId],
+}
+
+impl Placer<'_> {
+    /// The best place for a thing so that all relations hold; `rank` says which of how many of its kind it is.
+    pub(super) fn place(
+        &self,
+        subject: Subject<'_>,
+        rank: (u32, u32),
+        stands: &[Stand],
+        stream: Stream,
+    ) -> Placing {
+        let size = subject.info.shape.size();
+        let item = Item { kind: subject.kind, half: size.xy() * 0.5, rank };
+        let sampler = Sampler { scene: self.scene, streets: self.streets, item, from: self.from };
+        let exact = stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
+        let mut rng = stream.rng();
+        let mut placing = Placing::default();
+        let (mut fitting, mut best) = (0, f64::NEG_INFINITY);
+        for attempt in 0..if exact { 1 } else { TRIES } {
+            let Some(spot) = self.draw(&sampler, stands, attempt, &mut rng) else { continue };
+            let solid =
+                Solid::standing(subject.info.shape, Point3::new(spot.at.x, spot.at.y, spot.base), spot.yaw);
+            let outcome = self.judge(subject, stands, &spot, &solid);
+            if let Outcome::Fits { score } = outcome {
+                fitting += 1;
+                if score > best {
+                    best = score;
+                    placing.taken = Some(placing.candidates.len());
+                }
+            }
+            placing.candidates.push(Candidate { pose: solid.pose, outcome });
+            if fitting >= ENOUGH {
+                break;
+            }
+        }
+        placing
+    }
+
+    fn draw(
+        &self,
+        sampler: &Sampler<'_>,
+        stands: &[Stand],
+        attempt: u32,
+        rng: &mut StreamRng,
+    ) -> Option<Spot> {
+        if stands.is_empty() {
+            return Some(sampler.anywhere(rng));
+        }
+        let stand = &stands[attempt as usize % stands.len()];
+        // Vehicles are looked for a place at the kerb every other time.
+        let parks = sampler.item.kind.is_vehicle() && attempt % 2 == 1;
+        let near = stand.anchor().and_then(|anchor| self.scene.entity(anchor)).filter(|_| parks);
+        let parked = near.and_then(|near| sampler.parked(near.planar(), rng));
+        parked.or_else(|| sampler.draw(stand, rng)).map(|spot| self.grounded(stand, spot))
+    }
+
+    /// What stands beside a thing on a table stands on the ground.
+    fn grounded(&self, stand: &Stand, mut spot: Spot) -> Spot {
+        if matches!(stand, Stand::To { relation: Relation::OnTopOf, .. }) {
+            return spot;
+        }
+        let mut below = stand.anchor();
+        while let Some(under) = below.and_then(|thing| self.support_of(thing)) {
+            spot.base = self.scene.entity(under).map_or(spot.base, |under| under.position().z);
+            below = Some(under);
+        }
+        spot
+    }
+
+    /// What a thing stands on, if it is no ground.
+    fn support_of(&self, thing: EntityId) -> Option<EntityId> {
+        let thing = self.scene.entity(thing)?;
+        let solid = Solid::of(&thing);
+        let mut under = None;
+        let _ = self.scene.visit(&thing.bounds.inflated(0.05), &mut |other| {
+            let lies = Solid::of(&other);
+            let holds = !is_surface(other.kind) && other.id != thing.id && lies.base() + 0.05 < solid.base();
+            if holds && (lies.top() - solid.base()).abs() <= 0.05 && lies.gap(&solid) == 0.0 {
+                under = Some(other.id);
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        under
+    }
+
+    fn judge(&self, subject: Subject<'_>, stands: &[Stand], spot: &Spot, solid: &Solid) -> Outcome {
+        let on_top = stands.iter().find_map(|stand| match stand {
+            Stand::To { relation: Relation::OnTopOf, anchor } => Some(*anchor),
+            _ => None,
+        });
+        if let Some(anchor) = on_top.and_then(|anchor| self.scene.entity(anchor))
+            && !carries(&anchor, solid)
+        {
+            return Outcome::Unsupported;
+        }
+        let holds = |stand: &Stand| stand.would_hold(self.scene, self.streets, subject, solid);
+        if !stands.iter().all(holds) {
+            return Outcome::Elsewhere;
+        }
+        if let Some(outcome) = self.obstacle(solid, on_top.is_some()) {
+            return outcome;
+        }
+        // Who names a point, or a thing to stand on, means it.
+        let exact = on_top.is_some() || stands.iter().any(|stand| matches!(stand, Stand::At { .. }));
+        let land = match self.streets.filter(|_| !exact) {
+            Some(streets) => streets.suits(subject.kind, solid),
+            None => Ok(1.0),
+        };
+        match land {
+            Ok(land) => Outcome::Fits { score: 0.5 * (1.0 - spot.odd) + 0.5 * land },
+            Err(why) => Outcome::Land { why },
+        }
+    }
+
+    /// What is in the way, or whose door.
+    fn obstacle(&self, solid: &Solid, on_top: bool) -> Option<Outcome> {
+        let room = if on_top { *solid } else { solid.inflated(HAND) };
+        let bounds = room.bounds().inflated(DOORWAY);
+        let region = Aabb { min: Point3::new(bounds.min.x, bounds.min.y, room.base()), ..bounds };
+        if let Some(with) = in_the_way(self.scene, &room, self.lifted) {
+            return Some(Outcome::Collides { with });
+        }
+        let mut blocked = None;
+        let _ = self.scene.visit(&region, &mut |other| {
+            let access = other.info.access.filter(|_| other.kind == EntityKind::Building && !on_top);
+            if access.is_some_and(|door| solid.distance_to(door.xy()) < DOORWAY) {
+                blocked = Some(Outcome::Blocks { door: other.id });
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
+        blocked
+    }
+}
+
+/// The first thing that shares space with a solid, flat ground apart.
+pub(super) fn in_the_way(scene: &dyn Scene, solid: &Solid, besides: &[EntityId]) -> Option<EntityId> {
+    let mut found = None;
+    let _ = scene.visit(&solid.bounds(), &mut |other| {
+        let counts = !is_surface(other.kind) && !besides.contains(&other.id);
+        if counts && solid.overlaps(&Solid::of(&other)) {
+            found = Some(other.id);
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    });
+    found
+}
+
+/// Whether it is flat ground, on which all else stands.
+pub(super) const fn is_surface(kind: EntityKind) -> bool {
+    matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
+}
+
+/// Whether things can stand on top of it.
+pub(crate) const fn has_flat_top(kind: EntityKind) -> bool {
+    !matches!(
+        kind,
+        EntityKind::Tree
+            | EntityKind::Shrub
+            | EntityKind::StreetLamp
+            | EntityKind::TrafficSignal
+            | EntityKind::Sign
+            | EntityKind::Hydrant
+            | EntityKind::Cone
+            | EntityKind::Motorcycle
+            | EntityKind::Bicycle
+            | EntityKind::Scooter
+            | EntityKind::Person
+            | EntityKind::Dog
+            | EntityKind::Door
+    )
+}
+
+/// Whether a thing that stands there rests on another with its whole footprint.
+fn carries(anchor: &simworld_core::scene::EntityRef<'_>, solid: &Solid) -> bool {
+    let below = Solid::of(anchor);
+    has_flat_top(anchor.kind) && solid.corners().into_iter().all(|corner| below.distance_to(corner) <= 1e-6)
+}

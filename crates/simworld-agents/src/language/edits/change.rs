@@ -1,0 +1,486 @@
+//! Wishes that change what is there: moving, painting, sizing, copying, naming.
+
+use simworld_core::seam::PlanError;
+
+use super::super::clause::{Count, Reference, Target};
+use super::super::lexer::{Lexeme, Token, lex};
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::numbers;
+use super::super::paint::{PAINTS, Paint};
+use super::parse::Reader;
+use super::wish::Wish;
+use super::words::FACTORS;
+
+impl Reader<'_> {
+    // ---- the verbs ----
+
+    /// Things and where they go: a reading for each place where the words can be cut.
+    pub(super) fn moves(&mut self, end: usize) -> Result<Vec<Wish>, PlanError> {
+        let start = self.at;
+        let mut readings = Vec::new();
+        let mut refused = None;
+        for cut in start + 1..end {
+            if !self.is_place(cut) {
+                continue;
+            }
+            let Ok(what) = self.things(start, cut) else { continue };
+            self.at = cut;
+            match self.places(end) {
+                Ok(at) if self.at == end => readings.push(Wish::Move { what, at }),
+                Ok(_) => {}
+                Err(error) => refused = Some(error),
+            }
+        }
+        if readings.is_empty() {
+            self.at = start;
+            return Err(refused.unwrap_or_else(|| self.not_understood("say what to move, and where to")));
+        }
+        self.at = end;
+        Ok(readings)
+    }
+
+    /// Whether the words from here name something that is there, and no new thing.
+    pub(super) fn is_definite(&self, start: usize) -> bool {
+        longest_phrase(&self.lexemes[start..], &["a", "an", "some", "another", "one", "new", "more"])
+            .is_none()
+            && numbers::count(&self.lexemes[start..]).is_none()
+    }
+
+    /// "Take the bench and put it ...", "take the bench away", "get a bench".
+    pub(super) fn take(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        let away =
+            (start..end).find(|at| longest_phrase(&self.lexemes[*at..end], &["away", "out"]).is_some());
+        if let Some(away) = away.filter(|away| away + 1 == end) {
+            let what = self.things(start, away)?;
+            self.at = end;
+            return Ok(vec![vec![Wish::Remove { what }]]);
+        }
+        if let Ok(wish) = self.moves(end) {
+            return Ok(vec![wish]);
+        }
+        self.at = start;
+        if self.is_definite(start) {
+            // What is taken up is what "it" stands for in the next wish.
+            self.one_to(end)?;
+            return Ok(vec![vec![Wish::List { what: Some(self.one_of(start, end)?), at: Vec::new() }]]);
+        }
+        self.additions(end)
+    }
+
+    pub(super) fn replace(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        for cut in start + 1..end {
+            let Some(count) = longest_phrase(&self.lexemes[cut..end], &["with", "by", "for"]) else {
+                continue;
+            };
+            let Ok(what) = self.one_of(start, cut) else { continue };
+            self.at = cut + count;
+            let with = self.new_thing(end)?;
+            return if self.at == end {
+                Ok(vec![vec![Wish::Replace { what, with }]])
+            } else {
+                Err(self.not_understood("end here"))
+            };
+        }
+        Err(self.not_understood("say what to replace with what"))
+    }
+
+    pub(super) fn swap(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        self.eat_any(&[
+            "the places of",
+            "the positions of",
+            "places of",
+            "positions of",
+            "the place of",
+            "the position of",
+        ]);
+        let start = self.at;
+        let tail: &[&str] = &[
+            "trade places",
+            "swap places",
+            "change places",
+            "around",
+            "switch places",
+            "exchange places",
+            "places",
+            "positions",
+        ];
+        let stop = (start..end)
+            .find(|at| longest_phrase(&self.lexemes[*at..end], tail) == Some(end - at))
+            .unwrap_or(end);
+        for cut in start + 1..stop {
+            let Some(count) = longest_phrase(&self.lexemes[cut..stop], &["and", "with", "for", "against"])
+            else {
+                continue;
+            };
+            if let (Ok(one), Ok(other)) = (self.one_of(start, cut), self.one_of(cut + count, stop)) {
+                self.at = end;
+                return Ok(vec![vec![Wish::Swap { one, other: Some(other) }]]);
+            }
+        }
+        let both = self.one_of(start, stop)?;
+        if both.count == Count::One {
+            return Err(self.not_understood("say which two are to change places"));
+        }
+        self.at = end;
+        Ok(vec![vec![Wish::Swap { one: both, other: None }]])
+    }
+
+    /// Things and a colour, several times.
+    pub(super) fn paints(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let mut wishes = Vec::new();
+        while self.at < end {
+            let start = self.at;
+            let Some((what, paint, next)) = self.colored(start, end) else {
+                return Err(self.not_understood("say what to paint, and in which colour"));
+            };
+            wishes.push(vec![Wish::Paint { what, paint }]);
+            self.at = next;
+            self.skip_joints_to(end);
+        }
+        Ok(wishes)
+    }
+
+    /// Things, and behind them a colour, from a place on; and where that ends.
+    pub(super) fn colored(&self, start: usize, end: usize) -> Option<(Vec<Reference>, Paint, usize)> {
+        for at in start + 1..end {
+            let Some((paint, count)) = longest(&self.lexemes[at..end], PAINTS) else { continue };
+            let mut cut = at;
+            for _ in 0..4 {
+                let before = self.word(cut - 1).unwrap_or_default();
+                if cut > start + 1
+                    && [
+                        "to", "in", "into", "be", "bright", "dark", "light", "a", "the", "colour", "color",
+                        "as", "turn", "deep", "is", "are", "becomes",
+                    ]
+                    .contains(&before)
+                {
+                    cut -= 1;
+                }
+            }
+            let next = at + count;
+            let closes = next >= end
+                || self.is_joint(next)
+                || longest_phrase(
+                    &self.lexemes[next..end],
+                    &["instead", "please", "now", "in colour", "in color", "too"],
+                )
+                .is_some();
+            if let Some(what) = self.things(start, cut).ok().filter(|_| closes) {
+                let rest = longest_phrase(
+                    &self.lexemes[next..end],
+                    &["instead", "please", "now", "in colour", "in color", "too"],
+                );
+                return Some((what, paint, next + rest.unwrap_or(0)));
+            }
+        }
+        None
+    }
+
+    pub(super) fn sized(&mut self, end: usize, usual: f64) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        if let Some(wish) = self.scaled(start, end) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
+        let what = self.things_to(end)?;
+        Ok(vec![vec![Wish::Scale { what, factor: usual }]])
+    }
+
+    /// Things, and behind them a size.
+    pub(super) fn scaled(&self, start: usize, end: usize) -> Option<Wish> {
+        for cut in start + 1..end {
+            let rest = &self.lexemes[cut..end];
+            let factor = match longest(rest, FACTORS) {
+                Some((factor, count)) if cut + count == end => factor,
+                _ => match factor_in_numbers(rest) {
+                    Some((factor, count)) if cut + count == end => factor,
+                    _ => continue,
+                },
+            };
+            if let Ok(what) = self.things(start, cut) {
+                return Some(Wish::Scale { what, factor });
+            }
+        }
+        None
+    }
+
+    pub(super) fn double(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let begin = self.at - 1;
+        let verb = (0..=begin).rev().find_map(|at| {
+            let word = self.word(at)?;
+            [("double", 2.0), ("triple", 3.0), ("halve", 0.5)].into_iter().find(|(name, _)| *name == word)
+        });
+        let factor = verb.map_or(2.0, |(_, factor)| factor);
+        let of_number = self.word(begin) == Some("of") && self.word(begin - 1) == Some("number");
+        let sized = self.word(begin) == Some("of") && !of_number;
+        let start = self.at;
+        let what = self.one_to(end)?;
+        let many = matches!(what.count, Count::All) || self.is_plural(start, end);
+        if many && !sized && factor > 1.0 {
+            return Ok(vec![vec![Wish::Multiply { what, times: factor as u32 }]]);
+        }
+        Ok(vec![vec![Wish::Scale { what: vec![what], factor }]])
+    }
+
+    pub(super) fn is_plural(&self, start: usize, end: usize) -> bool {
+        let mut words = self.lexemes[start..end].iter().filter_map(|lexeme| match &lexeme.token {
+            Token::Word(word) => Some(word.as_str()),
+            _ => None,
+        });
+        // The noun is the first word that is in the plural of a class.
+        words.any(|word| word.ends_with('s') && super::super::lexicon::category(&lex(word)).is_some())
+    }
+
+    pub(super) fn copy(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        let mut readings = Vec::new();
+        for cut in start + 1..end {
+            let begins = self.is_place(cut) || self.is_joint(cut);
+            if !begins {
+                continue;
+            }
+            let (what_end, count) = self.without_times(start, cut);
+            let Ok(what) = self.one_of(start, what_end) else { continue };
+            self.at = cut;
+            self.skip_joints_to(end);
+            if self.eat_any(&[
+                "put", "place", "set", "leave", "stick", "position", "drop", "park", "move", "plant",
+            ]) {
+                self.eat_any(&[
+                    "it",
+                    "them",
+                    "the copy",
+                    "the copies",
+                    "the clone",
+                    "the clones",
+                    "the duplicate",
+                    "the duplicates",
+                    "that one",
+                    "the new one",
+                    "the second one",
+                    "the other one",
+                    "that copy",
+                ]);
+            }
+            if let Ok(at) = self.places(end)
+                && self.at == end
+            {
+                readings.push(Wish::Copy { what, count, at });
+            }
+        }
+        let (what_end, count) = self.without_times(start, end);
+        if let Ok(what) = self.one_of(start, what_end) {
+            readings.push(Wish::Copy { what, count, at: Vec::new() });
+        }
+        self.at = end;
+        if readings.is_empty() {
+            self.at = start;
+            return Err(self.not_understood("say what to copy"));
+        }
+        Ok(vec![readings])
+    }
+
+    /// Without "twice" or "three times" at the end.
+    pub(super) fn without_times(&self, start: usize, end: usize) -> (usize, u32) {
+        for at in start + 1..end {
+            if let Some((times, count)) = numbers::times(&self.lexemes[at..end])
+                && at + count == end
+            {
+                return (at, times);
+            }
+        }
+        (end, 1)
+    }
+
+    pub(super) fn name(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        // The shortest thing that is one: the rest is the name.
+        for cut in start + 1..end {
+            let Ok(what) = self.one_of(start, cut) else { continue };
+            let mut from = cut;
+            from += longest_phrase(&self.lexemes[cut..end], &["to", "as", "into", "it"]).unwrap_or(0);
+            if from >= end || longest(&self.lexemes[from..end], super::words::WAYS).is_some() {
+                continue;
+            }
+            if matches!(
+                what.target,
+                Target::Any(_) | Target::Named(_) | Target::It | Target::Them | Target::Id(_)
+            ) {
+                let name = self.written(from, end);
+                self.at = end;
+                return Ok(vec![vec![Wish::Name { what, name }]]);
+            }
+        }
+        Err(self.not_understood("say what to name, and how"))
+    }
+
+    /// "Make the bench blue", "make the tree bigger", "let the two cars trade places", "make a bench ...".
+    pub(super) fn make(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        if let Some(wish) = self.copies(end) {
+            return Ok(wish);
+        }
+        if let Some((what, paint, next)) = self.colored(start, end) {
+            self.at = next;
+            let mut wishes = vec![vec![Wish::Paint { what, paint }]];
+            self.skip_joints_to(end);
+            if self.at < end {
+                wishes.extend(self.paints(end)?);
+            }
+            return Ok(wishes);
+        }
+        if let Some(wish) = self.scaled(start, end) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
+        for cut in start + 1..end {
+            let verb: &[&str] = &[
+                "trade places",
+                "swap places",
+                "change places",
+                "switch places",
+                "exchange places",
+                "swap positions",
+            ];
+            if longest_phrase(&self.lexemes[cut..end], verb) == Some(end - cut) {
+                return self.swap(end);
+            }
+            let looks: &[&str] = &[
+                "face",
+                "look at",
+                "look towards",
+                "look",
+                "point at",
+                "point to",
+                "point towards",
+                "facing",
+                "look to",
+            ];
+            if let Some(count) = longest_phrase(&self.lexemes[cut..end], looks)
+                && let Ok(what) = self.things(start, cut)
+            {
+                self.at = cut + count;
+                return self.towards(what, end).map(|wish| vec![vec![wish]]);
+            }
+        }
+        self.at = start;
+        if let Some(wish) = self.posed(end) {
+            return Ok(vec![vec![wish]]);
+        }
+        if self.is_definite(start) { self.moves(end).map(|wish| vec![wish]) } else { self.additions(end) }
+    }
+
+    /// "Two copies of the crate next to the mailbox".
+    pub(super) fn copies(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
+        #[rustfmt::skip]
+    const COPIES: &[&str] = &["copies of", "copy of", "clones of", "clone of", "duplicates of", "duplicate of",
+        "more copies of", "more of"];
+        let start = self.at;
+        let (count, words) = numbers::count(self.rest(end)).unwrap_or((1, 0));
+        self.at += words;
+        self.eat_any(&["a", "an", "another", "one", "one more", "more"]);
+        if !self.eat_any(COPIES) {
+            self.at = start;
+            return None;
+        }
+        let mut wishes = self.copy(end).ok();
+        for wish in wishes.iter_mut().flatten().flatten() {
+            if let Wish::Copy { count: times, .. } = wish {
+                *times = count;
+            }
+        }
+        if wishes.is_none() {
+            self.at = start;
+        }
+        wishes
+    }
+
+    /// "Have Ben stand beside the mailbox".
+    pub(super) fn posed(&mut self, end: usize) -> Option<Wish> {
+        #[rustfmt::skip]
+    const POSES: &[&str] =
+            &["stand", "be", "sit", "wait", "go", "walk", "move", "stay", "be standing", "be placed"];
+        let start = self.at;
+        for cut in start + 1..end {
+            let Some(count) = longest_phrase(&self.lexemes[cut..end], POSES) else { continue };
+            let Ok(what) = self.things(start, cut) else { continue };
+            self.at = cut + count;
+            if self.is_place(self.at)
+                && let Ok(at) = self.places(end)
+                && self.at == end
+            {
+                return Some(Wish::Move { what, at });
+            }
+        }
+        self.at = start;
+        None
+    }
+
+    /// Two things to change places.
+    pub(super) fn pair_up(&self, start: usize, end: usize) -> Result<Wish, PlanError> {
+        for cut in start + 1..end {
+            if longest_phrase(&self.lexemes[cut..end], &["and"]).is_some()
+                && let (Ok(one), Ok(other)) = (self.one_of(start, cut), self.one_of(cut + 1, end))
+            {
+                return Ok(Wish::Swap { one, other: Some(other) });
+            }
+        }
+        Ok(Wish::Swap { one: self.one_of(start, end)?, other: None })
+    }
+
+    /// Where something is told to look.
+    pub(super) fn towards(&mut self, what: Vec<Reference>, end: usize) -> Result<Wish, PlanError> {
+        let mut parser = self.parser(self.at, end);
+        if let Some(compass) = parser.compass().filter(|_| parser.at >= self.before_politeness(self.at, end))
+        {
+            self.at = end;
+            return Ok(Wish::FaceCompass { what, compass });
+        }
+        let towards = self.one_to(end)?;
+        Ok(Wish::Face { what, towards })
+    }
+}
+
+/// "By 150 percent", "by a factor of 1.5", "1.5 times".
+fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
+    let mut at = longest_phrase(
+        lexemes,
+        &["by a factor of", "by factor", "by", "to", "a factor of", "up by", "down by"],
+    )
+    .unwrap_or(0);
+    let relative = longest_phrase(lexemes, &["by"]).is_some();
+    let (number, count) = numbers::number(&lexemes[at..])?;
+    at += count;
+    if let Some(count) = longest_phrase(&lexemes[at..], &["percent", "%", "per cent"]) {
+        at += count;
+        let more = longest_phrase(&lexemes[at..], &["bigger", "larger", "taller"]);
+        let less = longest_phrase(&lexemes[at..], &["smaller", "shorter"]);
+        at += more.or(less).unwrap_or(0);
+        let share = number / 100.0;
+        let factor = match (more, less) {
+            (_, Some(_)) => 1.0 - share,
+            (Some(_), _) => 1.0 + share,
+            _ if relative => 1.0 + share,
+            _ => share,
+        };
+        return Some((factor, at));
+    }
+    at += longest_phrase(
+        &lexemes[at..],
+        &[
+            "times",
+            "x",
+            "times as big",
+            "times bigger",
+            "times the size",
+            "times as large",
+            "times its size",
+            "times larger",
+            "times as tall",
+        ],
+    )
+    .unwrap_or(0);
+    Some((number, at))
+}

@@ -1,0 +1,101 @@
+//! Sentences about the scene itself: "add a red sports car next to the hospital near a museum".
+//!
+//! The same words, names and noun phrases as in orders to a body; other verbs. A sentence is read whole first; each wish is
+//! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
+
+mod ask;
+mod change;
+mod make;
+mod parse;
+mod places;
+mod resolve;
+mod sky;
+mod slips;
+mod stated;
+mod turn;
+mod wish;
+mod words;
+
+use parse::{Reader, UNDERSTOOD};
+use simworld_core::asset::Catalogue;
+use simworld_core::geometry::Point2;
+use simworld_core::id::EntityId;
+use simworld_core::scene::Scene;
+use wish::Wish;
+
+use super::names::Names;
+use super::parser::shortened;
+use super::resolve::View;
+use super::{AmbiguityPolicy, LONGEST_SENTENCE, hearing};
+use crate::editing::EditError;
+
+/// From where the scene is looked at, and what was spoken of.
+#[derive(Clone, Debug)]
+pub(crate) struct Focus {
+    /// m.
+    pub(crate) from: Point2,
+    /// Who looks, if somebody in the scene does.
+    pub(crate) who: Option<EntityId>,
+    /// What "it" stands for.
+    pub(crate) it: Option<EntityId>,
+    /// What "there" stands for.
+    pub(crate) place: Option<Point2>,
+}
+
+/// A sentence that was read.
+#[derive(Clone, Debug)]
+pub(crate) struct Reading {
+    words: String,
+    /// Each wish in all its readings.
+    wishes: Vec<Vec<Wish>>,
+}
+
+impl Reading {
+    /// The number of wishes.
+    pub(crate) fn len(&self) -> usize {
+        self.wishes.len()
+    }
+}
+
+/// Reads a sentence; names are those of the scene.
+pub(crate) fn read(
+    words: &str,
+    scene: &dyn Scene,
+    catalogue: &Catalogue,
+    focus: &Focus,
+) -> Result<Reading, EditError> {
+    if words.chars().count() > LONGEST_SENTENCE {
+        let hint = format!("say it in at most {LONGEST_SENTENCE} characters");
+        return Err(EditError::NotUnderstood { words: shortened(words), fragment: String::new(), hint });
+    }
+    let view = view_of(scene, focus);
+    let names = Names::new(scene, focus.from, super::RANGE);
+    let mut lexemes = hearing::hear(words, None);
+    slips::correct(words, &mut lexemes, &names, catalogue);
+    let mut reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0 };
+    let wishes = reader.sentence()?;
+    Ok(Reading { words: words.to_owned(), wishes })
+}
+
+fn view_of<'a>(scene: &'a dyn Scene, focus: &Focus) -> View<'a> {
+    let it = focus.it;
+    View {
+        scene,
+        // Nobody has this id, so that nothing is left out where nobody looks.
+        who: focus.who.unwrap_or(EntityId::new(u32::MAX, u32::MAX)),
+        from: focus.from,
+        origin: focus.from,
+        heading: focus
+            .who
+            .and_then(|who| scene.entity(who))
+            .map_or(0.0, |me| simworld_core::geometry::yaw_of(me.pose)),
+        range: EVERYWHERE,
+        it,
+        them: it.filter(|it| scene.entity(*it).is_some_and(|it| super::lexicon::is_animate(it.kind))),
+        gone: Vec::new(),
+        policy: AmbiguityPolicy::Nearest,
+    }
+}
+
+/// Edits are about the whole scene, m.
+const EVERYWHERE: f64 = 1.0e5;

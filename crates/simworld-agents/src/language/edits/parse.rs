@@ -1,0 +1,360 @@
+//! Tokens to wishes.
+//!
+//! ```text
+//! sentence = wish { joint wish }
+//! wish     = add things [places] { "and" things [places] } | move things places | remove things
+//!          | turn things (angle | "towards" thing) | swap thing "and" thing | paint things colour | make things size
+//!          | copy thing [places] | name thing name | "how many" things | list things | describe thing | weather
+//! places   = place { "and" place };  place = a relation and what it is to (see `places`)
+//! ```
+//!
+//! Where the words can be cut in several ways ("move the bench near the fountain next to the library"), all readings are
+//! kept in their order: the first whose things are there is meant.
+
+use simworld_core::seam::PlanError;
+
+use super::super::clause::{Reference, Target};
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::names::Names;
+use super::super::parser::Parser;
+use super::super::resolve::View;
+use super::wish::Wish;
+use super::words::{VERBS, Verb};
+
+/// What is understood, in one line, for answers.
+pub(super) const UNDERSTOOD: &str = "say add, put, move, remove, replace, rotate, swap, paint, make bigger or smaller, copy, name, \
+     count, list, describe, or what the weather and the time are to be";
+/// What joins two wishes.
+#[rustfmt::skip]
+pub(super) const JOINTS: &[&str] = &["and", "then", "and then", "also", "plus", "but", "and also", "as well as",
+    "after that", "next", "finally", "too", "as well", "while you are at it", "now", "along with", "together with",
+    "and finally", "afterwards", "first", "so", "or rather", "with"];
+/// What is put before and behind wishes, and says nothing.
+#[rustfmt::skip]
+const POLITE: &[&str] = &["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
+    "um", "well", "could you", "can you", "would you", "will you", "can u", "could u", "i want you to",
+    "i would like you to", "id like you to", "you should", "you must", "lets", "let us", "just", "try to",
+    "go ahead and", "would you mind", "do you mind", "if you can", "if you could", "if possible",
+    "if you dont mind", "for me", "for us", "quickly", "simply", "maybe", "perhaps", "would you please",
+    "could you please", "can you please", "will you please", "yo", "dude", "bro", "mate", "pls", "plz",
+    "i think you should", "i want to", "i would like to", "id like to", "i need to", "we need to", "we should",
+    "we want to", "help me", "be so kind as to", "be so kind and", "why dont you", "how about you",
+    "be so good as to", "i think", "actually", "really", "also", "again", "to", "cheers", "i dont care where",
+    "i dont mind where", "thx", "there", "buddy", "guys", "everyone", "do me a favour and", "do me a favor and",
+    "i ask you to", "need you to", "i need you to", "oh", "oh and", "hmm", "so", "can we", "could we",
+    "may i ask you to", "it would be nice to", "it would be great to", "it would be nice if you could",
+    "id be grateful if you could", "would it be possible to", "is it possible to", "might you",
+    "i reckon we should", "you need to", "you have to", "you can", "you could", "go and", "go", "instead", "now",
+    "kindly please", "sir", "as well", "too", "i wonder if you could", "it is time to", "its time to", "time to",
+    "how about", "what about", "what if we", "shall we", "anymore", "any more", "any longer", "at all",
+    "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"];
+
+/// What is put behind wishes, and says nothing.
+#[rustfmt::skip]
+const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if you can", "if you could",
+    "if possible", "if you dont mind", "pls", "plz", "now", "instead", "too", "as well", "anymore", "any more",
+    "any longer", "at all", "i dont care where", "i dont mind where", "cheers", "thx", "okay", "ok", "mate",
+    "buddy", "bro", "dude", "sir", "quickly", "again", "would you", "will you", "could you", "can you",
+    "if you would", "if you will", "thanks a lot", "if its not too much trouble", "if it is not too much trouble",
+    "right now", "right away", "immediately", "asap", "thank you very much", "thanks in advance", "if its possible",
+    "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time"];
+
+/// Reads one sentence.
+pub(super) struct Reader<'a> {
+    pub(super) words: &'a str,
+    pub(super) lexemes: &'a [Lexeme],
+    pub(super) names: &'a Names<'a>,
+    pub(super) view: &'a View<'a>,
+    pub(super) at: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// All wishes of the sentence, each in all its readings, at least one.
+    pub(super) fn sentence(&mut self) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let mut wishes = Vec::new();
+        self.skip_joints();
+        while self.at < self.lexemes.len() {
+            let end = self.boundary();
+            wishes.extend(self.wish(end)?);
+            self.skip_joints();
+        }
+        if wishes.is_empty() { Err(self.not_understood(UNDERSTOOD)) } else { Ok(wishes) }
+    }
+
+    /// One wish up to a boundary, or several that share a verb.
+    fn wish(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        if let Some(sky) = self.sky(end) {
+            self.at = end;
+            return Ok(vec![vec![Wish::Sky(sky)]]);
+        }
+        if let Some(made) = self.stated(end)? {
+            return Ok(made);
+        }
+        if let Some(made) = self.place_first(end) {
+            return Ok(made);
+        }
+        let mut refused = None;
+        for begin in start..end {
+            let Some((verb, count)) = longest(&self.lexemes[begin..end], VERBS) else { continue };
+            if !self.may_skip(start, begin) {
+                break;
+            }
+            self.at = begin + count;
+            match self.after(verb, end) {
+                Ok(wishes) => return Ok(wishes),
+                Err(error) => refused = refused.or(Some(error)),
+            }
+        }
+        self.at = start;
+        match self.bare(end) {
+            Ok(Some(wishes)) => Ok(wishes),
+            Ok(None) => Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD))),
+            Err(error) => Err(refused.unwrap_or(error)),
+        }
+    }
+
+    /// Whether what stands before a verb says nothing of its own, or only why: no word of it forbids.
+    fn may_skip(&self, start: usize, begin: usize) -> bool {
+        #[rustfmt::skip]
+    const FORBIDS: &[&str] = &["dont", "not", "never", "no", "without", "stop", "if", "unless", "when", "whenever",
+        "until", "avoid"];
+        let before = &self.lexemes[start..begin];
+        !before
+            .iter()
+            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if FORBIDS.contains(&word.as_str())))
+            && (before.len() <= 8
+                || before.iter().any(|lexeme| lexeme.token == Token::Break || lexeme.token == Token::Comma))
+    }
+
+    fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        match verb {
+            Verb::Add => {
+                if let Some(wish) = self.copies(end) {
+                    return Ok(wish);
+                }
+                match self.posed(end).filter(|_| self.is_definite(self.at)) {
+                    Some(wish) => Ok(vec![vec![wish]]),
+                    None => self.additions(end),
+                }
+            }
+            // "Put the bench ..." moves it, "put a bench ..." makes one.
+            Verb::Put if self.is_definite(self.at) => self.moves(end).map(|wish| vec![wish]),
+            Verb::Put => self.additions(end),
+            Verb::Move => self.moves(end).map(|wish| vec![wish]),
+            Verb::Take => self.take(end),
+            Verb::Remove => {
+                let what = self.things_to(end)?;
+                Ok(vec![vec![Wish::Remove { what }]])
+            }
+            Verb::Replace => self.replace(end),
+            Verb::Turn => self.turns(end),
+            Verb::Swap => self.swap(end),
+            Verb::Paint => self.paints(end),
+            Verb::Grow => self.sized(end, 1.5),
+            Verb::Shrink => self.sized(end, 1.0 / 1.5),
+            Verb::Double => self.double(end),
+            Verb::Copy => self.copy(end),
+            Verb::Name => self.name(end),
+            Verb::Count => self.count(end),
+            Verb::List => self.list(end),
+            Verb::Describe => {
+                let what = self.one_to(end)?;
+                Ok(vec![vec![Wish::Describe { what }]])
+            }
+            Verb::Make => self.make(end),
+        }
+    }
+
+    // ---- things ----
+
+    /// What the words name, all of them.
+    pub(super) fn things(&self, start: usize, end: usize) -> Result<Vec<Reference>, PlanError> {
+        let whole = self.one_of(start, end);
+        if let Ok(what) = whole {
+            return Ok(vec![what]);
+        }
+        for cut in (start + 1..end).rev() {
+            let Some(count) = joint(&self.lexemes[cut..end]) else { continue };
+            if let (Ok(mut before), Ok(last)) = (self.things(start, cut), self.one_of(cut + count, end)) {
+                before.push(last);
+                return Ok(before);
+            }
+        }
+        whole.map(|what| vec![what])
+    }
+
+    /// As [`Self::things`], and goes on behind them.
+    pub(super) fn things_to(&mut self, end: usize) -> Result<Vec<Reference>, PlanError> {
+        let what = self.things(self.at, end)?;
+        self.at = end;
+        Ok(what)
+    }
+
+    pub(super) fn one_to(&mut self, end: usize) -> Result<Reference, PlanError> {
+        let what = self.one_of(self.at, end)?;
+        self.at = end;
+        Ok(what)
+    }
+
+    /// One thing that the words name, all of them but politeness.
+    pub(super) fn one_of(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
+        let end = self.before_politeness(start, end);
+        let me = longest_phrase(&self.lexemes[start..end], &["me", "myself", "you", "yourself", "i"]);
+        if me == Some(end - start) {
+            return Ok(Reference::to(Target::Here, "me".to_owned()));
+        }
+        let mut parser = self.parser(start, end);
+        parser.eat_any(&["all of", "every single", "each and every"]);
+        let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);
+        let mut what = parser.reference(0)?;
+        what.indefinite |= any;
+        if parser.at < end { Err(parser.not_understood("end here, or go on with \"and\"")) } else { Ok(what) }
+    }
+
+    /// The parser of noun phrases, over some of the words.
+    pub(super) fn parser(&self, start: usize, end: usize) -> Parser<'a> {
+        let mut parser = Parser::new(self.words, &self.lexemes[..end.max(start)], self.names, self.view);
+        parser.at = start;
+        parser
+    }
+
+    // ---- the cursor ----
+
+    pub(super) fn rest(&self, end: usize) -> &'a [Lexeme] {
+        &self.lexemes[self.at.min(end)..end]
+    }
+
+    pub(super) fn word(&self, at: usize) -> Option<&'a str> {
+        match &self.lexemes.get(at)?.token {
+            Token::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    pub(super) fn eat_any(&mut self, phrases: &[&str]) -> bool {
+        let count = longest_phrase(&self.lexemes[self.at..], phrases);
+        self.at += count.unwrap_or(0);
+        count.is_some()
+    }
+
+    pub(super) fn is_joint(&self, at: usize) -> bool {
+        joint(&self.lexemes[at..]).is_some()
+    }
+
+    /// The words as they were written, without quotes around them.
+    pub(super) fn written(&self, start: usize, end: usize) -> String {
+        match self.lexemes.get(start..end) {
+            Some([first, .., last]) => self.words[first.start..last.end].to_owned(),
+            Some([only]) => self.words[only.start..only.end].to_owned(),
+            _ => String::new(),
+        }
+    }
+
+    fn skip_joints(&mut self) {
+        self.skip_joints_to(self.lexemes.len());
+    }
+
+    /// Passes joints and politeness.
+    pub(super) fn skip_joints_to(&mut self, end: usize) {
+        while self.at < end {
+            let count = joint(&self.lexemes[self.at..end]).unwrap_or(0).max(self.polite_at(self.at));
+            if count == 0 {
+                return;
+            }
+            self.at += count;
+        }
+    }
+
+    pub(super) fn polite_at(&self, at: usize) -> usize {
+        let rest = &self.lexemes[at.min(self.lexemes.len())..];
+        let polite = longest_phrase(rest, POLITE).unwrap_or(0);
+        // "Lets have a bench" is a wish.
+        let verb = longest(rest, VERBS).map_or(0, |(_, count)| count);
+        let way = longest(rest, super::words::WAYS).map_or(0, |(_, count)| count);
+        if verb.max(way) >= polite { 0 } else { polite }
+    }
+
+    /// Where the words end without politeness behind them.
+    pub(super) fn before_politeness(&self, start: usize, mut end: usize) -> usize {
+        loop {
+            let cut = (start + 1..end).rev().find(|at| {
+                longest_phrase(&self.lexemes[*at..end], CODA) == Some(end - at)
+                    || matches!(self.lexemes[*at].token, Token::Comma | Token::Break) && at + 1 == end
+            });
+            match cut {
+                Some(cut) => end = cut,
+                None => return end,
+            }
+        }
+    }
+
+    /// Where the wish that begins here ends: before a joint with a verb behind it, or at the end of the words.
+    fn boundary(&self) -> usize {
+        let mut at = self.at + 1;
+        while at < self.lexemes.len() {
+            if let Some(count) = joint(&self.lexemes[at..]) {
+                let mut next = at + count;
+                while next < self.lexemes.len() {
+                    let more = joint(&self.lexemes[next..]).unwrap_or(0).max(self.polite_at(next));
+                    if more == 0 {
+                        break;
+                    }
+                    next += more;
+                }
+                let begins = next < self.lexemes.len()
+                    && longest(&self.lexemes[next..], VERBS)
+                        .is_some_and(|(verb, _)| !matches!(verb, Verb::Put | Verb::Take) || !self.is_copy());
+                let speaks = self.lexemes[at].token == Token::Break
+                    && next < self.lexemes.len()
+                    && self.has_verb(self.at, at);
+                if begins && (self.has_verb_or_sky(self.at, at) || self.says_how_it_should_be(at)) || speaks {
+                    return at;
+                }
+                at = next.max(at + 1);
+            } else {
+                at += 1;
+            }
+        }
+        self.lexemes.len()
+    }
+
+    /// "Copy the fountain and put the copy ..." is one wish.
+    fn is_copy(&self) -> bool {
+        longest(&self.lexemes[self.at..], VERBS).is_some_and(|(verb, _)| verb == Verb::Copy)
+    }
+
+    fn says_how_it_should_be(&self, end: usize) -> bool {
+        let ought: &[&str] =
+            &["should", "must", "would look better", "has to", "needs to", "ought to", "is missing", "lacks"];
+        (self.at..end).any(|at| longest_phrase(&self.lexemes[at..end], ought).is_some())
+    }
+
+    pub(super) fn has_verb(&self, start: usize, end: usize) -> bool {
+        (start..end).any(|at| longest(&self.lexemes[at..end], VERBS).is_some())
+    }
+
+    fn has_verb_or_sky(&self, start: usize, end: usize) -> bool {
+        self.has_verb(start, end)
+            || (start..end).any(|at| longest(&self.lexemes[at..end], super::words::SKIES).is_some())
+    }
+
+    /// The answer when the words from here on make no sense.
+    pub(super) fn not_understood(&self, hint: &str) -> PlanError {
+        self.parser(self.at.min(self.lexemes.len()), self.lexemes.len()).not_understood(hint)
+    }
+}
+
+/// Every word that joins wishes or is polite, so that none is taken for a misspelling.
+pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
+    JOINTS.iter().chain(POLITE).chain(CODA).flat_map(|phrase| phrase.split(' '))
+}
+
+/// How many words at the start join two things or wishes.
+pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
+    match lexemes.first().map(|lexeme| &lexeme.token) {
+        Some(Token::Comma | Token::Break) => Some(1),
+        _ => longest_phrase(lexemes, JOINTS),
+    }
+}

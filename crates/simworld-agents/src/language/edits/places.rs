@@ -1,0 +1,379 @@
+//! New things and places: the noun phrase of what is to be made, and the relations in which it is to stand.
+
+use simworld_core::geometry::Point2;
+use simworld_core::seam::PlanError;
+
+use super::super::clause::{Count, Reference, Target};
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::numbers;
+use super::super::paint::PAINTS;
+use super::parse::{Reader, joint};
+use super::wish::{Anchor, NewThing, Where, Wish};
+use super::words::{ABOUT_IT, SIZES, VERBS, Verb, WAYS, Way};
+
+/// What ends the noun of a new thing: what it is called.
+const CALLED: &[&str] = &["called", "named", "with the name", "with the name of", "by the name of"];
+/// Articles and the like before a new thing.
+#[rustfmt::skip]
+const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the", "one more", "a new", "new", "a single",
+    "yet another", "a few", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
+    "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
+    "around"];
+/// Metres.
+const METRES: &[&str] = &["m", "metres", "metre", "meters", "meter"];
+
+impl Reader<'_> {
+    /// New things and where they stand, in groups: "two benches and a bin next to the fountain and a tree behind it".
+    pub(super) fn additions(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let mut wishes = Vec::new();
+        let mut anchor: Option<Anchor> = None;
+        let mut last: Option<NewThing> = None;
+        while self.at < end {
+            let mut things = vec![self.another(end, last.as_ref()).map_or_else(|| self.new_thing(end), Ok)?];
+            while let Some(count) = joint(self.rest(end)) {
+                let start = self.at;
+                self.at += count;
+                self.skip_joints_to(end);
+                if self.at >= end || self.is_place(self.at) {
+                    self.at = start;
+                    break;
+                }
+                things.push(self.new_thing(end)?);
+            }
+            let from = self.at;
+            if joint(self.rest(end)).is_some() {
+                self.skip_joints_to(end);
+            }
+            let at = if self.at < end && self.is_place(self.at) {
+                let mut at = self.places(end)?;
+                // "A tree behind the school and a bench in front of it": of the school.
+                for place in &mut at {
+                    place.means(&mut anchor);
+                }
+                at
+            } else {
+                self.at = from;
+                Vec::new()
+            };
+            last = things.last().cloned();
+            wishes.push(vec![Wish::Add { things, at }]);
+            self.skip_joints_to(end);
+        }
+        if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
+    }
+
+    /// "Another one": as the thing before.
+    fn another(&mut self, end: usize, last: Option<&NewThing>) -> Option<NewThing> {
+        let last = last?;
+        let count = longest_phrase(
+            self.rest(end),
+            &[
+                "another one",
+                "one more",
+                "another",
+                "a second one",
+                "one",
+                "a third one",
+                "the other one",
+                "the other",
+            ],
+        )?;
+        if !self.is_place(self.at + count) {
+            return None;
+        }
+        self.at += count;
+        Some(NewThing { count: 1, ..last.clone() })
+    }
+
+    /// "In front of the gallery there must stand a postbox": the place comes first.
+    pub(super) fn place_first(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let start = self.at;
+        let wishes = self.try_place_first(end);
+        if wishes.is_none() {
+            self.at = start;
+        }
+        wishes
+    }
+
+    fn try_place_first(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
+        self.eat_any(&["from", "right", "and"]);
+        if !self.is_place(self.at) {
+            return None;
+        }
+        let verb = (self.at + 1..end).find(|at| {
+            longest(&self.lexemes[*at..end], VERBS)
+                .is_some_and(|(verb, _)| matches!(verb, Verb::Add | Verb::Put))
+        })?;
+        let (kind, count) = longest(&self.lexemes[verb..end], VERBS)?;
+        let at = self.places(verb).ok()?;
+        self.skip_joints_to(verb);
+        if self.at != verb {
+            return None;
+        }
+        self.at = verb + count;
+        if kind == Verb::Put
+            && numbers::count(self.rest(end)).is_none()
+            && longest_phrase(self.rest(end), ARTICLES).is_none_or(|_| self.peeks("the"))
+        {
+            return None;
+        }
+        let thing = self.new_thing(end).ok()?;
+        (self.before_politeness(self.at, end) <= self.at).then(|| {
+            self.at = end;
+            vec![vec![Wish::Add { things: vec![thing], at }]]
+        })
+    }
+
+    fn peeks(&self, word: &str) -> bool {
+        self.word(self.at) == Some(word)
+    }
+
+    /// "Three tall red sports cars".
+    pub(super) fn new_thing(&mut self, end: usize) -> Result<NewThing, PlanError> {
+        let start = self.at;
+        let mut thing = NewThing {
+            words: Vec::new(),
+            count: 1,
+            paint: None,
+            scale: 1.0,
+            name: None,
+            text: String::new(),
+        };
+        while self.at < end {
+            let rest = self.rest(end);
+            if let Some((count, words)) = numbers::count(rest).filter(|_| thing.words.is_empty()) {
+                (thing.count, self.at) = (count, self.at + words);
+            } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
+                self.at += words;
+            } else if let Some(words) = longest_phrase(rest, CALLED) {
+                self.at += words;
+                let from = self.at;
+                while self.at < end && !self.is_place(self.at) && joint(self.rest(end)).is_none() {
+                    self.at += 1;
+                }
+                thing.name = Some(self.written(from, self.at));
+                break;
+            } else if joint(rest).is_some()
+                || self.is_place(self.at)
+                || self.before_politeness(start, end) <= self.at
+            {
+                break;
+            } else if let Some((paint, words)) = longest(rest, PAINTS).filter(|_| thing.paint.is_none()) {
+                (thing.paint, self.at) = (Some(paint), self.at + words);
+            } else if let Some((factor, words)) = longest(rest, SIZES).filter(|_| thing.words.is_empty()) {
+                (thing.scale, self.at) = (factor, self.at + words);
+            } else if let Token::Word(word) = &rest[0].token {
+                thing.words.push(word.clone());
+                self.at += 1;
+            } else {
+                break;
+            }
+        }
+        thing.text = self.written(start, self.at);
+        if thing.words.is_empty() {
+            self.at = start;
+            return Err(self.not_understood("say what to add"));
+        }
+        Ok(thing)
+    }
+
+    /// Whether a place begins at a token.
+    pub(super) fn is_place(&self, at: usize) -> bool {
+        let rest = &self.lexemes[at.min(self.lexemes.len())..];
+        longest(rest, WAYS).is_some()
+            || longest(rest, ABOUT_IT).is_some()
+            || matches!(rest.first(), Some(Lexeme { token: Token::Open, .. }))
+            || self.shift(at).is_some()
+            || self.compass_of(at, self.lexemes.len()).is_some()
+    }
+
+    /// Places, joined by "and"; all of them hold.
+    pub(super) fn places(&mut self, end: usize) -> Result<Vec<Where>, PlanError> {
+        let mut places = vec![self.place(end)?];
+        loop {
+            let start = self.at;
+            if let Some(count) = joint(self.rest(end)) {
+                self.at += count;
+            }
+            self.skip_joints_to(end);
+            if self.at < end
+                && self.is_place(self.at)
+                && let Ok(place) = self.place(end)
+            {
+                places.push(place);
+                continue;
+            }
+            self.at = start;
+            // Politeness behind the last place belongs to nobody.
+            if self.before_politeness(start.saturating_sub(1), end) <= self.at {
+                self.at = end;
+            }
+            places.retain(|place| *place != Where::Anywhere || start == 0);
+            return Ok(places);
+        }
+    }
+
+    fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+        if let Some((east, north, count)) = self.shift(self.at) {
+            self.at += count;
+            return Ok(Where::Shift(east, north));
+        }
+        if let Some((compass, from)) = self.compass_of(self.at, end) {
+            self.at = from;
+            return Ok(Where::Compass(compass, self.anchor(end)?));
+        }
+        if matches!(self.rest(end).first(), Some(Lexeme { token: Token::Open, .. })) {
+            return self.point(end).ok_or_else(|| self.not_understood("write a point as (x, y)"));
+        }
+        if let Some((relation, count)) = longest(self.rest(end), ABOUT_IT)
+            && longest(self.rest(end), WAYS).is_none_or(|(_, words)| words < count)
+        {
+            self.at += count;
+            let mine = self.word(self.at - 2).is_some_and(|word| word == "my");
+            let anchor = if mine { Anchor::Viewer } else { Anchor::It };
+            return Ok(Where::To(relation, anchor));
+        }
+        let Some((way, count)) = longest(self.rest(end), WAYS) else {
+            return Err(self.not_understood("say where: next to, near, behind, between ..."));
+        };
+        self.at += count;
+        let place = match way {
+            Way::Here => return Ok(Where::Here),
+            Way::There | Way::InItsPlace => return Ok(Where::There),
+            Way::Anywhere => return Ok(Where::Anywhere),
+            Way::Between => return self.between(end),
+            Way::At | Way::In | Way::On if self.begins_point(end) => {
+                return self.point(end).ok_or_else(|| self.not_understood("write a point as (x, y)"));
+            }
+            Way::To(relation) => Where::To(relation, self.anchor(end)?),
+            Way::Across => Where::Across(self.anchor(end)?),
+            Way::Along => Where::Along(self.anchor(end)?),
+            Way::Corner => Where::Corner(self.anchor(end)?),
+            Way::At => Where::To(simworld_core::scene::Relation::NextTo, self.anchor(end)?),
+            Way::In => Where::To(simworld_core::scene::Relation::Inside, self.anchor(end)?),
+            Way::On => match self.anchor(end)? {
+                street @ Anchor::Street(_) => Where::Along(street),
+                thing => Where::To(simworld_core::scene::Relation::OnTopOf, thing),
+            },
+        };
+        Ok(place)
+    }
+
+    /// What something is to stand to: the longest phrase from here that names a thing or a street.
+    fn anchor(&mut self, end: usize) -> Result<Anchor, PlanError> {
+        let start = self.at;
+        if self.eat_any(&["itself", "themselves"]) {
+            return Ok(Anchor::Itself);
+        }
+        if self.eat_any(&["me", "myself", "us", "where i am", "where i stand", "my position", "the viewer"]) {
+            return Ok(Anchor::Viewer);
+        }
+        if let Some((street, count)) = self.street(end) {
+            self.at += count;
+            return Ok(Anchor::Street(street));
+        }
+        let mut parser = self.parser(start, self.before_politeness(start, end));
+        let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);
+        let mut thing = parser.reference(0)?;
+        thing.indefinite |= any;
+        self.at = parser.at;
+        // "Near the fountain and behind the statue" are two places, and so is "in front of it, behind the tree".
+        Ok(Anchor::Thing(thing))
+    }
+
+    /// The name of a street at the start of the words.
+    fn street(&self, end: usize) -> Option<(String, usize)> {
+        let network = self.view.scene.roads()?;
+        let rest = self.rest(end);
+        let skip = longest_phrase(rest, &["the"]).unwrap_or(0);
+        let fits = |name: &&String| {
+            let words: Vec<String> = name.split_whitespace().map(str::to_lowercase).collect();
+            longest_phrase(&rest[skip..], &[words.join(" ").as_str()])
+        };
+        let best = network
+            .names
+            .iter()
+            .filter_map(|name| Some((fits(&name)?, name)))
+            .max_by_key(|(count, _)| *count)?;
+        Some((best.1.clone(), best.0 + skip))
+    }
+
+    fn between(&mut self, end: usize) -> Result<Where, PlanError> {
+        let start = self.at;
+        for cut in start + 1..end {
+            if longest_phrase(&self.lexemes[cut..end], &["and"]).is_none() {
+                continue;
+            }
+            let Ok(one) = self.one_of(start, cut) else { continue };
+            self.at = cut + 1;
+            let other = self.anchor(end)?;
+            return Ok(Where::Between(Anchor::Thing(one), other));
+        }
+        // "Between the two trees".
+        match self.anchor(end)? {
+            Anchor::Thing(both) if both.count != Count::One || matches!(both.target, Target::Any(_)) => {
+                let (one, other) = super::super::parser::Parser::pair(&both);
+                Ok(Where::Between(Anchor::Thing(one), Anchor::Thing(other)))
+            }
+            _ => Err(self.not_understood("say between what and what")),
+        }
+    }
+
+    /// "North of", "to the east of": a direction of the compass, and where the anchor begins.
+    fn compass_of(&self, at: usize, end: usize) -> Option<(super::super::compass::Compass, usize)> {
+        let mut parser = self.parser(at, end.max(at));
+        parser.eat_any(&["on the", "at the", "just", "directly", "to the", "right", "somewhere", "in the"]);
+        let compass = parser.compass()?;
+        parser.eat_any(&["side"]);
+        parser.eat_any(&["of", "from"]).then_some((compass, parser.at))
+    }
+
+    /// "5 metres east", "to the north by 3 m": m east and north, and how many words it takes.
+    fn shift(&self, at: usize) -> Option<(f64, f64, usize)> {
+        let rest = &self.lexemes[at.min(self.lexemes.len())..];
+        let by = longest_phrase(rest, &["by", "for"]).unwrap_or(0);
+        let (distance, count) = numbers::number(&rest[by..])?;
+        let unit = longest_phrase(&rest[by + count..], METRES)?;
+        let from = at + by + count + unit;
+        let mut parser = self.parser(from, self.lexemes.len());
+        let compass = parser.compass()?;
+        if parser.eat_any(&["of", "from"]) {
+            return None;
+        }
+        let step = compass.step() * distance;
+        Some((step.x, step.y, parser.at - at))
+    }
+
+    fn begins_point(&self, end: usize) -> bool {
+        matches!(self.rest(end), [Lexeme { token: Token::Open | Token::Number(_), .. }, ..])
+    }
+
+    /// "(3, 4)", "3, 4", "x 3 y 4".
+    fn point(&mut self, end: usize) -> Option<Where> {
+        let start = self.at;
+        let mut numbers = Vec::new();
+        while self.at < end && numbers.len() < 2 {
+            match &self.rest(end)[0].token {
+                Token::Number(number) if number.is_finite() && number.abs() < 1e7 => numbers.push(*number),
+                Token::Open | Token::Comma => {}
+                Token::Word(word) if ["x", "y", "and", "=", "east", "north"].contains(&word.as_str()) => {}
+                _ => break,
+            }
+            self.at += 1;
+        }
+        if matches!(self.rest(end).first(), Some(Lexeme { token: Token::Close, .. })) {
+            self.at += 1;
+        }
+        if let [x, y] = numbers[..] {
+            return Some(Where::At(Point2::new(x, y)));
+        }
+        self.at = start;
+        None
+    }
+}
+
+/// Whether a reference says nothing but "it" or "there".
+pub(super) fn is_pronoun(reference: &Reference) -> bool {
+    matches!(reference.target, Target::It | Target::Them)
+}

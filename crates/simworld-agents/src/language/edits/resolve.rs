@@ -1,0 +1,464 @@
+//! Wishes to edits: the things that words mean, looked for in the scene as it is by then.
+
+use std::ops::ControlFlow;
+
+use simworld_core::asset::Catalogue;
+use simworld_core::environment::{Environment, Sun};
+use simworld_core::geometry::{Aabb, Point2, yaw_of};
+use simworld_core::id::{EntityId, RoadId};
+use simworld_core::scene::{EntityKind, EntityRef, Relation, Scene};
+use simworld_core::seam::PlanError;
+
+use super::super::clause::{Choice, Count, Reference, Stands, Target};
+use super::super::resolve::{Purpose, View};
+use super::places::is_pronoun;
+use super::wish::{Anchor, Where, Wish};
+use super::words::Sky;
+use super::{Focus, Reading, view_of};
+use crate::editing::{Edit, EditError, Stand};
+
+/// The questions about what stands somewhere are answered so far around, m.
+const ASKED_AROUND: f64 = 80.0;
+
+impl Reading {
+    /// The edits that a wish means in the scene as it is: those of its first reading whose things are there.
+    pub(crate) fn resolve(
+        &self,
+        index: usize,
+        scene: &dyn Scene,
+        catalogue: &Catalogue,
+        focus: &Focus,
+    ) -> Result<Vec<Edit>, EditError> {
+        let mut refused = None;
+        for wish in self.wishes.get(index).into_iter().flatten() {
+            let finder = Finder { scene, catalogue, focus, view: view_of(scene, focus) };
+            match finder.edits(wish) {
+                Ok(edits) => return Ok(edits),
+                Err(error) => refused = refused.or(Some(error)),
+            }
+        }
+        let words = self.words.clone();
+        Err(refused.unwrap_or(EditError::NotUnderstood {
+            words,
+            fragment: String::new(),
+            hint: super::UNDERSTOOD.to_owned(),
+        }))
+    }
+}
+
+struct Finder<'a> {
+    scene: &'a dyn Scene,
+    catalogue: &'a Catalogue,
+    focus: &'a Focus,
+    view: View<'a>,
+}
+
+impl Finder<'_> {
+    fn edits(&self, wish: &Wish) -> Result<Vec<Edit>, EditError> {
+        let edit = match wish {
+            Wish::Add { things, at } => {
+                let stands = self.stands(at, &[])?;
+                let add = |thing: &super::wish::NewThing| {
+                    Ok(Edit::Add {
+                        make: thing.make(self.catalogue)?,
+                        count: thing.count,
+                        stands: stands.clone(),
+                    })
+                };
+                return things.iter().map(add).collect();
+            }
+            Wish::Remove { what } => Edit::Remove { things: self.all(what)? },
+            Wish::Move { what, at } => return self.moved(what, at),
+            Wish::Replace { what, with } => {
+                let thing = self.one(what)?;
+                let point = self.entity(thing, what)?.planar();
+                let stands = vec![Stand::At { point }];
+                let add = Edit::Add { make: with.make(self.catalogue)?, count: with.count, stands };
+                return Ok(vec![Edit::Remove { things: vec![thing] }, add]);
+            }
+            Wish::Rotate { what, angle } => Edit::Rotate { things: self.all(what)?, angle: *angle },
+            Wish::Face { what, towards } => {
+                Edit::Face { things: self.all(what)?, towards: self.one(towards)? }
+            }
+            Wish::FaceCompass { what, compass } => {
+                let turn = |thing: EntityId| {
+                    let now = self.scene.entity(thing).map_or(0.0, |entity| yaw_of(entity.pose));
+                    let angle = simworld_core::ops::wrap_angle(compass.heading() - now);
+                    Edit::Rotate { things: vec![thing], angle }
+                };
+                return Ok(self.all(what)?.into_iter().map(turn).collect());
+            }
+            Wish::Swap { one, other } => self.swapped(one, other.as_ref())?,
+            Wish::Paint { what, paint } => Edit::Paint { things: self.all(what)?, color: paint.color() },
+            Wish::Scale { what, factor } => Edit::Scale { things: self.all(what)?, factor: *factor },
+            Wish::Copy { what, count, at } => {
+                Edit::Copy { thing: self.one(what)?, count: *count, stands: self.stands(at, &[])? }
+            }
+            Wish::Multiply { what, times } => return self.multiplied(what, *times),
+            Wish::Name { what, name } => Edit::Name { thing: self.one(what)?, name: name.clone() },
+            Wish::Count { what } => {
+                let things = match self.candidates(what) {
+                    Err(EditError::NotFound { .. }) => Vec::new(),
+                    found => found?,
+                };
+                Edit::Count { what: what.text.clone(), things }
+            }
+            Wish::List { what, at } => Edit::List { things: self.listed(what.as_ref(), at)? },
+            Wish::Describe { what } => Edit::Describe { thing: self.one(what)? },
+            Wish::Sky(skies) => Edit::SetEnvironment(sky(*self.scene.environment(), skies)),
+        };
+        Ok(vec![edit])
+    }
+
+    fn moved(&self, what: &[Reference], at: &[Where]) -> Result<Vec<Edit>, EditError> {
+        let things = self.all(what)?;
+        let shift = at.iter().find_map(|place| match place {
+            Where::Shift(east, north) => Some((*east, *north)),
+            _ => None,
+        });
+        if let Some((east, north)) = shift {
+            let shifted = |thing: EntityId| {
+                let from = self.scene.entity(thing).map_or(Point2::origin(), |entity| entity.planar());
+                let point = Point2::new(from.x + east, from.y + north);
+                Edit::Move { things: vec![thing], stands: vec![Stand::At { point }] }
+            };
+            return Ok(things.into_iter().map(shifted).collect());
+        }
+        let stands = self.stands(at, &things)?;
+        Ok(vec![Edit::Move { things, stands }])
+    }
+
+    fn swapped(&self, one: &Reference, other: Option<&Reference>) -> Result<Edit, EditError> {
+        if let Some(other) = other {
+            let (one, other) = (self.one(one)?, self.one(other)?);
+            if one == other {
+                let what = "to swap a thing with itself".to_owned();
+                return Err(EditError::Impossible { what, why: "name two things".to_owned() });
+            }
+            return Ok(Edit::Swap { one, other });
+        }
+        let both = self.candidates(one)?;
+        match both[..] {
+            [first, second] => Ok(Edit::Swap { one: first, other: second }),
+            _ => Err(self.ambiguous(one, &both)),
+        }
+    }
+
+    /// As many more as there are, in the relation that is said of them, or near each.
+    fn multiplied(&self, what: &Reference, times: u32) -> Result<Vec<Edit>, EditError> {
+        let things = self.candidates(what)?;
+        let stand = match &what.relation {
+            Some(Stands::To(relation, anchor)) => {
+                Some(Stand::To { relation: *relation, anchor: self.one(anchor)? })
+            }
+            _ => None,
+        };
+        let more = |thing: EntityId| {
+            let near = Stand::To { relation: Relation::Near, anchor: thing };
+            Edit::Copy {
+                thing,
+                count: times.saturating_sub(1).max(1),
+                stands: vec![stand.clone().unwrap_or(near)],
+            }
+        };
+        Ok(things.into_iter().map(more).collect())
+    }
+
+    fn listed(&self, what: Option<&Reference>, at: &[Where]) -> Result<Vec<EntityId>, EditError> {
+        if let Some(what) = what {
+            return if what.count == Count::One && !plural(what) {
+                Ok(vec![self.one(what)?])
+            } else {
+                self.candidates(what)
+            };
+        }
+        let stands = self.stands(at, &[])?;
+        let middle = stands.iter().find_map(|stand| match stand {
+            Stand::Around { point } | Stand::At { point } => Some(*point),
+            Stand::To { anchor, .. } | Stand::AcrossFrom { anchor } | Stand::Along { anchor } => {
+                self.scene.entity(*anchor).map(|entity| entity.planar())
+            }
+            Stand::Between { one, .. }
+            | Stand::AtCornerOf { anchor: one }
+            | Stand::Towards { anchor: one, .. } => self.scene.entity(*one).map(|entity| entity.planar()),
+            Stand::AlongRoad { .. } => None,
+        });
+        let middle = middle.unwrap_or(self.focus.from);
+        let mut found: Vec<(f64, EntityId)> = Vec::new();
+        let _ = self.scene.visit(&Aabb::column_around(middle, ASKED_AROUND), &mut |entity| {
+            let flat = matches!(entity.kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk);
+            if !flat
+                && Some(entity.id) != self.focus.who
+                && stands.iter().all(|stand| stand.holds(self.scene, entity.id))
+            {
+                found.push((entity.info.shape.planar_distance(entity.pose, &middle), entity.id));
+            }
+            ControlFlow::Continue(())
+        });
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Ok(found.into_iter().map(|(_, id)| id).collect())
+    }
+
+    // ---- things ----
+
+    fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
+        let mut things = Vec::new();
+        for one in what {
+            if one.count == Count::One && !plural(one) {
+                things.push(self.one(one)?);
+            } else {
+                things.extend(self.candidates(one)?);
+            }
+        }
+        Ok(things)
+    }
+
+    /// All that a phrase may mean, the nearest first, at least one.
+    fn candidates(&self, reference: &Reference) -> Result<Vec<EntityId>, EditError> {
+        self.is_about_viewer(reference)?;
+        let open = reference.choice == Choice::Open;
+        // The farthest of all is looked for everywhere, and no other choice is.
+        let choice = if open { Choice::Farthest } else { reference.choice };
+        let count = if open { Count::One } else { reference.count };
+        let mut found =
+            self.view.candidates(&Reference { choice, count, ..reference.clone() }, Purpose::Any)?;
+        if open {
+            found.reverse();
+        }
+        let mut things: Vec<EntityId> = found.into_iter().map(|(_, id)| id).collect();
+        if things.is_empty() {
+            return Err(self.view.find(reference, Purpose::Any).err().map_or_else(
+                || EditError::NotFound { wanted: reference.text.clone(), near: String::new() },
+                EditError::from,
+            ));
+        }
+        if let Count::Exactly(count) = reference.count {
+            if things.len() < count as usize {
+                let near = format!("there are only {}", things.len());
+                return Err(EditError::NotFound { wanted: reference.text.clone(), near });
+            }
+            if open
+                && things.len() > count as usize
+                && !reference.indefinite
+                && reference.text.contains("the ")
+            {
+                return Err(self.ambiguous(reference, &things));
+            }
+            things.truncate(count as usize);
+        }
+        Ok(things)
+    }
+
+    /// The one thing that a phrase means; where several fit and nothing decides, which is asked.
+    fn one(&self, reference: &Reference) -> Result<EntityId, EditError> {
+        let found = self.candidates(reference)?;
+        let decided = reference.choice != Choice::Open
+            || reference.indefinite
+            || is_pronoun(reference)
+            || matches!(reference.relation, Some(Stands::NearestTo(..)))
+            || matches!(reference.target, Target::Id(_));
+        if decided {
+            // A superlative that two share is open.
+            self.view.find(&Reference { count: Count::One, ..reference.clone() }, Purpose::Any)?;
+        } else if found.len() > 1 {
+            return Err(self.ambiguous(reference, &found));
+        }
+        Ok(found[0])
+    }
+
+    fn ambiguous(&self, reference: &Reference, found: &[EntityId]) -> EditError {
+        let label = |id: &EntityId| {
+            let entity = self.scene.entity(*id);
+            (*id, entity.map_or_else(|| id.to_string(), |entity| entity.label().to_owned()))
+        };
+        EditError::Ambiguous { wanted: reference.text.clone(), candidates: found.iter().map(label).collect() }
+    }
+
+    fn is_about_viewer(&self, reference: &Reference) -> Result<(), EditError> {
+        let me = ["me", "myself", "yourself", "you", "i"];
+        if me.contains(&reference.text.trim().to_lowercase().as_str())
+            || self.focus.who.is_some() && reference.target == self.focus.who.map_or(Target::Here, Target::Id)
+        {
+            let what = format!("to edit {:?}", reference.text);
+            return Err(EditError::Impossible {
+                what,
+                why: "who speaks is no part of what is edited".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    fn entity(&self, id: EntityId, what: &Reference) -> Result<EntityRef<'_>, EditError> {
+        let missing = || EditError::NotFound { wanted: what.text.clone(), near: String::new() };
+        self.scene.entity(id).ok_or_else(missing)
+    }
+
+    // ---- places ----
+
+    fn stands(&self, at: &[Where], moved: &[EntityId]) -> Result<Vec<Stand>, EditError> {
+        let mut stands = Vec::new();
+        for place in at {
+            let stand = match place {
+                Where::To(relation, anchor) => match anchor {
+                    Anchor::Street(name) => Stand::AlongRoad { roads: self.street(name)? },
+                    _ => self.to(*relation, self.anchor(anchor, moved)?)?,
+                },
+                Where::Between(one, other) => {
+                    Stand::Between { one: self.anchor(one, moved)?, other: self.anchor(other, moved)? }
+                }
+                Where::Across(anchor) => Stand::AcrossFrom { anchor: self.anchor(anchor, moved)? },
+                Where::Along(Anchor::Street(name)) => Stand::AlongRoad { roads: self.street(name)? },
+                Where::Along(anchor) => Stand::Along { anchor: self.anchor(anchor, moved)? },
+                Where::Corner(anchor) => Stand::AtCornerOf { anchor: self.anchor(anchor, moved)? },
+                Where::Compass(compass, anchor) => {
+                    Stand::Towards { heading: compass.heading(), anchor: self.anchor(anchor, moved)? }
+                }
+                Where::At(point) => Stand::At { point: *point },
+                Where::Here => Stand::Around { point: self.focus.from },
+                Where::There => {
+                    let wanted = "place that \"there\" could stand for".to_owned();
+                    let missing = || EditError::NotFound { wanted, near: "name it".to_owned() };
+                    Stand::At { point: self.focus.place.ok_or_else(missing)? }
+                }
+                Where::Anywhere | Where::Shift(..) => continue,
+            };
+            stands.push(stand);
+        }
+        Ok(stands)
+    }
+
+    fn to(&self, relation: Relation, anchor: EntityId) -> Result<Stand, EditError> {
+        let kind = self.scene.entity(anchor).map(|entity| entity.kind);
+        let label = self.scene.entity(anchor).map_or_else(String::new, |entity| entity.label().to_owned());
+        let impossible = |why: &str| {
+            let what = format!("to stand {} {label}", phrase(relation));
+            Err(EditError::Impossible { what, why: why.to_owned() })
+        };
+        match (relation, kind) {
+            (Relation::Inside, Some(kind)) if kind.is_solid() => {
+                impossible("it is solid; say next to it, or on top of it")
+            }
+            (Relation::OnTopOf, Some(kind)) if !crate::editing::has_flat_top(kind) => {
+                impossible("it has no top that holds anything; say next to it")
+            }
+            _ => Ok(Stand::To { relation, anchor }),
+        }
+    }
+
+    fn anchor(&self, anchor: &Anchor, moved: &[EntityId]) -> Result<EntityId, EditError> {
+        let itself = || {
+            let what = "to put a thing beside or upon itself".to_owned();
+            Err(EditError::Impossible { what, why: "name another thing".to_owned() })
+        };
+        match anchor {
+            Anchor::Itself => itself(),
+            Anchor::It => self.focus.it.filter(|it| !moved.contains(it)).ok_or_else(|| {
+                let wanted = "thing that is meant".to_owned();
+                EditError::NotFound { wanted, near: "name it".to_owned() }
+            }),
+            Anchor::Viewer => self.focus.who.ok_or_else(|| {
+                let what = "to stand so to you".to_owned();
+                EditError::Impossible {
+                    what,
+                    why: "nobody looks at the scene; name a thing or a place".to_owned(),
+                }
+            }),
+            Anchor::Street(name) => Err(EditError::Impossible {
+                what: format!("to stand so to {name}"),
+                why: "a street is long; say along it".to_owned(),
+            }),
+            Anchor::Thing(reference) => {
+                let found = self.one(reference)?;
+                if moved.contains(&found) { itself() } else { Ok(found) }
+            }
+        }
+    }
+
+    fn street(&self, name: &str) -> Result<Vec<RoadId>, EditError> {
+        let roads = self.scene.roads().map(|network| {
+            let ids = (0..network.roads.len()).map(RoadId::from_index);
+            ids.filter(|id| network.road_name(*id) == Some(name)).collect::<Vec<_>>()
+        });
+        match roads {
+            Some(roads) if !roads.is_empty() => Ok(roads),
+            _ => Err(EditError::NotFound { wanted: format!("street {name:?}"), near: String::new() }),
+        }
+    }
+}
+
+/// Whether the noun is in the plural: "the trash bins".
+fn plural(reference: &Reference) -> bool {
+    let Target::Any(class) = &reference.target else { return false };
+    let lower = reference.text.to_lowercase();
+    let head = lower.split([',', '.']).next().unwrap_or_default();
+    let words: Vec<&str> = head.split_whitespace().collect();
+    let is_singular = |word: &str| class.words.iter().any(|known| known.rsplit(' ').next() == Some(word));
+    let many = ["people", "everybody", "everyone", "men", "women", "kids"];
+    let is_plural = |word: &&str| {
+        let stems = [word.strip_suffix("es"), word.strip_suffix('s')];
+        let of_y = word.strip_suffix("ies").map(|stem| format!("{stem}y"));
+        !is_singular(word)
+            && (stems.into_iter().flatten().any(is_singular) || of_y.is_some_and(|word| is_singular(&word)))
+            || many.contains(word)
+    };
+    // The first noun of the class is what the phrase is about; what follows belongs to its relation.
+    words.iter().find(|word| is_singular(word) || is_plural(word)).is_some_and(is_plural)
+}
+
+/// How a relation is said.
+fn phrase(relation: Relation) -> &'static str {
+    match relation {
+        Relation::NextTo => "next to",
+        Relation::Near => "near",
+        Relation::FarFrom => "far from",
+        Relation::InFrontOf => "in front of",
+        Relation::Behind => "behind",
+        Relation::LeftOf => "to the left of",
+        Relation::RightOf => "to the right of",
+        Relation::OnTopOf => "on top of",
+        Relation::Inside => "inside",
+        _ => "at",
+    }
+}
+
+fn sky(mut now: Environment, skies: &[Sky]) -> Environment {
+    let weather = &mut now.weather;
+    let mut hour = None;
+    for sky in skies {
+        match *sky {
+            Sky::Rain(rate) => (weather.rain, weather.snow, weather.cloud_cover) = (rate, 0.0, 0.95),
+            Sky::Snow(rate) => {
+                (weather.rain, weather.snow, weather.cloud_cover) = (0.0, rate, 0.95);
+                weather.temperature = weather.temperature.min(-1.0);
+            }
+            Sky::Fog(visibility) => (weather.visibility, weather.cloud_cover) = (visibility, 1.0),
+            Sky::Clear => {
+                let clear = simworld_core::environment::Weather::default();
+                *weather = simworld_core::environment::Weather { temperature: weather.temperature, ..clear };
+            }
+            Sky::Cloudy => weather.cloud_cover = 0.95,
+            Sky::DryUp => weather.rain = 0.0,
+            Sky::NoSnow => weather.snow = 0.0,
+            Sky::NoFog => weather.visibility = 20_000.0,
+            Sky::Windy(speed) => weather.wind = simworld_core::geometry::Vector2::new(speed, 0.0),
+            Sky::Hour(at) => hour = Some(at),
+        }
+    }
+    if let Some(hour) = hour {
+        now.sun = Sun::at_hour(hour);
+    }
+    now
+}
+
+impl From<PlanError> for EditError {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::NotUnderstood { words, fragment, hint } => {
+                Self::NotUnderstood { words, fragment, hint }
+            }
+            PlanError::NotFound { wanted, near } => Self::NotFound { wanted, near },
+            PlanError::Ambiguous { wanted, candidates } => Self::Ambiguous { wanted, candidates },
+            other => Self::Impossible { what: "that".to_owned(), why: other.to_string() },
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Weather and time of day in words.
+
+use super::super::lexer::Token;
+use super::super::lexicon::{fits, longest, longest_phrase};
+use super::super::numbers;
+use super::parse::Reader;
+use super::words::{ENDINGS, SKIES, SKY_NOISE, Sky};
+
+impl Reader<'_> {
+    /// What sky is wished for, if every word up to the end is about it.
+    pub(super) fn sky(&self, end: usize) -> Option<Vec<Sky>> {
+        const STOPS: &[&str] = &[
+            "stop",
+            "end",
+            "no more",
+            "no",
+            "without",
+            "get rid of",
+            "turn off",
+            "remove",
+            "clear",
+            "disable",
+            "lift",
+            "halt",
+            "switch off",
+        ];
+        let mut at = self.at;
+        let mut found = Vec::new();
+        let mut stops = false;
+        while at < end {
+            let rest = &self.lexemes[at..end];
+            if matches!(rest[0].token, Token::Comma | Token::Break) {
+                at += 1;
+                continue;
+            }
+            let ending = longest(rest, ENDINGS).filter(|_| stops);
+            let sky = longest(rest, SKIES);
+            let hour = hour(rest);
+            let noise = longest_phrase(rest, SKY_NOISE).unwrap_or(0);
+            if let Some((sky, count)) = ending {
+                found.push(sky);
+                at += count;
+            } else if let Some((sky, count)) = hour {
+                found.push(sky);
+                at += count;
+            } else if let Some((sky, count)) = sky.filter(|(_, count)| *count >= noise) {
+                found.push(sky);
+                at += count;
+            } else if let Some(count) = longest_phrase(rest, STOPS) {
+                stops = true;
+                at += count;
+            } else if noise > 0 {
+                at += noise;
+            } else if matches!(&rest[0].token, Token::Word(word) if ["stopped", "over", "ends", "ended", "stops"].contains(&word.as_str()))
+            {
+                for sky in &mut found {
+                    *sky = match *sky {
+                        Sky::Rain(_) => Sky::DryUp,
+                        Sky::Snow(_) => Sky::NoSnow,
+                        Sky::Fog(_) => Sky::NoFog,
+                        other => other,
+                    };
+                }
+                at += 1;
+            } else {
+                return None;
+            }
+        }
+        (!found.is_empty()).then_some(found)
+    }
+}
+
+/// "8 pm", "20:30", "half past seven in the morning", "noon".
+fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
+    const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
+    const BEFORE: &[&str] = &["am", "a m", "in the morning"];
+    let half = longest_phrase(lexemes, &["half past"]).unwrap_or(0);
+    let (number, mut at) = numbers::number(&lexemes[half..])?;
+    at += half;
+    let mut hour = number + if half > 0 { 0.5 } else { 0.0 };
+    // "20:30" is two numbers with a mark between.
+    if let [mark, rest @ ..] = &lexemes[at..]
+        && mark.token == Token::Break
+        && let Some(Token::Number(minutes)) = rest.first().map(|lexeme| &lexeme.token)
+        && (0.0..60.0).contains(minutes)
+    {
+        hour += minutes / 60.0;
+        at += 2;
+    }
+    at += longest_phrase(&lexemes[at..], &["oclock", "o clock", "hours", "h"]).unwrap_or(0);
+    if let Some(count) = longest_phrase(&lexemes[at..], AFTER) {
+        at += count;
+        let early = fits(&lexemes[at - count..], "at night").is_some() && hour < 6.0;
+        if hour < 12.0 && !early {
+            hour += 12.0;
+        }
+    } else if let Some(count) = longest_phrase(&lexemes[at..], BEFORE) {
+        at += count;
+        if (12.0..13.0).contains(&hour) {
+            hour -= 12.0;
+        }
+    }
+    (0.0..=24.0).contains(&hour).then_some((Sky::Hour(hour % 24.0), at))
+}

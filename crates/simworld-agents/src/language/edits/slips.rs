@@ -1,0 +1,160 @@
+//! Misspelt words of edits: those of verbs, relations and the catalogue come first, then those that all sentences share.
+
+use std::collections::BTreeSet;
+
+use simworld_core::asset::Catalogue;
+
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::CATEGORIES;
+use super::super::names::Names;
+use super::super::paint::PAINTS;
+use super::super::spelling::{correct_but, is_known};
+use super::super::verbs::base_form;
+use super::words;
+
+/// Words shorter than this are taken as they are.
+const SHORTEST: usize = 3;
+/// From this length on two slips are forgiven.
+const LONG: usize = 8;
+/// Abbreviations: the mark behind them ends no sentence.
+#[rustfmt::skip]
+const SHORT_FORMS: &[&str] = &["st", "dr", "mr", "mrs", "ms", "ave", "rd", "no", "mt"];
+/// Slips of very short words, which are near too many others.
+#[rustfmt::skip]
+const USUAL: &[(&str, &str)] = &[
+    ("ad", "add"),
+    ("nxt", "next"),
+    ("teh", "the"),
+    ("hte", "the"),
+    ("adn", "and"),
+    ("pls", "please"),
+    ("ot", "to"),
+    ("pu", "put"),
+    ("u", "you"),
+    ("nd", "and"),
+    ("pant", "paint"),
+];
+
+/// How one spelling comes from another, the likeliest slip first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Slip {
+    Swapped,
+    Count,
+    Letter,
+}
+
+/// Puts unknown words right that are near one word of edits, and one only; marks of abbreviations go.
+pub(super) fn correct(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>, catalogue: &Catalogue) {
+    let mut at = 1;
+    while at < lexemes.len() {
+        let short =
+            matches!(&lexemes[at - 1].token, Token::Word(word) if SHORT_FORMS.contains(&word.as_str()));
+        if short && lexemes[at].token == Token::Break && words[lexemes[at].start..].starts_with('.') {
+            lexemes.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+    let own = own_words(catalogue);
+    let mut at = 0;
+    while at < lexemes.len() {
+        let here = at;
+        at += 1;
+        let Token::Word(word) = &lexemes[here].token else { continue };
+        let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());
+        if right.is_none() && (own.contains(word) || is_known(word) || names.has_word(word)) {
+            continue;
+        }
+        // Names are written with a capital, and may be anything.
+        let is_name = here > 0 && words[lexemes[here].start..].starts_with(char::is_uppercase);
+        if let Some(parts) = compound(word, catalogue) {
+            let lexeme = lexemes[here].clone();
+            let part =
+                |part: String| Lexeme { lemma: base_form(&part), token: Token::Word(part), ..lexeme.clone() };
+            lexemes.splice(here..=here, parts.into_iter().map(part));
+        } else if let Some(right) = right.or_else(|| nearest(word, &own).filter(|_| !is_name)) {
+            lexemes[here].lemma = base_form(&right);
+            lexemes[here].token = Token::Word(right);
+        }
+    }
+    // A new name is any word.
+    let renames = lexemes.iter().any(|lexeme| {
+        matches!(&lexeme.token, Token::Word(word) if ["rename", "call", "name", "christen", "label", "called", "named"].contains(&word.as_str()))
+    });
+    let capital = |lexeme: &&Lexeme| words[lexeme.start..].starts_with(char::is_uppercase);
+    let new_names: Vec<String> = lexemes
+        .iter()
+        .filter(|_| renames)
+        .filter(capital)
+        .filter_map(|lexeme| match &lexeme.token {
+            Token::Word(word) => Some(word.clone()),
+            _ => None,
+        })
+        .collect();
+    correct_but(lexemes, names, &|word| own.contains(word) || new_names.iter().any(|name| name == word));
+}
+
+/// "Sportscar": the words of an asset's name that are written as one.
+fn compound(word: &str, catalogue: &Catalogue) -> Option<Vec<String>> {
+    let joined = |name: &str| name.replace('_', "");
+    let fits = |name: &str| joined(name) == word || word.strip_suffix('s') == Some(joined(name).as_str());
+    let found = catalogue
+        .iter()
+        .map(|(_, asset)| asset.name.as_str())
+        .find(|name| name.contains('_') && fits(name))?;
+    Some(found.split('_').map(str::to_owned).collect())
+}
+
+fn own_words(catalogue: &Catalogue) -> BTreeSet<String> {
+    let mut own: BTreeSet<String> = words::words().map(str::to_owned).collect();
+    own.extend(super::parse::small_words().map(str::to_owned));
+    let nouns = CATEGORIES.iter().flat_map(|category| category.words).flat_map(|phrase| phrase.split(' '));
+    for noun in nouns {
+        own.extend([noun.to_owned(), format!("{noun}s"), format!("{noun}es")]);
+    }
+    own.extend(PAINTS.iter().flat_map(|(words, _)| *words).map(|&word| word.to_owned()));
+    for (_, asset) in catalogue.iter() {
+        own.extend(asset.name.split('_').map(str::to_owned));
+        own.extend(asset.tags.iter().cloned());
+    }
+    own
+}
+
+fn nearest(word: &str, own: &BTreeSet<String>) -> Option<String> {
+    let letters = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let length = word.chars().count();
+    if length < SHORTEST {
+        return None;
+    }
+    let allowed = if length >= LONG { 2 } else { 1 };
+    let near = |known: &&String| known.chars().count().abs_diff(length) <= allowed && known.len() >= 3;
+    let ranked = own.iter().filter(near).map(|known| {
+        let slip = if letters(known) == letters(word) {
+            Slip::Swapped
+        } else if known.chars().count() == length {
+            Slip::Letter
+        } else {
+            Slip::Count
+        };
+        let ends = known.chars().next_back() != word.chars().next_back();
+        // Letters out of order are one slip, however far one of them went.
+        let distance = strsim::osa_distance(word, known);
+        (if slip == Slip::Swapped && distance <= 2 { 1 } else { distance }, slip, ends, known)
+    });
+    let short = length == SHORTEST;
+    let mut best: Vec<_> = ranked
+        .filter(|(distance, slip, ..)| *distance <= allowed && !(short && *slip == Slip::Letter))
+        .collect();
+    best.sort_unstable();
+    match &best[..] {
+        [(.., only)] => Some((*only).clone()),
+        [first, second, ..] if (first.0, first.1, first.2) < (second.0, second.1, second.2) => {
+            Some(first.3.clone())
+        }
+        _ => None,
+    }
+}

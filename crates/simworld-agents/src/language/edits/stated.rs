@@ -1,0 +1,129 @@
+//! Wishes that are no orders: "the truck should be blue", "the museum could use a bench", "a bench by the fountain, please".
+
+use simworld_core::scene::Relation;
+use simworld_core::seam::PlanError;
+
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::paint::PAINTS;
+use super::parse::Reader;
+use super::wish::{Anchor, Where, Wish};
+use super::words::{ABOUT_IT, FACTORS};
+
+impl Reader<'_> {
+    /// Statements: "the truck should be blue", "it is noon", "there should be a bench".
+    pub(super) fn stated(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
+        #[rustfmt::skip]
+    const OUGHT: &[&str] = &["should be", "must be", "ought to be", "has to be", "have to be", "needs to be",
+        "need to be", "shall be", "is supposed to be", "be", "would look better", "should become", "should turn",
+        "could be", "becomes", "become", "turns", "should be standing", "should stand", "should sit",
+        "should be placed", "should be moved", "would be better", "would be nicer", "should go", "must stand",
+        "belongs", "belong", "must go", "has to go", "needs to go", "can go", "is to be", "be standing",
+        "should get"];
+        const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away"];
+        #[rustfmt::skip]
+    const GOES: &[&str] = &["should go", "must go", "has to go", "have to go", "needs to go", "can go",
+        "has got to go", "ought to go", "is no longer needed", "isnt needed", "is not needed", "has to disappear",
+        "should disappear", "must disappear"];
+        #[rustfmt::skip]
+    const TRADES: &[&str] = &["should change places", "should swap places", "should trade places", "should swap",
+        "should switch places", "must change places", "must swap places", "have to change places",
+        "have to swap places", "ought to swap places", "should swap positions", "need to swap places"];
+        let start = self.at;
+        let mut from = start + self.polite_at(start);
+        from +=
+            longest_phrase(&self.lexemes[from..end], &["could", "can", "may", "should", "would", "might"])
+                .unwrap_or(0);
+        let stop = self.before_politeness(from, end);
+        for cut in from + 1..stop {
+            let rest = &self.lexemes[cut..stop];
+            if longest_phrase(rest, GOES) == Some(rest.len())
+                && let Ok(what) = self.things(from, cut)
+            {
+                self.at = end;
+                return Ok(Some(vec![vec![Wish::Remove { what }]]));
+            }
+            if longest_phrase(rest, TRADES) == Some(rest.len()) {
+                self.at = from;
+                let wish = self.pair_up(from, cut)?;
+                self.at = end;
+                return Ok(Some(vec![vec![wish]]));
+            }
+        }
+        if let Some(wish) = self.lacking(from, end) {
+            return Ok(Some(vec![vec![wish]]));
+        }
+        for cut in from + 1..end {
+            let Some(count) = longest_phrase(&self.lexemes[cut..end], OUGHT) else { continue };
+            let Ok(what) = self.things(from, cut) else { continue };
+            let then = cut + count;
+            if longest_phrase(&self.lexemes[then..end], GONE) == Some(end - then) {
+                self.at = end;
+                return Ok(Some(vec![vec![Wish::Remove { what }]]));
+            }
+            if let Some((paint, words)) = longest(&self.lexemes[then..end], PAINTS) {
+                let rest = then + words;
+                if rest == end
+                    || longest_phrase(&self.lexemes[rest..end], &["instead", "please", "now"]).is_some()
+                {
+                    self.at = end;
+                    return Ok(Some(vec![vec![Wish::Paint { what, paint }]]));
+                }
+            }
+            if let Some((factor, words)) = longest(&self.lexemes[then..end], FACTORS)
+                && then + words == end
+            {
+                self.at = end;
+                return Ok(Some(vec![vec![Wish::Scale { what, factor }]]));
+            }
+            self.at = then;
+            if self.is_place(then)
+                && let Ok(at) = self.places(end)
+                && self.at == end
+            {
+                return Ok(Some(vec![vec![Wish::Move { what, at }]]));
+            }
+        }
+        self.at = start;
+        Ok(None)
+    }
+
+    /// "The museum could use a bench out front", "give the café a tree at the back".
+    pub(super) fn lacking(&mut self, start: usize, end: usize) -> Option<Wish> {
+        #[rustfmt::skip]
+    const LACKS: &[&str] = &["could use", "needs", "need", "wants", "lacks", "is missing", "deserves",
+        "should have", "should get", "must have", "has to have", "could do with", "can use", "ought to have"];
+        let gives = longest_phrase(&self.lexemes[start..end], &["give", "giving"]);
+        let from = start + gives.unwrap_or(0);
+        for cut in from + 1..end {
+            let lacks = longest_phrase(&self.lexemes[cut..end], LACKS);
+            let Some(count) = (if gives.is_some() { Some(0) } else { lacks }) else { continue };
+            let Ok(anchor) = self.one_of(from, cut) else { continue };
+            self.at = cut + count;
+            if self.is_definite(self.at) {
+                continue;
+            }
+            let Ok(thing) = self.new_thing(end) else { continue };
+            let relation = longest(self.rest(end), ABOUT_IT);
+            let stop = self.at + relation.map_or(0, |(_, words)| words);
+            if self.before_politeness(stop.saturating_sub(1), end) <= stop {
+                self.at = end;
+                let relation = relation.map_or(Relation::NextTo, |(relation, _)| relation);
+                let at = vec![Where::To(relation, Anchor::Thing(anchor))];
+                return Some(Wish::Add { things: vec![thing], at });
+            }
+        }
+        self.at = start;
+        None
+    }
+
+    /// Without a verb: "a bench next to the fountain, please".
+    pub(super) fn bare(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
+        let start = self.at;
+        self.at += self.polite_at(start);
+        if self.is_definite(self.at) {
+            self.at = start;
+            return Ok(None);
+        }
+        self.additions(end).map(Some)
+    }
+}

@@ -1,0 +1,304 @@
+//! The words by which scenes are changed: verbs, relations, weather, sizes.
+
+use simworld_core::scene::Relation;
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verb {
+    Add,
+    Move,
+    /// To add something or to move something that is there: "put a bench", "put the bench".
+    Put,
+    Remove,
+    Replace,
+    Turn,
+    Swap,
+    Paint,
+    Grow,
+    Shrink,
+    Double,
+    Copy,
+    Name,
+    Count,
+    List,
+    Describe,
+    /// To change somehow: "make it red", "make the tree bigger", "make it rain".
+    Make,
+    /// To take something up, and then put it somewhere.
+    Take,
+}
+
+#[rustfmt::skip]
+pub(super) const VERBS: &[(&[&str], Verb)] = &[
+    (&["add", "spawn", "create", "build", "insert", "plant", "install", "instantiate", "generate", "give me",
+        "gimme", "there should be", "there must be", "there needs to be", "there has to be", "there ought to be",
+        "let there be", "i want", "i need", "i would like", "id like", "i would love", "id love", "we need",
+        "we want", "we could use", "i could use", "throw in", "erect", "introduce", "include", "have",
+        "i would like to have", "id like to have", "i want to have", "i would like to see", "id like to see",
+        "i want to see", "bring in", "get me", "make me", "i wish for", "there must stand", "there should stand",
+        "there has to stand", "there shall be", "id love to see", "i would love to see", "id like", "wed like",
+        "we would like", "we should have", "add in", "add on", "put in", "can i have", "can i get", "can we have",
+        "can we get", "could i have", "could we have", "may i have", "could i get", "draw", "pop in", "needs",
+        "need", "assemble", "construct", "lets have", "let us have", "show me"], Verb::Add),
+    (&["move", "relocate", "shift", "bring", "drag", "push", "pull", "carry", "transfer", "teleport", "reposition",
+        "slide", "send"], Verb::Move),
+    (&["put", "place", "set", "set up", "drop", "park", "stick", "position", "leave", "lay", "put down", "stand",
+        "locate", "set down", "plop", "pop", "throw", "chuck", "plonk", "deploy", "arrange", "situate", "dump",
+        "slap", "plunk", "mount", "line up", "scatter", "squeeze", "fit", "wedge", "cram", "tuck",
+        "squash"], Verb::Put),
+    (&["remove", "delete", "erase", "get rid of", "take away", "destroy", "clear away", "clear", "take out",
+        "demolish", "dispose of", "eliminate", "tear down", "yeet", "kill", "lose", "scrap", "knock down", "bin",
+        "ditch", "we dont need", "i dont need", "we do not need", "i do not need", "i dont want", "we dont want",
+        "i do not want", "nobody needs", "no more", "wipe out", "wipe", "despawn", "throw away", "throw out",
+        "we no longer need", "i no longer need", "i no longer want", "cut down", "chop down", "drop out",
+        "strip out", "pull down", "zap", "nuke", "banish", "vanish"], Verb::Remove),
+    (&["replace", "substitute"], Verb::Replace),
+    (&["rotate", "turn", "spin", "swivel", "orient", "orientate", "face", "aim", "point", "twist"], Verb::Turn),
+    (&["swap", "exchange", "switch", "trade", "interchange", "swap over", "swap around"], Verb::Swap),
+    (&["paint", "repaint", "recolour", "recolor", "colour", "color", "dye", "change the colour of",
+        "change the color of", "tint", "set the colour of", "set the color of", "respray", "spray", "spray paint",
+        "change color of", "change colour of"], Verb::Paint),
+    (&["enlarge", "scale up", "grow", "magnify", "blow up", "expand", "increase the size of", "upscale",
+        "supersize"], Verb::Grow),
+    (&["shrink", "scale down", "reduce", "reduce the size of", "downscale", "decrease the size of"], Verb::Shrink),
+    (&["double", "triple", "halve", "double the size of", "triple the size of", "halve the size of",
+        "double the number of"], Verb::Double),
+    (&["copy", "duplicate", "clone", "make a copy of", "replicate", "make another copy of", "make copies of",
+        "copy paste", "make a duplicate of", "make a clone of", "make another"], Verb::Copy),
+    (&["rename", "call", "name", "label", "christen", "title"], Verb::Name),
+    (&["how many", "count", "what number of", "what is the number of", "whats the number of", "number of",
+        "count up", "tell me how many", "tally", "what is the total number of", "whats the total number of",
+        "the number of", "the total number of", "do you know how many", "give me the number of",
+        "tell me the number of", "say how many", "what is the count of"], Verb::Count),
+    (&["list", "which", "what are", "enumerate", "show all", "show me all", "name all", "what is", "whats",
+        "what stands", "give me a list of", "what things are", "list all", "tell me what is", "tell me which",
+        "show", "what all is", "whats all", "find", "find all", "where is", "where are", "wheres"], Verb::List),
+    (&["describe", "tell me about", "tell me more about", "what do you know about", "what can you tell me about",
+        "inspect", "info on", "give me details on", "explain", "details of", "details about",
+        "who is"], Verb::Describe),
+    (&["make", "let", "change", "turn into", "resize", "scale", "set", "render", "have it", "convert",
+        "adjust"], Verb::Make),
+    (&["take", "grab", "pick up", "get", "fetch", "pick"], Verb::Take),
+];
+
+/// A relation as edits know it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    To(Relation),
+    Between,
+    Across,
+    Along,
+    Corner,
+    /// "At the bench" is beside it, "at (3, 4)" just there.
+    At,
+    /// "On the table" is on top, "on Oak Street" along it, "on the left of" a side.
+    On,
+    /// "In the park" is inside, "in front" is not here.
+    In,
+    Here,
+    There,
+    InItsPlace,
+    Anywhere,
+}
+
+#[rustfmt::skip]
+pub(super) const WAYS: &[(&[&str], Way)] = &[
+    (&["next to", "beside", "by", "right next to", "right by", "right beside", "just beside", "just next to",
+        "just by", "adjacent to", "at the side of", "alongside", "directly next to", "touching", "by the side of",
+        "to the side of", "against", "immediately next to", "close beside", "directly beside", "flanking",
+        "bordering"], Way::To(Relation::NextTo)),
+    (&["near", "near to", "close to", "not far from", "in the vicinity of", "close by", "around", "in proximity of",
+        "in proximity to", "nearby", "somewhere near", "somewhere around", "in the neighbourhood of",
+        "in the neighborhood of", "not too far from", "somewhere close to", "within reach of", "round",
+        "in the area of", "in the proximity of", "a short walk from", "quite near", "pretty close to", "very near",
+        "very close to", "near by", "nearer to", "closer to", "in close proximity to"], Way::To(Relation::Near)),
+    (&["far from", "far away from", "away from", "a long way from", "nowhere near", "at a distance from",
+        "not near", "well away from", "remote from", "as far as possible from", "distant from",
+        "as far away as possible from", "not close to", "far off from", "miles from",
+        "miles away from"], Way::To(Relation::FarFrom)),
+    (&["in front of", "outside", "outside of", "before", "just in front of", "right in front of",
+        "directly in front of", "at the front of", "to the front of", "infront of", "in the front of", "ahead of",
+        "on the front side of"], Way::To(Relation::InFrontOf)),
+    (&["behind", "at the back of", "in back of", "at the rear of", "in the rear of", "to the rear of",
+        "just behind", "right behind", "directly behind", "on the back side of", "round the back of",
+        "around the back of", "in the back of", "on the far side of"], Way::To(Relation::Behind)),
+    (&["left of", "to the left of", "on the left of", "on the left side of", "at the left of",
+        "on the left hand side of", "to the left side of", "at the left side of", "at the left hand side of",
+        "just left of", "on left side of", "on left of"], Way::To(Relation::LeftOf)),
+    (&["right of", "to the right of", "on the right of", "on the right side of", "at the right of",
+        "on the right hand side of", "to the right side of", "at the right side of", "at the right hand side of",
+        "just right of", "on right side of", "on right of"], Way::To(Relation::RightOf)),
+    (&["on top of", "onto", "atop", "upon", "on the top of", "over", "above", "on the roof of", "up on",
+        "on to"], Way::To(Relation::OnTopOf)),
+    (&["inside", "inside of", "within", "into", "in the middle of", "in the inside of",
+        "in the interior of"], Way::To(Relation::Inside)),
+    (&["between", "in between", "halfway between", "midway between", "in the middle between", "right between",
+        "somewhere between", "in the gap between", "half way between", "in the space between", "inbetween",
+        "sandwiched between", "squeezed between", "exactly between"], Way::Between),
+    (&["across from", "opposite", "opposite to", "opposite of", "across the street from", "across the road from",
+        "on the other side of the street from", "on the other side of the road from", "over the road from",
+        "over the street from", "directly across from", "right across from",
+        "on the opposite side of the street from", "on the opposite side of the road from", "facing", "vis a vis",
+        "across of", "just across from"], Way::Across),
+    (&["along", "lining", "along the side of", "all along", "along the length of", "down the length of",
+        "in a row along", "in a line along", "lined up along"], Way::Along),
+    (&["at the corner of", "on the corner of", "at a corner of", "at one corner of", "by the corner of",
+        "near the corner of", "in the corner of", "next to the corner of", "on a corner of",
+        "at one of the corners of", "at corner of", "on one corner of", "right at the corner of",
+        "to the corner of"], Way::Corner),
+    (&["at", "to", "at position", "to position", "at the point", "at point", "at the position", "at coordinates",
+        "at the coordinates", "at location", "up to", "over to", "to the point", "at exactly", "right at",
+        "exactly at"], Way::At),
+    (&["on"], Way::On),
+    (&["in"], Way::In),
+    (&["here", "right here", "over here", "where i am", "where i stand", "around here", "near here", "at my feet",
+        "in my vicinity", "around me"], Way::Here),
+    (&["there", "over there", "right there", "in that spot", "at that spot", "at that place",
+        "in that place"], Way::There),
+    (&["in its place", "in its stead", "instead", "in its spot", "where it was", "where it stood",
+        "in that very spot", "there instead", "in the same place", "at the same place", "in the same spot",
+        "at its place", "in place of it", "instead of it"], Way::InItsPlace),
+    (&["somewhere", "anywhere", "wherever", "wherever you like", "anywhere you like", "somewhere else", "someplace",
+        "anywhere at all", "somewhere in the city", "anywhere in the city", "somewhere in town", "in the city",
+        "in the scene", "in town", "anywhere in town", "to the scene", "to the city", "to the world",
+        "in the world", "somewhere random", "at random", "at a random place", "randomly", "anywhere you want",
+        "wherever you want", "somewhere nice", "any place", "to the map", "on the map", "somewhere on the map",
+        "to town", "into the scene", "at some place", "where there is room", "where there is space",
+        "wherever there is room", "wherever there is space", "wherever it fits", "where it fits", "somewhere free",
+        "to the campus", "on the campus", "somewhere on campus", "on campus", "in the harbour", "in the old town",
+        "anywhere on campus"], Way::Anywhere),
+];
+
+/// Sides of what was spoken of, or of who speaks.
+#[rustfmt::skip]
+pub(super) const ABOUT_IT: &[(&[&str], Relation)] = &[
+    (&["out front", "at the front", "in front", "up front", "in the front"], Relation::InFrontOf),
+    (&["at the back", "out back", "round the back", "in the back", "at the rear", "out the back",
+        "around the back"], Relation::Behind),
+    (&["to my left", "on my left", "at my left", "on the left", "to the left", "on the left side", "on its left",
+        "to its left", "left of me"], Relation::LeftOf),
+    (&["to my right", "on my right", "at my right", "on the right", "to the right", "on the right side",
+        "on its right", "to its right", "right of me"], Relation::RightOf),
+    (&["nearby", "close by", "next door"], Relation::Near),
+];
+
+/// Words that say how a thing is to look, and change nothing.
+#[rustfmt::skip]
+pub(super) const HARMLESS: &[&str] = &["new", "nice", "beautiful", "lovely", "fresh", "brand", "pretty", "good",
+    "fine", "old", "another", "more", "extra", "additional", "single", "few", "couple", "simple", "regular",
+    "normal", "ordinary", "standard", "own", "colored", "coloured", "such", "proper", "real", "further", "cool",
+    "shiny", "cute", "fancy", "identical", "pair", "of", "bit", "piece", "kind", "sort", "the"];
+
+/// Words of size, with the factor.
+#[rustfmt::skip]
+pub(super) const SIZES: &[(&[&str], f64)] = &[
+    (&["huge", "giant", "gigantic", "enormous", "massive"], 2.0),
+    (&["big", "large", "bigger", "larger", "great"], 1.5),
+    (&["small", "little", "smaller", "mini"], 0.7),
+    (&["tiny", "miniature"], 0.5),
+];
+
+/// How a thing is to change in size, with the factor.
+#[rustfmt::skip]
+pub(super) const FACTORS: &[(&[&str], f64)] = &[
+    (&["twice as big", "twice as large", "double the size", "twice the size", "two times bigger", "double in size",
+        "double its size", "twice as tall", "twice as high", "two times as big", "twice its size",
+        "to twice its size", "to double its size", "to double the size", "to twice the size", "by two",
+        "by a factor of two", "by factor two", "twofold", "2 times bigger", "two times larger",
+        "two times as large", "doubled", "to twice the original size", "twice bigger", "twice larger"], 2.0),
+    (&["three times as big", "three times as large", "triple the size", "three times the size",
+        "three times bigger", "triple its size", "three times its size", "by three", "by a factor of three",
+        "threefold", "three times larger", "to three times its size", "to triple its size",
+        "to three times the size", "three times as tall"], 3.0),
+    (&["four times as big", "four times the size", "four times bigger", "four times as large",
+        "four times its size", "to four times its size"], 4.0),
+    (&["half as big", "half the size", "half its size", "to half its size", "by half", "half as large",
+        "to half the size", "half as tall", "in half", "to half", "by a half", "to a half", "half of its size",
+        "to half of its size", "to 50 percent", "50 percent smaller", "twice as small", "two times smaller",
+        "half as high", "at half size", "half size", "to half size"], 0.5),
+    (&["a third of its size", "to a third of its size", "by two thirds", "to a third", "to one third"], 1.0 / 3.0),
+    (&["bigger", "larger", "taller", "big", "large", "a bit bigger", "a little bigger", "somewhat bigger",
+        "a bit larger", "a little larger", "higher", "a bit taller"], 1.5),
+    (&["much bigger", "much larger", "huge", "gigantic", "enormous", "a lot bigger", "way bigger", "giant",
+        "massive", "much taller", "a lot larger"], 2.0),
+    (&["smaller", "small", "a bit smaller", "a little smaller", "shorter", "littler",
+        "somewhat smaller"], 1.0 / 1.5),
+    (&["much smaller", "tiny", "a lot smaller", "way smaller"], 0.5),
+];
+
+/// A change of sun or weather.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Sky {
+    Rain(f64),
+    Snow(f64),
+    Fog(f64),
+    Clear,
+    Cloudy,
+    DryUp,
+    NoSnow,
+    NoFog,
+    Hour(f64),
+    Windy(f64),
+}
+
+#[rustfmt::skip]
+pub(super) const SKIES: &[(&[&str], Sky)] = &[
+    (&["rain", "rainy", "raining", "wet", "rains", "rain weather", "shower", "showers", "drizzle", "drizzly",
+        "drizzling"], Sky::Rain(4.0)),
+    (&["light rain", "drizzle", "a little rain", "a bit of rain", "lightly raining"], Sky::Rain(2.0)),
+    (&["heavy rain", "pour", "pouring", "downpour", "rain heavily", "pour with rain", "heavily raining", "storm",
+        "stormy", "rainstorm", "rain hard", "thunderstorm", "rain cats and dogs"], Sky::Rain(20.0)),
+    (&["snow", "snowy", "snowing", "snowfall", "snows", "snow weather"], Sky::Snow(3.0)),
+    (&["light snow", "a little snow"], Sky::Snow(1.0)),
+    (&["heavy snow", "blizzard", "snowstorm", "snow heavily", "heavily snowing"], Sky::Snow(10.0)),
+    (&["fog", "foggy", "mist", "misty", "hazy", "haze", "some fog"], Sky::Fog(200.0)),
+    (&["thick fog", "dense fog", "heavy fog", "very foggy", "really foggy"], Sky::Fog(60.0)),
+    (&["light fog", "slightly foggy", "a little fog", "a bit foggy", "light mist"], Sky::Fog(600.0)),
+    (&["clear", "sunny", "sunshine", "fine", "bright", "clear sky", "clear skies", "clear weather", "nice weather",
+        "good weather", "sun shine", "sun shines", "the sky clear", "sky is clear", "sky clear", "cloudless",
+        "nice and sunny", "blue sky", "blue skies"], Sky::Clear),
+    (&["cloudy", "overcast", "clouds", "grey sky", "gray sky", "clouded"], Sky::Cloudy),
+    (&["windy", "wind", "breezy"], Sky::Windy(10.0)),
+    (&["dawn", "sunrise", "daybreak"], Sky::Hour(6.0)),
+    (&["morning", "early morning", "breakfast time"], Sky::Hour(8.0)),
+    (&["noon", "midday", "noontime", "lunchtime", "lunch time", "high noon", "day", "daytime", "day time",
+        "daylight"], Sky::Hour(12.0)),
+    (&["afternoon"], Sky::Hour(15.0)),
+    (&["evening", "evening time", "early evening"], Sky::Hour(19.0)),
+    (&["dusk", "sunset", "twilight", "sundown", "nightfall"], Sky::Hour(20.0)),
+    (&["night", "nighttime", "night time", "dark", "late night", "late at night"], Sky::Hour(23.0)),
+    (&["midnight"], Sky::Hour(0.0)),
+];
+
+/// What stops.
+#[rustfmt::skip]
+pub(super) const ENDINGS: &[(&[&str], Sky)] = &[
+    (&["rain", "raining", "rainfall", "downpour", "drizzle", "drizzling"], Sky::DryUp),
+    (&["snow", "snowing", "snowfall", "blizzard"], Sky::NoSnow),
+    (&["fog", "mist", "haze"], Sky::NoFog),
+    (&["storm", "clouds", "bad weather"], Sky::Clear),
+];
+
+/// Words around weather that say nothing themselves.
+#[rustfmt::skip]
+pub(super) const SKY_NOISE: &[&str] = &["it", "its", "it is", "be", "a", "an", "the", "with", "some", "and",
+    "weather", "sky", "is", "to", "into", "time", "of", "day", "it to be", "want", "should be", "should",
+    "there is", "there be", "in", "at", "let", "make", "set", "change", "turn", "switch", "have", "lets", "please",
+    "time of day", "time to", "give us", "give me", "bring", "bring on", "i want", "id like", "i would like", "now",
+    "very", "get", "conditions", "become", "there should be", "on", "start", "begin", "starts", "here", "today",
+    "scene", "city", "us", "out", "outside", "looks", "look", "like", "bit", "little", "made", "clock", "oclock",
+    "o clock", "that", "need", "we", "i", "so", "everything", "put", "weather to", "add", "will", "would", "could",
+    "can", "you", "by", "whole", "one", "really", "nice", "after", "would like", "more", "campus", "harbour",
+    "town", "just", "mode", "can you", "atmosphere", "mood", "environment", "lighting", "light", "hour", "for",
+    "then", "fall", "falling", "come", "coming", "down", "shall", "must"];
+
+/// Every single word here, so that none is taken for a misspelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    let verbs = VERBS.iter().flat_map(|(words, _)| *words);
+    let ways = WAYS.iter().flat_map(|(words, _)| *words);
+    let skies = SKIES.iter().chain(ENDINGS).flat_map(|(words, _)| *words);
+    let sizes = SIZES.iter().chain(FACTORS).flat_map(|(words, _)| *words);
+    let sides = ABOUT_IT.iter().flat_map(|(words, _)| *words);
+    let phrases = verbs.chain(ways).chain(sides).chain(skies).chain(sizes).chain(HARMLESS).chain(SKY_NOISE);
+    phrases.flat_map(|phrase| phrase.split(' '))
+}
