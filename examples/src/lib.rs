@@ -11,6 +11,7 @@ pub mod bodies;
 pub mod chat;
 pub mod city;
 pub mod delivery;
+pub mod edit;
 pub mod experiment;
 pub mod minds;
 pub mod report;

@@ -1,0 +1,239 @@
+//! Say how the city is to change, and see it before and after.
+//!
+//! ```sh
+//! cargo run --release --example edit
+//! cargo run --release --example edit -- --say "add a red sports car next to the nearest hospital" --say undo
+//! ```
+
+use std::io::{BufRead, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use simworld_agents::editing::{Difference, Edited, Placing, SceneEditor};
+use simworld_citygen::Style;
+use simworld_core::geometry::{Point2, planar};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{Scene, World};
+use simworld_core::seed::Seed;
+use simworld_examples::city::{Source, make};
+use simworld_examples::edit::{Plan, View};
+
+/// Type how the scene is to change: "put two benches in front of the school", "paint them blue", "make it a foggy evening".
+///
+/// Besides sentences: "undo", "redo", "why" (what was tried, and what spoke against it), "where else" (other places that
+/// would do), "quit". The pictures before.svg, after.svg and why.svg are written as it goes and, with a graphics adapter,
+/// before.png and after.png.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// A saved city; without one a small one is grown.
+    #[arg(long, value_name = "FILE.simcity")]
+    city: Option<PathBuf>,
+    /// Seed of the city and of where things are put.
+    #[arg(long, default_value_t = 7)]
+    seed: u64,
+    /// A sentence to carry out instead of reading from the terminal; may be given several times.
+    #[arg(long, value_name = "SENTENCE")]
+    say: Vec<String>,
+    /// From where the scene is looked at, m east and north: what "here" and "the nearest" mean.
+    #[arg(long, value_name = "X,Y", value_parser = point, default_value = "0,0", allow_hyphen_values = true)]
+    from: Point2,
+    /// Metres from the middle of a picture to its edge.
+    #[arg(long, default_value_t = 40.0, value_parser = reach)]
+    reach: f64,
+    /// The folder to write to.
+    #[arg(long, value_name = "DIR", default_value = "out/edit")]
+    out: PathBuf,
+}
+
+fn point(text: &str) -> Result<Point2, String> {
+    let parts: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    match parts[..] {
+        [x, y] if x.is_finite() && y.is_finite() => Ok(Point2::new(x, y)),
+        _ => Err("give two numbers with a comma between, such as 120,-40".to_owned()),
+    }
+}
+
+fn reach(text: &str) -> Result<f64, String> {
+    let reach: f64 = text.parse().map_err(|_| "give a number of metres".to_owned())?;
+    if (5.0..=2000.0).contains(&reach) { Ok(reach) } else { Err("give 5 to 2000 m".to_owned()) }
+}
+
+type Done<T> = Result<T, Box<dyn std::error::Error>>;
+
+fn main() -> ExitCode {
+    match job(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn job(arguments: &Arguments) -> Done<()> {
+    let source = match &arguments.city {
+        Some(path) => Source::Saved(path.clone()),
+        None => Source::Grown(Style::Mixed, "700m".parse()?),
+    };
+    let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
+    let mut world = World::new();
+    city.populate(&mut world)?;
+    std::fs::create_dir_all(&arguments.out)?;
+    let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
+    let editor = SceneEditor::new(Seed(arguments.seed)).looking_from(arguments.from);
+    println!("a city of {} things; type how it is to change", world.len());
+    let mut desk = Desk { arguments, world, editor, view, last: Vec::new() };
+    if arguments.say.is_empty() {
+        desk.listen()
+    } else {
+        for sentence in &arguments.say {
+            println!("> {sentence}");
+            desk.hear(sentence)?;
+        }
+        Ok(())
+    }
+}
+
+struct Desk<'a> {
+    arguments: &'a Arguments,
+    world: World,
+    editor: SceneEditor,
+    view: Option<View>,
+    /// What was tried for the last sentence.
+    last: Vec<Placing>,
+}
+
+impl Desk<'_> {
+    fn listen(&mut self) -> Done<()> {
+        let live = std::io::stdin().is_terminal();
+        let mut lines = std::io::stdin().lock().lines();
+        loop {
+            if live {
+                print!("> ");
+                std::io::stdout().flush()?;
+            }
+            let Some(line) = lines.next().transpose()? else { return Ok(()) };
+            if !live {
+                println!("> {line}");
+            }
+            match line.trim() {
+                "" => {}
+                "quit" | "exit" => return Ok(()),
+                said => self.hear(said)?,
+            }
+        }
+    }
+
+    fn hear(&mut self, said: &str) -> Done<()> {
+        let before = self.world.clone();
+        match said.trim().to_lowercase().as_str() {
+            "undo" => match self.editor.undo(&mut self.world)? {
+                Some(what) => println!("  taken back: {what}"),
+                None => println!("  there is nothing to take back"),
+            },
+            "redo" => match self.editor.redo(&mut self.world)? {
+                Some(what) => println!("  done again: {what}"),
+                None => println!("  there is nothing to do again"),
+            },
+            "why" | "why?" => return self.why(),
+            "where else" | "where else?" => {
+                self.where_else();
+                return Ok(());
+            }
+            _ => match self.editor.say(said, &mut self.world) {
+                Ok(edited) => self.tell(&edited),
+                Err(answer) => {
+                    println!("  {answer}");
+                    self.last = self.editor.last_placings().to_vec();
+                    return Ok(());
+                }
+            },
+        }
+        self.draw(&before, said)
+    }
+
+    fn tell(&mut self, edited: &Edited) {
+        self.last.clone_from(&edited.placings);
+        if let Some(answer) = &edited.answer {
+            println!("  {answer}");
+        }
+        for id in &edited.made {
+            if let Some(thing) = self.world.entity(*id) {
+                let at = thing.planar();
+                println!("  {} ({id}) at ({:.1}, {:.1})", thing.label(), at.x, at.y);
+            }
+        }
+        let others = edited.edits.len().saturating_sub(edited.made.len());
+        if edited.made.is_empty() && edited.answer.is_none() && others > 0 {
+            println!("  done");
+        }
+    }
+
+    /// What was tried for the last thing, in words and as a picture.
+    fn why(&self) -> Done<()> {
+        let Some(placing) = self.last.last() else {
+            println!("  nothing was put anywhere yet");
+            return Ok(());
+        };
+        let fitting = placing.alternatives().len() + usize::from(placing.taken.is_some());
+        println!(
+            "  {} places were tried, {fitting} would do; against the others: {}",
+            placing.candidates.len(),
+            placing.reasons(&self.world)
+        );
+        let middle = placing.pose().or(placing.candidates.first().map(|candidate| candidate.pose));
+        if let Some(middle) = middle.map(|pose| planar(&pose)) {
+            let plan = Plan {
+                middle,
+                reach: self.arguments.reach,
+                title: "places that were tried",
+                touched: &[],
+                placings: &self.last,
+            };
+            std::fs::write(self.arguments.out.join("why.svg"), plan.draw(&self.world).to_string())?;
+        }
+        Ok(())
+    }
+
+    fn where_else(&self) {
+        let others = self.last.last().map(Placing::alternatives).unwrap_or_default();
+        if others.is_empty() {
+            println!("  nowhere else");
+        }
+        for candidate in others.iter().take(5) {
+            let at = planar(&candidate.pose);
+            println!("  at ({:.1}, {:.1})", at.x, at.y);
+        }
+    }
+
+    /// Both states around what changed.
+    fn draw(&mut self, before: &World, title: &str) -> Done<()> {
+        let changed = Difference::between(before, &self.world);
+        let touched: Vec<EntityId> = changed
+            .added
+            .iter()
+            .chain(&changed.removed)
+            .chain(&changed.moved)
+            .chain(&changed.altered)
+            .copied()
+            .collect();
+        let place =
+            |world: &World| touched.iter().find_map(|id| world.entity(*id)).map(|thing| thing.planar());
+        let middle = place(&self.world).or(place(before)).unwrap_or(self.arguments.from);
+        for (name, world) in [("before", before), ("after", &self.world)] {
+            let plan = Plan { middle, reach: self.arguments.reach, title, touched: &touched, placings: &[] };
+            std::fs::write(self.arguments.out.join(format!("{name}.svg")), plan.draw(world).to_string())?;
+            if let Some(view) = &mut self.view {
+                view.write(
+                    world,
+                    middle,
+                    self.arguments.reach * 0.7,
+                    &self.arguments.out.join(format!("{name}.png")),
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
