@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use simworld_core::alteration::Alteration;
 use simworld_core::asset::Catalogue;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Point2, Point3, Pose, heading, pose_facing, yaw_of};
@@ -73,13 +74,12 @@ impl Applier<'_> {
                 })
             }
             Edit::Swap { one, other } => self.swap(*one, *other),
-            Edit::Paint { things, color } => things.iter().try_for_each(|thing| {
-                let color = Some(*color);
-                self.alter(*thing, |desc| desc.info.color = color)
-            }),
+            Edit::Paint { things, color } => {
+                things.iter().try_for_each(|thing| self.alter(*thing, Alteration::Color(Some(*color))))
+            }
             Edit::Scale { things, factor } => things.iter().try_for_each(|thing| self.scale(*thing, *factor)),
             Edit::Copy { thing, count, stands } => self.copy(*thing, *count, stands),
-            Edit::Name { thing, name } => self.alter(*thing, |desc| desc.info.name = Some(name.clone())),
+            Edit::Name { thing, name } => self.alter(*thing, Alteration::Name(Some(name.clone()))),
             Edit::SetEnvironment(environment) => self.change(&Command::SetEnvironment(*environment)),
             Edit::Count { what, things } => {
                 self.edited.answer = Some(format!("{} {what}", things.len()));
@@ -199,7 +199,8 @@ impl Applier<'_> {
         resize(&mut desc, factor);
         let what = format!("to make {} so large", self.entity(thing)?.label());
         self.is_clear(&Solid { pose: desc.pose, shape: desc.info.shape }, &[thing], &what)?;
-        self.alter(thing, |desc| resize(desc, factor))
+        // Mass and access change with the shape, which no alteration does.
+        self.exchange(thing, desc)
     }
 
     fn copy(&mut self, thing: EntityId, count: u32, stands: &[Stand]) -> Result<(), EditError> {
@@ -257,11 +258,16 @@ impl Applier<'_> {
         }
     }
 
-    /// Changes what a thing is made of; it keeps its id and what hangs on it.
-    fn alter(&mut self, thing: EntityId, change: impl FnOnce(&mut EntityDesc)) -> Result<(), EditError> {
-        let mut desc = self.entity(thing)?.to_desc();
+    fn alter(&mut self, thing: EntityId, alteration: Alteration) -> Result<(), EditError> {
+        self.entity(thing)?;
+        self.change(&Command::Alter { id: thing, alteration })?;
+        self.focus.it = Some(thing);
+        Ok(())
+    }
+
+    /// Puts another in the place of a thing; it keeps the id and what hangs on it.
+    fn exchange(&mut self, thing: EntityId, desc: EntityDesc) -> Result<(), EditError> {
         let load = self.scene.world().load(thing);
-        change(&mut desc);
         self.change(&Command::Remove { id: thing })?;
         self.change(&Command::Respawn { id: thing, desc: Box::new(desc), load })?;
         self.focus.it = Some(thing);
