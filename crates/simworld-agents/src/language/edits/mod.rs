@@ -83,6 +83,7 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &Focus) -> View<'a> {
         scene,
         // Nobody has this id, so that nothing is left out where nobody looks.
         who: focus.who.unwrap_or(EntityId::new(u32::MAX, u32::MAX)),
+        speaker: focus.who,
         from: focus.from,
         origin: focus.from,
         heading: focus
