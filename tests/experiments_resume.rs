@@ -65,6 +65,7 @@ fn whoever_is_killed_leaves_a_whole_log_and_goes_on_to_the_same_end() {
     let expected =
         play(&config, &OutputFolder::create(&folder.path().join("whole")).unwrap(), &Watch::silent());
     let expected = expected.unwrap().seeds[0].digest;
+    let whole_log = folder.path().join("whole/seed-3/events.jsonl");
     let mut rng = Seed(8).stream("test/kill").rng();
     let moments = if std::env::var_os("SIMWORLD_SOAK").is_some() { 40 } else { 3 };
     let mut cut = 0;
@@ -77,18 +78,18 @@ fn whoever_is_killed_leaves_a_whole_log_and_goes_on_to_the_same_end() {
             .stdout(std::process::Stdio::null())
             .spawn()
             .unwrap();
-        // From its first lines on, at any moment.
-        let lines = |log: &std::path::Path| fs::metadata(log).map_or(0, |file| file.len());
-        while lines(&log) < 2000 && child.try_wait().unwrap().is_none() {
-            std::thread::sleep(std::time::Duration::from_millis(1));
+        // At any moment from its first lines on: once so much of the log is written, however fast that is.
+        let length = |log: &std::path::Path| fs::metadata(log).map_or(0, |file| file.len());
+        let moment = 2000 + rng.below(length(&whole_log).saturating_sub(2000) as usize * 4 / 5) as u64;
+        while length(&log) < moment && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(std::time::Duration::from_micros(100));
         }
-        std::thread::sleep(std::time::Duration::from_millis(rng.below(600) as u64));
         child.kill().unwrap(); // SIGKILL where there are signals
         child.wait().unwrap();
         let left = read_log(&log).unwrap();
         assert!(left.end.0 > 0 || left.recording.trail.is_empty());
         cut += usize::from(left.broken_off.is_some());
-        let whole = read_log(&folder.path().join("whole/seed-3/events.jsonl")).unwrap();
+        let whole = read_log(&whole_log).unwrap();
         assert!(whole.recording.trail.starts_with(&left.recording.trail), "the log is whole up to its end");
         let resumed = resume(&OutputFolder::open(&path).unwrap(), &Watch::silent()).unwrap();
         assert_eq!(resumed.seeds[0].digest, expected);

@@ -158,7 +158,7 @@ fn rubbish_and_silence_cost_the_turn_and_a_saved_mind_goes_on() {
         || ModelError::Timeout { phase: "the answer".to_owned(), limit: std::time::Duration::from_secs(1) };
     let (mouth, asked) =
         model(move |nth, _| if nth % 3 == 2 { Ok(deed(r#"{"act": "do_nothing"}"#)) } else { Err(silence()) });
-    let mut mind = ModelCourier::new(mouth);
+    let mut mind = ModelCourier::new(mouth).with_config(often()).expect("in range");
     play(&mut town, &mut mind, 400).expect("two failures in a row are borne");
     assert!(asked.all().len() > 10);
     let (mouth, asked) = model(move |_, _| Err(silence()));
