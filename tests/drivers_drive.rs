@@ -18,6 +18,8 @@ use simworld_core::seam::{Executor, Planner, Progress};
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
 use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, VehicleClass};
+use simworld_tests::driving::{Outcome, Rush, Streets, Wheels};
+use simworld_tests::traffic::{each_case, is_whole};
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 
 const RED: [f32; 3] = [0.55, 0.03, 0.02];
@@ -249,4 +251,42 @@ fn people_in_the_way_are_waited_for_and_a_stop_is_at_once() {
         run.simulation.step().unwrap();
     }
     assert!(run.simulation.world().entity(car).unwrap().twist.ground_speed() < 0.1);
+}
+
+/// The trips of many minds in the rush hour of grown cities.
+fn rush(wheels: Wheels, cities: usize, minds: usize, trips: usize) {
+    let outcomes: Vec<(usize, Outcome)> = each_case(cities, |city| {
+        let rush =
+            Rush { city, segments: 60, density: 10.0, minds, trips, wheels, longest: 900.0 * trips as f64 };
+        (city, Streets::new(&rush).drive(&rush))
+    });
+    let sum = |of: fn(&Outcome) -> usize| outcomes.iter().map(|(_, outcome)| of(outcome)).sum::<usize>();
+    let driven: f64 = outcomes.iter().map(|(_, outcome)| outcome.driven).sum();
+    println!(
+        "{} of {} trips ended at their kerb, {:.1} km, {} lights and {} stop signs passed",
+        sum(|outcome| outcome.arrived),
+        outcomes.len() * minds * trips,
+        driven / 1000.0,
+        sum(|outcome| outcome.signals),
+        sum(|outcome| outcome.stops)
+    );
+    let faults: Vec<String> = outcomes
+        .iter()
+        .flat_map(|(city, outcome)| {
+            outcome.faults.all().into_iter().map(move |fault| format!("city {city}: {fault}"))
+        })
+        .collect();
+    assert!(faults.is_empty(), "{faults:#?}");
+    assert_eq!(sum(|outcome| outcome.arrived), outcomes.len() * minds * trips);
+    assert!(sum(|outcome| outcome.signals) > outcomes.len(), "nobody met a light");
+}
+
+#[test]
+fn trips_through_dense_traffic_end_at_the_kerb_and_harm_nobody() {
+    if is_whole() { rush(Wheels::Rolling, 20, 6, 2) } else { rush(Wheels::Rolling, 1, 4, 1) }
+}
+
+#[test]
+fn on_tyres_as_well() {
+    if is_whole() { rush(Wheels::Tyres, 4, 4, 2) } else { rush(Wheels::Tyres, 1, 2, 1) }
 }

@@ -1,5 +1,6 @@
 //! What several tests of the whole share.
 
+pub mod driving;
 pub mod traffic;
 
 use simworld_citygen::City;

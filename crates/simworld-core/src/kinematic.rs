@@ -1,4 +1,7 @@
-//! A body without physics: a point that walks where it is told. For light use, tests and crowds.
+//! Bodies without physics: a point that walks where it is told, and a vehicle on wheels that do not slip. For light use, tests
+//! and crowds.
+
+mod vehicle;
 
 use std::collections::BTreeMap;
 
@@ -10,6 +13,8 @@ use crate::id::EntityId;
 use crate::ops::wrap_angle;
 use crate::scene::{Scene, World, WorldError};
 use crate::seam::{BodyState, Dynamics, DynamicsError, Embodiment, EmbodimentError};
+
+pub use self::vehicle::KinematicVehicle;
 
 /// A point that moves forward at a speed and turns at once; it passes through walls.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,10 +98,7 @@ impl Embodiment for KinematicBody {
     }
 
     fn restore(&mut self, state: &BodyState, saved: &[u8]) -> bool {
-        let numbers: Vec<f64> = saved
-            .chunks_exact(8)
-            .map(|chunk| f64::from_le_bytes(chunk.try_into().expect("chunks_exact gives eight bytes")))
-            .collect();
+        let numbers = numbers(saved);
         let [speed, max_speed, x, y, z] = numbers[..] else { return false };
         *self = Self { state: *state, speed, max_speed, step: Vector3::new(x, y, z) };
         true
@@ -203,6 +205,12 @@ impl Dynamics for KinematicDynamics {
             hasher.u64((*id).into()).bytes(&body.save());
         }
     }
+}
+
+/// The numbers of which so many bytes are made.
+fn numbers(saved: &[u8]) -> Vec<f64> {
+    let (chunks, _) = saved.as_chunks::<8>();
+    chunks.iter().map(|chunk| f64::from_le_bytes(*chunk)).collect()
 }
 
 fn take_u64(bytes: &mut &[u8]) -> Option<u64> {

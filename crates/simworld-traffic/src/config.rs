@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::crowd::AnticipationVelocity;
 use crate::pedestrian::People;
-use crate::vehicle::{Gaps, Mobil, VehicleKind, VehicleType, standard_types};
+use crate::vehicle::{Gaps, Mobil, VehicleKind, VehicleType, gaps, standard_types};
 use crate::{ControlError, DrivingConditions, Leg, NoWay};
 
 /// How much traffic there is, and how it behaves.
@@ -221,7 +221,7 @@ impl TrafficConfig {
             }
         }
         self.conditions.validate()?;
-        self.gaps.validate()?;
+        gaps::validate(&self.gaps)?;
         self.types.iter().enumerate().try_for_each(|(index, row)| row.validate(index))
     }
 

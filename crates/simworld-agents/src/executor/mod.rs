@@ -17,6 +17,7 @@ mod sight;
 use std::sync::Arc;
 
 pub(crate) use blocks::{Blocks, Entered};
+pub use drive::CannotArrive;
 use drive::{Driving, vehicle_of};
 use navigate::{Arrival, Navigation};
 use serde::{Deserialize, Serialize};
@@ -106,6 +107,8 @@ struct State {
     stage: Stage,
     /// The speed the body was told last, m/s; unknown after anybody else may have told it something.
     told_speed: Option<f64>,
+    /// Why the last drive was given up.
+    trouble: Option<CannotArrive>,
 }
 
 /// How far the step under way has come.
@@ -117,7 +120,7 @@ enum Stage {
     /// On the way.
     Navigating(Navigation),
     /// On the way in a vehicle.
-    Driving(Driving),
+    Driving(Box<Driving>),
     /// The action was told; its effect is looked for in the next step.
     Acted,
     /// Waiting, with the number of steps left.
@@ -167,6 +170,11 @@ impl RuleExecutor {
         self.state.blocks.is_over()
     }
 
+    /// Why the last plan failed, if it did on the road: the reason of [`Progress::Failed`], typed. The next plan clears it.
+    pub fn cannot_arrive(&self) -> Option<&CannotArrive> {
+        self.state.trouble.as_ref()
+    }
+
     /// On foot, or by whatever one is or sits in.
     fn go(
         &mut self,
@@ -208,7 +216,9 @@ impl RuleExecutor {
     }
 
     fn fail(&mut self, reason: String, out: &mut Vec<Action>) -> Progress {
+        let trouble = self.state.trouble.take();
         self.cancel(out);
+        self.state.trouble = trouble;
         Progress::Failed { reason }
     }
 

@@ -3,6 +3,7 @@
 mod assemble;
 mod check;
 mod derive;
+mod gaps;
 #[cfg(feature = "hierarchy")]
 mod hierarchy;
 mod network;
@@ -15,10 +16,12 @@ mod signal;
 mod turn_lanes;
 mod turning;
 mod waypoint;
+mod zone;
 
 pub use assemble::{NetworkBuilder, NewLane, NewRoad};
 pub use check::NetworkFault;
 pub use derive::{Alone, NetworkConfig, NetworkError, Workers};
+pub use gaps::{CriticalGaps, time_over};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
 pub use network::{
@@ -37,3 +40,4 @@ pub use waypoint::RouteHierarchy;
 pub use waypoint::{
     Route, RouteScratch, Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind,
 };
+pub use zone::{Ends, WayTrace, Zone};

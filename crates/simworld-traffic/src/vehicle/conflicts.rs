@@ -1,8 +1,7 @@
 //! Where ways across an intersection meet: the stretch of each on which a vehicle could touch one on the other.
 
-use simworld_core::geometry::Point2;
 use simworld_core::id::ConnectionId;
-use simworld_core::net::{Connection, RoadNetwork};
+use simworld_core::net::{Connection, Ends, RoadNetwork, WayTrace, Zone};
 
 use super::ragged::Ragged;
 use super::types::is_long;
@@ -10,32 +9,6 @@ use crate::TrafficConfig;
 
 /// Room beside a body for what it sweeps over in a turn: the chord of seven metres on a radius of eight, and toes, m.
 const SWEPT: f64 = 0.9;
-/// Room before and behind the stretch, m.
-const ROOM: f64 = 0.3;
-/// A rear so far beyond the beginning of a common end leaves room to follow it there, m.
-const FOLLOW: f64 = 2.0;
-/// A path that bends less than this is as good as straight, m.
-const STRAIGHT: f64 = 0.05;
-
-/// A stretch of a way on which it meets another, m along it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Zone {
-    /// A front before this station touches nobody on the other way.
-    pub(crate) enter: f32,
-    /// A rear beyond this one touches nobody any more; infinite where both ways end in one lane.
-    pub(crate) leave: f32,
-}
-
-impl Zone {
-    pub(crate) fn enter(self) -> f64 {
-        f64::from(self.enter)
-    }
-
-    /// Where a rear must be for the other to go on: out of the stretch, or far enough on it to be followed.
-    pub(crate) fn passed(self) -> f64 {
-        if self.leave.is_finite() { f64::from(self.leave) } else { self.enter() + FOLLOW }
-    }
-}
 
 /// Another way that meets one's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,99 +27,25 @@ pub(crate) struct Conflict {
 pub(crate) fn conflicts(network: &RoadNetwork, config: &TrafficConfig) -> Ragged<Conflict> {
     let short = config.types.iter().filter(|row| !is_long(row.length));
     let near = short.map(|row| row.width).fold(0.0, f64::max) + SWEPT;
-    let traces: Vec<Trace> = network.connections.iter().map(Trace::new).collect();
+    let traces: Vec<WayTrace> = network.connections.iter().map(WayTrace::new).collect();
     let of = |(index, own): (usize, &Connection)| -> Vec<Conflict> {
         let conflict = |id: &ConnectionId| {
             let other = &network.connections[id.index()];
-            let merges = own.to == other.to;
+            let ends = Ends::of(own, other);
             let yields = own.yields_to.binary_search(id).is_ok();
             let (mine, theirs) = (&traces[index], &traces[id.index()]);
             Conflict {
                 way: id.0,
                 yields,
                 critical: if yields { config.gaps.critical(network, own, other) as f32 } else { 0.0 },
-                merges,
-                own: mine.zone(theirs, near, merges),
-                other: theirs.zone(mine, near, merges),
+                merges: ends == Ends::Together,
+                own: mine.zone(theirs, near, ends),
+                other: theirs.zone(mine, near, ends),
             }
         };
         own.conflicts.iter().map(conflict).collect()
     };
     network.connections.iter().enumerate().map(of).collect()
-}
-
-/// A path as distances are taken from and to it.
-struct Trace {
-    /// Points about a metre apart, with their stations.
-    points: Vec<(f64, Point2)>,
-    /// The path with as few corners as do.
-    corners: Vec<Point2>,
-    length: f64,
-}
-
-impl Trace {
-    fn new(way: &Connection) -> Self {
-        let mut points = Vec::with_capacity(way.path.len());
-        let mut station = 0.0;
-        for piece in way.path.windows(2) {
-            let step = piece[1] - piece[0];
-            let span = step.norm();
-            let parts = span.ceil().max(1.0);
-            points.extend((0..parts as u32).map(|part| {
-                let share = f64::from(part) / parts;
-                (station + span * share, piece[0] + step * share)
-            }));
-            station += span;
-        }
-        points.extend(way.path.last().map(|last| (station, *last)));
-        Self { points, corners: corners(&way.path), length: way.length }
-    }
-
-    /// Where this path is nearer to the other than `near`; all of it if they are nowhere, for whoever says that they touch
-    /// knows why.
-    fn zone(&self, other: &Self, near: f64, merges: bool) -> Zone {
-        let square = near * near;
-        let is_near = |(_, point): &(f64, Point2)| {
-            other.corners.windows(2).any(|piece| square_to_piece(point, piece) < square)
-        };
-        let first = self.points.iter().position(is_near);
-        // The point before the first that is near and the one behind the last are not.
-        let enter = first.map_or(0.0, |first| self.points[first.saturating_sub(1)].0);
-        let leave = if merges {
-            f32::INFINITY
-        } else {
-            let last = self.points.iter().rposition(is_near);
-            let behind = last.and_then(|last| self.points.get(last + 1));
-            (behind.map_or(self.length, |point| point.0) + ROOM) as f32
-        };
-        Zone { enter: (enter - ROOM).max(0.0) as f32, leave }
-    }
-}
-
-/// The corners of a path that are needed to stay near it.
-fn corners(path: &[Point2]) -> Vec<Point2> {
-    let (Some(first), Some(last)) = (path.first(), path.last()) else { return Vec::new() };
-    let mut kept = vec![*first];
-    let mut from = 0;
-    for to in 2..path.len() {
-        let piece = [path[from], path[to]];
-        let between = &path[from + 1..to];
-        if between.iter().any(|point| square_to_piece(point, &piece) > STRAIGHT * STRAIGHT) {
-            from = to - 1;
-            kept.push(path[from]);
-        }
-    }
-    kept.push(*last);
-    kept
-}
-
-/// The square of the distance of a point from a piece of a path, m².
-fn square_to_piece(point: &Point2, piece: &[Point2]) -> f64 {
-    let step = piece[1] - piece[0];
-    let to_point = point - piece[0];
-    let square = step.norm_squared();
-    let along = if square > 0.0 { (to_point.dot(&step) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (to_point - step * along).norm_squared()
 }
 
 #[cfg(test)]

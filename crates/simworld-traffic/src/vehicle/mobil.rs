@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::lane_change::stretch;
 use super::manager::{NONE, Scene, Vehicle};
 use super::part::Part;
+use super::strangers;
 use super::tracks::Track;
 
 /// When drivers change lanes.
@@ -111,7 +112,9 @@ impl Part {
             follower.is_some_and(|follower| follower.holding != NONE && follower.holding == follower.next);
         // Whoever comes out of the junction behind has not joined the queue yet.
         let comes = there.behind.is_none() && scene.junctions.inbound(target) > 0.0 && rear < 25.0;
-        (ahead >= least && behind >= least && !cuts_off && !comes).then_some((ahead, behind))
+        let braking = scene.config.mobil.safe_braking;
+        let strangers = strangers::let_in(&scene.sight, target, (rear, vehicle.v), least, braking);
+        (ahead >= least && behind >= least && !cuts_off && !comes && strangers).then_some((ahead, behind))
     }
 
     /// Those around a place in a lane, bodies that are changing out of it included.

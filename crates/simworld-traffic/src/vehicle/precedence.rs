@@ -5,28 +5,29 @@
 //! waits for one who waits for him. One who asks is put behind all who hold ways that meet his own; before one of them
 //! he goes only if that one has not reached its line, can still stop for it, and by all that is seen need not.
 
-use simworld_core::net::Aspect;
+use simworld_core::net::{Aspect, time_over};
 
 use super::Way;
 use super::conflicts::Conflict;
 use super::junction::horizon;
 use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
 use super::part::Part;
+use super::strangers;
 use super::tracks::Track;
 
 /// Time that one wants between clearing a conflict and the arrival of who has no priority, s.
-const MARGIN: f64 = 0.5;
+pub(super) const MARGIN: f64 = 0.5;
 /// Time by which one delays who has priority, at most, s: the gaps of the manual leave no more than that.
 const DELAYS: f64 = 1.0;
 /// Time from leave to the line of one who is about to stop at it, s. A gap is taken to begin with it.
 const START: f64 = 1.2;
 /// Vehicles with priority are looked for within this distance, m.
-const SIGHT: f64 = 90.0;
+pub(super) const SIGHT: f64 = 90.0;
 /// Braking with which one who is overtaken in the order could stop at its line, m/s².
-const EASILY: f64 = 2.0;
+pub(super) const EASILY: f64 = 2.0;
 /// Acceleration with which others are expected to clear the way, and to come, m/s².
-const CLEARS: f64 = 1.0;
-const COMES: f64 = 1.5;
+pub(super) const CLEARS: f64 = 1.0;
+pub(super) const COMES: f64 = 1.5;
 /// One relies on somebody else being gone as long as one could still stop with this share of one's hardest braking, in so much
 /// time before it, s, and so far before, m.
 const RELIES: f64 = 0.6;
@@ -68,7 +69,7 @@ impl Holder {
 }
 
 /// How one who asks would cross.
-struct Asker {
+pub(super) struct Asker {
     /// To its line, m.
     distance: f64,
     v: f64,
@@ -79,8 +80,13 @@ struct Asker {
 }
 
 impl Asker {
-    fn time(&self, station: f64) -> f64 {
+    pub(super) fn time(&self, station: f64) -> f64 {
         time_over(self.distance + station, self.v, self.acceleration, self.speed)
+    }
+
+    /// When its rear is out of what a way shares with its own, s.
+    pub(super) fn gone(&self, conflict: &Conflict) -> f64 {
+        self.time(conflict.own.passed() + self.length)
     }
 
     /// Its speed when it has come to a station, m/s.
@@ -96,7 +102,7 @@ impl Asker {
     }
 
     /// Whether it would be gone before another, and takes the gap before it.
-    fn goes_before(&self, conflict: &Conflict, comer: &Comer) -> bool {
+    pub(super) fn goes_before(&self, conflict: &Conflict, comer: &Comer) -> bool {
         let gone = conflict.own.passed() + self.length;
         // Where both end in one lane the other must come down to one's own speed.
         let excess = if conflict.merges { (comer.v - self.speed_at(gone)).max(0.0) } else { 0.0 };
@@ -109,12 +115,12 @@ impl Asker {
 }
 
 /// Somebody before its line, who may go at once.
-struct Comer {
+pub(super) struct Comer {
     /// To its line, m.
-    distance: f64,
-    v: f64,
+    pub(super) distance: f64,
+    pub(super) v: f64,
     /// The speed to which it may go, m/s.
-    limit: f64,
+    pub(super) limit: f64,
 }
 
 impl Comer {
@@ -153,6 +159,7 @@ impl Part {
             }
             (!is_held || self.fits_in(scene, &asker, conflict, overtaken))
                 && !(conflict.yields && !siren && self.is_hindered(scene, &asker, conflict))
+                && !strangers::hinder(scene, &asker, conflict)
         })
     }
 
@@ -316,34 +323,9 @@ impl Vehicle {
     }
 }
 
-/// The time that a way takes from a speed with an acceleration up to another speed, s.
-fn time_over(way: f64, v: f64, acceleration: f64, most: f64) -> f64 {
-    if way <= 0.0 {
-        return 0.0;
-    }
-    if v >= most {
-        return way / ((v + most) * 0.5); // it slows down on the way
-    }
-    let until = (most * most - v * v) / (2.0 * acceleration);
-    if way <= until {
-        ((v * v + 2.0 * acceleration * way).sqrt() - v) / acceleration
-    } else {
-        (most - v) / acceleration + (way - until) / most
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn times_are_those_of_constant_acceleration() {
-        // 12 m from rest at 1.5 m/s²: 4 s; with at most 3 m/s 2 s for 3 m and 3 s for the other 9.
-        assert!((time_over(12.0, 0.0, 1.5, 10.0) - 4.0).abs() < 1e-12);
-        assert!((time_over(12.0, 0.0, 1.5, 3.0) - 5.0).abs() < 1e-12);
-        assert!((time_over(12.0, 4.0, 1.5, 4.0) - 3.0).abs() < 1e-12);
-        assert!(time_over(-1.0, 4.0, 1.5, 4.0) == 0.0);
-    }
 
     #[test]
     fn the_order_goes_on_when_numbers_begin_anew() {

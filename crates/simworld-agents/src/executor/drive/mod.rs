@@ -1,59 +1,64 @@
 //! Driving: a vehicle's body along the lanes of the road network to the kerb near a goal.
 //!
 //! The way is found in two levels, legs of roads and then the path along their lanes. In every step the path says where to
-//! steer, and the bends, limits, lights, people and vehicles ahead say how fast; pedals and wheel follow by
-//! [`simworld_core::control::Driver`]. What stands in the way is waited for, passed where there is room, and in the end
-//! driven round by other roads. On ground without lanes the way is the straight line.
+//! steer, and the bends, limits, lights, gaps, people and vehicles ahead say how fast; pedals and wheel follow by
+//! [`simworld_core::control::Driver`]. Lanes are changed where there is a gap. What stands in the way is waited for, passed where
+//! there is room, and in the end driven round by other roads, turning in the street if need be. On ground without lanes the
+//! way is the straight line.
 //!
 //! Who drives is the vehicle itself or the person in it; pedals that a person presses go to the vehicle (see
 //! [`World::actuate`](simworld_core::scene::World::actuate)).
 
+mod around;
+mod change;
+mod junction;
 mod kerb;
 mod pass;
+mod people;
+mod plan;
 mod route;
+mod trouble;
+mod turn_round;
 mod watch;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
 use simworld_core::control::Driver;
-use simworld_core::geometry::{Point2, Vector2, direction, yaw_of};
-use simworld_core::id::{ConnectionId, EntityId, LaneId};
-use simworld_core::net::{RoadNetwork, polyline};
+use simworld_core::geometry::Point2;
+use simworld_core::id::LaneId;
+use simworld_core::net::polyline;
 use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::Goal;
 
-use self::route::{Way, way};
-use self::watch::Own;
+use self::around::Seen;
+use self::change::Change;
+use self::junction::Line;
+use self::plan::Wish;
+pub use self::trouble::CannotArrive;
+use self::turn_round::Turning;
+use self::watch::{Allowed, Own};
 use super::navigate::{Arrival, Destination, FOLLOWED};
 use super::{RuleExecutor, Stage};
-use crate::lanes::{OnLane, lane_at, nearest_lane};
 
 /// A goal with a wider reach than this is only passed, and not stopped at, m.
 const PASSED: f64 = 5.0;
 /// So near to the end of the path, and slower than `STANDING`, one has arrived, m and m/s.
 const ARRIVED: f64 = 1.2;
 const STANDING: f64 = 0.2;
-/// Length over which one pulls in to the kerb, m.
-const PULL_IN: f64 = 16.0;
-/// Lanes farther away than this are no part of the way, m: one drives over open ground.
-const OFF_ROAD: f64 = 60.0;
 /// Farther beside the path than this one looks for another, m.
 const ASTRAY: f64 = 8.0;
 /// Coming on by less than this is no progress, m.
 const PROGRESS: f64 = 0.5;
-/// Time that one gives a vehicle that stands in the way, s: it may wait itself.
-const QUEUE: f64 = 25.0;
-
-/// A stop line on the path.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Line {
-    /// m along the path.
-    station: f64,
-    /// The way across the junction behind it.
-    turn: ConnectionId,
-    /// How long one has stood at it, s.
-    waited: f64,
-}
+/// After so much progress earlier jams are forgotten, m.
+const FORGOTTEN: f64 = 50.0;
+/// Time that one gives a vehicle that stands in the way, and one in a queue, s.
+const STANDS: f64 = 12.0;
+const QUEUE: f64 = 60.0;
+/// One who has looked for a gap beside for so long goes where the own lane leads, s.
+const MISSED: f64 = 30.0;
+/// One who has stood at a line for so long, and not at red, takes other roads, s; and gives up after this.
+const NO_GAP: f64 = 150.0;
+const NEVER: f64 = 900.0;
 
 /// A way being driven.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,15 +68,18 @@ pub(super) struct Driving {
     path: Vec<Point2>,
     lines: Vec<Line>,
     limits: Vec<(f64, f64)>,
+    changes: Vec<Change>,
     driver: Driver,
     /// How far one is along the path, m.
     station: f64,
     /// The farthest so far, m, and how long ago that was, s.
     best: f64,
     idle: f64,
-    /// How often one was stuck, and how far one still backs, m.
+    /// How often one was stuck, where that was, m, and how far one still backs, m.
     tries: u32,
+    stuck_at: f64,
     backing: f64,
+    turning: Option<Turning>,
     /// Roads that turned out to be blocked, by the first lane of their leg.
     closed: Vec<LaneId>,
 }
@@ -79,7 +87,14 @@ pub(super) struct Driving {
 /// The vehicle that somebody drives: itself, or what it sits in.
 pub(super) fn vehicle_of<'a>(scene: &'a dyn Scene, me: &EntityRef<'a>) -> Option<EntityRef<'a>> {
     let drives = |entity: &EntityRef<'_>| {
-        matches!(entity.kind, EntityKind::Car | EntityKind::Truck | EntityKind::Bus | EntityKind::Motorcycle)
+        matches!(
+            entity.kind,
+            EntityKind::Car
+                | EntityKind::Truck
+                | EntityKind::Bus
+                | EntityKind::Motorcycle
+                | EntityKind::Bicycle
+        )
     };
     match me.attachment {
         Some(bond) if bond.role == Role::Aboard => scene.entity(bond.parent).filter(drives),
@@ -98,32 +113,28 @@ impl RuleExecutor {
         out: &mut Vec<Action>,
     ) -> Arrival {
         let ids = [me.id, vehicle.id];
-        let size = vehicle.info.shape.size();
-        let ahead = direction(yaw_of(vehicle.pose));
-        let own = Own {
-            ids: &ids,
-            at: vehicle.planar(),
-            speed: vehicle.twist.linear.xy().dot(&ahead),
-            half_length: size.x * 0.5,
-            half_width: size.y * 0.5,
+        let own = Own::new(vehicle, &ids);
+        let lost = |state: &mut super::State, error: CannotArrive| {
+            let reason = error.to_string();
+            state.trouble = Some(error);
+            Arrival::Lost(reason)
         };
         let Some(destination) = Destination::of(scene, to, own.at) else {
-            return Arrival::Lost(format!("{to:?} is gone"));
+            return lost(&mut self.state, CannotArrive::GoalGone { goal: to });
         };
         if within > PASSED && destination.distance <= within {
             return Arrival::There;
         }
         let begun = match std::mem::take(&mut self.state.stage) {
             Stage::Driving(way) if (destination.point - way.goal).norm() <= FOLLOWED => Ok(way),
-            _ => Driving::new(scene, vehicle, &own, destination.point, Vec::new()),
+            _ => Driving::new(scene, vehicle, &own, Wish::to(destination.point)).map(Box::new),
         };
-        let mut way = match begun {
-            Ok(way) => way,
-            Err(reason) => return Arrival::Lost(reason),
-        };
-        let arrival = self.follow_lane(scene, vehicle, &own, &mut way, speed, out);
-        self.state.stage = Stage::Driving(way);
-        arrival
+        let arrival = begun.and_then(|mut way| {
+            let there = self.follow_lane(scene, vehicle, &own, &mut way, speed, out)?;
+            self.state.stage = Stage::Driving(way);
+            Ok(there)
+        });
+        arrival.unwrap_or_else(|error| lost(&mut self.state, error))
     }
 
     fn follow_lane(
@@ -134,115 +145,73 @@ impl RuleExecutor {
         way: &mut Driving,
         speed: Option<f64>,
         out: &mut Vec<Action>,
-    ) -> Arrival {
+    ) -> Result<Arrival, CannotArrive> {
         let dt = scene.clock().dt();
+        self.state.told_speed = None;
+        let around = around::look(scene, own, watch::SIGHT.1, junction::SIGHT + 40.0);
+        if way.turning.is_some() {
+            way.turn_round(scene, vehicle, own, &around, dt, out)?;
+            return Ok(Arrival::Underway);
+        }
         if way.backing > 0.0 {
-            return way.back(scene, own, dt, out);
+            way.back(own, &around, dt, out);
+            return Ok(Arrival::Underway);
         }
         if way.locate(own.at) > ASTRAY {
-            let closed = std::mem::take(&mut way.closed);
-            match Driving::new(scene, vehicle, own, way.goal, closed) {
-                Ok(found) => *way = Driving { tries: way.tries + 1, ..found },
-                Err(reason) => return Arrival::Lost(reason),
-            }
+            way.tries += 1;
+            way.renew(scene, vehicle, own, Wish { closed: way.closed.clone(), ..Wish::to(way.goal) })?;
         }
         let left = polyline::length(&way.path) - way.station;
         if left <= ARRIVED && own.speed.abs() < STANDING {
-            return Arrival::There;
+            return Ok(Arrival::There);
         }
-        let allowed = way.allowed(scene, own, speed, dt);
-        if way.station > way.best + PROGRESS {
-            (way.best, way.idle) = (way.station, 0.0);
-        } else if !allowed.waits {
-            way.idle += dt;
-        }
-        let patience = match allowed.obstacle {
-            Some(obstacle) if scene.entity(obstacle.id).is_some_and(|other| other.kind.is_mobile()) => QUEUE,
-            _ => self.config.patience,
-        };
-        if way.idle > patience {
-            way.idle = 0.0;
-            way.tries += 1;
-            if way.tries > self.config.attempts {
-                return Arrival::Lost(stuck(scene, own, allowed.obstacle.map(|obstacle| obstacle.id)));
-            }
-            if let Some(obstacle) = allowed.obstacle {
-                way.get_past(scene, vehicle, own, &obstacle);
-            }
-        }
+        let allowed = way.allowed(scene, vehicle, own, &around, speed, dt)?;
+        self.mind_progress(scene, vehicle, own, way, (&allowed, &around))?;
         let window = way.window();
         out.extend(way.driver.drive(vehicle.pose, own.speed, &window, allowed.speed, dt));
-        self.state.told_speed = None;
-        Arrival::Underway
+        Ok(Arrival::Underway)
+    }
+
+    /// Does something about it when nothing goes on.
+    fn mind_progress(
+        &self,
+        scene: &dyn Scene,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+        way: &mut Driving,
+        (allowed, around): (&Allowed, &[Seen]),
+    ) -> Result<(), CannotArrive> {
+        if way.station > way.best + PROGRESS {
+            (way.best, way.idle) = (way.station, 0.0);
+            if way.station > way.stuck_at + FORGOTTEN {
+                way.tries = 0;
+            }
+        } else if !allowed.waits {
+            way.idle += scene.clock().dt();
+        }
+        let obstacle = allowed.obstacle;
+        let patience = match obstacle {
+            Some(other) if other.is_mobile && way.is_queue(&other, around) => QUEUE,
+            Some(other) if other.is_mobile => STANDS,
+            _ => self.config.patience,
+        };
+        if way.idle <= patience {
+            return Ok(());
+        }
+        way.idle = 0.0;
+        way.tries += 1;
+        way.stuck_at = way.station;
+        if way.tries > self.config.attempts {
+            return Err(CannotArrive::stuck(scene, own.at, obstacle.map(|obstacle| obstacle.id)));
+        }
+        if let Some(obstacle) = obstacle {
+            way.get_past(scene, vehicle, own, around, &obstacle);
+        }
+        Ok(())
     }
 }
 
 impl Driving {
-    /// The way from where a vehicle stands to the kerb near a goal.
-    fn new(
-        scene: &dyn Scene,
-        vehicle: &EntityRef<'_>,
-        own: &Own<'_>,
-        goal: Point2,
-        closed: Vec<LaneId>,
-    ) -> Result<Self, String> {
-        let heading = yaw_of(vehicle.pose);
-        let on_roads = scene.roads().and_then(|network| {
-            let from =
-                lane_at(network, own.at, Some(heading)).or_else(|| nearest_lane(network, own.at, None));
-            let to = nearest_lane(network, goal, None);
-            let near = from.zip(to).filter(|(from, to)| from.distance.min(to.distance) <= OFF_ROAD);
-            near.map(|(from, to)| (network, from, to))
-        });
-        let way = match on_roads {
-            Some((network, from, to)) => {
-                Self::by_road(scene, network, own, &from, &to, &closed).ok_or_else(|| {
-                    format!(
-                        "no lanes lead from ({:.0}, {:.0}) to ({:.0}, {:.0})",
-                        own.at.x, own.at.y, goal.x, goal.y
-                    )
-                })?
-            }
-            None => Way { path: vec![own.at, goal], ..Way::default() },
-        };
-        // Axles stand 0.58 of the length apart: a sedan's 2.6 of 4.5 m, a bus's 7 of 12 m.
-        let mut driver = Driver::default();
-        driver.wheelbase = own.half_length * 2.0 * 0.58;
-        Ok(Self {
-            goal,
-            path: way.path,
-            lines: way.lines,
-            limits: way.limits,
-            driver,
-            station: 0.0,
-            best: 0.0,
-            idle: 0.0,
-            tries: 0,
-            backing: 0.0,
-            closed,
-        })
-    }
-
-    fn by_road(
-        scene: &dyn Scene,
-        network: &RoadNetwork,
-        own: &Own<'_>,
-        from: &OnLane,
-        to: &OnLane,
-        closed: &[LaneId],
-    ) -> Option<Way> {
-        let size = (own.half_length * 2.0, own.half_width * 2.0);
-        let berth = kerb::berth(scene, network, own.ids, to, size);
-        // From beside the lane one joins it some way ahead.
-        let join = if from.distance > 0.5 { 6.0 + 2.0 * from.distance } else { 0.0 };
-        let length = crate::lanes::lane(network, from.lane).length;
-        let entry = OnLane { station: (from.station + join).min(length), ..*from };
-        let found = way(network, &entry, &berth.on, closed, own.at);
-        let mut found = found.or_else(|| way(network, &entry, &berth.on, &[], own.at))?;
-        pull_in(&mut found.path, berth.aside);
-        Some(found)
-    }
-
     /// Finds oneself on the path; how far beside it one is, m.
     fn locate(&mut self, at: Point2) -> f64 {
         let from = (self.station - 3.0).max(0.0);
@@ -265,10 +234,10 @@ impl Driving {
     }
 
     /// Goes back a little, straight, if nobody is behind.
-    fn back(&mut self, scene: &dyn Scene, own: &Own<'_>, dt: f64, out: &mut Vec<Action>) -> Arrival {
+    fn back(&mut self, own: &Own<'_>, around: &[Seen], dt: f64, out: &mut Vec<Action>) {
         const BACKWARDS: f64 = 0.3;
         self.backing -= (-own.speed * dt).max(0.01);
-        if self.backing <= 0.0 || pass::somebody_behind(scene, own, &self.path, self.station) {
+        if self.backing <= 0.0 || pass::somebody_behind(own, around) {
             self.backing = 0.0;
             self.station = (self.station - 6.0).max(0.0);
             self.locate(own.at);
@@ -278,40 +247,5 @@ impl Driving {
             let level = if own.speed < -1.5 { 0.0 } else { -BACKWARDS };
             out.extend([Action::Throttle { level }, Action::Steer { angle: 0.0 }]);
         }
-        Arrival::Underway
     }
-}
-
-/// Where and behind what nothing goes on.
-fn stuck(scene: &dyn Scene, own: &Own<'_>, by: Option<EntityId>) -> String {
-    let place = format!("stuck at ({:.1}, {:.1})", own.at.x, own.at.y);
-    match by.and_then(|id| scene.entity(id)) {
-        Some(other) => format!("{place} behind {} {}", other.label(), other.id),
-        None => place,
-    }
-}
-
-/// Bends the end of a path to the right, by so much, m.
-fn pull_in(path: &mut Vec<Point2>, aside: f64) {
-    const POINTS: u32 = 16;
-    if aside <= 0.0 {
-        return;
-    }
-    let length = polyline::length(path);
-    let begin = (length - PULL_IN).max(0.0);
-    let mut bent = polyline::slice(path, 0.0, begin);
-    for step in 1..=POINTS {
-        let share = f64::from(step) / f64::from(POINTS);
-        let (point, heading) = polyline::at(path, begin + (length - begin) * share);
-        let ahead = direction(heading);
-        // One is at the kerb after two thirds of the way, and straightens up on the last.
-        let eased = smooth((share * 1.5).min(1.0));
-        bent.push(point + Vector2::new(ahead.y, -ahead.x) * (aside * eased));
-    }
-    *path = bent;
-}
-
-/// From 0 to 1 without corners.
-fn smooth(share: f64) -> f64 {
-    share * share * (3.0 - 2.0 * share)
 }

@@ -1,13 +1,15 @@
-//! Past what stands in the way: on the left where there is room and nobody comes, else by other roads.
+//! Past what stands in the way: beside it where there is room and nobody comes, else by other roads.
 
-use std::ops::ControlFlow;
-
-use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
-use simworld_core::net::polyline;
+use simworld_core::geometry::{Point2, Vector2, direction};
+use simworld_core::id::LaneId;
+use simworld_core::net::{Aspect, RoadNetwork, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
-use super::watch::{Obstacle, Own};
-use super::{Driving, smooth};
+use super::Driving;
+use super::around::{STANDING, Seen};
+use super::plan::{Wish, smooth};
+use super::turn_round::Turning;
+use super::watch::{BRAKING, Obstacle, Own};
 use crate::lanes::{beside, lane_at};
 
 /// Room to the side of what one passes, m.
@@ -16,18 +18,48 @@ const BESIDE: f64 = 0.7;
 const MOST_ASIDE: f64 = 4.5;
 /// Length over which one goes out to the left and back again, m.
 const RAMP: f64 = 8.0;
-/// Those who come towards one have to be farther away than this, m.
-const ONCOMING: f64 = 60.0;
+/// The speed at which one passes, m/s, and the time that is left when one is back, s.
+const PASSES_AT: f64 = 4.0;
+const SPARE: f64 = 2.0;
 /// How far one backs to have room to pull out, m.
 const BACK: f64 = 5.0;
+/// Who stands so near to a line, or behind another, waits himself, m.
+const AT_LINE: f64 = 25.0;
+const BEHIND: f64 = 8.0;
+/// A light holds up a queue of this length, m.
+const AT_LIGHT: f64 = 80.0;
 
 impl Driving {
-    /// Tries something: backs for room, bends the path round it, or takes other roads; if nothing helps, waits on.
+    /// Whether what stands ahead waits for a light.
+    pub(super) fn waits_at_light(&self, scene: &dyn Scene, obstacle: &Obstacle) -> bool {
+        let Some(network) = scene.roads() else { return false };
+        let line = self.lines.iter().find(|line| line.station > obstacle.begin);
+        let signal = line.and_then(|line| {
+            let near = line.station - obstacle.begin < AT_LIGHT;
+            network.connections[line.turn.index()].signal.filter(|_| near)
+        });
+        signal.is_some_and(|group| scene.signals().get(group.index()) != Some(&Aspect::Green))
+    }
+
+    /// Whether what stands ahead waits for a junction, or behind somebody who does.
+    pub(super) fn is_queue(&self, obstacle: &Obstacle, around: &[Seen]) -> bool {
+        let line = self.lines.iter().find(|line| line.station > obstacle.begin);
+        let beyond = polyline::slice(&self.path, obstacle.end + 0.5, obstacle.end + BEHIND);
+        let others = around.iter().filter(|other| other.id != obstacle.id && other.kind.is_vehicle());
+        line.is_some_and(|line| line.station - obstacle.end < AT_LINE)
+            || others.clone().any(|other| {
+                let near = polyline::closest(&beyond, &other.at);
+                near.is_some_and(|near| near.distance < other.half_length.max(1.5))
+            })
+    }
+
+    /// Tries something: bends the path round it, backing for room before, or takes other roads; if nothing helps, waits on.
     pub(super) fn get_past(
         &mut self,
         scene: &dyn Scene,
         vehicle: &EntityRef<'_>,
         own: &Own<'_>,
+        around: &[Seen],
         obstacle: &Obstacle,
     ) {
         if !obstacle.stands {
@@ -36,23 +68,46 @@ impl Driving {
         let aside = obstacle.left + own.half_width + BESIDE;
         let room = obstacle.begin - own.half_length - self.station;
         let (begin, end) = (obstacle.begin - own.half_length - RAMP, obstacle.end + own.half_length + RAMP);
-        if aside <= MOST_ASIDE && self.is_clear(scene, own, begin, end, aside) {
-            if room < RAMP * 0.75 && !somebody_behind(scene, own, &self.path, self.station) {
+        // Beyond a line there may be a junction.
+        let is_street = self.lines.iter().all(|line| line.station > end + 5.0 || line.station < self.station);
+        let is_passable = is_street && !self.is_queue(obstacle, around) && aside <= MOST_ASIDE;
+        if is_passable && self.is_clear(own, around, begin, end, aside) {
+            if room < RAMP * 0.75 && !somebody_behind(own, around) {
                 self.backing = BACK;
             }
             self.bend(begin.max(self.station - BACK), end, aside);
-        } else if self.tries.is_multiple_of(2)
-            && let Some(network) = scene.roads()
-        {
-            let (point, heading) = polyline::at(&self.path, obstacle.begin);
-            let blocked = lane_at(network, point, Some(heading))
-                .and_then(|on| beside(network, on.lane).first().copied());
-            let mut closed = self.closed.clone();
-            closed.extend(blocked);
-            if let Ok(found) = Self::new(scene, vehicle, own, self.goal, closed) {
-                *self = Self { tries: self.tries, ..found };
-            }
+        } else if let Some(network) = scene.roads().filter(|_| !is_passable || self.tries.is_multiple_of(4)) {
+            self.drive_round(scene, network, vehicle, own, obstacle);
         }
+    }
+
+    /// Takes other roads; from the street itself one turns back.
+    fn drive_round(
+        &mut self,
+        scene: &dyn Scene,
+        network: &RoadNetwork,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+        obstacle: &Obstacle,
+    ) {
+        let (point, heading) = polyline::at(&self.path, obstacle.begin);
+        let leg = |at: Point2, heading: f64| -> Option<LaneId> {
+            beside(network, lane_at(network, at, Some(heading))?.lane).first().copied()
+        };
+        let Some(blocked) = leg(point, heading) else { return };
+        let mut closed = self.closed.clone();
+        closed.push(blocked);
+        let here = polyline::at(&self.path, self.station);
+        if leg(here.0, here.1) == Some(blocked) {
+            // There is no other way on; perhaps there is one back.
+            self.turning = Turning::begin(network, own, blocked);
+            if self.turning.is_some() {
+                self.closed = closed;
+            }
+            return;
+        }
+        let wish = Wish { closed, ..Wish::to(self.goal) };
+        let _ = self.renew(scene, vehicle, own, wish);
     }
 
     /// Moves the path to the left between two stations.
@@ -72,44 +127,51 @@ impl Driving {
         bent.extend(polyline::slice(&self.path, end, length).into_iter().skip(1));
         // What lies beyond is as much farther away as the way round is longer.
         let longer = polyline::length(&bent) - length;
-        for line in self.lines.iter_mut().filter(|line| line.station >= end) {
-            line.station += longer;
-        }
-        for (limit, _) in self.limits.iter_mut().filter(|(limit, _)| *limit >= end) {
-            *limit += longer;
+        let later = |station: &mut f64| *station += if *station >= end { longer } else { 0.0 };
+        self.lines.iter_mut().for_each(|line| later(&mut line.station));
+        self.limits.iter_mut().for_each(|(limit, _)| later(limit));
+        for change in &mut self.changes {
+            later(&mut change.begin);
+            later(&mut change.end);
+            later(&mut change.latest);
         }
         self.path = bent;
     }
 
-    /// Whether the way round is free of things, and nobody comes towards one on it.
-    fn is_clear(&self, scene: &dyn Scene, own: &Own<'_>, begin: f64, end: f64, aside: f64) -> bool {
-        let middle: Vec<Point2> = polyline::slice(&self.path, begin, end + ONCOMING);
-        let (corridor, beyond) = (
-            polyline::offset(&polyline::slice(&self.path, begin, end), aside),
-            polyline::offset(&middle, aside),
-        );
-        let mut clear = true;
-        let reach = polyline::length(&middle);
-        let _ = scene.visit(&Aabb::column_around(own.at, reach), &mut |other| {
-            if own.ids.contains(&other.id) || other.attachment.is_some() || !other.is_solid() {
-                return ControlFlow::Continue(());
-            }
-            let corners = other.obb().footprint();
-            let in_way = corners.iter().any(|corner| {
+    /// Whether the way round is free of things, nobody comes towards one before one is back, and nobody from behind.
+    fn is_clear(&self, own: &Own<'_>, around: &[Seen], begin: f64, end: f64, aside: f64) -> bool {
+        let corridor = polyline::offset(&polyline::slice(&self.path, begin, end), aside);
+        let time = (end - self.station.min(begin)) / PASSES_AT + SPARE;
+        around.iter().all(|other| {
+            let in_way = other.corners.iter().any(|corner| {
                 let near = polyline::closest(&corridor, corner);
                 near.is_some_and(|near| near.distance < own.half_width + BESIDE * 0.5)
             });
-            let towards = other.kind.is_vehicle() && other.twist.ground_speed() > 0.5 && {
-                let near = polyline::closest(&beyond, &other.planar());
-                near.is_some_and(|near| {
-                    let along = direction(polyline::at(&beyond, near.station).1);
-                    near.distance < 2.0 && along.dot(&direction(yaw_of(other.pose))) < 0.0
-                })
-            };
-            clear = !in_way && !towards;
-            if clear { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        });
-        clear
+            !in_way && !self.comes(other, (begin, end), aside, time)
+        })
+    }
+
+    /// Whether a vehicle drives into the way round meanwhile, towards one or from behind.
+    fn comes(&self, other: &Seen, (begin, end): (f64, f64), aside: f64, time: f64) -> bool {
+        if !other.kind.is_vehicle() || other.stands() {
+            return false;
+        }
+        let speed = other.speed().max(5.0); // it may accelerate
+        let reach = speed * time + other.half_length;
+        let around = polyline::slice(&self.path, begin - reach, end + reach);
+        let lane = polyline::offset(&around, aside);
+        let Some(near) = polyline::closest(&lane, &other.at).filter(|near| near.distance < 2.0) else {
+            return false;
+        };
+        let along = direction(polyline::at(&lane, near.station).1).dot(&other.velocity);
+        let first = (begin - reach).max(0.0);
+        let station = first + near.station;
+        if along < -STANDING {
+            station > begin && station - speed * time < end
+        } else {
+            let braking = other.speed() * other.speed() / (2.0 * BRAKING);
+            station < end && station + other.half_length + braking > begin
+        }
     }
 }
 
@@ -118,20 +180,14 @@ fn left_of(heading: f64) -> Vector2 {
     Vector2::new(-ahead.y, ahead.x)
 }
 
-/// Whether anything stands in the few metres behind a vehicle on its path.
-pub(super) fn somebody_behind(scene: &dyn Scene, own: &Own<'_>, path: &[Point2], station: f64) -> bool {
-    let ahead = direction(polyline::at(path, station).1);
+/// Whether anything stands in the few metres behind a vehicle.
+pub(super) fn somebody_behind(own: &Own<'_>, around: &[Seen]) -> bool {
     let reach = own.half_length + 2.0;
-    let mut found = false;
-    let _ = scene.visit(&Aabb::column_around(own.at, reach), &mut |other| {
-        let is_other = !own.ids.contains(&other.id) && other.attachment.is_none() && other.is_solid();
-        found = is_other
-            && other.obb().footprint().iter().any(|corner| {
-                let offset = corner - own.at;
-                let (along, across) = (offset.dot(&ahead), ahead.perp(&offset));
-                (-reach..0.0).contains(&along) && across.abs() < own.half_width + 0.2
-            });
-        if found { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
-    found
+    around.iter().any(|other| {
+        other.corners.iter().chain([&other.at]).any(|corner| {
+            let offset = corner - own.at;
+            let (along, across) = (offset.dot(&own.ahead), own.ahead.perp(&offset));
+            (-reach..0.0).contains(&along) && across.abs() < own.half_width + 0.2
+        })
+    })
 }

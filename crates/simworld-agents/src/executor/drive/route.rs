@@ -7,11 +7,14 @@ use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{RoadNetwork, polyline};
 
-use super::Line;
+use super::change::{Change, LEAST};
+use super::junction::Line;
 use crate::lanes::{OnLane, beside, lane};
 
 /// Length over which one goes from a lane to the next, m.
 const CHANGE: f64 = 25.0;
+/// From a junction one goes on so far in the lane that one came in on, m.
+const SETTLES: f64 = 12.0;
 
 /// A path along lanes with what holds on it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +23,36 @@ pub(super) struct Way {
     pub(super) lines: Vec<Line>,
     /// Up to which station which speed is allowed, m and m/s, ascending.
     pub(super) limits: Vec<(f64, f64)>,
+    /// From lane to lane.
+    pub(super) changes: Vec<Change>,
+}
+
+/// Where a way begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct From<'a> {
+    pub(super) on: &'a OnLane,
+    /// The first point of the path.
+    pub(super) at: Point2,
+    /// No change of lanes is begun before so many metres.
+    pub(super) hold: f64,
+    /// The lanes by whose ends the first leg may be left: all, or the one where one is.
+    pub(super) lanes: Lanes,
+}
+
+/// Which lanes of a leg may be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lanes {
+    All,
+    Own,
+}
+
+impl From<'_> {
+    fn exits(&self, network: &RoadNetwork) -> Vec<LaneId> {
+        match self.lanes {
+            Lanes::All => beside(network, self.on.lane),
+            Lanes::Own => vec![self.on.lane],
+        }
+    }
 }
 
 /// The lane that stands for all lanes of its road that go the same way: the first of them.
@@ -27,26 +60,29 @@ fn leg(network: &RoadNetwork, id: LaneId) -> LaneId {
     beside(network, id).first().copied().unwrap_or(id)
 }
 
-/// The way from a point, by a place on a lane, to another; roads whose leg is in `closed` are left out unless one stands on them. `None` if no
+/// The way from a place on a lane to another; roads whose leg is in `closed` are left out unless one stands on them. `None` if no
 /// lanes lead there.
-pub(super) fn way(
-    network: &RoadNetwork,
-    from: &OnLane,
-    to: &OnLane,
-    closed: &[LaneId],
-    start: Point2,
-) -> Option<Way> {
-    let (first, last) = (leg(network, from.lane), leg(network, to.lane));
-    if first == last && to.station > from.station + CHANGE.min(1.0) {
-        return Some(assemble(network, from, to, &[], start));
+pub(super) fn way(network: &RoadNetwork, from: &From<'_>, to: &OnLane, closed: &[LaneId]) -> Option<Way> {
+    let (first, last) = (leg(network, from.on.lane), leg(network, to.lane));
+    let is_ahead = to.station > from.on.station + from.hold + 1.0;
+    let changes = from.on.lane != to.lane;
+    let has_room = !changes || to.station > from.on.station + from.hold + LEAST;
+    if first == last && is_ahead && has_room && (from.lanes == Lanes::All || !changes) {
+        return Some(assemble(network, from, to, &[]));
     }
-    let turns = legs(network, first, last, closed)?;
-    Some(assemble(network, from, to, &turns, start))
+    let turns = legs(network, from, last, closed)?;
+    Some(assemble(network, from, to, &turns))
 }
 
 /// The connections from leg to leg on the shortest way, by Dijkstra; of equal lengths the lower lane goes first. The first
 /// leg is left at its end even if it is the last as well.
-fn legs(network: &RoadNetwork, first: LaneId, last: LaneId, closed: &[LaneId]) -> Option<Vec<ConnectionId>> {
+fn legs(
+    network: &RoadNetwork,
+    from: &From<'_>,
+    last: LaneId,
+    closed: &[LaneId],
+) -> Option<Vec<ConnectionId>> {
+    let first = leg(network, from.on.lane);
     let mut before: BTreeMap<LaneId, (ConnectionId, LaneId)> = BTreeMap::new();
     let mut open = BinaryHeap::new();
     // Lengths in millimetres, which are ordered.
@@ -59,7 +95,7 @@ fn legs(network: &RoadNetwork, first: LaneId, last: LaneId, closed: &[LaneId]) -
         if !is_start && least.get(&at).is_some_and(|least| length > *least) {
             continue;
         }
-        for own in beside(network, at) {
+        for own in if is_start { from.exits(network) } else { beside(network, at) } {
             for id in &lane(network, own).outgoing {
                 let way = &network.connections[id.index()];
                 let next = leg(network, way.to);
@@ -95,65 +131,111 @@ fn trace(
     turns
 }
 
-/// The connection of the same turn that ends nearest to a wanted lane.
-fn towards(network: &RoadNetwork, turn: ConnectionId, wanted: LaneId) -> ConnectionId {
+/// Of the ways of the same turn the one that asks for the fewest changes of lanes, on the leg behind it and on that before.
+fn towards(
+    network: &RoadNetwork,
+    turn: ConnectionId,
+    wanted: LaneId,
+    from: Option<&From<'_>>,
+) -> ConnectionId {
     let chosen = &network.connections[turn.index()];
-    let lanes = beside(network, wanted);
-    let rank = |id: LaneId| lanes.iter().position(|lane| *lane == id).unwrap_or(lanes.len()) as i64;
-    let ways = beside(network, chosen.from).into_iter().flat_map(|from| lane(network, from).outgoing.clone());
+    let rank = |id: LaneId| {
+        let lanes = beside(network, id);
+        lanes.iter().position(|lane| *lane == id).unwrap_or(lanes.len()) as i64
+    };
+    let lanes = from.map_or_else(|| beside(network, chosen.from), |from| from.exits(network));
+    let ways = lanes.into_iter().flat_map(|from| lane(network, from).outgoing.clone());
     let same = ways.filter(|id| {
         let way = &network.connections[id.index()];
         leg(network, way.to) == leg(network, chosen.to) && lane(network, way.to).is_driven()
     });
-    same.min_by_key(|id| ((rank(network.connections[id.index()].to) - rank(wanted)).abs(), *id))
-        .unwrap_or(turn)
+    let changes = |id: &ConnectionId| {
+        let way = &network.connections[id.index()];
+        let own = from.map_or(0, |from| (rank(way.from) - rank(from.on.lane)).abs());
+        ((rank(way.to) - rank(wanted)).abs() + own, *id)
+    };
+    same.min_by_key(changes).unwrap_or(turn)
 }
 
 /// The path over these turns: on every leg from the lane that one comes in on to the one that one leaves by.
-fn assemble(network: &RoadNetwork, from: &OnLane, to: &OnLane, turns: &[ConnectionId], start: Point2) -> Way {
+fn assemble(network: &RoadNetwork, from: &From<'_>, to: &OnLane, turns: &[ConnectionId]) -> Way {
     let mut wanted = to.lane;
     let mut chosen: Vec<ConnectionId> = Vec::with_capacity(turns.len());
-    for turn in turns.iter().rev() {
-        let turn = towards(network, *turn, wanted);
+    for (index, turn) in turns.iter().enumerate().rev() {
+        let turn = towards(network, *turn, wanted, (index == 0).then_some(from));
         wanted = network.connections[turn.index()].from;
         chosen.push(turn);
     }
     chosen.reverse();
-    let mut way = Way { path: vec![start], ..Way::default() };
-    let (mut at, mut station) = (from.lane, from.station);
+    let mut way = Way { path: vec![from.at], ..Way::default() };
+    let (mut at, mut station, mut hold) = (from.on.lane, from.on.station, from.hold);
     for turn in chosen {
         let connection = &network.connections[turn.index()];
-        along(network, &mut way, at, station, connection.from, None);
-        let end = polyline::length(&way.path);
-        way.lines.push(Line { station: end, turn, waited: 0.0 });
+        let stretch = Stretch { from: at, station, to: connection.from, until: f64::INFINITY, hold };
+        stretch.drive(network, &mut way);
+        way.lines.push(Line::new(polyline::length(&way.path), turn));
         way.path.extend(connection.path.iter().skip(1));
         // Through the junction one goes as the slower of the two roads allows; its bends slow down further.
         let limit = lane(network, at).speed_limit.min(lane(network, connection.to).speed_limit);
         way.limits.push((polyline::length(&way.path), limit));
-        (at, station) = (connection.to, 0.0);
+        (at, station, hold) = (connection.to, 0.0, SETTLES);
     }
-    along(network, &mut way, at, station, to.lane, Some(to.station));
+    Stretch { from: at, station, to: to.lane, until: to.station, hold }.drive(network, &mut way);
     way
 }
 
-/// Along a leg from a lane at a station to another of its lanes, up to a station or the end, changing lanes at even
-/// distances.
-fn along(network: &RoadNetwork, way: &mut Way, from: LaneId, station: f64, to: LaneId, until: Option<f64>) {
-    let lanes = beside(network, from);
-    let place = |id: LaneId| lanes.iter().position(|lane| *lane == id);
-    let end = until.unwrap_or(f64::INFINITY).min(lane(network, to).length).max(station);
-    let passed: Vec<LaneId> = match (place(from), place(to)) {
-        (Some(a), Some(b)) if a <= b => lanes[a..=b].to_vec(),
-        (Some(a), Some(b)) => lanes[b..=a].iter().rev().copied().collect(),
-        _ => vec![to],
-    };
-    let share = (end - station) / passed.len() as f64;
-    for (index, id) in passed.iter().enumerate() {
-        let half = CHANGE.min(share) * 0.5;
-        let begin = station + share * index as f64 + if index > 0 { half } else { 0.0 };
-        let stop = station + share * (index + 1) as f64 - if index + 1 < passed.len() { half } else { 0.0 };
-        way.path.extend(polyline::slice(&lane(network, *id).path, begin, stop));
+/// A part of a leg: from a lane at a station to another of its lanes, up to a station or the end.
+struct Stretch {
+    from: LaneId,
+    station: f64,
+    to: LaneId,
+    until: f64,
+    hold: f64,
+}
+
+impl Stretch {
+    /// Lengthens a way by it, with the changes of lanes as early as they can be.
+    fn drive(&self, network: &RoadNetwork, way: &mut Way) {
+        let Self { from, station, to, until, hold } = *self;
+        let lanes = beside(network, from);
+        let place = |id: LaneId| lanes.iter().position(|lane| *lane == id);
+        let end = until.min(lane(network, to).length).max(station);
+        let passed: Vec<LaneId> = match (place(from), place(to)) {
+            (Some(a), Some(b)) if a <= b => lanes[a..=b].to_vec(),
+            (Some(a), Some(b)) => lanes[b..=a].iter().rev().copied().collect(),
+            _ => vec![to],
+        };
+        let count = (passed.len() - 1) as f64;
+        // Where there is no room for all of it the changes share what there is.
+        let hold = hold.min((end - station - count * LEAST).max(0.0));
+        let share = (end - station - hold) / count.max(1.0);
+        let mut at = station;
+        for (index, pair) in passed.windows(2).enumerate() {
+            let begin = station + hold + share.min(CHANGE + 4.0) * index as f64;
+            way.path.extend(polyline::slice(&lane(network, pair[0]).path, at, begin));
+            tidy(&mut way.path);
+            let so_far = polyline::length(&way.path);
+            at = begin + CHANGE.min(share * 0.9);
+            way.path.extend(polyline::slice(&lane(network, pair[1]).path, at, at + 0.5));
+            let last = end - (count - index as f64) * LEAST;
+            way.changes.push(Change {
+                begin: so_far,
+                end: polyline::length(&way.path),
+                latest: so_far + (last - begin).max(0.0),
+                from: pair[0],
+                to: pair[1],
+                is_begun: false,
+                waited: 0.0,
+            });
+        }
+        let last = passed.last().copied().unwrap_or(to);
+        way.path.extend(polyline::slice(&lane(network, last).path, at, end));
+        tidy(&mut way.path);
+        way.limits.push((polyline::length(&way.path), lane(network, from).speed_limit));
     }
-    way.path.dedup_by(|a, b| (*a - *b).norm() < 1e-6);
-    way.limits.push((polyline::length(&way.path), lane(network, from).speed_limit));
+}
+
+/// Takes out points that lie on others.
+fn tidy(path: &mut Vec<Point2>) {
+    path.dedup_by(|a, b| (*a - *b).norm() < 1e-6);
 }

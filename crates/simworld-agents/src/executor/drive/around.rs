@@ -1,0 +1,79 @@
+//! Who and what is around a driver: looked for once in a step.
+
+use std::ops::ControlFlow;
+
+use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
+use simworld_core::id::EntityId;
+use simworld_core::net::polyline;
+use simworld_core::scene::{EntityKind, EntityRef, Scene};
+
+use super::watch::Own;
+
+/// Slower than this counts as standing, m/s.
+pub(super) const STANDING: f64 = 0.3;
+
+/// Somebody or something solid near by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen {
+    pub(super) id: EntityId,
+    pub(super) kind: EntityKind,
+    pub(super) at: Point2,
+    /// Where its front is, of length one.
+    pub(super) ahead: Vector2,
+    /// m/s.
+    pub(super) velocity: Vector2,
+    pub(super) half_length: f64,
+    pub(super) corners: [Point2; 4],
+}
+
+impl Seen {
+    fn new(entity: &EntityRef<'_>) -> Self {
+        Self {
+            id: entity.id,
+            kind: entity.kind,
+            at: entity.planar(),
+            ahead: direction(yaw_of(entity.pose)),
+            velocity: entity.twist.linear.xy(),
+            half_length: entity.info.shape.size().x * 0.5,
+            corners: entity.obb().footprint(),
+        }
+    }
+
+    /// Over ground, m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.velocity.norm()
+    }
+
+    pub(super) fn stands(&self) -> bool {
+        self.speed() <= STANDING
+    }
+
+    pub(super) fn walks(&self) -> bool {
+        matches!(self.kind, EntityKind::Person | EntityKind::Dog | EntityKind::Robot)
+    }
+
+    /// Where its middle is along a path that it goes along, or stands along: the station, m; `None` if it is not on it.
+    pub(super) fn along(&self, path: &[Point2], beside: f64) -> Option<f64> {
+        let near = polyline::closest(path, &self.at).filter(|near| near.distance < beside)?;
+        let way = direction(polyline::at(path, near.station).1);
+        (way.dot(&self.ahead) > 0.5).then_some(near.station)
+    }
+}
+
+/// All who move within some metres, and what stands there; houses and what is carried are left out.
+pub(super) fn look(scene: &dyn Scene, own: &Own<'_>, near: f64, far: f64) -> Vec<Seen> {
+    let mut seen = Vec::new();
+    let _ = scene.visit(&Aabb::column_around(own.at, far), &mut |other| {
+        // Streets lead past houses; the box around one that is no box reaches where its walls do not.
+        let counts =
+            other.kind.is_solid() && other.kind != EntityKind::Building && other.attachment.is_none();
+        if counts && !own.ids.contains(&other.id) {
+            let reach = if other.kind.is_mobile() { far } else { near };
+            if (other.planar() - own.at).norm() <= reach {
+                seen.push(Seen::new(&other));
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    seen
+}

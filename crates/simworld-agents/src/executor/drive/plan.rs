@@ -1,0 +1,171 @@
+//! The way to the kerb near a goal, found at the start and anew when it turns out otherwise.
+
+use simworld_core::control::Driver;
+use simworld_core::geometry::{Point2, Vector2, direction, yaw_of};
+use simworld_core::id::LaneId;
+use simworld_core::net::{RoadNetwork, polyline};
+use simworld_core::scene::{EntityRef, Scene};
+
+use super::change::Change;
+use super::route::{From, Lanes, Way, way};
+use super::watch::Own;
+use super::{CannotArrive, Driving, kerb};
+use crate::lanes::{OnLane, lane, lane_at, nearest_lane};
+
+/// Length over which one pulls in to the kerb, m.
+const PULL_IN: f64 = 16.0;
+/// Lanes farther away than this are no part of the way, m: one drives over open ground.
+const OFF_ROAD: f64 = 60.0;
+/// Who is so far beside a lane looks into the mirror before joining it, m.
+const BESIDE: f64 = 1.2;
+
+/// What a way is to be.
+#[derive(Clone, Debug)]
+pub(super) struct Wish {
+    pub(super) goal: Point2,
+    /// Legs that are left out, by their first lanes.
+    pub(super) closed: Vec<LaneId>,
+    /// By which lanes the first leg may be left.
+    pub(super) lanes: Lanes,
+    /// The lane where one is, if one knows, and how far one stays in it, m.
+    pub(super) on: Option<(LaneId, f64)>,
+}
+
+impl Wish {
+    pub(super) fn to(goal: Point2) -> Self {
+        Self { goal, closed: Vec::new(), lanes: Lanes::All, on: None }
+    }
+}
+
+impl Driving {
+    /// The way from where a vehicle stands to the kerb near a goal.
+    pub(super) fn new(
+        scene: &dyn Scene,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+        wish: Wish,
+    ) -> Result<Self, CannotArrive> {
+        let Wish { goal, .. } = wish;
+        let on_roads = scene.roads().and_then(|network| {
+            let from = start(network, vehicle, own, &wish)?;
+            let to = nearest_lane(network, goal, None)?;
+            (from.distance.min(to.distance) <= OFF_ROAD).then_some((network, from, to))
+        });
+        let found = match on_roads {
+            Some((network, from, to)) => by_road(scene, network, own, (&from, &to), &wish)
+                .ok_or(CannotArrive::NoWay { from: own.at, to: goal })?,
+            None => Way { path: vec![own.at, goal], ..Way::default() },
+        };
+        // Axles stand 0.58 of the length apart: a sedan's 2.6 of 4.5 m, a bus's 7 of 12 m.
+        let mut driver = Driver::default();
+        driver.wheelbase = own.half_length * 2.0 * 0.58;
+        Ok(Self {
+            goal,
+            path: found.path,
+            lines: found.lines,
+            limits: found.limits,
+            changes: found.changes,
+            driver,
+            station: 0.0,
+            best: 0.0,
+            idle: 0.0,
+            tries: 0,
+            stuck_at: 0.0,
+            backing: 0.0,
+            turning: None,
+            closed: wish.closed,
+        })
+    }
+
+    /// Goes on by another way to the same goal; what one has stood and tried is not forgotten.
+    pub(super) fn renew(
+        &mut self,
+        scene: &dyn Scene,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+        wish: Wish,
+    ) -> Result<(), CannotArrive> {
+        let mut found = Self::new(scene, vehicle, own, wish)?;
+        (found.driver, found.tries, found.idle) = (self.driver, self.tries, self.idle);
+        for line in &mut found.lines {
+            if let Some(known) = self.lines.iter().find(|known| known.turn == line.turn) {
+                line.waited = known.waited;
+            }
+        }
+        if let (Some(change), Some(known)) = (found.changes.first_mut(), self.changes.first())
+            && change.to == known.to
+        {
+            change.waited = known.waited;
+        }
+        *self = found;
+        Ok(())
+    }
+}
+
+/// The lane where one is.
+fn start(network: &RoadNetwork, vehicle: &EntityRef<'_>, own: &Own<'_>, wish: &Wish) -> Option<OnLane> {
+    if let Some((id, _)) = wish.on {
+        let near = polyline::closest(&lane(network, id).path, &own.at)?;
+        return Some(OnLane { lane: id, station: near.station, distance: near.distance });
+    }
+    let heading = yaw_of(vehicle.pose);
+    lane_at(network, own.at, Some(heading)).or_else(|| nearest_lane(network, own.at, None))
+}
+
+fn by_road(
+    scene: &dyn Scene,
+    network: &RoadNetwork,
+    own: &Own<'_>,
+    (from, to): (&OnLane, &OnLane),
+    wish: &Wish,
+) -> Option<Way> {
+    let size = (own.half_length * 2.0, own.half_width * 2.0);
+    let berth = kerb::berth(scene, network, own.ids, to, size);
+    // From beside the lane one joins it some way ahead.
+    let join = if from.distance > 0.5 { 6.0 + 2.0 * from.distance } else { 0.0 };
+    let length = lane(network, from.lane).length;
+    let entry = OnLane { station: (from.station + join).min(length), ..*from };
+    let hold = wish.on.map_or(2.0, |(_, hold)| hold);
+    let begin = From { on: &entry, at: own.at, hold, lanes: wish.lanes };
+    let mut found =
+        way(network, &begin, &berth.on, &wish.closed).or_else(|| way(network, &begin, &berth.on, &[]))?;
+    if from.distance > BESIDE {
+        let mirror = Change {
+            begin: 0.0,
+            end: join,
+            latest: 0.0,
+            from: from.lane,
+            to: from.lane,
+            is_begun: false,
+            waited: 0.0,
+        };
+        found.changes.insert(0, mirror);
+    }
+    pull_in(&mut found.path, berth.aside);
+    Some(found)
+}
+
+/// Bends the end of a path to the right, by so much, m.
+fn pull_in(path: &mut Vec<Point2>, aside: f64) {
+    const POINTS: u32 = 16;
+    if aside <= 0.0 {
+        return;
+    }
+    let length = polyline::length(path);
+    let begin = (length - PULL_IN).max(0.0);
+    let mut bent = polyline::slice(path, 0.0, begin);
+    for step in 1..=POINTS {
+        let share = f64::from(step) / f64::from(POINTS);
+        let (point, heading) = polyline::at(path, begin + (length - begin) * share);
+        let ahead = direction(heading);
+        // One is at the kerb after two thirds of the way, and straightens up on the last.
+        let eased = smooth((share * 1.5).min(1.0));
+        bent.push(point + Vector2::new(ahead.y, -ahead.x) * (aside * eased));
+    }
+    *path = bent;
+}
+
+/// From 0 to 1 without corners.
+pub(super) fn smooth(share: f64) -> f64 {
+    share * share * (3.0 - 2.0 * share)
+}

@@ -1,0 +1,193 @@
+//! Turning in the street: forwards to the far kerb, back to the near one, until one looks the other way.
+
+use serde::{Deserialize, Serialize};
+use simworld_core::action::Action;
+use simworld_core::geometry::{Point2, Vector2, direction};
+use simworld_core::id::{LaneId, RoadId};
+use simworld_core::net::{DrivingSide, LaneKind, RoadNetwork, polyline};
+use simworld_core::scene::{EntityRef, Scene};
+
+use super::around::Seen;
+use super::plan::Wish;
+use super::watch::Own;
+use super::{CannotArrive, Driving};
+use crate::lanes::{lane, lane_at};
+
+/// Front wheels as far as they go, radians; the body stops them where its own end.
+const LOCK: f64 = 0.6;
+/// As fast as one turns, m/s.
+const WALK: f64 = 1.5;
+/// Room kept to the kerbs and to others, m.
+const TO_KERB: f64 = 0.4;
+const TO_OTHERS: f64 = 1.0;
+/// Within so much of the way back one drives on as ever, radians; the cosine of 25°.
+const TURNED: f64 = 0.906;
+/// One backs no farther than this at a time, m.
+const MOST_BACK: f64 = 6.0;
+/// So long does nobody take to turn, s: one begins if nobody comes before.
+const TAKES: f64 = 10.0;
+/// After so long without a gap one begins all the same, when nobody comes within half the time, s.
+const IMPATIENT: f64 = 60.0;
+/// One who has not come round in so long does not, s.
+const FAILED: f64 = 120.0;
+
+/// The gear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Gear {
+    /// Waiting for a gap.
+    Waits,
+    Forwards,
+    Backwards,
+}
+
+/// Turning in the street.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Turning {
+    road: RoadId,
+    /// The lane that leads back.
+    back: LaneId,
+    gear: Gear,
+    /// How long it has taken, s, and how far one has gone in this gear, m.
+    spent: f64,
+    gone: f64,
+    /// Where the wheels point forwards: 1 is left.
+    side: f64,
+}
+
+impl Turning {
+    /// In the street of a lane, if it has one that leads back and nothing between; `None` if one cannot turn there.
+    pub(super) fn begin(network: &RoadNetwork, own: &Own<'_>, on: LaneId) -> Option<Self> {
+        let id = lane(network, on).road;
+        let road = &network.roads[id.index()];
+        let others = if road.forward.contains(&on) { &road.backward } else { &road.forward };
+        let back = others.iter().copied().find(|other| lane(network, *other).is_driven())?;
+        let parted = road.strips.iter().any(|strip| strip.kind == LaneKind::Median);
+        let length = polyline::length(&road.centerline);
+        let station = polyline::closest(&road.centerline, &own.at)?.station;
+        // Not in a junction.
+        let is_clear = station > 8.0 + own.half_length && station < length - 8.0 - own.half_length;
+        let side = if network.driving_side == DrivingSide::Right { 1.0 } else { -1.0 };
+        (!parted && !road.roundabout && is_clear).then_some(Self {
+            road: id,
+            back,
+            gear: Gear::Waits,
+            spent: 0.0,
+            gone: 0.0,
+            side,
+        })
+    }
+}
+
+impl Driving {
+    /// A step of it.
+    pub(super) fn turn_round(
+        &mut self,
+        scene: &dyn Scene,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+        around: &[Seen],
+        dt: f64,
+        out: &mut Vec<Action>,
+    ) -> Result<(), CannotArrive> {
+        let (Some(network), Some(turning)) = (scene.roads(), &mut self.turning) else { return Ok(()) };
+        turning.spent += dt;
+        if turning.spent > FAILED {
+            return Err(CannotArrive::stuck(scene, own.at, None));
+        }
+        let near = polyline::closest(&lane(network, turning.back).path, &own.at);
+        let back = near.map_or_else(
+            || -own.ahead,
+            |near| direction(polyline::at(&lane(network, turning.back).path, near.station).1),
+        );
+        if own.ahead.dot(&back) > TURNED {
+            out.push(Action::Brake { level: 0.3 });
+            let closed = self.closed.clone();
+            let on = lane_at(network, own.at, Some(simworld_core::geometry::heading(&own.ahead)));
+            let wish = Wish { closed, on: on.map(|on| (on.lane, 2.0)), ..Wish::to(self.goal) };
+            return self.renew(scene, vehicle, own, wish).map(|()| self.best = 0.0);
+        }
+        turning.shift(network, own, around, dt);
+        let (speed, side) = match turning.gear {
+            Gear::Waits => (0.0, 1.0),
+            Gear::Forwards => (WALK, turning.side),
+            Gear::Backwards => (-WALK, -turning.side),
+        };
+        out.push(Action::Steer { angle: LOCK * side });
+        out.push(pedal(own.speed, speed));
+        Ok(())
+    }
+}
+
+impl Turning {
+    /// Changes gear where there is no room any more, and begins when nobody comes.
+    fn shift(&mut self, network: &RoadNetwork, own: &Own<'_>, around: &[Seen], dt: f64) {
+        self.gone += own.speed.abs() * dt;
+        let gear = match self.gear {
+            Gear::Waits => {
+                let time = if self.spent > IMPATIENT { TAKES * 0.5 } else { TAKES };
+                if around.iter().any(|other| comes(own, other, time)) {
+                    return;
+                }
+                Gear::Forwards
+            }
+            Gear::Forwards if self.is_barred(network, own, around, 1.0) => Gear::Backwards,
+            Gear::Backwards if self.gone > MOST_BACK || self.is_barred(network, own, around, -1.0) => {
+                Gear::Forwards
+            }
+            same => same,
+        };
+        if gear != self.gear {
+            (self.gear, self.gone) = (gear, 0.0);
+        }
+    }
+
+    /// Whether there is no room any more before the vehicle (1) or behind it (-1).
+    fn is_barred(&self, network: &RoadNetwork, own: &Own<'_>, around: &[Seen], way: f64) -> bool {
+        let road = &network.roads[self.road.index()];
+        let left = Vector2::new(-own.ahead.y, own.ahead.x);
+        let end = own.at + own.ahead * (own.half_length * way);
+        let corners = [end + left * own.half_width, end - left * own.half_width];
+        // Those that move outwards: a rear may stand over the kerb that it came from.
+        let at_kerb = corners.iter().any(|corner| {
+            let Some(now) = polyline::closest(&road.centerline, corner) else { return false };
+            let soon = corner + own.ahead * (way * 0.3);
+            let Some(soon) = polyline::closest(&road.centerline, &soon) else { return false };
+            let outwards = soon.lateral.abs() > now.lateral.abs();
+            let kerb = if now.lateral > 0.0 { road.left_kerb } else { road.right_kerb };
+            outwards && now.lateral.abs() > kerb - TO_KERB
+        });
+        at_kerb || around.iter().any(|other| is_at_end(own, other, way))
+    }
+}
+
+/// Whether somebody or something is right before the vehicle (1) or behind it (-1).
+fn is_at_end(own: &Own<'_>, other: &Seen, way: f64) -> bool {
+    other.corners.iter().chain([&other.at]).any(|corner: &Point2| {
+        let offset = corner - own.at;
+        let (along, across) = (offset.dot(&own.ahead) * way, own.ahead.perp(&offset));
+        let beyond = along - own.half_length;
+        (-0.5..TO_OTHERS).contains(&beyond) && across.abs() < own.half_width + 0.5
+    })
+}
+
+/// Whether a vehicle comes to where one is within a time, s.
+fn comes(own: &Own<'_>, other: &Seen, time: f64) -> bool {
+    let way = own.at - other.at;
+    let (distance, speed) = (way.norm(), other.speed());
+    let towards = other.velocity.dot(&way) > 0.7 * speed * distance;
+    other.kind.is_mobile() && !other.stands() && towards && distance < own.half_length + 6.0 + speed * time
+}
+
+/// The pedal for a slow speed forwards or backwards, m/s.
+fn pedal(speed: f64, wanted: f64) -> Action {
+    if wanted == 0.0 || speed * wanted < -0.05 {
+        return Action::Brake { level: 0.6 };
+    }
+    let level = (0.4 * (wanted - speed)).clamp(-0.5, 0.5);
+    // Against the way one goes it is the brake that slows.
+    if level * wanted < 0.0 {
+        Action::Brake { level: level.abs().min(0.3) }
+    } else {
+        Action::Throttle { level }
+    }
+}

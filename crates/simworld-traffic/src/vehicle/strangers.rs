@@ -1,0 +1,63 @@
+//! Bodies that somebody else drives, at junctions and beside: one gives way to them as to others.
+//!
+//! Where they will turn nobody knows: who is in a lane may take each of its ways.
+
+use simworld_core::net::{Aspect, time_over};
+
+use super::Way;
+use super::conflicts::Conflict;
+use super::manager::{STANDING, Scene, Sight};
+use super::precedence::{Asker, CLEARS, COMES, Comer, EASILY, MARGIN, SIGHT};
+use super::tracks::{Obstacle, Track};
+
+/// Whether one who asks to cross would be in the way of a stranger on a way that meets its own, or before it. Those who stand are
+/// not waited for: they wait themselves, or are in one's path, where one stops for them.
+pub(super) fn hinder(scene: &Scene<'_>, asker: &Asker, conflict: &Conflict) -> bool {
+    if scene.sight.obstacles.is_empty() {
+        return false;
+    }
+    let tracks = scene.tracks;
+    let Way { from, signal, .. } = tracks.ways[conflict.way as usize];
+    let (limit, end) = (tracks.speed[from as usize], tracks.length[from as usize]);
+    let way = (tracks.lanes + conflict.way as usize) as Track;
+    let speed = tracks.speed[way as usize];
+    let crosses = |body: &Obstacle| {
+        let clears = time_over(conflict.other.passed() - body.near, body.v, CLEARS, speed.max(3.0));
+        let comes = time_over(conflict.other.enter() - body.far, body.v, COMES, limit.max(body.v));
+        body.near < conflict.other.passed()
+            && clears > asker.time(conflict.own.enter())
+            && asker.gone(conflict) + MARGIN > comes
+    };
+    let comes = |body: &Obstacle| {
+        let distance = (end - body.far).max(0.0);
+        let could_stop = body.v * body.v <= 2.0 * EASILY * distance;
+        // Who has priority is relied on; of others only those count who cannot stop any more.
+        let counts = (conflict.yields && scene.aspect(signal) == Aspect::Green) || !could_stop;
+        let comer = Comer { distance, v: body.v, limit };
+        distance < SIGHT && counts && !asker.goes_before(conflict, &comer)
+    };
+    let moving = |track: Track| on_track(&scene.sight, track).iter().filter(|body| body.v > STANDING);
+    moving(way).any(crosses) || moving(from).any(comes)
+}
+
+/// Whether strangers behind a place in a lane let somebody in whose rear would be there: with this much room at least, m, and no
+/// harder braking than this, m/s².
+pub(super) fn let_in(
+    sight: &Sight<'_>,
+    lane: Track,
+    (rear, v): (f64, f64),
+    least: f64,
+    braking: f64,
+) -> bool {
+    on_track(sight, lane).iter().filter(|body| body.far <= rear).all(|body| {
+        let (gap, closing) = (rear - body.far - least, (body.v - v).max(0.0));
+        gap >= 0.0 && closing * closing <= 2.0 * braking * gap
+    })
+}
+
+/// Those on a track.
+fn on_track<'a>(sight: &Sight<'a>, track: Track) -> &'a [Obstacle] {
+    let from = sight.obstacles.partition_point(|body| body.track < track);
+    let count = sight.obstacles[from..].partition_point(|body| body.track == track);
+    &sight.obstacles[from..from + count]
+}
