@@ -41,6 +41,7 @@ pub struct Rush {
     pub density: f64,
     /// How many are driven by minds, and how many trips each makes, one after another.
     pub minds: usize,
+    /// Trips of each.
     pub trips: usize,
     /// What they drive on.
     pub wheels: Wheels,
@@ -90,13 +91,12 @@ pub struct Outcome {
     pub arrived: usize,
     /// m driven by minds.
     pub driven: f64,
-    /// Lines with lights that minds crossed, and lines with stop signs.
+    /// Lines with lights that minds crossed.
     pub signals: usize,
+    /// Lines with stop signs.
     pub stops: usize,
     /// What went wrong.
     pub faults: Faults,
-    /// The tracks of those who drove, for pictures.
-    pub tracks: Vec<Vec<Point2>>,
 }
 
 /// Somebody who drives.
@@ -113,7 +113,6 @@ struct Driver {
     stood: f64,
     in_box: f64,
     touches: Option<EntityId>,
-    track: Vec<Point2>,
 }
 
 /// A line that was just crossed.
@@ -168,6 +167,7 @@ impl Streets {
                 }
             }
         }
+        assert_eq!(chosen.len(), rush.minds, "too few vehicles for so many minds");
         let drivers = chosen.iter().map(|id| Driver::new(&world, *id, rush.trips)).collect();
         let mut simulation = Simulation::new(world);
         simulation.add_dynamics("traffic", Box::new(traffic));
@@ -205,7 +205,6 @@ impl Streets {
                 self.outcome.faults.lost.push(told);
             }
         }
-        self.outcome.tracks = self.drivers.into_iter().map(|driver| driver.track).collect();
         self.outcome
     }
 
@@ -258,6 +257,7 @@ impl Streets {
             Progress::Failed { reason } => {
                 self.drivers[index].left = 0;
                 let told = format!("{}: {reason}", self.tell(index));
+                self.simulation.submit(Command::Remove { id: self.drivers[index].id });
                 self.outcome.faults.lost.push(told);
             }
             _ => self.arrive(index),
@@ -278,6 +278,9 @@ impl Streets {
         driver.left -= 1;
         if driver.left > 0 {
             self.send(index);
+        } else {
+            // Who has arrived for good makes room for others.
+            self.simulation.submit(Command::Remove { id: driver.id });
         }
     }
 
@@ -293,18 +296,18 @@ impl Streets {
         if speed < 0.3 {
             driver.stood = now;
         }
-        if driver.track.last().is_none_or(|last| (last - car.planar()).norm() > 2.0) {
-            driver.track.push(car.planar());
-        }
         let faults = &mut self.outcome.faults;
         let touched = touched(world, &car);
         if let Some(other) = touched.filter(|other| driver.touches != Some(*other)) {
             let other = world.entity(other).expect("it is there");
             let (at, v) = (other.planar(), other.twist.ground_speed());
-            faults.contacts.push(format!(
-                "{told}, {} {} at ({:.1}, {:.1}) with {v:.1} m/s",
-                other.kind, other.id, at.x, at.y
-            ));
+            // Who walks brushes along a car that stands.
+            let walks = other.kind == EntityKind::Person && speed < 0.2;
+            let told =
+                format!("{told}, {} {} at ({:.1}, {:.1}) with {v:.1} m/s", other.kind, other.id, at.x, at.y);
+            if !walks {
+                faults.contacts.push(told);
+            }
         }
         driver.touches = touched;
         if speed > 1.0 && cuts_off(world, &self.network, &car) {
@@ -336,7 +339,6 @@ impl Driver {
             stood: f64::NEG_INFINITY,
             in_box: 0.0,
             touches: None,
-            track: Vec::new(),
         }
     }
 
@@ -398,7 +400,7 @@ fn choose(traffic: &TrafficDynamics, network: &RoadNetwork, rush: &Rush) -> Vec<
         .stations()
         .filter(|(_, track, s, _)| {
             let lane = network.lanes.get(*track as usize);
-            lane.is_some_and(|lane| lane.is_driven() && *s > 15.0 && *s < lane.length - 30.0)
+            lane.is_some_and(|lane| lane.is_driven() && *s > 15.0 && *s < lane.length - 15.0)
         })
         .filter_map(|(id, ..)| Some((id, own.vehicle(id)?.kind)))
         .filter(|(_, kind)| match rush.wheels {
@@ -416,7 +418,7 @@ fn choose(traffic: &TrafficDynamics, network: &RoadNetwork, rush: &Rush) -> Vec<
         chosen.truncate(rush.minds / 2);
     }
     let cars = fitting.iter().filter(|(_, kind)| *kind == VehicleKind::Car).map(|(id, _)| *id);
-    chosen.extend(cars.step_by(5).take(rush.minds - chosen.len()));
+    chosen.extend(cars.take(rush.minds - chosen.len()));
     chosen.iter().map(|id| traffic.vehicles()[*id as usize]).collect()
 }
 

@@ -222,7 +222,11 @@ impl<'a> Draft<'a> {
         let vehicle = self.find(what, Purpose::Any)?;
         let action = match vehicle.kind {
             EntityKind::Scooter => Action::RideScooter { scooter: vehicle.id },
-            EntityKind::Car | EntityKind::Truck | EntityKind::Bus => Action::EnterCar { car: vehicle.id },
+            EntityKind::Car
+            | EntityKind::Truck
+            | EntityKind::Bus
+            | EntityKind::Motorcycle
+            | EntityKind::Bicycle => Action::EnterCar { car: vehicle.id },
             EntityKind::Door if what.target == Target::It => {
                 let house =
                     self.view.scene.nearest(vehicle.planar(), PART, &|at| at.kind == EntityKind::Building);
@@ -230,7 +234,9 @@ impl<'a> Draft<'a> {
             }
             EntityKind::Building | EntityKind::Door => return self.go_beside(&vehicle),
             other => {
-                let near = format!("a {other} cannot be; scooters, cars, trucks and buses can");
+                let near = format!(
+                    "a {other} cannot be; scooters, bicycles, motorcycles, cars, trucks and buses can"
+                );
                 return Err(PlanError::NotFound {
                     wanted: format!("{:?} to get on or into", what.text),
                     near,

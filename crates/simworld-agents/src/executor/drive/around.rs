@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
+use simworld_core::geometry::{Aabb, Obb, Point2, Vector2, Vector3, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
@@ -24,6 +24,7 @@ pub(super) struct Seen {
     pub(super) velocity: Vector2,
     pub(super) half_length: f64,
     pub(super) corners: [Point2; 4],
+    solid: Obb,
 }
 
 impl Seen {
@@ -36,6 +37,7 @@ impl Seen {
             velocity: entity.twist.linear.xy(),
             half_length: entity.info.shape.size().x * 0.5,
             corners: entity.obb().footprint(),
+            solid: entity.obb(),
         }
     }
 
@@ -65,8 +67,7 @@ pub(super) fn look(scene: &dyn Scene, own: &Own<'_>, near: f64, far: f64) -> Vec
     let mut seen = Vec::new();
     let _ = scene.visit(&Aabb::column_around(own.at, far), &mut |other| {
         // Streets lead past houses; the box around one that is no box reaches where its walls do not.
-        let counts =
-            other.kind.is_solid() && other.kind != EntityKind::Building && other.attachment.is_none();
+        let counts = other.is_solid() && other.kind != EntityKind::Building && other.attachment.is_none();
         if counts && !own.ids.contains(&other.id) {
             let reach = if other.kind.is_mobile() { far } else { near };
             if (other.planar() - own.at).norm() <= reach {
@@ -76,4 +77,24 @@ pub(super) fn look(scene: &dyn Scene, own: &Own<'_>, near: f64, far: f64) -> Vec
         ControlFlow::Continue(())
     });
     seen
+}
+
+/// Whether a vehicle would touch somebody or something that it does not touch yet, if it were so far ahead, m, or back, with so
+/// much room to its sides, m.
+pub(super) fn would_touch(own: &Own<'_>, around: &[Seen], ahead: f64, beside: f64) -> bool {
+    let way = own.ahead * ahead;
+    let grown = |by: f64, moved: Vector2| {
+        let mut solid = own.solid;
+        solid.pose.translation.vector += Vector3::new(moved.x, moved.y, 0.0);
+        solid.half_extents += Vector3::new(by, by, 0.0);
+        solid
+    };
+    let (here, there) = (grown(0.0, Vector2::zeros()), grown(beside, way));
+    let mut near =
+        around.iter().filter(|other| (other.at - own.at).norm() < own.half_length + other.half_length + 3.0);
+    near.any(|other| {
+        // Who is nearer to the middle than the end that moves is not what one moves towards.
+        let towards = (other.at - own.at).dot(&way) > 0.0;
+        towards && there.footprints_overlap(&other.solid) && !here.footprints_overlap(&other.solid)
+    })
 }

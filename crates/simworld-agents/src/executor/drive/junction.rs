@@ -22,10 +22,11 @@ use crate::lanes::lane;
 /// Harder braking, for a light that has just changed, m/s²; and the hardest.
 const FIRM: f64 = 3.5;
 const HARDEST: f64 = 6.0;
-/// Room kept before a stop line, m.
-const TO_LINE: f64 = 0.8;
+/// Room kept before a stop line, m: feet lag behind what one wants. Who stands over it by less than this has not passed it.
+const TO_LINE: f64 = 1.5;
+const OVER: f64 = 0.5;
 /// One stands at a line that is nearer than this, m.
-const AT_LINE: f64 = 1.5;
+const AT_LINE: f64 = 3.0;
 /// One stands this long at a stop sign, s.
 const STOPS: f64 = 1.0;
 /// Room to both sides of two bodies that pass each other, m.
@@ -48,6 +49,8 @@ pub(super) const SIGHT: f64 = 100.0;
 const PATIENT: f64 = 4.0;
 /// Who turned across nobody in a whole green goes at the end of it, after so long at the line, s.
 const WHOLE_GREEN: f64 = 5.0;
+/// There is time enough for that while yellow has shown for less than this, s.
+const FRESH: f64 = 0.6;
 
 /// A stop line on the path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,6 +61,8 @@ pub(super) struct Line {
     pub(super) turn: ConnectionId,
     /// How long one has stood at it, s.
     pub(super) waited: f64,
+    /// For how long one has seen its light at yellow, s.
+    yellow: f64,
     /// Whether one is over it.
     pub(super) is_passed: bool,
     /// What one has to mind beyond it, once one is near.
@@ -96,7 +101,7 @@ pub(super) enum Wait {
 
 impl Line {
     pub(super) fn new(station: f64, turn: ConnectionId) -> Self {
-        Self { station, turn, waited: 0.0, is_passed: false, junction: None }
+        Self { station, turn, waited: 0.0, yellow: 0.0, is_passed: false, junction: None }
     }
 }
 
@@ -213,7 +218,7 @@ impl Driving {
             let line = &mut self.lines[index];
             let turn = &network.connections[line.turn.index()];
             let junction = line.junction.get_or_insert_with(|| Junction::new(network, turn, own));
-            line.is_passed |= room < 0.0;
+            line.is_passed |= room < -OVER;
             if line.is_passed {
                 let strips = junction.strips.iter();
                 let held = strips.map(|strip| strip.hold(network, own, around, path, line.station, front));
@@ -221,9 +226,11 @@ impl Driving {
                 continue;
             }
             let light = line.light(scene, network);
-            let can_stop = own.speed * own.speed <= 2.0 * HARDEST * (room + 0.3).max(0.0);
+            let can_stop = own.speed * own.speed <= 2.0 * HARDEST * (room + OVER).max(0.0);
+            line.yellow = if light == Light::Ends { line.yellow + dt } else { 0.0 };
             let ends = light == Light::Ends
                 && line.waited > WHOLE_GREEN
+                && (line.yellow < FRESH || own.speed > STANDING)
                 && turn.turn == network.driving_side.turn_across();
             let barred = match light {
                 Light::Free => false,

@@ -11,10 +11,14 @@ use crate::lanes::{OnLane, lane};
 
 /// Room between the vehicle and the kerb, m.
 const TO_KERB: f64 = 0.3;
-/// Room before and behind a parked vehicle, m.
-const GAP: f64 = 1.0;
+/// Room before and behind a parked vehicle, m: enough to pull out.
+const GAP: f64 = 2.0;
+/// Room behind it through which one pulls in forwards, m.
+const APPROACH: f64 = 9.0;
 /// How far from where one wants to be one looks for a place, m.
-const NEARBY: f64 = 60.0;
+const NEARBY: f64 = 80.0;
+/// Nearer to the middle of the lane than this one need not pull in, m.
+const ASIDE: f64 = 0.5;
 /// Nobody parks so near a junction, m.
 const JUNCTION: f64 = 6.0;
 
@@ -86,8 +90,9 @@ fn is_free(
 ) -> bool {
     let (middle, heading) = pose(network, on.lane, on.station, aside);
     let (ahead, reach) = (direction(heading), size.0 * 0.5 + GAP);
+    let behind = size.0 * 0.5 + if aside > ASIDE { APPROACH } else { GAP };
     let mut free = true;
-    let _ = scene.visit(&Aabb::column_around(middle, reach), &mut |other| {
+    let _ = scene.visit(&Aabb::column_around(middle, reach.max(behind)), &mut |other| {
         if who.contains(&other.id)
             || other.attachment.is_some()
             || !other.is_solid()
@@ -107,7 +112,7 @@ fn is_free(
         };
         let (along, across) = (span(|c| c.0), span(|c| c.1));
         let half = size.1 * 0.5 + 0.1;
-        free = along.1 < -reach || along.0 > reach || across.1 < -half || across.0 > half;
+        free = along.1 < -behind || along.0 > reach || across.1 < -half || across.0 > half;
         if free { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     free

@@ -50,7 +50,7 @@ const ASTRAY: f64 = 8.0;
 /// Coming on by less than this is no progress, m.
 const PROGRESS: f64 = 0.5;
 /// After so much progress earlier jams are forgotten, m.
-const FORGOTTEN: f64 = 50.0;
+const FORGOTTEN: f64 = 150.0;
 /// Time that one gives a vehicle that stands in the way, and one in a queue, s.
 const STANDS: f64 = 12.0;
 const QUEUE: f64 = 60.0;
@@ -237,7 +237,7 @@ impl Driving {
     fn back(&mut self, own: &Own<'_>, around: &[Seen], dt: f64, out: &mut Vec<Action>) {
         const BACKWARDS: f64 = 0.3;
         self.backing -= (-own.speed * dt).max(0.01);
-        if self.backing <= 0.0 || pass::somebody_behind(own, around) {
+        if self.backing <= 0.0 || around::would_touch(own, around, -0.8, 0.2) {
             self.backing = 0.0;
             self.station = (self.station - 6.0).max(0.0);
             self.locate(own.at);

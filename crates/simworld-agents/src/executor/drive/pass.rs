@@ -6,7 +6,7 @@ use simworld_core::net::{Aspect, RoadNetwork, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
 use super::Driving;
-use super::around::{STANDING, Seen};
+use super::around::{STANDING, Seen, would_touch};
 use super::plan::{Wish, smooth};
 use super::turn_round::Turning;
 use super::watch::{BRAKING, Obstacle, Own};
@@ -26,6 +26,8 @@ const BACK: f64 = 5.0;
 /// Who stands so near to a line, or behind another, waits himself, m.
 const AT_LINE: f64 = 25.0;
 const BEHIND: f64 = 8.0;
+/// In a queue one looks for other roads only each so many times that nothing has gone on.
+const PATIENCE: u32 = 4;
 /// A light holds up a queue of this length, m.
 const AT_LIGHT: f64 = 80.0;
 
@@ -62,7 +64,8 @@ impl Driving {
         around: &[Seen],
         obstacle: &Obstacle,
     ) {
-        if !obstacle.stands {
+        let queue = self.is_queue(obstacle, around);
+        if !obstacle.stands || (queue && !self.tries.is_multiple_of(PATIENCE)) {
             return;
         }
         let aside = obstacle.left + own.half_width + BESIDE;
@@ -70,13 +73,13 @@ impl Driving {
         let (begin, end) = (obstacle.begin - own.half_length - RAMP, obstacle.end + own.half_length + RAMP);
         // Beyond a line there may be a junction.
         let is_street = self.lines.iter().all(|line| line.station > end + 5.0 || line.station < self.station);
-        let is_passable = is_street && !self.is_queue(obstacle, around) && aside <= MOST_ASIDE;
+        let is_passable = is_street && !queue && aside <= MOST_ASIDE;
         if is_passable && self.is_clear(own, around, begin, end, aside) {
-            if room < RAMP * 0.75 && !somebody_behind(own, around) {
+            if room < RAMP * 0.75 && !would_touch(own, around, -2.0, 0.2) {
                 self.backing = BACK;
             }
             self.bend(begin.max(self.station - BACK), end, aside);
-        } else if let Some(network) = scene.roads().filter(|_| !is_passable || self.tries.is_multiple_of(4)) {
+        } else if let Some(network) = scene.roads().filter(|_| queue || self.tries.is_multiple_of(PATIENCE)) {
             self.drive_round(scene, network, vehicle, own, obstacle);
         }
     }
@@ -178,16 +181,4 @@ impl Driving {
 fn left_of(heading: f64) -> Vector2 {
     let ahead = direction(heading);
     Vector2::new(-ahead.y, ahead.x)
-}
-
-/// Whether anything stands in the few metres behind a vehicle.
-pub(super) fn somebody_behind(own: &Own<'_>, around: &[Seen]) -> bool {
-    let reach = own.half_length + 2.0;
-    around.iter().any(|other| {
-        other.corners.iter().chain([&other.at]).any(|corner| {
-            let offset = corner - own.at;
-            let (along, across) = (offset.dot(&own.ahead), own.ahead.perp(&offset));
-            (-reach..0.0).contains(&along) && across.abs() < own.half_width + 0.2
-        })
-    })
 }

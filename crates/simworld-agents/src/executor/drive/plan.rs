@@ -16,7 +16,7 @@ use crate::lanes::{OnLane, lane, lane_at, nearest_lane};
 const PULL_IN: f64 = 16.0;
 /// Lanes farther away than this are no part of the way, m: one drives over open ground.
 const OFF_ROAD: f64 = 60.0;
-/// Who is so far beside a lane looks into the mirror before joining it, m.
+/// Who stands so far beside a lane looks into the mirror before joining it, m.
 const BESIDE: f64 = 1.2;
 
 /// What a way is to be.
@@ -83,8 +83,13 @@ impl Driving {
         scene: &dyn Scene,
         vehicle: &EntityRef<'_>,
         own: &Own<'_>,
-        wish: Wish,
+        mut wish: Wish,
     ) -> Result<(), CannotArrive> {
+        // On the way across a junction one is in no lane: the next is the one behind it.
+        let across = self.lines.iter().rfind(|line| line.is_passed && wish.on.is_none());
+        if let Some((line, network)) = across.zip(scene.roads()) {
+            wish.on = Some((network.connections[line.turn.index()].to, 0.0));
+        }
         let mut found = Self::new(scene, vehicle, own, wish)?;
         (found.driver, found.tries, found.idle) = (self.driver, self.tries, self.idle);
         for line in &mut found.lines {
@@ -122,14 +127,19 @@ fn by_road(
     let size = (own.half_length * 2.0, own.half_width * 2.0);
     let berth = kerb::berth(scene, network, own.ids, to, size);
     // From beside the lane one joins it some way ahead.
-    let join = if from.distance > 0.5 { 6.0 + 2.0 * from.distance } else { 0.0 };
+    let join = match from.distance {
+        // Before its begin one is in a junction.
+        _ if from.station < 0.01 => 2.0,
+        distance if distance > 0.5 => 6.0 + 2.0 * distance,
+        _ => 0.0,
+    };
     let length = lane(network, from.lane).length;
     let entry = OnLane { station: (from.station + join).min(length), ..*from };
     let hold = wish.on.map_or(2.0, |(_, hold)| hold);
     let begin = From { on: &entry, at: own.at, hold, lanes: wish.lanes };
     let mut found =
         way(network, &begin, &berth.on, &wish.closed).or_else(|| way(network, &begin, &berth.on, &[]))?;
-    if from.distance > BESIDE {
+    if from.distance > BESIDE && own.speed < 1.0 {
         let mirror = Change {
             begin: 0.0,
             end: join,

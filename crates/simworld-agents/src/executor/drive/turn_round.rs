@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
-use simworld_core::geometry::{Point2, Vector2, direction};
+use simworld_core::geometry::{Vector2, direction, heading};
 use simworld_core::id::{LaneId, RoadId};
 use simworld_core::net::{DrivingSide, LaneKind, RoadNetwork, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
-use super::around::Seen;
+use super::around::{Seen, would_touch};
 use super::plan::Wish;
 use super::watch::Own;
 use super::{CannotArrive, Driving};
@@ -19,17 +19,20 @@ const LOCK: f64 = 0.6;
 const WALK: f64 = 1.5;
 /// Room kept to the kerbs and to others, m.
 const TO_KERB: f64 = 0.4;
-const TO_OTHERS: f64 = 1.0;
+const TO_OTHERS: f64 = 0.8;
+const BESIDE: f64 = 0.3;
 /// Within so much of the way back one drives on as ever, radians; the cosine of 25°.
 const TURNED: f64 = 0.906;
 /// One backs no farther than this at a time, m.
 const MOST_BACK: f64 = 6.0;
 /// So long does nobody take to turn, s: one begins if nobody comes before.
 const TAKES: f64 = 10.0;
+/// Who comes within this time while one turns is let pass, s.
+const NEAR: f64 = 2.0;
 /// After so long without a gap one begins all the same, when nobody comes within half the time, s.
 const IMPATIENT: f64 = 60.0;
 /// One who has not come round in so long does not, s.
-const FAILED: f64 = 120.0;
+const FAILED: f64 = 150.0;
 
 /// The gear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -92,7 +95,9 @@ impl Driving {
         let (Some(network), Some(turning)) = (scene.roads(), &mut self.turning) else { return Ok(()) };
         turning.spent += dt;
         if turning.spent > FAILED {
-            return Err(CannotArrive::stuck(scene, own.at, None));
+            // There is no room; perhaps what was in the way is gone by now.
+            let wish = Wish { closed: self.closed.clone(), ..Wish::to(self.goal) };
+            return self.renew(scene, vehicle, own, wish);
         }
         let near = polyline::closest(&lane(network, turning.back).path, &own.at);
         let back = near.map_or_else(
@@ -102,12 +107,15 @@ impl Driving {
         if own.ahead.dot(&back) > TURNED {
             out.push(Action::Brake { level: 0.3 });
             let closed = self.closed.clone();
-            let on = lane_at(network, own.at, Some(simworld_core::geometry::heading(&own.ahead)));
+            let on = lane_at(network, own.at, Some(heading(&own.ahead)));
             let wish = Wish { closed, on: on.map(|on| (on.lane, 2.0)), ..Wish::to(self.goal) };
             return self.renew(scene, vehicle, own, wish).map(|()| self.best = 0.0);
         }
         turning.shift(network, own, around, dt);
+        // Whoever comes close meanwhile stops, or passes, first.
+        let pauses = around.iter().any(|other| comes(own, other, NEAR));
         let (speed, side) = match turning.gear {
+            Gear::Forwards | Gear::Backwards if pauses => (0.0, turning.side),
             Gear::Waits => (0.0, 1.0),
             Gear::Forwards => (WALK, turning.side),
             Gear::Backwards => (-WALK, -turning.side),
@@ -156,18 +164,8 @@ impl Turning {
             let kerb = if now.lateral > 0.0 { road.left_kerb } else { road.right_kerb };
             outwards && now.lateral.abs() > kerb - TO_KERB
         });
-        at_kerb || around.iter().any(|other| is_at_end(own, other, way))
+        at_kerb || would_touch(own, around, way * TO_OTHERS, BESIDE)
     }
-}
-
-/// Whether somebody or something is right before the vehicle (1) or behind it (-1).
-fn is_at_end(own: &Own<'_>, other: &Seen, way: f64) -> bool {
-    other.corners.iter().chain([&other.at]).any(|corner: &Point2| {
-        let offset = corner - own.at;
-        let (along, across) = (offset.dot(&own.ahead) * way, own.ahead.perp(&offset));
-        let beyond = along - own.half_length;
-        (-0.5..TO_OTHERS).contains(&beyond) && across.abs() < own.half_width + 0.5
-    })
 }
 
 /// Whether a vehicle comes to where one is within a time, s.

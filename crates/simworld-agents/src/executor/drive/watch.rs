@@ -1,10 +1,10 @@
 //! How fast the road ahead allows to go: bends, lines, changes of lanes, people and things on the path.
 
-use simworld_core::geometry::{Point2, Vector2, direction, yaw_of};
+use simworld_core::geometry::{Obb, Point2, Vector2, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
 use simworld_core::ops::{atan2, wrap_angle};
-use simworld_core::scene::{EntityRef, Scene};
+use simworld_core::scene::{EntityKind, EntityRef, Scene};
 
 use super::around::{STANDING, Seen};
 use super::change::Outlook;
@@ -42,6 +42,7 @@ pub(super) struct Own<'a> {
     pub(super) speed: f64,
     pub(super) half_length: f64,
     pub(super) half_width: f64,
+    pub(super) solid: Obb,
 }
 
 impl<'a> Own<'a> {
@@ -55,6 +56,7 @@ impl<'a> Own<'a> {
             speed: vehicle.twist.linear.xy().dot(&ahead),
             half_length: size.x * 0.5,
             half_width: size.y * 0.5,
+            solid: vehicle.obb(),
         }
     }
 }
@@ -117,6 +119,7 @@ impl Driving {
         }
         let limit =
             self.limits.iter().find(|(end, _)| self.station < *end).map_or(self.open_limit(), |(_, v)| *v);
+        let limit = limit.min(top_speed(vehicle.kind));
         let left = polyline::length(&self.path) - self.station;
         // One creeps up to the end, and stands there.
         let last = if left < STOPPED { 0.0 } else { stopping(left - STOPPED, BRAKING).max(0.4) };
@@ -250,6 +253,11 @@ impl Driving {
         let (stands, is_mobile) = (other.stands(), other.kind.is_mobile());
         Some((speed, Obstacle { id: other.id, begin, end, left, stands, is_mobile }))
     }
+}
+
+/// As fast as somebody goes who may: a cyclist rides at 20 km/h (the mean of studies in towns is 17 to 22).
+fn top_speed(kind: EntityKind) -> f64 {
+    if kind == EntityKind::Bicycle { 5.6 } else { f64::INFINITY }
 }
 
 fn bearing(way: Vector2) -> f64 {

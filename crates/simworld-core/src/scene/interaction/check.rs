@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{ARM_REACH, CARRY, EARSHOT, ENTER, InteractionError, LOCKED, PICK_UP, RIDE, SELLS, SIT, Use};
+use super::{ARM_REACH, CARRY, EARSHOT, InteractionError, LOCKED, PICK_UP, RIDE, SELLS, SIT, Use, entering};
 use crate::action::{Action, ActionKind, ActionSet};
 use crate::id::EntityId;
 use crate::scene::{EntityKind, EntityRef, Role, Scene};
@@ -20,7 +20,7 @@ pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result
         Action::CarryHeavy { item } => take(scene, who, *item, &CARRY),
         Action::RideScooter { scooter } => take(scene, who, *scooter, &RIDE),
         Action::SitDown { seat } => mount(scene, who, *seat, &SIT),
-        Action::EnterCar { car } => mount(scene, who, *car, &ENTER),
+        Action::EnterCar { car } => mount(scene, who, *car, entering(scene, *car)),
         Action::DropOff => has(scene, who, Role::Held, "drop off", "holding nothing").map(drop),
         Action::PutDownHeavy => has(scene, who, Role::Carried, "put down", "carrying nothing").map(drop),
         Action::GetOffScooter => has(scene, who, Role::Ridden, "get off", "on foot").map(drop),

@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{
-    CARRY, ENTER, FIELD_OF_VIEW, GAZE, InteractionError, OPEN, PICK_UP, RIDE, SIT, Use, check::has,
-    check_action, room,
+    CARRY, FIELD_OF_VIEW, GAZE, InteractionError, OPEN, PICK_UP, RIDE, SIT, Use, check::has, check_action,
+    entering, room,
 };
 use crate::action::{Action, ActionKind};
 use crate::event::EventKind;
@@ -32,7 +32,10 @@ impl World {
                     self.entity(*seat).map_or(0.0, |seat| (seat.info.shape.size().z * 0.5).min(0.45));
                 self.hang(who, *seat, &SIT, SIT.offset + Vector3::z() * height);
             }
-            Action::EnterCar { car } => self.hang(who, *car, &ENTER, ENTER.offset),
+            Action::EnterCar { car } => {
+                let seat = entering(self, *car);
+                self.hang(who, *car, seat, seat.offset);
+            }
             Action::DropOff => self.put_down(has(self, who, Role::Held, "", "")?, who),
             Action::PutDownHeavy => self.put_down(has(self, who, Role::Carried, "", "")?, who),
             Action::GetOffScooter => self.put_down(has(self, who, Role::Ridden, "", "")?, who),

@@ -12,7 +12,7 @@ mod room;
 pub use check::check_action;
 use thiserror::Error;
 
-use super::{EntityKind, Role};
+use super::{EntityKind, Role, Scene};
 use crate::action::ActionKind;
 use crate::geometry::Point3;
 use crate::id::EntityId;
@@ -203,3 +203,16 @@ const ENTER: Use = Use {
     limit: f64::INFINITY,
     offset: Point3::new(0.2, 0.4, 0.3),
 };
+const MOUNT: Use = Use {
+    verb: "enter",
+    role: Role::Aboard,
+    fits: |kind| matches!(kind, EntityKind::Motorcycle | EntityKind::Bicycle),
+    limit: f64::INFINITY,
+    offset: Point3::new(-0.15, 0.0, 0.2),
+};
+
+/// How one gets into a vehicle with pedals, or on to one with two wheels.
+fn entering(scene: &dyn Scene, vehicle: EntityId) -> &'static Use {
+    let kind = scene.entity(vehicle).map(|vehicle| vehicle.kind);
+    if kind.is_some_and(MOUNT.fits) { &MOUNT } else { &ENTER }
+}
