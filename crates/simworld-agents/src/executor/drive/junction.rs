@@ -25,6 +25,8 @@ const HARDEST: f64 = 6.0;
 /// Room kept before a stop line, m: feet lag behind what one wants. Who stands over it by less than this has not passed it.
 const TO_LINE: f64 = 1.5;
 const OVER: f64 = 0.5;
+/// The last metres to a line are driven no faster than they last this long, s: what feet lag behind is less.
+const LAG: f64 = 0.8;
 /// One stands at a line that is nearer than this, m.
 const AT_LINE: f64 = 3.0;
 /// One stands this long at a stop sign, s.
@@ -244,7 +246,8 @@ impl Driving {
                 view.must_wait(line, room, next).then_some(Wait::Others)
             };
             if let Some(wait) = wait.filter(|_| can_stop) {
-                let held = stopping(room - TO_LINE, BRAKING);
+                let left = (room - TO_LINE).max(0.0);
+                let held = stopping(left, BRAKING).min(left / LAG);
                 if held < least {
                     (least, why) = (held, Some(wait));
                 }
