@@ -134,8 +134,8 @@ impl Use {
 
     const fn fits(self, kind: EntityKind, has_access: bool) -> bool {
         use EntityKind::{
-            Building, Bus, Car, Chair, Cone, Dog, Door, Parcel, Person, Prop, Robot, Scooter, TrafficSignal,
-            Truck,
+            Bicycle, Building, Bus, Car, Chair, Cone, Dog, Door, Motorcycle, Parcel, Person, Prop, Robot,
+            Scooter, TrafficSignal, Truck,
         };
         match self {
             Self::Any => true,
@@ -146,7 +146,7 @@ impl Use {
             Self::Receiver => matches!(kind, Person | Robot),
             Self::Door => matches!(kind, Door) || matches!(kind, Building) && has_access,
             Self::Scooter => matches!(kind, Scooter),
-            Self::Car => matches!(kind, Car | Truck | Bus),
+            Self::Car => matches!(kind, Car | Truck | Bus | Motorcycle | Bicycle),
             Self::Light => matches!(kind, TrafficSignal),
         }
     }

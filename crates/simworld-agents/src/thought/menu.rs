@@ -149,7 +149,7 @@ const ENTRIES: &[Entry] = &[
         call: "enter_car",
         needs: &[A::EnterCar],
         args: &[("car", "car", Arg::Thing(Use::Car))],
-        says: "goes there and gets in",
+        says: "goes there and gets in, or on a bicycle or motorcycle",
     },
     Entry { act: "exit_car", call: "exit_car", needs: &[A::ExitCar], args: &[], says: "gets out of the car" },
     Entry {
