@@ -328,12 +328,14 @@ fn a_motorcycle_is_ridden_to_the_kerb_by_who_got_on_it() {
     let ride = PlanStep::Navigate { to: Goal::Entity(hospital), within: 2.0, speed: None };
     let steps = vec![PlanStep::Act(Action::EnterCar { car: bike }), ride, PlanStep::Act(Action::ExitCar)];
     let mut executor = RuleExecutor::straight();
-    executor.start(Plan { steps, ..Plan::default() }, simulation.world(), rider).expect("it can be begun");
+    executor.start(Plan { steps }, simulation.world(), rider).expect("it can be begun");
     let mut ended = Progress::Running;
     for _ in 0..4000 {
         let mut actions = Vec::new();
         ended = executor.advance(simulation.world(), rider, &mut actions).expect("it works");
-        actions.into_iter().for_each(|action| simulation.submit(Command::Actuate { who: rider, action }));
+        for action in actions {
+            simulation.submit(Command::Actuate { who: rider, action });
+        }
         simulation.step().expect("the world goes on");
         if ended != Progress::Running {
             break;

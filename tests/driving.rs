@@ -235,8 +235,7 @@ impl Streets {
         let driver = &mut self.drivers[index];
         driver.goal = goal;
         let to = Goal::Point(Point3::new(goal.x, goal.y, 0.0));
-        let plan =
-            Plan { steps: vec![PlanStep::Navigate { to, within: 2.0, speed: None }], ..Plan::default() };
+        let plan = Plan { steps: vec![PlanStep::Navigate { to, within: 2.0, speed: None }] };
         driver
             .executor
             .start(plan, self.simulation.world(), driver.id)

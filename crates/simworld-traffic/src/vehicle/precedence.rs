@@ -157,9 +157,12 @@ impl Part {
             if is_held && (vehicle.is_long() || junctions.has_long(conflict.way)) {
                 return false; // long ones have the junction to themselves
             }
-            (!is_held || self.fits_in(scene, &asker, conflict, overtaken))
-                && !(conflict.yields && !siren && self.is_hindered(scene, &asker, conflict))
-                && !strangers::hinder(scene, &asker, conflict)
+            if is_held && !self.fits_in(scene, &asker, conflict, overtaken) {
+                return false;
+            }
+            let gives_way = conflict.yields && !siren;
+            !(gives_way && self.is_hindered(scene, &asker, conflict)
+                || strangers::hinder(scene, &asker, conflict))
         })
     }
 
