@@ -15,7 +15,7 @@ use clap::Parser;
 use simworld_agents::language::GrammarPlanner;
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
 use simworld_agents::thought::ModelPlanner;
-use simworld_citygen::{City, Style};
+use simworld_citygen::City;
 use simworld_core::event::EventKind;
 use simworld_core::intent::Intent;
 use simworld_core::scene::Scene;
@@ -23,6 +23,7 @@ use simworld_core::seam::{PlanStep, Planner, Progress};
 use simworld_core::seed::Seed;
 use simworld_examples::chat::{Pictures, Stage, step_in_words, steps_in_words};
 use simworld_examples::city::{Source, make};
+use simworld_examples::{Outcome, exit_code};
 use simworld_traffic::TrafficConfig;
 
 /// Type a sentence, see the plan, watch it done. "stop" interrupts; the end of the input ends it.
@@ -67,23 +68,12 @@ struct Arguments {
     out: PathBuf,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {
-    let source = match &arguments.city {
-        Some(path) => Source::Saved(path.clone()),
-        None => Source::Grown(Style::Mixed, "700m".parse()?),
-    };
+    let source = Source::saved_or_small(arguments.city.as_ref());
     let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
     let traffic = TrafficConfig {
         vehicles: arguments.vehicles,

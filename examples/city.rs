@@ -19,6 +19,7 @@ use simworld_citygen::map::MapDrawing;
 use simworld_citygen::{City, Style};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Format, Interrupt, Size, Source, export, make};
+use simworld_examples::exit_code;
 
 /// Makes a city and writes it down: its statistics to the terminal, maps and files to a folder.
 ///
@@ -103,13 +104,7 @@ impl Kind {
 type Fault = Box<dyn std::error::Error>;
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Result<(), Fault> {

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use clap::Parser;
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
+use simworld_examples::exit_code;
 use simworld_traffic::{Traffic, TrafficConfig};
 
 /// Runs the traffic of one crossroads and draws it.
@@ -33,13 +34,7 @@ struct Arguments {
 const SIZE: (usize, usize, f64) = (77, 37, 2.1);
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {

@@ -24,6 +24,7 @@ use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{Dynamics, Executor, Planner, Progress};
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
+use simworld_examples::{Outcome, exit_code};
 use simworld_physics::{PhysicsConfig, PhysicsDynamics, VehicleClass};
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
@@ -60,8 +61,6 @@ enum Wheels {
     Tyres,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 /// Time of a step, s; and of the traffic before anybody drives.
 const DT: f64 = 0.1;
 const BEFORE: u32 = 300;
@@ -69,13 +68,7 @@ const BEFORE: u32 = 300;
 const LONGEST: f64 = 1800.0;
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {

@@ -10,6 +10,7 @@ use clap::Parser;
 use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::simulation::Simulation;
+use simworld_examples::exit_code;
 use simworld_physics::{PhysicsConfig, PhysicsDynamics};
 
 /// Drops a box and prints its height.
@@ -21,13 +22,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {

@@ -11,13 +11,13 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use simworld_agents::editing::{Difference, Edited, Placing, SceneEditor};
-use simworld_citygen::Style;
 use simworld_core::geometry::{Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Source, make};
 use simworld_examples::edit::{Plan, View};
+use simworld_examples::{Outcome, exit_code};
 
 /// Type how the scene is to change: "put two benches in front of the school", "paint them blue", "make it a foggy evening".
 ///
@@ -60,23 +60,12 @@ fn reach(text: &str) -> Result<f64, String> {
     if (5.0..=2000.0).contains(&reach) { Ok(reach) } else { Err("give 5 to 2000 m".to_owned()) }
 }
 
-type Done<T> = Result<T, Box<dyn std::error::Error>>;
-
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
-fn job(arguments: &Arguments) -> Done<()> {
-    let source = match &arguments.city {
-        Some(path) => Source::Saved(path.clone()),
-        None => Source::Grown(Style::Mixed, "700m".parse()?),
-    };
+fn job(arguments: &Arguments) -> Outcome<()> {
+    let source = Source::saved_or_small(arguments.city.as_ref());
     let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
     let mut world = World::new();
     city.populate(&mut world)?;
@@ -84,7 +73,7 @@ fn job(arguments: &Arguments) -> Done<()> {
     let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
     let editor = SceneEditor::new(Seed(arguments.seed)).looking_from(arguments.from);
     println!("a city of {} things; type how it is to change", world.len());
-    let mut desk = Desk { arguments, world, editor, view, last: Vec::new() };
+    let mut desk = Desk { arguments, world, editor, view };
     if arguments.say.is_empty() {
         desk.listen()
     } else {
@@ -101,12 +90,10 @@ struct Desk<'a> {
     world: World,
     editor: SceneEditor,
     view: Option<View>,
-    /// What was tried for the last sentence.
-    last: Vec<Placing>,
 }
 
 impl Desk<'_> {
-    fn listen(&mut self) -> Done<()> {
+    fn listen(&mut self) -> Outcome<()> {
         let live = std::io::stdin().is_terminal();
         let mut lines = std::io::stdin().lock().lines();
         loop {
@@ -126,7 +113,7 @@ impl Desk<'_> {
         }
     }
 
-    fn hear(&mut self, said: &str) -> Done<()> {
+    fn hear(&mut self, said: &str) -> Outcome<()> {
         let before = self.world.clone();
         match said.trim().to_lowercase().as_str() {
             "undo" => match self.editor.undo(&mut self.world)? {
@@ -146,7 +133,6 @@ impl Desk<'_> {
                 Ok(edited) => self.tell(&edited),
                 Err(answer) => {
                     println!("  {answer}");
-                    self.last = self.editor.last_placings().to_vec();
                     return Ok(());
                 }
             },
@@ -154,8 +140,7 @@ impl Desk<'_> {
         self.draw(&before, said)
     }
 
-    fn tell(&mut self, edited: &Edited) {
-        self.last.clone_from(&edited.placings);
+    fn tell(&self, edited: &Edited) {
         if let Some(answer) = &edited.answer {
             println!("  {answer}");
         }
@@ -172,8 +157,8 @@ impl Desk<'_> {
     }
 
     /// What was tried for the last thing, in words and as a picture.
-    fn why(&self) -> Done<()> {
-        let Some(placing) = self.last.last() else {
+    fn why(&self) -> Outcome<()> {
+        let Some(placing) = self.editor.last_placings().last() else {
             println!("  nothing was put anywhere yet");
             return Ok(());
         };
@@ -190,7 +175,7 @@ impl Desk<'_> {
                 reach: self.arguments.reach,
                 title: "places that were tried",
                 touched: &[],
-                placings: &self.last,
+                placings: self.editor.last_placings(),
             };
             std::fs::write(self.arguments.out.join("why.svg"), plan.draw(&self.world).to_string())?;
         }
@@ -198,7 +183,7 @@ impl Desk<'_> {
     }
 
     fn where_else(&self) {
-        let others = self.last.last().map(Placing::alternatives).unwrap_or_default();
+        let others = self.editor.last_placings().last().map(Placing::alternatives).unwrap_or_default();
         if others.is_empty() {
             println!("  nowhere else");
         }
@@ -209,7 +194,7 @@ impl Desk<'_> {
     }
 
     /// Both states around what changed.
-    fn draw(&mut self, before: &World, title: &str) -> Done<()> {
+    fn draw(&mut self, before: &World, title: &str) -> Outcome<()> {
         let changed = Difference::between(before, &self.world);
         let touched: Vec<EntityId> = changed
             .added

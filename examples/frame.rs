@@ -15,6 +15,7 @@ use simworld_core::net::polyline;
 use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
+use simworld_examples::exit_code;
 use simworld_render::{Frame, RenderConfig, Renderer};
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 
@@ -42,13 +43,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {

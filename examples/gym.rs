@@ -18,6 +18,7 @@ use simworld_agents::gym::{EnvExt, VectorConfig, VectorEnv};
 use simworld_core::seam::EnvError;
 use simworld_core::seed::Seed;
 use simworld_examples::wayfinding::{Field, Many, Policy, Run, Wayfinding, curve_chart, judge, learn};
+use simworld_examples::{Outcome, exit_code};
 
 /// Learns a table of headings by Q-learning, beside a policy of chance, and draws how the reward grows.
 #[derive(Parser)]
@@ -48,21 +49,13 @@ struct Arguments {
     traffic: u32,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 /// Episodes that a policy is judged by.
 const JUDGED: usize = 200;
 /// Points of a curve.
 const POINTS: usize = 20;
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 #[expect(clippy::disallowed_methods, reason = "says how long learning took")]

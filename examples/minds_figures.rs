@@ -23,6 +23,7 @@ use simworld_core::seam::{EnvError, Observer, Options, Planner, SpaceValue};
 use simworld_core::seed::Seed;
 use simworld_examples::minds::{Bodies, Crowd, Dawdler, Promenade, SENTENCES, Speaker};
 use simworld_examples::wayfinding::{Field, Wayfinding};
+use simworld_examples::{Outcome, exit_code};
 
 /// Measures the figures of minds and prints each beside its bar.
 #[derive(Parser)]
@@ -59,16 +60,8 @@ enum Part {
     OwnPace,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {

@@ -21,6 +21,7 @@ use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 use simworld_examples::served::{CitySettings, RenderEye, simulation};
+use simworld_examples::{Outcome, exit_code};
 
 /// Measures the remote interface, each figure beside its bar.
 #[derive(Parser)]
@@ -33,19 +34,11 @@ struct Arguments {
     pictures: u32,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 /// When the last picture had been drawn.
 type Drawn = Arc<Mutex<Option<Instant>>>;
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 #[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]

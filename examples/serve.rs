@@ -17,6 +17,7 @@ use simworld_core::net::polyline;
 use simworld_core::scene::Scene;
 use simworld_core::simulation::Simulation;
 use simworld_examples::served::{CitySettings, RenderEye, ServedError, Session, replay, simulation};
+use simworld_examples::{Outcome, exit_code};
 
 /// The variable of the environment that holds the token.
 const TOKEN: &str = "SIMWORLD_TOKEN";
@@ -60,16 +61,8 @@ struct Arguments {
     replay: Option<PathBuf>,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {

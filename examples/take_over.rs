@@ -17,6 +17,7 @@ use simworld_core::net::{Aspect, NetworkConfig, RoadNetwork, StreetPlan, Turn, p
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
+use simworld_examples::{Outcome, exit_code};
 use simworld_physics::{PhysicsConfig, PhysicsDynamics, VehicleClass};
 use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
@@ -35,8 +36,6 @@ struct Arguments {
     junctions: usize,
 }
 
-type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
-
 /// Time of a step, s.
 const DT: f64 = 0.05;
 /// The same, µs.
@@ -45,13 +44,7 @@ const STEP: u64 = 50_000;
 const LONGEST: f64 = 600.0;
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {

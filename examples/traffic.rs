@@ -16,6 +16,7 @@ use indicatif::{HumanBytes, ProgressBar, ProgressStyle};
 use simworld_citygen::Style;
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Size, Source, make};
+use simworld_examples::exit_code;
 use simworld_examples::traffic::{Watched, pictures, report};
 use simworld_traffic::signal::{Actuated, FixedTime, MaxPressure, SelfOrganizing, SignalPolicy};
 use simworld_traffic::{Traffic, TrafficConfig};
@@ -84,13 +85,7 @@ impl Policy {
 type Fault = Box<dyn std::error::Error>;
 
 fn main() -> ExitCode {
-    match job(&Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    exit_code(job(&Arguments::parse()))
 }
 
 fn job(arguments: &Arguments) -> Result<(), Fault> {

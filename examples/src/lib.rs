@@ -12,12 +12,15 @@ pub mod chat;
 pub mod city;
 pub mod delivery;
 pub mod edit;
+mod ending;
 pub mod experiment;
 pub mod minds;
 pub mod report;
 pub mod served;
 pub mod traffic;
 pub mod wayfinding;
+
+pub use ending::{Outcome, exit_code};
 
 /// The page about one's own task, so that its code is run.
 #[cfg(doctest)]

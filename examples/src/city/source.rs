@@ -28,6 +28,14 @@ pub enum Source {
     Saved(PathBuf),
 }
 
+impl Source {
+    /// A saved city or, without one, a small one of mixed streets, 700 m across.
+    pub fn saved_or_small(saved: Option<&PathBuf>) -> Self {
+        let small = Size { metres: 700.0 };
+        saved.map_or(Self::Grown(Style::Mixed, small), |path| Self::Saved(path.clone()))
+    }
+}
+
 /// A city, and what had to be mended in its file.
 pub struct Made {
     /// The city.

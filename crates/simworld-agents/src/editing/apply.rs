@@ -44,7 +44,7 @@ pub(super) struct Applier<'a> {
 impl Applier<'_> {
     /// What was done and how to take it back; where it failed, all of it is taken back.
     pub(super) fn finish(self, kept: bool) -> (Edited, Vec<Command>, Memory) {
-        let Self { scene, mut back, focus, placed, tried, mut edited, .. } = self;
+        let Self { scene, mut back, focus, placed, tried, edited, .. } = self;
         back.reverse();
         if !kept {
             for command in &back {
@@ -53,7 +53,6 @@ impl Applier<'_> {
             }
             back.clear();
         }
-        edited.placings.clone_from(&tried);
         (edited, back, Memory { focus: kept.then_some(focus), placed, tried })
     }
 

@@ -58,8 +58,6 @@ pub struct Edited {
     pub made: Vec<EntityId>,
     /// The answer to a question.
     pub answer: Option<String>,
-    /// What was tried for each thing that was put somewhere.
-    pub placings: Vec<Placing>,
 }
 
 /// Edits a scene by words. What it does follows from its seed, its words and the scene alone.

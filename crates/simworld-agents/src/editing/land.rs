@@ -156,14 +156,8 @@ impl Streets {
         if roads.is_empty() {
             return Ok(1.0);
         }
-        let lands = solid.corners().into_iter().chain([solid.planar()]).map(|at| self.at_of(at, &roads));
-        let lands: [Land; 5] = {
-            let mut all = [Land::Open; 5];
-            for (slot, land) in all.iter_mut().zip(lands) {
-                *slot = land;
-            }
-            all
-        };
+        let [a, b, c, d] = solid.corners();
+        let lands = [a, b, c, d, solid.planar()].map(|at| self.at_of(at, &roads));
         let any = |land: Land| lands.contains(&land);
         if any(Land::Junction) && kind != EntityKind::Cone {
             return Err("streets meet there, or walkers cross");

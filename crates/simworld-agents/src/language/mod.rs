@@ -22,6 +22,7 @@ mod numbers;
 mod orders;
 mod paint;
 mod parser;
+mod pointing;
 mod politeness;
 mod reference;
 mod relate;

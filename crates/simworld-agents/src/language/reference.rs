@@ -4,7 +4,7 @@ use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Count, Reference, Side, Stands, Target};
-use super::lexer::{Lexeme, Token};
+use super::lexer::Token;
 use super::lexicon::{
     COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES, category, fits, longest, longest_phrase,
 };
@@ -14,8 +14,6 @@ use super::parser::{Parser, shortened};
 
 /// How many things may be described by one another: "the bench near the tree near ...".
 const DEEPEST: u32 = 4;
-/// Coordinates beyond this are outside every world, m.
-const FARTHEST_POINT: f64 = 1.0e7;
 /// Between a superlative and what it chooses from.
 const OF_SEVERAL: &[&str] = &["of the", "of these", "of those", "of all the", "of all"];
 /// What is said of anything that is about.
@@ -328,66 +326,6 @@ impl Parser<'_> {
     /// "Where you are" is a place of its own.
     fn peeks_place(&self) -> bool {
         longest_phrase(self.rest(), &["where you", "where we", "where i"]).is_some()
-    }
-
-    /// Pronouns, ids and coordinates.
-    fn simple_target(&mut self) -> Result<Option<Target>, PlanError> {
-        if self.eat_any(&["it", "that one", "this one", "this thing", "that thing"]) {
-            return Ok(Some(Target::It));
-        }
-        if self.eat_any(&["there", "that place"]) {
-            return Ok(Some(Target::There));
-        }
-        if self.eat_any(&[
-            "here",
-            "where you started",
-            "where you were",
-            "where you are",
-            "where you started from",
-            "your starting point",
-            "the start",
-        ]) {
-            return Ok(Some(Target::Here));
-        }
-        if let Some(speaker) = self.view.speaker
-            && self.eat_any(&["me", "us", "myself", "where i am", "where i stand"])
-        {
-            return Ok(Some(Target::Id(speaker)));
-        }
-        match self.rest() {
-            [Lexeme { token: Token::Id(id), .. }, ..] => {
-                let id = *id;
-                self.at += 1;
-                Ok(Some(Target::Id(id)))
-            }
-            [Lexeme { token: Token::Open, .. }, ..] => self.point().map(Some),
-            _ => Ok(None),
-        }
-    }
-
-    fn point(&mut self) -> Result<Target, PlanError> {
-        let start = self.at;
-        self.at += 1;
-        let mut numbers = Vec::new();
-        while let Some(Lexeme { token: Token::Number(number), .. }) = self.rest().first() {
-            numbers.push(*number);
-            self.at += 1;
-            if matches!(self.rest().first(), Some(Lexeme { token: Token::Comma, .. })) {
-                self.at += 1;
-            }
-        }
-        let closed = matches!(self.rest().first(), Some(Lexeme { token: Token::Close, .. }));
-        let within = numbers.iter().all(|number| number.abs() <= FARTHEST_POINT);
-        let (true, true, [x, y, height @ ..]) = (closed, within, &numbers[..]) else {
-            self.at = start;
-            return Err(self.not_understood("write a point as (x, y), metres east and north within ±1e7"));
-        };
-        if height.len() > 1 {
-            self.at = start;
-            return Err(self.not_understood("write a point with two or three numbers"));
-        }
-        self.at += 1;
-        Ok(Target::Point { x: *x, y: *y, z: height.first().copied() })
     }
 
     /// A name or a class of things; of two that fit, the longer.

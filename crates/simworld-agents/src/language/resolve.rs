@@ -55,9 +55,9 @@ pub(super) struct View<'a> {
 }
 
 /// Whether goods of that name are sold there.
-fn sells(entity: &EntityRef<'_>, goods: &str) -> bool {
+pub(super) fn sells(entity: &EntityRef<'_>, goods: &str) -> bool {
     let sold = entity.info.attributes.get(simworld_core::scene::SELLS);
-    matches!(sold, Some(simworld_core::value::Value::Text(sold)) if sold.split(',').any(|one| one.trim().eq_ignore_ascii_case(goods)))
+    matches!(sold, Some(simworld_core::value::Value::Text(sold)) if sold.split(',').any(|one| one.trim() == goods))
 }
 
 /// A thing that fits, with the figure by which to choose; less is better.

@@ -2,15 +2,14 @@
 
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
+use simworld_core::scene::{EntityKind, EntityRef, OPEN};
 use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
-use simworld_core::value::Value;
 
 use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test, Vehicle};
 use super::draft::{Draft, Load, Posture};
 use super::lexicon::{Category, class, is_animate};
 use super::relate::PART;
-use super::resolve::Purpose;
+use super::resolve::{Purpose, sells};
 use super::tests_of::NEARBY;
 
 impl<'a> Draft<'a> {
@@ -287,10 +286,7 @@ impl<'a> Draft<'a> {
 
     /// At the nearest place that sells it.
     pub(super) fn buy(&mut self, goods: &str, times: u32, at: Option<&Reference>) -> Result<(), PlanError> {
-        let sells = |place: &EntityRef<'_>| {
-            matches!(place.info.attributes.get(SELLS), Some(Value::Text(sells))
-                if sells.split(',').any(|sold| sold.trim() == goods))
-        };
+        let sells = |place: &EntityRef<'_>| sells(place, goods);
         self.can(ActionKind::Buy)?;
         let not_sold = |near: String| PlanError::NotFound { wanted: format!("{goods} to buy"), near };
         let place = if let Some(at) = at {

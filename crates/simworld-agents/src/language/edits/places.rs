@@ -209,7 +209,6 @@ impl Reader<'_> {
             if self.before_politeness(start.saturating_sub(1), end) <= self.at {
                 self.at = end;
             }
-            places.retain(|place| *place != Where::Anywhere || start == 0);
             return Ok(places);
         }
     }

@@ -329,9 +329,8 @@ impl Finder<'_> {
 
     fn to(&self, relation: Relation, anchor: EntityId) -> Result<Stand, EditError> {
         let kind = self.scene.entity(anchor).map(|entity| entity.kind);
-        let label = self.scene.entity(anchor).map_or_else(String::new, |entity| entity.label().to_owned());
         let impossible = |why: &str| {
-            let what = format!("to stand {} {label}", phrase(relation));
+            let what = format!("to stand {}", Stand::To { relation, anchor }.told(self.scene));
             Err(EditError::Impossible { what, why: why.to_owned() })
         };
         match (relation, kind) {
@@ -403,22 +402,6 @@ fn plural(reference: &Reference) -> bool {
     };
     // The first noun of the class is what the phrase is about; what follows belongs to its relation.
     words.iter().find(|word| is_singular(word) || is_plural(word)).is_some_and(is_plural)
-}
-
-/// How a relation is said.
-fn phrase(relation: Relation) -> &'static str {
-    match relation {
-        Relation::NextTo => "next to",
-        Relation::Near => "near",
-        Relation::FarFrom => "far from",
-        Relation::InFrontOf => "in front of",
-        Relation::Behind => "behind",
-        Relation::LeftOf => "to the left of",
-        Relation::RightOf => "to the right of",
-        Relation::OnTopOf => "on top of",
-        Relation::Inside => "inside",
-        _ => "at",
-    }
 }
 
 fn sky(mut now: Environment, skies: &[Sky]) -> Environment {

@@ -1,6 +1,7 @@
 //! Misspelt words of edits: those of verbs, relations and the catalogue come first, then those that all sentences share.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use simworld_core::asset::Catalogue;
 
@@ -55,7 +56,7 @@ pub(super) fn correct(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>,
             at += 1;
         }
     }
-    let own = own_words(catalogue);
+    let own = Own { catalogue };
     let mut at = 0;
     while at < lexemes.len() {
         let here = at;
@@ -105,22 +106,42 @@ fn compound(word: &str, catalogue: &Catalogue) -> Option<Vec<String>> {
     Some(found.split('_').map(str::to_owned).collect())
 }
 
-fn own_words(catalogue: &Catalogue) -> BTreeSet<String> {
-    let mut own: BTreeSet<String> = words::words().map(str::to_owned).collect();
-    own.extend(super::parse::small_words().map(str::to_owned));
+/// The words of all tables, gathered once.
+static TABLES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
+    let mut words: BTreeSet<String> =
+        words::words().chain(super::parse::small_words()).map(str::to_owned).collect();
     let nouns = CATEGORIES.iter().flat_map(|category| category.words).flat_map(|phrase| phrase.split(' '));
     for noun in nouns {
-        own.extend([noun.to_owned(), format!("{noun}s"), format!("{noun}es")]);
+        words.extend([noun.to_owned(), format!("{noun}s"), format!("{noun}es")]);
     }
-    own.extend(PAINTS.iter().flat_map(|(words, _)| *words).map(|&word| word.to_owned()));
-    for (_, asset) in catalogue.iter() {
-        own.extend(asset.name.split('_').map(str::to_owned));
-        own.extend(asset.tags.iter().cloned());
-    }
-    own
+    words.extend(PAINTS.iter().flat_map(|(words, _)| *words).map(|&word| word.to_owned()));
+    words
+});
+
+/// The words of edits: those of the tables and of a catalogue.
+struct Own<'a> {
+    catalogue: &'a Catalogue,
 }
 
-fn nearest(word: &str, own: &BTreeSet<String>) -> Option<String> {
+impl Own<'_> {
+    fn of_catalogue(&self) -> impl Iterator<Item = &str> {
+        self.catalogue.iter().flat_map(|(_, asset)| {
+            let tags = asset.tags.iter().map(String::as_str);
+            asset.name.split('_').chain(tags)
+        })
+    }
+
+    fn contains(&self, word: &str) -> bool {
+        TABLES.contains(word) || self.of_catalogue().any(|own| own == word)
+    }
+
+    /// All of them, each once.
+    fn all(&self) -> BTreeSet<&str> {
+        TABLES.iter().map(String::as_str).chain(self.of_catalogue()).collect()
+    }
+}
+
+fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
     let letters = |word: &str| {
         let mut letters: Vec<char> = word.chars().collect();
         letters.sort_unstable();
@@ -131,8 +152,9 @@ fn nearest(word: &str, own: &BTreeSet<String>) -> Option<String> {
         return None;
     }
     let allowed = if length >= LONG { 2 } else { 1 };
-    let near = |known: &&String| known.chars().count().abs_diff(length) <= allowed && known.len() >= 3;
-    let ranked = own.iter().filter(near).map(|known| {
+    let near = |known: &&str| known.chars().count().abs_diff(length) <= allowed && known.len() >= 3;
+    let own = own.all();
+    let ranked = own.into_iter().filter(near).map(|known| {
         let slip = if letters(known) == letters(word) {
             Slip::Swapped
         } else if known.chars().count() == length {
@@ -151,9 +173,9 @@ fn nearest(word: &str, own: &BTreeSet<String>) -> Option<String> {
         .collect();
     best.sort_unstable();
     match &best[..] {
-        [(.., only)] => Some((*only).clone()),
+        [(.., only)] => Some((*only).to_owned()),
         [first, second, ..] if (first.0, first.1, first.2) < (second.0, second.1, second.2) => {
-            Some(first.3.clone())
+            Some(first.3.to_owned())
         }
         _ => None,
     }

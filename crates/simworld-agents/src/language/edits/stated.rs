@@ -9,45 +9,37 @@ use super::parse::Reader;
 use super::wish::{Anchor, Where, Wish};
 use super::words::{ABOUT_IT, FACTORS};
 
-impl Reader<'_> {
-    /// Statements: "the truck should be blue", "it is noon", "there should be a bench".
-    pub(super) fn stated(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
-        #[rustfmt::skip]
-    const OUGHT: &[&str] = &["should be", "must be", "ought to be", "has to be", "have to be", "needs to be",
+/// How a thing should be.
+#[rustfmt::skip]
+const OUGHT: &[&str] = &["should be", "must be", "ought to be", "has to be", "have to be", "needs to be",
         "need to be", "shall be", "is supposed to be", "be", "would look better", "should become", "should turn",
         "could be", "becomes", "become", "turns", "should be standing", "should stand", "should sit",
         "should be placed", "should be moved", "would be better", "would be nicer", "should go", "must stand",
         "belongs", "belong", "must go", "has to go", "needs to go", "can go", "is to be", "be standing",
         "should get"];
-        const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away"];
-        #[rustfmt::skip]
-    const GOES: &[&str] = &["should go", "must go", "has to go", "have to go", "needs to go", "can go",
+/// After them: that it should not be.
+const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away"];
+/// That it should not be, whole.
+#[rustfmt::skip]
+const GOES: &[&str] = &["should go", "must go", "has to go", "have to go", "needs to go", "can go",
         "has got to go", "ought to go", "is no longer needed", "isnt needed", "is not needed", "has to disappear",
         "should disappear", "must disappear"];
-        #[rustfmt::skip]
-    const TRADES: &[&str] = &["should change places", "should swap places", "should trade places", "should swap",
+/// That two should stand where the other does.
+#[rustfmt::skip]
+const TRADES: &[&str] = &["should change places", "should swap places", "should trade places", "should swap",
         "should switch places", "must change places", "must swap places", "have to change places",
         "have to swap places", "ought to swap places", "should swap positions", "need to swap places"];
+
+impl Reader<'_> {
+    /// Statements: "the truck should be blue", "it is noon", "there should be a bench".
+    pub(super) fn stated(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let start = self.at;
         let mut from = start + self.polite_at(start);
         from +=
             longest_phrase(&self.lexemes[from..end], &["could", "can", "may", "should", "would", "might"])
                 .unwrap_or(0);
-        let stop = self.before_politeness(from, end);
-        for cut in from + 1..stop {
-            let rest = &self.lexemes[cut..stop];
-            if longest_phrase(rest, GOES) == Some(rest.len())
-                && let Ok(what) = self.things(from, cut)
-            {
-                self.at = end;
-                return Ok(Some(vec![vec![Wish::Remove { what }]]));
-            }
-            if longest_phrase(rest, TRADES) == Some(rest.len()) {
-                self.at = from;
-                let wish = self.pair_up(from, cut)?;
-                self.at = end;
-                return Ok(Some(vec![vec![wish]]));
-            }
+        if let Some(wish) = self.gone_or_traded(from, end)? {
+            return Ok(Some(vec![vec![wish]]));
         }
         if let Some(wish) = self.lacking(from, end) {
             return Ok(Some(vec![vec![wish]]));
@@ -84,6 +76,27 @@ impl Reader<'_> {
             }
         }
         self.at = start;
+        Ok(None)
+    }
+
+    /// "The crate has to go", "the two should change places".
+    fn gone_or_traded(&mut self, from: usize, end: usize) -> Result<Option<Wish>, PlanError> {
+        let stop = self.before_politeness(from, end);
+        for cut in from + 1..stop {
+            let rest = &self.lexemes[cut..stop];
+            if longest_phrase(rest, GOES) == Some(rest.len())
+                && let Ok(what) = self.things(from, cut)
+            {
+                self.at = end;
+                return Ok(Some(Wish::Remove { what }));
+            }
+            if longest_phrase(rest, TRADES) == Some(rest.len()) {
+                self.at = from;
+                let wish = self.pair_up(from, cut)?;
+                self.at = end;
+                return Ok(Some(wish));
+            }
+        }
         Ok(None)
     }
 
