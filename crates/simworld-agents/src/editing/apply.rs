@@ -14,7 +14,7 @@ use simworld_core::seed::Stream;
 use super::Placing;
 use super::describe::{describe, listed};
 use super::edit::{Edit, Make, Stand};
-use super::editor::{Editable, Edited, Memory};
+use super::editable::Editable;
 use super::error::EditError;
 use super::land::Streets;
 use super::place::Placer;
@@ -26,6 +26,24 @@ use crate::language::edits::Focus;
 const FACTORS: std::ops::RangeInclusive<f64> = 0.05..=20.0;
 /// More new things at once are refused.
 const MOST: u32 = 1000;
+
+/// What a sentence did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Edited {
+    /// What it was understood as, in order.
+    pub edits: Vec<Edit>,
+    /// Things that it made, in order.
+    pub made: Vec<EntityId>,
+    /// The answer to a question.
+    pub answer: Option<String>,
+}
+
+/// What an editor keeps of a sentence.
+pub(super) struct Memory {
+    pub(super) focus: Option<Focus>,
+    pub(super) placed: u64,
+    pub(super) tried: Vec<Placing>,
+}
 
 /// Carries out edits, and can take all of them back.
 pub(super) struct Applier<'a> {

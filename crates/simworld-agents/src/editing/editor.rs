@@ -1,64 +1,19 @@
 //! The scene agent: words or typed edits to commands that take effect at once, with undo, redo and reasons.
 
 use simworld_core::asset::Catalogue;
-use simworld_core::command::{Applied, Command, CommandError};
 use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Scene, World};
+use simworld_core::scene::Scene;
 use simworld_core::seed::Seed;
-use simworld_core::simulation::Simulation;
 
-use super::apply::Applier;
+use super::apply::{Applier, Edited, Memory};
 use super::edit::Edit;
+use super::editable::{Editable, change_all};
 use super::error::EditError;
 use super::history::History;
 use super::land::Streets;
 use super::place::Placing;
 use crate::language::edits::{self, Focus, Reading};
-
-/// A world that can be edited: one by itself, or that of a running simulation between the halves of a step.
-pub trait Editable {
-    /// The world as it is.
-    fn world(&self) -> &World;
-
-    /// Carries out a command from outside.
-    ///
-    /// # Errors
-    /// The command is impossible; then nothing has changed.
-    fn change(&mut self, command: &Command) -> Result<Applied, CommandError>;
-}
-
-impl Editable for World {
-    fn world(&self) -> &World {
-        self
-    }
-
-    fn change(&mut self, command: &Command) -> Result<Applied, CommandError> {
-        self.apply(command)
-    }
-}
-
-/// The commands are recorded, so that a run that was edited replays.
-impl Editable for Simulation {
-    fn world(&self) -> &World {
-        Self::world(self)
-    }
-
-    fn change(&mut self, command: &Command) -> Result<Applied, CommandError> {
-        self.apply_from_outside(command)
-    }
-}
-
-/// What a sentence did.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Edited {
-    /// What it was understood as, in order.
-    pub edits: Vec<Edit>,
-    /// Things that it made, in order.
-    pub made: Vec<EntityId>,
-    /// The answer to a question.
-    pub answer: Option<String>,
-}
 
 /// Edits a scene by words. What it does follows from its seed, its words and the scene alone.
 ///
@@ -233,33 +188,4 @@ fn carry_out(reading: &Reading, index: usize, applier: &mut Applier<'_>) -> Resu
         applier.edited.edits.push(edit);
     }
     Ok(())
-}
-
-/// What an editor keeps of a sentence.
-pub(super) struct Memory {
-    pub(super) focus: Option<Focus>,
-    pub(super) placed: u64,
-    pub(super) tried: Vec<Placing>,
-}
-
-/// Carries out commands, all of them or none; gives those that take them back, in order.
-pub(super) fn change_all(
-    scene: &mut dyn Editable,
-    commands: &[Command],
-) -> Result<Vec<Command>, CommandError> {
-    let mut back = Vec::new();
-    for command in commands {
-        match scene.change(command) {
-            Ok(applied) => back.extend(applied.undo),
-            Err(error) => {
-                for command in back.iter().rev() {
-                    // What was just done can be taken back: nothing else changed since.
-                    let _ = scene.change(command);
-                }
-                return Err(error);
-            }
-        }
-    }
-    back.reverse();
-    Ok(back)
 }
