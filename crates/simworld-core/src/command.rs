@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::action::Action;
 use crate::alteration::Alteration;
+use crate::asset::Asset;
 use crate::environment::{Environment, EnvironmentError};
 use crate::geometry::{Pose, Twist};
 use crate::id::EntityId;
@@ -22,6 +23,8 @@ use crate::value::Value;
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Command {
+    /// Adds an asset to those that entities are made from. It cannot be taken back: what no entity is made from has no effect.
+    AddAsset(Box<Asset>),
     /// Puts a new entity into the world.
     Spawn(Box<EntityDesc>),
     /// Puts a removed entity back under its old id.
@@ -125,7 +128,7 @@ pub enum CommandError {
 pub struct Applied {
     /// The entity it made.
     pub spawned: Option<EntityId>,
-    /// The command that takes it back; actions, intents and orders to the traffic cannot be taken back.
+    /// The command that takes it back; assets, actions, intents and orders to the traffic cannot be taken back.
     pub undo: Option<Command>,
 }
 
@@ -159,6 +162,10 @@ impl World {
     /// The command is impossible; then nothing has changed.
     pub fn apply(&mut self, command: &Command) -> Result<Applied, CommandError> {
         let undo = match command {
+            Command::AddAsset(asset) => {
+                self.add_asset((**asset).clone()).map_err(WorldError::from)?;
+                None
+            }
             Command::Spawn(desc) => {
                 let id = self.spawn((**desc).clone())?;
                 return Ok(Applied { spawned: Some(id), undo: Some(Command::Remove { id }) });

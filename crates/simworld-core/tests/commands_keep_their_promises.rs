@@ -5,7 +5,8 @@ mod common;
 use common::{any_change, any_command, bytes, contents, small_world};
 use proptest::prelude::*;
 use simworld_core::alteration::Alteration;
-use simworld_core::command::Command;
+use simworld_core::asset::Asset;
+use simworld_core::command::{Applied, Command};
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point2, Point3, Pose, Ray, Twist, Vector3};
 use simworld_core::hash::StateHash;
@@ -166,6 +167,23 @@ fn what_is_altered_is_found_and_met_as_it_is_now() {
         assert!(error.contains(says), "{error}");
     }
     assert_eq!(before, bytes(&world));
+}
+
+#[test]
+fn an_asset_comes_by_command_and_once() {
+    let mut world = small_world();
+    let stool = Asset::new("stool", EntityKind::Chair, Shape::cuboid(0.4, 0.4, 0.5));
+    let add = |asset: &Asset| Command::AddAsset(Box::new(asset.clone()));
+    let digest = world.digest();
+    for _ in 0..2 {
+        assert_eq!(world.apply(&add(&stool)).unwrap(), Applied::default());
+    }
+    assert_eq!(world.digest(), digest, "nothing is made from it yet");
+    let id = world.assets().unwrap().find("stool").unwrap();
+    world.apply(&Command::Spawn(Box::new(stool.at(id, Pose::identity())))).unwrap();
+    let other = Asset { mass: Some(4.0), ..stool };
+    let error = world.apply(&add(&other)).unwrap_err().to_string();
+    assert!(error.contains("another one"), "{error}");
 }
 
 #[test]

@@ -1,10 +1,15 @@
 //! Assets: the kinds of things that a world is built with, each with its collider, mass, colour and the words by which
-//! people ask for it. Metres, kilograms, linear-light sRGB. Meshes belong to a renderer, which finds them by name.
+//! people ask for it. Metres, kilograms, linear-light sRGB. An asset may bring a model of its own; the others are drawn by a
+//! renderer as it draws their kind, and met as their collider.
 
 mod catalogue;
+mod model;
 mod standard;
 
+use std::sync::Arc;
+
 pub use catalogue::Catalogue;
+pub use model::{Hull, LARGEST_MODEL, Model, ModelError, ModelPart, ModelVertex, Paint};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -46,6 +51,14 @@ pub enum AssetError {
         /// kg.
         mass: f64,
     },
+    /// The model is none, or does not fit.
+    #[error("the model of asset {name:?}: {error}")]
+    Model {
+        /// Of which asset.
+        name: String,
+        /// What is wrong with it.
+        error: Box<ModelError>,
+    },
     /// The colour is none.
     #[error("asset {name:?} has colour {color:?}: give three numbers from 0 to 1")]
     Color {
@@ -81,6 +94,9 @@ pub struct Asset {
     /// Where it comes from: a generator, a file, a prompt, and under which licence.
     #[serde(default)]
     pub source: String,
+    /// What it looks like and is met as, finer than its collider, in whose box it stands.
+    #[serde(default)]
+    pub model: Option<Arc<Model>>,
 }
 
 impl Asset {
@@ -95,6 +111,7 @@ impl Asset {
             color: None,
             tags: Vec::new(),
             source: String::new(),
+            model: None,
         }
     }
 
@@ -121,7 +138,7 @@ impl Asset {
     /// Checks that the asset can be in a catalogue.
     ///
     /// # Errors
-    /// A name, collider, mass or colour that is none.
+    /// A name, collider, mass, colour or model that is none.
     pub fn validate(&self) -> Result<(), AssetError> {
         let name = self.name.clone();
         let is_letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
@@ -133,6 +150,9 @@ impl Asset {
         }
         if let Some(mass) = self.mass.filter(|mass| !(1e-3..=1e9).contains(mass)) {
             return Err(AssetError::Mass { name, mass });
+        }
+        if let Some(Err(error)) = self.model.as_ref().map(|model| model.validate(self.collider.size())) {
+            return Err(AssetError::Model { name, error: Box::new(error) });
         }
         let is_color = |color: &[f32; 3]| color.iter().all(|channel| (0.0..=1.0).contains(channel));
         match self.color.filter(|color| !is_color(color)) {

@@ -4,6 +4,7 @@
 use proptest::prelude::*;
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::alteration::Alteration;
+use simworld_core::asset::Asset;
 use simworld_core::command::Command;
 use simworld_core::environment::Environment;
 use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
@@ -52,6 +53,12 @@ pub(crate) fn any_desc() -> impl Strategy<Value = EntityDesc> {
             desc
         },
     )
+}
+
+/// Few names, so that some are taken; some have no size.
+fn any_asset() -> impl Strategy<Value = Asset> {
+    ("[ab]", any_kind(), any_number())
+        .prop_map(|(name, kind, size)| Asset::new(name, kind, Shape::cuboid(1.0, 1.0, size)))
 }
 
 fn any_alteration() -> impl Strategy<Value = Alteration> {
@@ -109,6 +116,7 @@ pub(crate) fn any_command() -> impl Strategy<Value = Command> {
             };
             Command::Actuate { who, action }
         }),
+        1 => any_asset().prop_map(|asset| Command::AddAsset(Box::new(asset))),
         1 => any_id().prop_map(|who| Command::Intend { who, intent: Intent::call("rest") }),
     ]
 }
