@@ -6,6 +6,7 @@ pub mod delivery;
 pub mod editing;
 pub mod episode;
 pub mod executor;
+pub mod generation;
 pub mod gym;
 mod lanes;
 pub mod language;
