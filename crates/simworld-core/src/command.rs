@@ -14,8 +14,9 @@ use crate::geometry::{Pose, Twist};
 use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{NetworkPatch, PatchError};
+use crate::passage::{Passage, PassageError};
 use crate::scene::{Attachment, EntityDesc, InteractionError, Scene, World, WorldError};
-use crate::traffic::TrafficOrder;
+use crate::traffic::{RoadLeg, TrafficOrder};
 use crate::value::Value;
 
 /// One change asked of a world.
@@ -87,6 +88,13 @@ pub enum Command {
     SetEnvironment(Environment),
     /// Changes the roads.
     PatchRoads(Box<NetworkPatch>),
+    /// Closes one direction of a road to traffic, or opens it.
+    SetPassage {
+        /// Which.
+        leg: RoadLeg,
+        /// Whether traffic may enter from now on.
+        passage: Passage,
+    },
     /// Tells a body to act.
     Actuate {
         /// Which body.
@@ -118,6 +126,9 @@ pub enum CommandError {
     /// The roads cannot be changed so.
     #[error(transparent)]
     Roads(#[from] PatchError),
+    /// The street is not there.
+    #[error(transparent)]
+    Passage(#[from] PassageError),
     /// The action is impossible.
     #[error(transparent)]
     Interaction(#[from] InteractionError),
@@ -207,6 +218,9 @@ impl World {
             }
             Command::PatchRoads(patch) => {
                 Some(Command::PatchRoads(Box::new(self.patch_roads((**patch).clone())?)))
+            }
+            Command::SetPassage { leg, passage } => {
+                Some(Command::SetPassage { leg: *leg, passage: self.set_passage(*leg, *passage)? })
             }
             Command::Actuate { who, action } => {
                 self.actuate(*who, action.clone())?;

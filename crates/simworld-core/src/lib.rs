@@ -19,6 +19,7 @@ pub mod intent;
 pub mod kinematic;
 pub mod net;
 pub mod ops;
+pub mod passage;
 pub mod patch;
 pub mod record;
 pub mod scene;

@@ -2,6 +2,7 @@
 
 mod handed;
 mod orders;
+mod passages;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape, World};
 use simworld_core::seam::{Dynamics, DynamicsError};
 use simworld_core::seed::{Seed, Stream, StreamRng};
+use simworld_core::traffic::RoadLeg;
 use simworld_core::value::Value;
 
 use self::handed::Who;
@@ -34,7 +36,8 @@ const PAINTS: [[f32; 3]; 7] = [
 ///
 /// Orders to the traffic ([`Command::Traffic`](simworld_core::command::Command::Traffic)) are carried out at the beginning of a
 /// step; one that cannot be is reported as the event `traffic_refused`, and a closure as `closed` with its number. Who is taken
-/// out of the world is taken out of the traffic.
+/// out of the world is taken out of the traffic. Streets that the world has closed are closed from the next step on, and those
+/// who were to drive there take another way.
 ///
 /// People and vehicles that belong to others are seen: drivers stop for them, but not for parked
 /// vehicles (attribute `parked`), which keep within their lanes.
@@ -66,6 +69,8 @@ pub struct TrafficDynamics {
     /// Bodies of others, found anew when entities come or go.
     others: Vec<EntityId>,
     revision: Option<u64>,
+    /// The closures of the streets that the world has closed, by number.
+    shut: BTreeMap<RoadLeg, u32>,
     foreign: Vec<Foreign>,
     /// The weather that was minded last.
     weather: Option<Weather>,
@@ -100,6 +105,7 @@ impl TrafficDynamics {
             handed: BTreeMap::new(),
             others: Vec::new(),
             revision: None,
+            shut: BTreeMap::new(),
             foreign: Vec::new(),
             weather: None,
         })
@@ -235,8 +241,10 @@ impl TrafficDynamics {
     }
 }
 
-/// What is saved: the configuration, the state, entities of vehicles and walkers by number, and whom somebody else moves.
-type Saved = (TrafficConfig, State, Vec<EntityId>, Vec<EntityId>, BTreeMap<EntityId, Who>);
+/// What is saved: the configuration, the state, entities of vehicles and walkers by number, whom somebody else moves, and the
+/// closures of closed streets.
+type Saved =
+    (TrafficConfig, State, Vec<EntityId>, Vec<EntityId>, BTreeMap<EntityId, Who>, BTreeMap<RoadLeg, u32>);
 
 fn describe(body: &Body, paint: &mut StreamRng) -> EntityDesc {
     let desc = EntityDesc::new(body.kind.entity_kind(), body.pose, body.shape);
@@ -276,6 +284,7 @@ impl Dynamics for TrafficDynamics {
         if self.revision != Some(world.revision()) {
             self.bury(world);
         }
+        self.mind_passages(world)?;
         self.obey(world);
         self.follow(world);
         self.look_around(world);
@@ -289,8 +298,14 @@ impl Dynamics for TrafficDynamics {
     }
 
     fn save(&self) -> Result<Vec<u8>, DynamicsError> {
-        let saved =
-            (self.traffic.config(), self.traffic.state(), &self.vehicles, &self.pedestrians, &self.handed);
+        let saved = (
+            self.traffic.config(),
+            self.traffic.state(),
+            &self.vehicles,
+            &self.pedestrians,
+            &self.handed,
+            &self.shut,
+        );
         let mut bytes =
             postcard::to_stdvec(&saved).map_err(|error| DynamicsError::Saved(error.to_string()))?;
         bytes.extend(checksum(&bytes));
@@ -303,7 +318,7 @@ impl Dynamics for TrafficDynamics {
         if checksum(bytes) != *sum {
             return Err(refused("its checksum does not fit its bytes, so it is damaged"));
         }
-        let (config, state, vehicles, pedestrians, handed): Saved =
+        let (config, state, vehicles, pedestrians, handed, shut): Saved =
             postcard::from_bytes(bytes).map_err(|error| refused(&error.to_string()))?;
         let named = config == *self.traffic.config()
             && vehicles.len() >= state.numbers()
@@ -311,7 +326,7 @@ impl Dynamics for TrafficDynamics {
         if !named || !self.traffic.set_state(state) {
             return Err(refused("it belongs to another network or configuration"));
         }
-        (self.vehicles, self.pedestrians, self.handed) = (vehicles, pedestrians, handed);
+        (self.vehicles, self.pedestrians, self.handed, self.shut) = (vehicles, pedestrians, handed, shut);
         self.revision = None;
         self.weather = None;
         Ok(())

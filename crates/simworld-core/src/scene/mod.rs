@@ -30,6 +30,7 @@ use crate::environment::Environment;
 use crate::geometry::{Aabb, Point2, Ray, Vector3};
 use crate::id::EntityId;
 use crate::net::{Aspect, RoadNetwork};
+use crate::traffic::RoadLeg;
 
 /// What is where: the seam through which observers, planners, executors and tasks read a world.
 ///
@@ -124,6 +125,11 @@ pub trait Scene {
         &[]
     }
 
+    /// Whether that direction of a road is closed to traffic.
+    fn is_closed(&self, _leg: RoadLeg) -> bool {
+        false
+    }
+
     /// What everything is called, if the scene keeps an index of names; the world does.
     fn names(&self) -> Option<&NameIndex> {
         None
@@ -208,6 +214,9 @@ macro_rules! forward_scene {
             }
             fn signals(&self) -> &[Aspect] {
                 (**self).signals()
+            }
+            fn is_closed(&self, leg: RoadLeg) -> bool {
+                (**self).is_closed(leg)
             }
             fn names(&self) -> Option<&NameIndex> {
                 (**self).names()

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::EntityRef;
+use super::{EntityKind, EntityRef};
 use crate::geometry::{Point3, Vector3};
 
 /// A relation of a subject to a reference entity.
@@ -29,7 +29,7 @@ pub enum Relation {
     RightOf,
     /// Standing on its top, at most 5 cm off.
     OnTopOf,
-    /// Within its bounds.
+    /// Within its bounds; of flat ground, such as a park: with its whole footprint on it.
     Inside,
 }
 
@@ -80,12 +80,22 @@ impl Relation {
             Self::LeftOf => gap <= NEAR && in_quarter(subject, reference, Vector3::y()),
             Self::RightOf => gap <= NEAR && in_quarter(subject, reference, -Vector3::y()),
             Self::OnTopOf => gap == 0.0 && (subject.bounds.min.z - reference.bounds.max.z).abs() <= 0.05,
+            Self::Inside if is_flat(reference.kind) => {
+                let corners = subject.obb().footprint();
+                let is_on = |corner| reference.info.shape.planar_distance(reference.pose, corner) <= 1e-9;
+                corners.iter().all(is_on)
+            }
             Self::Inside => {
                 reference.bounds.contains(&subject.bounds.min)
                     && reference.bounds.contains(&subject.bounds.max)
             }
         }
     }
+}
+
+/// Whether it is ground, on which things stand rather than in it.
+const fn is_flat(kind: EntityKind) -> bool {
+    matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
 }
 
 /// Least distance in the plane between the axis-aligned boxes, m.

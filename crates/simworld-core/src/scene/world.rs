@@ -7,6 +7,7 @@ mod read;
 mod slots;
 mod snapshot;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 pub use error::WorldError;
@@ -25,7 +26,7 @@ use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
 use crate::net::{Aspect, NetworkPatch, PatchError, RoadNetwork};
-use crate::traffic::TrafficOrder;
+use crate::traffic::{RoadLeg, TrafficOrder};
 
 /// Positions farther out than this are refused, m: a third of the way round the Earth.
 const WORLD_LIMIT: f64 = 1.3e7;
@@ -69,9 +70,11 @@ pub struct World {
 
     clock: Clock,
     environment: Environment,
-    roads: Option<Arc<RoadNetwork>>,
+    pub(crate) roads: Option<Arc<RoadNetwork>>,
     assets: Arc<Catalogue>,
     signals: Vec<Aspect>,
+    /// Directions of roads that are closed to traffic.
+    pub(crate) closed: BTreeSet<RoadLeg>,
 
     // What this step is told and what happened in it; emptied at its end.
     actuations: Vec<(EntityId, Action)>,
@@ -91,9 +94,10 @@ impl World {
         Self { clock, ..Self::default() }
     }
 
-    /// Gives the world its roads; every signal group shows red until traffic says otherwise.
+    /// Gives the world its roads, all of them open; every signal group shows red until traffic says otherwise.
     pub fn set_roads(&mut self, roads: Arc<RoadNetwork>) {
         self.signals = vec![Aspect::Red; roads.signal_groups()];
+        self.closed.clear();
         self.roads = Some(roads);
     }
 
@@ -101,8 +105,12 @@ impl World {
     /// somebody else holds too is copied first, so that theirs stays as it is.
     ///
     /// # Errors
-    /// No roads, or a patch that is for other ones; then nothing has changed.
+    /// No roads, a patch that is for other ones, or streets that are closed, for a patch may number them anew; then nothing
+    /// has changed.
     pub fn patch_roads(&mut self, patch: NetworkPatch) -> Result<NetworkPatch, PatchError> {
+        if !self.closed.is_empty() {
+            return Err(PatchError::Closed { count: self.closed.len() });
+        }
         let roads = Arc::make_mut(self.roads.as_mut().ok_or(PatchError::NoRoads)?);
         let back = roads.put_checked(patch)?;
         self.signals.resize(roads.signal_groups(), Aspect::Red);
@@ -389,6 +397,10 @@ impl StateHash for World {
         self.environment.state_hash(hasher);
         for aspect in &self.signals {
             hasher.u64(*aspect as u64);
+        }
+        // Only where something is closed, so that it leaves no trace when it is open again.
+        for (road, direction) in &self.closed {
+            hasher.u64(u64::from(road.0)).u64(*direction as u64);
         }
         // Free slots at the end count for nothing: what came and is gone leaves no trace.
         let used = self.digests.iter().rposition(|digest| *digest != 0).map_or(0, |last| last + 1);

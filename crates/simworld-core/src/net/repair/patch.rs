@@ -18,6 +18,12 @@ pub enum PatchError {
     /// There are no roads to be changed.
     #[error("there are no roads: give the world its roads before they are changed")]
     NoRoads,
+    /// Streets are closed, and the patch may number roads anew.
+    #[error("{count} directions of roads are closed to traffic: open them before the roads are changed")]
+    Closed {
+        /// How many.
+        count: usize,
+    },
     /// The network with the patch would not hold together.
     #[error(transparent)]
     Fault(#[from] NetworkFault),

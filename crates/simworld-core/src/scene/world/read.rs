@@ -11,6 +11,7 @@ use crate::geometry::{Aabb, Ray};
 use crate::id::EntityId;
 use crate::net::{Aspect, RoadNetwork};
 use crate::scene::{EntityRef, NameIndex, RayCast, RayHit, Scene};
+use crate::traffic::RoadLeg;
 
 impl World {
     /// Visits what touches the region and may be at least `min_extent` m wide: the level of detail of a distant
@@ -59,6 +60,10 @@ impl Scene for World {
 
     fn signals(&self) -> &[Aspect] {
         &self.signals
+    }
+
+    fn is_closed(&self, leg: RoadLeg) -> bool {
+        self.closed.contains(&leg)
     }
 
     fn names(&self) -> Option<&NameIndex> {

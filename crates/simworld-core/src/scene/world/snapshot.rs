@@ -1,5 +1,6 @@
 //! A world as data, and back.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -13,8 +14,9 @@ use crate::event::Event;
 use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{Aspect, RoadNetwork};
+use crate::passage::is_leg;
 use crate::scene::EntityDesc;
-use crate::traffic::TrafficOrder;
+use crate::traffic::{RoadLeg, TrafficOrder};
 
 /// A [`World`] as data: serialise it, and [restore](World::restore) goes on bit for bit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,6 +24,7 @@ pub struct WorldSnapshot {
     clock: Clock,
     environment: Environment,
     signals: Vec<Aspect>,
+    closed: BTreeSet<RoadLeg>,
     roads: Option<Arc<RoadNetwork>>,
     assets: Arc<Catalogue>,
     generations: Vec<u32>,
@@ -42,6 +45,7 @@ impl World {
             clock: self.clock,
             environment: self.environment,
             signals: self.signals.clone(),
+            closed: self.closed.clone(),
             roads: self.roads.clone(),
             assets: Arc::clone(&self.assets),
             generations: self.generations.clone(),
@@ -83,12 +87,16 @@ impl World {
         if snapshot.signals.len() != groups {
             return Err(damaged("its signals do not fit its roads"));
         }
+        if !snapshot.closed.iter().all(|leg| is_leg(snapshot.roads.as_deref(), *leg)) {
+            return Err(damaged("a road is closed that is not there"));
+        }
         let mut world = Self {
             clock: snapshot.clock,
             environment: snapshot.environment,
             roads: snapshot.roads,
             assets: snapshot.assets,
             signals: snapshot.signals,
+            closed: snapshot.closed,
             actuations: snapshot.actuations,
             intents: snapshot.intents,
             orders: snapshot.orders,
