@@ -101,6 +101,11 @@ impl StateHasher {
         self.vector(&twist.linear).vector(&twist.angular)
     }
 
+    /// The digest of everything added so far, with 128 bits: for what has to be told apart among very many.
+    pub fn finish_wide(&self) -> u128 {
+        self.0.digest128()
+    }
+
     /// The digest of everything added so far.
     pub fn finish(&self) -> StateDigest {
         StateDigest(self.0.digest())

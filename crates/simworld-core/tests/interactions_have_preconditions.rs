@@ -5,6 +5,7 @@ mod common;
 
 use common::small_world;
 use simworld_core::action::Action;
+use simworld_core::asset::{Affordance, AffordanceSet, Asset};
 use simworld_core::geometry::{Point3, Twist, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, HAND_LIMIT, InteractionError, Role, Scene, Shape, World};
@@ -144,6 +145,37 @@ fn things_are_used_for_what_they_are() {
         let refused = world.actuate(PERSON, action.clone()).unwrap_err();
         assert!(matches!(refused, InteractionError::WrongKind { .. }), "{action:?}: {refused}");
     }
+}
+
+#[test]
+fn an_asset_says_what_it_is_for() {
+    use Affordance::{Carry, Open, Sit};
+    let mut world = small_world();
+    let mut put = |name: &str, kind, can: &[Affordance]| {
+        let shape = Shape::cuboid(0.4, 0.4, 0.4);
+        let asset = Asset { affordances: Some(AffordanceSet::of(can)), ..Asset::new(name, kind, shape) };
+        let id = world.add_asset(asset.clone()).unwrap();
+        world.spawn(asset.at(id, pose_facing(Point3::new(0.8, 0.8, 0.0), 0.0)).weighing(10.0)).unwrap()
+    };
+    let rock = put("rock", EntityKind::Prop, &[Sit]);
+    let chest = put("chest", EntityKind::Prop, &[Open, Carry]);
+    let display = put("display", EntityKind::Chair, &[]);
+    let refused = |world: &mut World, action| {
+        let error = world.actuate(PERSON, action).unwrap_err();
+        assert!(matches!(error, InteractionError::WrongKind { .. }), "{error}");
+    };
+    refused(&mut world, Action::CarryHeavy { item: rock });
+    refused(&mut world, Action::OpenDoor { door: rock });
+    refused(&mut world, Action::SitDown { seat: chest });
+    refused(&mut world, Action::SitDown { seat: display });
+    world.actuate(PERSON, Action::SitDown { seat: rock }).unwrap();
+    world.actuate(PERSON, Action::StandUp).unwrap();
+    assert!(world.entity(PERSON).unwrap().attachment.is_none());
+    walk_to(&mut world, PERSON, 0.0);
+    world.actuate(PERSON, Action::OpenDoor { door: chest }).unwrap();
+    assert!(world.entity(chest).unwrap().is_open());
+    world.actuate(PERSON, Action::CloseDoor { door: chest }).unwrap();
+    world.actuate(PERSON, Action::CarryHeavy { item: chest }).unwrap();
 }
 
 #[test]

@@ -55,7 +55,7 @@ impl PhysicsDynamics {
     /// An unknown entity, or one that has a body.
     pub fn add_rigid(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
         let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Rigid::of(&entity, material_of_entity(&entity))))
+        self.insert(world, id, Box::new(Rigid::of(&entity, material_of_entity(&entity, world))))
     }
 
     /// Gives an entity a body of any kind.

@@ -1,9 +1,9 @@
 //! The settings of a physics world.
 
 use serde::{Deserialize, Serialize};
+use simworld_core::asset::Material;
 
 use crate::error::{PhysicsError, check_range};
-use crate::surface::Material;
 
 /// How finely and in what surroundings bodies move.
 ///

@@ -29,7 +29,8 @@ pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture};
 pub use rapier3d_f64 as rapier;
 pub use rigid::Rigid;
 pub use shape::{BodyTag, collider_for, shape_from};
-pub use surface::{Conditions, Material, RoadCondition};
+pub use simworld_core::asset::Material;
+pub use surface::{Conditions, RoadCondition};
 pub use vehicle::{
     AxleParameters, BalanceParameters, BrakeParameters, ChassisParameters, Drive, PatchForce, Powertrain,
     SingleTrackInput, SingleTrackParameters, SingleTrackState, SlipControl, SteeringParameters,

@@ -5,7 +5,7 @@ use rapier3d_f64::prelude::{RigidBodyBuilder, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Pose};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityRef, Shape};
+use simworld_core::scene::{EntityRef, Shape, World};
 
 use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
@@ -36,7 +36,7 @@ pub(crate) struct Moving {
 }
 
 impl PhysicsDynamics {
-    pub(crate) fn synchronise_mirror(&mut self, slot: usize, entity: &EntityRef<'_>) {
+    pub(crate) fn synchronise_mirror(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
         let known = match &self.slots[slot] {
             Slot::Traffic(mirror) if mirror.id == entity.id && mirror.shape == entity.info.shape => {
                 Some((mirror.pose, mirror.rigid))
@@ -45,13 +45,13 @@ impl PhysicsDynamics {
         };
         let Some((pose, rigid)) = known else {
             self.vacate(slot);
-            let rigid = self.is_near(entity.planar(), 0.0).then(|| self.mirror(entity));
+            let rigid = self.is_near(entity.planar(), 0.0).then(|| self.mirror(entity, world));
             self.slots[slot] =
                 Slot::Traffic(Mirror { id: entity.id, shape: entity.info.shape, pose: *entity.pose, rigid });
             return;
         };
         let rigid = match rigid {
-            None if self.is_near(entity.planar(), 0.0) => Some(self.mirror(entity)),
+            None if self.is_near(entity.planar(), 0.0) => Some(self.mirror(entity, world)),
             Some(rigid) if !self.is_near(entity.planar(), RIM) => {
                 self.physics.remove_body(rigid);
                 None
@@ -74,9 +74,9 @@ impl PhysicsDynamics {
         self.near.iter().any(|body| (body - place).norm_squared() <= reach * reach)
     }
 
-    fn mirror(&mut self, entity: &EntityRef<'_>) -> RigidBodyHandle {
+    fn mirror(&mut self, entity: &EntityRef<'_>, world: &World) -> RigidBodyHandle {
         let body = RigidBodyBuilder::kinematic_position_based().pose(to_pose(entity.pose));
-        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity));
+        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity, world));
         let rigid = self.physics.insert(body, collider).0;
         self.file_body(rigid);
         rigid

@@ -2,6 +2,7 @@
 
 use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
 use simworld_core::action::{Action, ActionSet};
+use simworld_core::asset::Material;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityRef, Shape};
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
@@ -9,7 +10,6 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 use crate::body::{BodyContext, PhysicsBody};
 use crate::convert::{to_pose, to_vector};
 use crate::shape::collider_for;
-use crate::surface::Material;
 
 /// Density of things whose mass nobody gave, kg/m³: about that of seasoned softwood.
 const DENSITY: f64 = 500.0;

@@ -7,11 +7,9 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
 use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderBuilder, SharedShape};
+use simworld_core::asset::Material;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityRef, Shape};
-use simworld_core::value::Value;
-
-use crate::surface::Material;
+use simworld_core::scene::{EntityRef, Scene, Shape};
 
 /// The mark on a collider that says whose it is: rapier's `user_data`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,12 +60,9 @@ pub(crate) fn material_of(data: u128) -> Material {
     Material::ALL.get(index).copied().unwrap_or_default()
 }
 
-/// What an entity is made of: its attribute `material`, or else concrete.
-pub(crate) fn material_of_entity(entity: &EntityRef<'_>) -> Material {
-    match entity.info.attributes.get("material") {
-        Some(Value::Text(name)) => Material::from_name(name).unwrap_or(Material::Concrete),
-        _ => Material::Concrete,
-    }
+/// What an entity is made of: what it says, what its asset says, or else concrete.
+pub(crate) fn material_of_entity(entity: &EntityRef<'_>, scene: &dyn Scene) -> Material {
+    entity.material(scene).unwrap_or(Material::Concrete)
 }
 
 /// A quarter turn about x: rapier's y, the axis of its cylinders, becomes z.

@@ -1,4 +1,4 @@
-//! What surfaces are made of, and how weather changes their friction.
+//! How surfaces hold tyres and what slides, and how weather changes it.
 //!
 //! Two figures describe a surface: the friction coefficient of a solid that slides on it, and the grip it gives to
 //! rubber tyres as a share of what clean dry asphalt gives. The bands of road friction are those of accident
@@ -6,109 +6,24 @@
 //! Analysis of Vehicular Accidents, 1994; Bosch Automotive Handbook).
 
 use serde::{Deserialize, Serialize};
+use simworld_core::asset::Material;
 use simworld_core::environment::Weather;
 use simworld_core::geometry::Vector3;
 
-/// What a surface is made of.
-///
-/// An entity names its own with the attribute `material` ([`Material::from_name`] lists the names); without one it
-/// is concrete, and the ground is what [`PhysicsConfig::ground`](crate::PhysicsConfig::ground) says.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[repr(u8)]
-pub enum Material {
-    /// Clean asphalt, and whatever has no better name.
-    #[default]
-    Asphalt,
-    /// Concrete, brick and other masonry.
-    Concrete,
-    /// Cobblestones, worn smooth.
-    Cobblestone,
-    /// Loose gravel.
-    Gravel,
-    /// Grass.
-    Grass,
-    /// Bare metal: rails, manhole covers, car bodies.
-    Metal,
-    /// Wood: decking, crates.
-    Wood,
-    /// Rubber: soles, mats.
-    Rubber,
-    /// Ice, in any weather.
-    Ice,
-}
-
-impl Material {
-    /// Every material, in the order of declaration.
-    pub const ALL: &'static [Self] = &[
-        Self::Asphalt,
-        Self::Concrete,
-        Self::Cobblestone,
-        Self::Gravel,
-        Self::Grass,
-        Self::Metal,
-        Self::Wood,
-        Self::Rubber,
-        Self::Ice,
-    ];
-
-    /// The name in files.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Asphalt => "asphalt",
-            Self::Concrete => "concrete",
-            Self::Cobblestone => "cobblestone",
-            Self::Gravel => "gravel",
-            Self::Grass => "grass",
-            Self::Metal => "metal",
-            Self::Wood => "wood",
-            Self::Rubber => "rubber",
-            Self::Ice => "ice",
-        }
-    }
-
-    /// The material of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|material| material.as_str() == name)
-    }
-
-    /// Coefficient of sliding friction between two pieces, dry; that of unlike ones is the geometric mean of both.
-    /// Rounded from the tables of the Engineering Toolbox and the Bosch Automotive Handbook.
-    pub const fn friction(self) -> f64 {
-        match self {
-            Self::Asphalt => 0.7,
-            Self::Concrete => 0.65,
-            Self::Cobblestone => 0.6,
-            Self::Gravel | Self::Grass => 0.5,
-            Self::Metal => 0.3,
-            Self::Wood => 0.4,
-            Self::Rubber => 0.9,
-            Self::Ice => 0.05,
-        }
-    }
-
-    /// Coefficient of restitution between two pieces, in [0, 1]; that of unlike ones is the mean of both. Crates,
-    /// masonry and car bodies crush rather than bounce.
-    pub const fn restitution(self) -> f64 {
-        match self {
-            Self::Rubber => 0.7,
-            Self::Metal | Self::Ice => 0.1,
-            _ => 0.0,
-        }
-    }
-
-    /// Grip on a rubber tyre, dry, as a share of that of asphalt.
-    pub const fn grip(self) -> f64 {
-        match self {
-            Self::Asphalt | Self::Rubber => 1.0,
-            Self::Concrete => 0.95,
-            Self::Cobblestone => 0.75,
-            Self::Gravel => 0.6,
-            Self::Grass => 0.5,
-            Self::Metal => 0.55,
-            Self::Wood => 0.7,
-            Self::Ice => 0.1,
-        }
+/// Grip of a material on a rubber tyre, dry, as a share of that of asphalt.
+const fn grip(material: Material) -> f64 {
+    match material {
+        Material::Asphalt | Material::Rubber => 1.0,
+        Material::Concrete => 0.95,
+        Material::Brick => 0.9,
+        Material::Cobblestone | Material::Stone => 0.75,
+        Material::Wood => 0.7,
+        Material::Gravel | Material::Soil | Material::Fabric => 0.6,
+        Material::Metal => 0.55,
+        Material::Glass | Material::Foliage => 0.4,
+        Material::Ice | Material::Water => 0.1,
+        // Grass, sand, smooth plastic, and what a road is not made of.
+        _ => 0.5,
     }
 }
 
@@ -148,7 +63,7 @@ impl RoadCondition {
     /// The grip of a material as a share of that of dry asphalt: for the good tyres of the braking tests, which stop
     /// from 100 km/h in 36 m on a dry road and in 48 m on a wet one (Continental, CAR South Africa 2018-10).
     pub fn grip(self, material: Material) -> f64 {
-        let (dry, wet) = (material.grip(), material.grip() * 0.75);
+        let (dry, wet) = (grip(material), grip(material) * 0.75);
         match self {
             Self::Dry => dry,
             Self::Wet => wet,
@@ -215,7 +130,6 @@ mod tests {
                 assert!(pair[0].grip(*material) >= pair[1].grip(*material), "{material:?}: {pair:?}");
                 assert!(pair[0].friction(*material) >= pair[1].friction(*material), "{material:?}: {pair:?}");
             }
-            assert_eq!(Material::from_name(material.as_str()), Some(*material));
         }
     }
 }

@@ -51,7 +51,7 @@ impl PhysicsDynamics {
             let slot = entity.id.index();
             (next..slot).for_each(|vacant| self.vacate(vacant));
             next = slot + 1;
-            self.synchronise_slot(slot, &entity);
+            self.synchronise_slot(slot, &entity, world);
         }
         (next..self.slots.len()).for_each(|vacant| self.vacate(vacant));
         self.follow_world(world);
@@ -70,7 +70,7 @@ impl PhysicsDynamics {
         });
     }
 
-    fn synchronise_slot(&mut self, slot: usize, entity: &EntityRef<'_>) {
+    fn synchronise_slot(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
         if let Some(bond) = entity.attachment {
             if bond.role == Role::Ridden
                 && let Ok(rider) = self.position(bond.parent)
@@ -83,18 +83,18 @@ impl PhysicsDynamics {
         match &self.slots[slot] {
             Slot::Own { .. } => {}
             _ if !entity.is_solid() => self.vacate(slot),
-            _ if entity.kind.is_mobile() => self.synchronise_mirror(slot, entity),
+            _ if entity.kind.is_mobile() => self.synchronise_mirror(slot, entity, world),
             Slot::Fixed { id, shape, pose, .. }
                 if *id == entity.id && pose == entity.pose && *shape == entity.info.shape => {}
-            _ => self.fix(slot, entity),
+            _ => self.fix(slot, entity, world),
         }
     }
 
     /// Makes a solid thing a fixed collider, in the place of what was in the slot.
-    fn fix(&mut self, slot: usize, entity: &EntityRef<'_>) {
+    fn fix(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
         self.vacate(slot);
         let (_, body_from_solid) = shape_from(&entity.info.shape);
-        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity))
+        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity, world))
             .position(to_pose(entity.pose) * body_from_solid);
         let collider = self.physics.insert_collider(collider, None);
         self.file(collider);

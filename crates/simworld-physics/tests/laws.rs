@@ -6,6 +6,7 @@ mod common;
 use common::{Stage, ramp};
 use nalgebra::UnitQuaternion;
 use proptest::prelude::*;
+use simworld_core::asset::Asset;
 use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::ops::{atan2, cos, sin, tan};
@@ -72,10 +73,11 @@ fn slide(material: Material, slope: f64) -> (f64, f64) {
     let normal = tilt * Vector3::z();
     let start = Vector3::new(10.0, 0.0, 10.0 * tan(slope)) + normal * 1e-3;
     let pose = Pose::from_parts(start.into(), tilt);
-    let desc = EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(1.0, 1.0, 0.2))
-        .weighing(20.0)
-        .with("material", material.as_str());
-    let id = stage.world.spawn(desc).unwrap();
+    // The slope says itself what it is made of, the box by its asset.
+    let shape = Shape::cuboid(1.0, 1.0, 0.2);
+    let slab = Asset { material: Some(material), ..Asset::new("slab", EntityKind::Prop, shape) };
+    let asset = stage.world.add_asset(slab.clone()).unwrap();
+    let id = stage.world.spawn(slab.at(asset, pose).weighing(20.0)).unwrap();
     stage.physics.add_rigid(&stage.world, id).unwrap();
     stage.run(10);
     let moved = stage.position(id).coords - start;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Asset, AssetError, standard};
+use super::{Asset, AssetError, library, standard};
 use crate::id::AssetId;
 
 /// Assets in the order in which they were added, each with a name of its own. In files it is a list.
@@ -39,8 +39,18 @@ impl Catalogue {
 
     /// The ordinary things of a street: furniture, trees, vehicles, people and what they carry.
     pub fn standard() -> Self {
+        Self::of_sound(standard::assets())
+    }
+
+    /// Everything that comes with the crate: the ordinary things of a street, then 180 more of streets, parks, playgrounds and building
+    /// sites, 30 plants, 40 vehicles, 30 people, animals and robots, 100 kinds of buildings and the 124 of the Python release.
+    pub fn library() -> Self {
+        Self::of_sound(standard::assets().chain(library::assets()))
+    }
+
+    fn of_sound(assets: impl Iterator<Item = Asset>) -> Self {
         let mut catalogue = Self::new();
-        for asset in standard::assets() {
+        for asset in assets {
             let added = catalogue.add(asset);
             debug_assert!(added.is_ok(), "{added:?}");
         }
@@ -71,6 +81,11 @@ impl Catalogue {
     /// The id of a name.
     pub fn find(&self, name: &str) -> Option<AssetId> {
         self.names.get(name).copied()
+    }
+
+    /// The id of a class of the Python release, such as `BP_Building_07_C` or `BP_Couch_C`.
+    pub fn find_released(&self, class: &str) -> Option<AssetId> {
+        self.find(&library::released_as(class)?)
     }
 
     /// The number of assets.

@@ -2,14 +2,24 @@
 //! people ask for it. Metres, kilograms, linear-light sRGB. An asset may bring a model of its own; the others are drawn by a
 //! renderer as it draws their kind, and met as their collider.
 
+mod affordance;
 mod catalogue;
+mod digest;
+mod library;
+mod material;
 mod model;
+mod row;
+mod season;
 mod standard;
 
 use std::sync::Arc;
 
+pub use affordance::{Affordance, AffordanceSet};
 pub use catalogue::Catalogue;
+pub use digest::{ContentId, ContentIdError};
+pub use material::Material;
 pub use model::{Hull, LARGEST_MODEL, Model, ModelError, ModelPart, ModelVertex, Paint};
+pub use season::{Season, Seasons};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -85,15 +95,27 @@ pub struct Asset {
     /// Mass, kg; none of what is fixed to the ground.
     #[serde(default)]
     pub mass: Option<f64>,
+    /// What its surface is made of, as far as one is known.
+    #[serde(default)]
+    pub material: Option<Material>,
     /// Surface colour, linear-light sRGB primaries in [0, 1].
     #[serde(default)]
     pub color: Option<[f32; 3]>,
+    /// Its colours through the year, if it has any.
+    #[serde(default)]
+    pub seasons: Option<Seasons>,
+    /// What one can do with it; none where [its kind](AffordanceSet::of_kind) says.
+    #[serde(default)]
+    pub affordances: Option<AffordanceSet>,
     /// Words by which people ask for it, beside those of its name, kind and use.
     #[serde(default)]
     pub tags: Vec<String>,
-    /// Where it comes from: a generator, a file, a prompt, and under which licence.
+    /// Where it comes from: a generator, a file, a prompt.
     #[serde(default)]
     pub source: String,
+    /// Under which licence, as an SPDX expression; empty where none is known.
+    #[serde(default)]
+    pub licence: String,
     /// What it looks like and is met as, finer than its collider, in whose box it stands.
     #[serde(default)]
     pub model: Option<Arc<Model>>,
@@ -108,9 +130,13 @@ impl Asset {
             place: None,
             collider,
             mass: None,
+            material: None,
             color: None,
+            seasons: None,
+            affordances: None,
             tags: Vec::new(),
             source: String::new(),
+            licence: String::new(),
             model: None,
         }
     }
@@ -125,6 +151,16 @@ impl Asset {
     /// Length and width of the rectangle on which it stands, m.
     pub fn footprint(&self) -> Vector2 {
         self.collider.size().xy()
+    }
+
+    /// What one can do with it: what it says itself, or its kind.
+    pub fn affordances(&self) -> AffordanceSet {
+        self.affordances.unwrap_or(AffordanceSet::of_kind(self.kind))
+    }
+
+    /// Its colour in a season, or else the one that it always has.
+    pub fn color_in(&self, season: Season) -> Option<[f32; 3]> {
+        self.seasons.map(|seasons| seasons.color(season)).or(self.color)
     }
 
     /// The recipe of an entity made from this asset, which has that id in the catalogue of the world.
@@ -155,7 +191,9 @@ impl Asset {
             return Err(AssetError::Model { name, error: Box::new(error) });
         }
         let is_color = |color: &[f32; 3]| color.iter().all(|channel| (0.0..=1.0).contains(channel));
-        match self.color.filter(|color| !is_color(color)) {
+        let of_seasons = self.seasons.map(|seasons| Season::ALL.map(|season| seasons.color(season)));
+        let mut colors = self.color.into_iter().chain(of_seasons.into_iter().flatten());
+        match colors.find(|color| !is_color(color)) {
             Some(color) => Err(AssetError::Color { name, color }),
             None => Ok(()),
         }

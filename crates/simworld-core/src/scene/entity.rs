@@ -5,10 +5,14 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{EntityKind, FIELD_OF_VIEW, GAZE, OPEN, Place, Scene, Shape};
+use crate::asset::{AffordanceSet, Material};
 use crate::geometry::{Aabb, Obb, Point2, Point3, Pose, Twist, planar};
 use crate::hash::StateHasher;
 use crate::id::{AssetId, EntityId};
 use crate::value::Value;
+
+/// The attribute of an entity that names what it is made of, in place of what its asset is made of.
+pub const MATERIAL: &str = "material";
 
 /// How one entity hangs on another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -264,6 +268,22 @@ impl EntityRef<'_> {
     pub fn mass(&self, scene: &dyn Scene) -> Option<f64> {
         let of_asset = || scene.assets()?.get(self.info.asset?)?.mass;
         self.info.mass.or_else(of_asset)
+    }
+
+    /// What it is made of: what its attribute `material` names, or what its asset is made of; `None` if neither is known.
+    pub fn material(&self, scene: &dyn Scene) -> Option<Material> {
+        let named = match self.info.attributes.get(MATERIAL) {
+            Some(Value::Text(name)) => Material::from_name(name),
+            _ => None,
+        };
+        let of_asset = || scene.assets()?.get(self.info.asset?)?.material;
+        named.or_else(of_asset)
+    }
+
+    /// What one can do with it: what its asset says, or its kind.
+    pub fn affordances(&self, scene: &dyn Scene) -> AffordanceSet {
+        let of_asset = || scene.assets()?.get(self.info.asset?)?.affordances;
+        of_asset().unwrap_or(AffordanceSet::of_kind(self.kind))
     }
 
     /// What people call it: its name, or its use, or its kind.

@@ -13,7 +13,7 @@ mod world;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, Role, Solidity, Visibility};
+pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, MATERIAL, Role, Solidity, Visibility};
 pub use interaction::{
     ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, OPEN, SELLS,
     check_action,

@@ -7,6 +7,7 @@ use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::query::Ray;
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::prelude::{Collider, ColliderBuilder, RigidBody, SharedShape};
+use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::ops;
@@ -17,7 +18,7 @@ use super::{AxleParameters, Vehicle, VehicleParameters, axle_of};
 use crate::body::Surroundings;
 use crate::convert::{from_vector, to_point, to_vector};
 use crate::shape::{BodyTag, material_of};
-use crate::surface::{Conditions, Material};
+use crate::surface::Conditions;
 
 /// Density of air at sea level and 15 °C, kg/m³.
 const AIR: f64 = 1.225;

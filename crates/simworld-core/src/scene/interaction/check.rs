@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{ARM_REACH, CARRY, EARSHOT, InteractionError, LOCKED, PICK_UP, RIDE, SELLS, SIT, Use, entering};
 use crate::action::{Action, ActionKind, ActionSet};
+use crate::asset::Affordance;
 use crate::id::EntityId;
 use crate::scene::{EntityKind, EntityRef, Role, Scene};
 use crate::value::Value;
@@ -94,7 +95,7 @@ fn within_reach(actor: &EntityRef<'_>, target: &EntityRef<'_>) -> Result<(), Int
     Ok(())
 }
 
-/// The object is of a fitting kind and within reach.
+/// The object can be used so and is within reach.
 fn reachable(
     scene: &dyn Scene,
     who: EntityId,
@@ -102,7 +103,7 @@ fn reachable(
     wanted: &Use,
 ) -> Result<(), InteractionError> {
     let (actor, target) = (find(scene, who)?, find(scene, object)?);
-    if !(wanted.fits)(target.kind) {
+    if !target.affordances(scene).contains(wanted.affordance) {
         return Err(InteractionError::WrongKind { kind: target.kind, verb: wanted.verb });
     }
     within_reach(&actor, &target)
@@ -227,12 +228,12 @@ fn is_set(entity: &EntityRef<'_>, key: &str) -> bool {
     entity.info.attributes.get(key) == Some(&Value::Bool(true))
 }
 
-/// A door of its own, or a building that is entered at its access point.
+/// A door of its own, something with a lid, or a building that is entered at its access point.
 fn turn_door(scene: &dyn Scene, who: EntityId, door: EntityId, open: bool) -> Result<(), InteractionError> {
     let (actor, target) = (find(scene, who)?, find(scene, door)?);
-    let is_door = target.kind == EntityKind::Door
-        || target.kind == EntityKind::Building && target.info.access.is_some();
-    if !is_door {
+    let opens = target.affordances(scene).contains(Affordance::Open)
+        && (target.kind != EntityKind::Building || target.info.access.is_some());
+    if !opens {
         let verb = if open { "open" } else { "close" };
         return Err(InteractionError::WrongKind { kind: target.kind, verb });
     }

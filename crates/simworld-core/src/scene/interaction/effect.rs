@@ -87,7 +87,7 @@ impl World {
         let bond = self.entity(who).and_then(|actor| actor.attachment.copied());
         let Some(carrier) = bond.and_then(|bond| self.entity(bond.parent)) else { return };
         let size = carrier.info.shape.size();
-        let beside = if carrier.kind.is_seat() {
+        let beside = if bond.is_some_and(|bond| bond.role == Role::Seated) {
             Point3::new(size.x * 0.5 + 0.5, 0.0, 0.0)
         } else {
             Point3::new(0.0, size.y * 0.5 + 0.5, 0.0)

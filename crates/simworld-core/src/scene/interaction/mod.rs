@@ -14,6 +14,7 @@ use thiserror::Error;
 
 use super::{EntityKind, Role, Scene};
 use crate::action::ActionKind;
+use crate::asset::Affordance;
 use crate::geometry::Point3;
 use crate::id::EntityId;
 
@@ -161,7 +162,7 @@ pub enum InteractionError {
 struct Use {
     verb: &'static str,
     role: Role,
-    fits: fn(EntityKind) -> bool,
+    affordance: Affordance,
     /// What the object weighs at most, kg.
     limit: f64,
     /// Where the child sits in the parent's body frame.
@@ -171,48 +172,50 @@ struct Use {
 const PICK_UP: Use = Use {
     verb: "pick up",
     role: Role::Held,
-    fits: |kind| matches!(kind, EntityKind::Parcel),
+    affordance: Affordance::PickUp,
     limit: HAND_LIMIT,
     offset: Point3::new(0.35, -0.25, 0.9),
 };
 const CARRY: Use = Use {
     verb: "carry",
     role: Role::Carried,
-    fits: |kind| matches!(kind, EntityKind::Parcel | EntityKind::Chair | EntityKind::Cone | EntityKind::Prop),
+    affordance: Affordance::Carry,
     limit: CARRY_LIMIT,
     offset: Point3::new(0.5, 0.0, 0.8),
 };
 const SIT: Use = Use {
     verb: "sit",
     role: Role::Seated,
-    fits: EntityKind::is_seat,
+    affordance: Affordance::Sit,
     limit: f64::INFINITY,
     offset: Point3::new(0.0, 0.0, 0.0),
 };
 const RIDE: Use = Use {
     verb: "ride",
     role: Role::Ridden,
-    fits: |kind| matches!(kind, EntityKind::Scooter),
+    affordance: Affordance::Ride,
     limit: f64::INFINITY,
     offset: Point3::new(0.0, 0.0, 0.0),
 };
 const ENTER: Use = Use {
     verb: "enter",
     role: Role::Aboard,
-    fits: |kind| matches!(kind, EntityKind::Car | EntityKind::Truck | EntityKind::Bus),
+    affordance: Affordance::Enter,
     limit: f64::INFINITY,
     offset: Point3::new(0.2, 0.4, 0.3),
 };
 const MOUNT: Use = Use {
     verb: "enter",
     role: Role::Aboard,
-    fits: |kind| matches!(kind, EntityKind::Motorcycle | EntityKind::Bicycle),
+    affordance: Affordance::Enter,
     limit: f64::INFINITY,
     offset: Point3::new(-0.15, 0.0, 0.2),
 };
 
 /// How one gets into a vehicle with pedals, or on to one with two wheels.
 fn entering(scene: &dyn Scene, vehicle: EntityId) -> &'static Use {
-    let kind = scene.entity(vehicle).map(|vehicle| vehicle.kind);
-    if kind.is_some_and(MOUNT.fits) { &MOUNT } else { &ENTER }
+    match scene.entity(vehicle).map(|vehicle| vehicle.kind) {
+        Some(EntityKind::Motorcycle | EntityKind::Bicycle) => &MOUNT,
+        _ => &ENTER,
+    }
 }

@@ -1,0 +1,194 @@
+//! Content addresses: what an asset is, in 128 bits.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::{Asset, Model, Season};
+use crate::hash::StateHasher;
+
+/// The content address of an asset or of a file: XXH3 with 128 bits, 32 hex digits in files.
+///
+/// Equal content has an equal address. It finds what was changed or mixed up; it is no seal against somebody who forges both
+/// content and address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct ContentId(pub u128);
+
+/// Text that is no content address.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{text:?} is no content address: give 32 hex digits")]
+pub struct ContentIdError {
+    /// What was given.
+    pub text: String,
+}
+
+impl ContentId {
+    /// The address of raw bytes.
+    pub fn of_bytes(bytes: &[u8]) -> Self {
+        Self(StateHasher::new().bytes(bytes).finish_wide())
+    }
+}
+
+impl fmt::Display for ContentId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:032x}", self.0)
+    }
+}
+
+impl FromStr for ContentId {
+    type Err = ContentIdError;
+
+    fn from_str(text: &str) -> Result<Self, ContentIdError> {
+        let is_hex = text.len() == 32 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let parsed = is_hex.then(|| u128::from_str_radix(text, 16).ok()).flatten();
+        parsed.map(Self).ok_or_else(|| ContentIdError { text: text.chars().take(64).collect() })
+    }
+}
+
+impl TryFrom<String> for ContentId {
+    type Error = ContentIdError;
+
+    fn try_from(text: String) -> Result<Self, ContentIdError> {
+        text.parse()
+    }
+}
+
+impl From<ContentId> for String {
+    fn from(id: ContentId) -> Self {
+        id.to_string()
+    }
+}
+
+impl Asset {
+    /// Its content address: of everything but its name, so that the same thing under two names is known as one.
+    pub fn content_id(&self) -> ContentId {
+        let mut hasher = StateHasher::new();
+        hasher.u64(self.kind as u64).u64(self.place.map_or(u64::MAX, |place| place as u64));
+        self.collider.state_hash(&mut hasher);
+        hasher.f64(self.mass.unwrap_or(0.0)).u64(self.material.map_or(u64::MAX, |material| material as u64));
+        color(&mut hasher, self.color);
+        match self.affordances {
+            None => hasher.u64(u64::MAX),
+            Some(set) => {
+                set.iter().fold(hasher.u64(set.iter().count() as u64), |hasher, one| hasher.u64(one as u64))
+            }
+        };
+        for season in Season::ALL {
+            color(&mut hasher, self.seasons.map(|seasons| seasons.color(season)));
+        }
+        hasher.u64(self.tags.len() as u64);
+        for tag in &self.tags {
+            hasher.str(tag);
+        }
+        hasher.str(&self.source).str(&self.licence);
+        hasher.u64(u64::from(self.model.is_some()));
+        if let Some(model) = &self.model {
+            content_of(model, &mut hasher);
+        }
+        ContentId(hasher.finish_wide())
+    }
+}
+
+fn color(hasher: &mut StateHasher, color: Option<[f32; 3]>) {
+    hasher.u64(u64::from(color.is_some()));
+    for channel in color.iter().flatten() {
+        hasher.f64(f64::from(*channel));
+    }
+}
+
+fn content_of(model: &Model, hasher: &mut StateHasher) {
+    let triple = |hasher: &mut StateHasher, numbers: &[f32; 3]| {
+        for number in numbers {
+            hasher.bytes(&number.to_bits().to_le_bytes());
+        }
+    };
+    hasher.u64(model.vertices.len() as u64);
+    for vertex in &model.vertices {
+        for numbers in [&vertex.position, &vertex.normal, &vertex.color] {
+            triple(hasher, numbers);
+        }
+    }
+    hasher.u64(model.triangles.len() as u64);
+    for corner in model.triangles.iter().flatten() {
+        hasher.bytes(&corner.to_le_bytes());
+    }
+    hasher.u64(model.parts.len() as u64);
+    for part in &model.parts {
+        hasher.str(&part.name).u64(u64::from(part.triangles)).u64(part.paint as u64);
+    }
+    hasher.u64(model.hulls.len() as u64);
+    for hull in &model.hulls {
+        hasher.u64(hull.points.len() as u64);
+        for point in &hull.points {
+            triple(hasher, point);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::asset::{Affordance, AffordanceSet, Hull, Material, ModelPart, ModelVertex, Paint, Seasons};
+    use crate::scene::{EntityKind, Place, Shape};
+
+    fn stool() -> Asset {
+        Asset::new("stool", EntityKind::Chair, Shape::cuboid(0.4, 0.4, 0.5)).tagged(["seat"])
+    }
+
+    fn model(z: f32) -> Model {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, z]];
+        let vertex = |position| ModelVertex { position, ..ModelVertex::default() };
+        Model {
+            vertices: corners.map(vertex).to_vec(),
+            triangles: vec![[0, 1, 2]],
+            parts: vec![ModelPart { name: "seat".to_owned(), triangles: 1, paint: Paint::Own }],
+            hulls: vec![Hull { points: corners.to_vec() }],
+        }
+    }
+
+    #[test]
+    fn the_name_alone_is_no_content() {
+        assert_eq!(stool().content_id(), Asset { name: "taboret".to_owned(), ..stool() }.content_id());
+    }
+
+    #[test]
+    fn every_other_field_is_content() {
+        let seasons = Seasons { spring: [0.1; 3], summer: [0.2; 3], autumn: [0.3; 3], winter: [0.4; 3] };
+        let others = [
+            stool(),
+            Asset { kind: EntityKind::Bench, ..stool() },
+            Asset { place: Some(Place::RestArea), ..stool() },
+            Asset { collider: Shape::cuboid(0.4, 0.4, 0.6), ..stool() },
+            Asset { mass: Some(4.0), ..stool() },
+            Asset { material: Some(Material::Wood), ..stool() },
+            Asset { color: Some([0.5; 3]), ..stool() },
+            Asset { affordances: Some(AffordanceSet::NONE), ..stool() },
+            Asset { affordances: Some(AffordanceSet::of(&[Affordance::Sit])), ..stool() },
+            Asset { seasons: Some(seasons), ..stool() },
+            Asset { seasons: Some(Seasons { winter: [0.5; 3], ..seasons }), ..stool() },
+            stool().tagged(["wooden"]),
+            Asset { source: "a joiner".to_owned(), ..stool() },
+            Asset { licence: "CC0-1.0".to_owned(), ..stool() },
+            Asset { model: Some(Arc::new(model(1.0))), ..stool() },
+            Asset { model: Some(Arc::new(model(2.0))), ..stool() },
+        ];
+        let distinct: BTreeSet<ContentId> = others.iter().map(Asset::content_id).collect();
+        assert_eq!(distinct.len(), others.len());
+    }
+
+    #[test]
+    fn addresses_are_written_and_read() {
+        let id = ContentId::of_bytes(b"simworld");
+        assert_eq!(id.to_string().parse(), Ok(id));
+        assert_eq!(serde_json::from_str::<ContentId>(&serde_json::to_string(&id).unwrap()).unwrap(), id);
+        for wrong in ["", "12", "+0000000000000000000000000000001", "zz000000000000000000000000000000"] {
+            assert!(wrong.parse::<ContentId>().is_err(), "{wrong:?}");
+        }
+    }
+}
