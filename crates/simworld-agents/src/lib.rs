@@ -16,5 +16,6 @@ pub mod observer;
 mod panics;
 #[cfg(feature = "remote")]
 pub mod remote;
+pub mod retrieval;
 #[cfg(feature = "thought")]
 pub mod thought;
