@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "assets")]
+pub mod assets;
 pub mod asynchronous;
 pub mod delivery;
 pub mod editing;

@@ -1,0 +1,33 @@
+//! GLB files (binary glTF 2.0): read as surfaces, and written from models.
+//!
+//! Files come from strangers. Everything must stand in the one file: no address is followed, and no other file is opened.
+//! Lengths, counts, indices and depths are checked before memory is taken for them. What is read: the triangles of one scene,
+//! where its nodes put them, with normals, and colours from materials, PNG or JPEG textures and vertices. Skins, sparse accessors,
+//! compressed meshes and everything but separate triangles are refused; cameras, lights, animations, morphs, transparency
+//! and all of a material but its base colour are passed over.
+
+mod accessor;
+mod container;
+mod document;
+mod error;
+mod limits;
+mod paint;
+mod picture;
+mod scene;
+mod write;
+
+pub use error::GlbError;
+pub use limits::GlbLimits;
+pub use write::export_glb;
+
+use super::surface::Surface;
+
+/// Reads what a file shows: body axes (x forward, y left, z up), the file's own unit and origin.
+///
+/// # Errors
+/// The bytes are no such file, hold more than the limits allow, refer to what is not there or stands elsewhere, or use what is
+/// not read; see [`GlbError`].
+pub fn read_glb(bytes: &[u8], limits: &GlbLimits) -> Result<Surface, GlbError> {
+    let (document, bytes) = container::open(bytes, limits)?;
+    scene::surface(accessor::Data { document: &document, bytes }, limits)
+}

@@ -1,0 +1,15 @@
+//! Assets from files (feature `assets`): GLB read within limits, mended, measured and taken apart.
+//!
+//! [`import_glb`] makes an asset of a file of anybody's; [`read_glb`] gives its bare surface; [`export_glb`] writes a model as a file.
+
+mod glb;
+mod import;
+mod prior;
+mod surface;
+
+pub use glb::{GlbError, GlbLimits, export_glb, read_glb};
+pub use import::{
+    Facing, ImportConfig, ImportError, ImportReport, Imported, Repair, Thing, Unit, import_glb,
+};
+pub use prior::{SizePrior, Stuff};
+pub use surface::Surface;

@@ -1,0 +1,72 @@
+//! Surfaces: triangles with their looks, before they are known to be a solid.
+
+use simworld_core::asset::ModelPart;
+use simworld_core::geometry::{Point3, Vector3};
+
+/// Triangles with their looks. Body axes (x forward, y left, z up); unit and origin are those of where it came from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// The corners of the triangles.
+    pub points: Vec<Point3>,
+    /// Outward, of length 1, one for each point; zero where none is known.
+    pub normals: Vec<Vector3>,
+    /// Linear-light sRGB primaries in [0, 1], one for each point.
+    pub colors: Vec<[f32; 3]>,
+    /// Three points each, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// Runs of triangles of one look, in order; together they are all of them.
+    pub parts: Vec<ModelPart>,
+}
+
+impl Surface {
+    /// The lowest and the highest corner of the box around the points of its triangles; none without triangles.
+    pub fn bounds(&self) -> Option<[Point3; 2]> {
+        let mut points = self.triangles.as_flattened().iter().map(|point| self.points[*point as usize]);
+        let first = points.next()?;
+        Some(points.fold([first, first], |[low, high], point| [low.inf(&point), high.sup(&point)]))
+    }
+
+    /// The corners of a triangle.
+    pub(super) fn corners(&self, triangle: [u32; 3]) -> [Point3; 3] {
+        triangle.map(|point| self.points[point as usize])
+    }
+
+    /// Twice the area of a triangle, along its normal.
+    pub(super) fn cross(&self, triangle: [u32; 3]) -> Vector3 {
+        let [a, b, c] = self.corners(triangle);
+        (b - a).cross(&(c - a))
+    }
+
+    /// Keeps the triangles that a rule keeps, and of the parts those that have some left.
+    pub(super) fn retain(&mut self, keeps: impl Fn(usize) -> bool) {
+        let mut first = 0;
+        for part in &mut self.parts {
+            let last = first + part.triangles as usize;
+            part.triangles = (first..last).filter(|triangle| keeps(*triangle)).count() as u32;
+            first = last;
+        }
+        self.parts.retain(|part| part.triangles > 0);
+        let mut index = 0;
+        self.triangles.retain(|_| {
+            index += 1;
+            keeps(index - 1)
+        });
+    }
+
+    /// Drops the points that no triangle has.
+    pub(super) fn compact(&mut self) {
+        let mut places = vec![u32::MAX; self.points.len()];
+        let mut kept = Vec::new();
+        for point in self.triangles.as_flattened_mut() {
+            let place = &mut places[*point as usize];
+            if *place == u32::MAX {
+                *place = kept.len() as u32;
+                kept.push(*point as usize);
+            }
+            *point = *place;
+        }
+        self.points = kept.iter().map(|point| self.points[*point]).collect();
+        self.normals = kept.iter().map(|point| self.normals[*point]).collect();
+        self.colors = kept.iter().map(|point| self.colors[*point]).collect();
+    }
+}

@@ -1,0 +1,139 @@
+//! Models and files for tests of imports.
+// each test file uses its part, and what fails here fails the test
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
+
+use serde_json::{Value, json};
+use simworld_agents::assets::{ImportConfig, ImportError, Imported, Thing, import_glb};
+use simworld_core::asset::{Model, ModelPart, ModelVertex, Paint};
+
+pub const RED: [f32; 3] = [0.5, 0.02, 0.02];
+
+/// A model of one part; the importer makes the normals and the hulls.
+pub fn model(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Model {
+    let vertex = |position: &[f32; 3]| ModelVertex { position: *position, normal: [0.0; 3], color: RED };
+    Model {
+        vertices: points.iter().map(vertex).collect(),
+        triangles: triangles.to_vec(),
+        parts: vec![ModelPart { name: "all".into(), triangles: triangles.len() as u32, paint: Paint::Own }],
+        hulls: vec![],
+    }
+}
+
+/// A box between two corners: eight points, twelve triangles that look outward.
+pub fn cuboid(low: [f32; 3], high: [f32; 3]) -> Model {
+    let points: Vec<[f32; 3]> = (0..8)
+        .map(|corner| {
+            std::array::from_fn(|axis| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] })
+        })
+        .collect();
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let triangles: Vec<[u32; 3]> =
+        sides.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    model(&points, &triangles)
+}
+
+/// Several models as one, each a part.
+pub fn together(models: &[Model]) -> Model {
+    let mut all = Model::default();
+    for model in models {
+        let first = all.vertices.len() as u32;
+        all.vertices.extend(&model.vertices);
+        all.triangles.extend(model.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
+        all.parts.extend(model.parts.iter().cloned());
+    }
+    all
+}
+
+/// A table of a top and four legs that stand 2 cm below it, so that no two parts touch.
+pub fn table() -> Model {
+    let leg = |x: f32, y: f32| cuboid([x, y, 0.0], [x + 0.06, y + 0.06, 0.68]);
+    together(&[
+        cuboid([0.0, 0.0, 0.7], [0.8, 1.2, 0.75]),
+        leg(0.0, 0.0),
+        leg(0.74, 0.0),
+        leg(0.0, 1.14),
+        leg(0.74, 1.14),
+    ])
+}
+
+/// A ball of about as many triangles, with dents, closed.
+pub fn dented_ball(triangles: usize, radius: f64) -> Model {
+    let rings = ((triangles as f64 / 4.0).sqrt() as usize).max(3);
+    let around = rings * 2;
+    let place = |ring: usize, step: usize| {
+        let (polar, turn) = (
+            std::f64::consts::PI * ring as f64 / rings as f64,
+            std::f64::consts::TAU * step as f64 / around as f64,
+        );
+        let reach = radius * (1.0 + 0.12 * (5.0 * turn).sin() * (3.0 * polar).sin());
+        let at = [polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos()];
+        at.map(|part| (part * reach) as f32)
+    };
+    let mut points = vec![[0.0, 0.0, radius as f32], [0.0, 0.0, -radius as f32]];
+    points.extend((1..rings).flat_map(|ring| (0..around).map(move |step| place(ring, step))));
+    let at = |ring: usize, step: usize| (2 + (ring - 1) * around + step % around) as u32;
+    let mut faces = Vec::new();
+    for step in 0..around {
+        faces.push([0, at(1, step), at(1, step + 1)]);
+        faces.push([1, at(rings - 1, step + 1), at(rings - 1, step)]);
+        for ring in 1..rings - 1 {
+            let [a, b, c, d] =
+                [at(ring, step), at(ring + 1, step), at(ring + 1, step + 1), at(ring, step + 1)];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    model(&points, &faces)
+}
+
+/// A GLB file of any JSON and any bytes, with lengths that are right.
+pub fn container(document: &Value, bytes: &[u8]) -> Vec<u8> {
+    let mut text = document.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let mut bytes = bytes.to_vec();
+    bytes.resize(bytes.len().next_multiple_of(4), 0);
+    let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+    let length = (28 + text.len() + bytes.len()) as u32;
+    [
+        words(&[0x4654_6C67, 2, length, text.len() as u32, 0x4E4F_534A]),
+        text,
+        words(&[bytes.len() as u32, 0x004E_4942]),
+        bytes,
+    ]
+    .concat()
+}
+
+/// The JSON and the bytes of one mesh: positions, then indices of 32 bits.
+pub fn plain(points: &[[f32; 3]], indices: &[u32]) -> (Value, Vec<u8>) {
+    let mut bytes: Vec<u8> = points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let split = bytes.len();
+    bytes.extend(indices.iter().flat_map(|x| x.to_le_bytes()));
+    let document = json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": points.len(), "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5125, "count": indices.len(), "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": split},
+            {"buffer": 0, "byteOffset": split, "byteLength": bytes.len() - split},
+        ],
+        "buffers": [{"byteLength": bytes.len()}],
+    });
+    (document, bytes)
+}
+
+/// The JSON and the bytes of a model, as other programs write them: in the axes of glTF, positions and indices alone.
+pub fn plain_model(model: &Model) -> (Value, Vec<u8>) {
+    let points: Vec<[f32; 3]> =
+        model.vertices.iter().map(|vertex| vertex.position).map(|[x, y, z]| [y, z, x]).collect();
+    plain(&points, model.triangles.as_flattened())
+}
+
+pub fn thing(words: &str) -> Thing {
+    Thing { name: "thing".into(), words: words.into(), ..Thing::default() }
+}
+
+pub fn import(bytes: &[u8], words: &str) -> Result<Imported, ImportError> {
+    import_glb(bytes, &thing(words), &ImportConfig::default())
+}
