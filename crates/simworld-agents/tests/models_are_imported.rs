@@ -1,4 +1,6 @@
 //! A GLB file becomes an asset: in the right axes, unit, colours and place, mended, taken apart and weighed.
+// what fails here fails the test
+#![allow(clippy::unwrap_used)]
 
 mod assets_common;
 
@@ -11,6 +13,7 @@ use simworld_agents::assets::{
 };
 use simworld_agents::generation::SizeHint;
 use simworld_core::asset::{Catalogue, Model, Paint};
+use simworld_core::ops;
 use simworld_core::scene::EntityKind;
 
 fn near(got: f64, want: f64, tolerance: f64) -> bool {
@@ -129,14 +132,18 @@ fn edges_are_sharp_and_bends_are_smooth_where_no_normals_are_given() {
     assert_eq!(own_model(&cube).vertices.len(), 24, "each corner has three normals");
     assert!(own_model(&cube).vertices.iter().all(|vertex| along_an_axis(&vertex.normal)));
 
-    let (document, bytes) = plain_model(&dented_ball(2000, 0.11));
+    let (document, bytes) = plain_model(&dented_ball(8000, 0.11));
     let ball = import(&container(&document, &bytes), "ball").unwrap();
     let inward = own_model(&ball).vertices.iter().filter(|vertex| {
         let from_middle = [vertex.position[0], vertex.position[1], vertex.position[2] - 0.11];
         (0..3).map(|axis| from_middle[axis] * vertex.normal[axis]).sum::<f32>() < 0.0
     });
     assert_eq!(inward.count(), 0, "all look away from the middle");
-    assert!(own_model(&ball).vertices.len() < 1200, "neighbours share their normals");
+    assert!(
+        own_model(&ball).vertices.len() < 4400,
+        "neighbours share their normals: {}",
+        own_model(&ball).vertices.len()
+    );
 }
 
 /// A slab whose left half looks at the left half of a picture, as one mesh of two boxes that share no vertex.
@@ -209,7 +216,7 @@ fn a_car_in_centimetres_becomes_a_car() {
     assert!(near(car.report.volume, 8.528, 0.01), "{}", car.report.volume);
     assert!((900.0..2500.0).contains(&car.asset.mass.unwrap()), "{:?} kg", car.asset.mass);
     let [x, y, z] = car.report.center_of_mass;
-    assert!(near(x, -0.06, 0.01) && near(y, 0.0, 1e-3) && near(z, 0.548, 0.01), "{x} {y} {z}");
+    assert!(near(x, -0.06, 0.01) && near(y, 0.0, 1e-3) && near(z, 0.575, 0.01), "{x} {y} {z}");
     assert!(car.asset.tags.contains(&"sports".to_owned()));
     let mut catalogue = Catalogue::standard();
     let id = catalogue.add(car.asset).unwrap();
@@ -231,7 +238,8 @@ fn generated_models_of_any_size_are_turned_and_scaled_by_their_class() {
     assert!(near(size(&low)[2], 0.45, 1e-6));
     // A bench in half the size weighs about an eighth.
     let share = low.asset.mass.unwrap() / bench.asset.mass.unwrap();
-    assert!(near(share, (0.45f64 / 0.81).powi(3), 1e-3), "{share}");
+    let smaller = 0.45 / 0.81;
+    assert!(near(share, smaller * smaller * smaller, 1e-3), "{share}");
 }
 
 #[test]
@@ -283,9 +291,11 @@ fn what_has_no_area_is_dropped_and_counted() {
 fn surfaces_look_outward() {
     let mut cube = cuboid([0.0; 3], [1.0; 3]);
     let upright = own_model(&import(&export(&cube), "crate").unwrap()).clone();
-    for over in [vec![3], vec![0, 4, 5, 9], (0..12).collect()] {
+    for over in [vec![3], vec![0, 4, 5, 9], (0..12usize).collect()] {
         let mut some = cube.clone();
-        over.iter().for_each(|face: &usize| some.triangles[*face].swap(0, 1));
+        for face in &over {
+            some.triangles[*face].swap(0, 1);
+        }
         let mended = import(&export(&some), "crate").unwrap();
         assert_eq!(mended.report.repair.turned, over.len());
         assert!(near(mended.report.volume, 1.0, 1e-9));
@@ -296,8 +306,9 @@ fn surfaces_look_outward() {
         .flat_map(|step| {
             let turn = f64::from(step) / 12.0 * std::f64::consts::TAU;
             [-0.2, 0.2].map(|side: f64| {
-                let reach = 1.0 + side * (turn / 2.0).cos();
-                [reach * turn.cos(), reach * turn.sin(), side * (turn / 2.0).sin()].map(|x| x as f32)
+                let reach = 1.0 + side * ops::cos(turn / 2.0);
+                [reach * ops::cos(turn), reach * ops::sin(turn), side * ops::sin(turn / 2.0)]
+                    .map(|x| x as f32)
             })
         })
         .collect();

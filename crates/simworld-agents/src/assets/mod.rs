@@ -11,5 +11,5 @@ pub use glb::{GlbError, GlbLimits, export_glb, read_glb};
 pub use import::{
     Facing, ImportConfig, ImportError, ImportReport, Imported, Repair, Thing, Unit, import_glb,
 };
-pub use prior::{SizePrior, Stuff};
+pub use prior::SizePrior;
 pub use surface::Surface;

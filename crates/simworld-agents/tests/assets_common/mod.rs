@@ -5,6 +5,7 @@
 use serde_json::{Value, json};
 use simworld_agents::assets::{ImportConfig, ImportError, Imported, Thing, import_glb};
 use simworld_core::asset::{Model, ModelPart, ModelVertex, Paint};
+use simworld_core::ops;
 
 pub const RED: [f32; 3] = [0.5, 0.02, 0.02];
 
@@ -65,8 +66,9 @@ pub fn dented_ball(triangles: usize, radius: f64) -> Model {
             std::f64::consts::PI * ring as f64 / rings as f64,
             std::f64::consts::TAU * step as f64 / around as f64,
         );
-        let reach = radius * (1.0 + 0.12 * (5.0 * turn).sin() * (3.0 * polar).sin());
-        let at = [polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos()];
+        let reach = radius * (1.0 + 0.12 * ops::sin(5.0 * turn) * ops::sin(3.0 * polar));
+        let ((out, up), (side, ahead)) = (ops::sin_cos(polar), ops::sin_cos(turn));
+        let at = [out * ahead, out * side, up];
         at.map(|part| (part * reach) as f32)
     };
     let mut points = vec![[0.0, 0.0, radius as f32], [0.0, 0.0, -radius as f32]];

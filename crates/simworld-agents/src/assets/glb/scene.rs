@@ -48,16 +48,15 @@ pub(super) fn surface(data: Data<'_>, limits: &GlbLimits) -> Result<Surface, Glb
 }
 
 fn local(node: &Node, index: usize) -> Result<Matrix4<f64>, GlbError> {
-    let matrix = match node.matrix {
-        Some(columns) => Matrix4::from_column_slice(&columns),
-        None => {
-            let [x, y, z, w] = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
-            let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
-                .ok_or(GlbError::Number { what: "node", index })?;
-            let shift = Translation3::from(node.translation.unwrap_or_default());
-            let scale = Vector3::from(node.scale.unwrap_or([1.0; 3]));
-            shift.to_homogeneous() * turn.to_homogeneous() * Matrix4::new_nonuniform_scaling(&scale)
-        }
+    let matrix = if let Some(columns) = node.matrix {
+        Matrix4::from_column_slice(&columns)
+    } else {
+        let [x, y, z, w] = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
+            .ok_or(GlbError::Number { what: "node", index })?;
+        let shift = Translation3::from(node.translation.unwrap_or_default());
+        let scale = Vector3::from(node.scale.unwrap_or([1.0; 3]));
+        shift.to_homogeneous() * turn.to_homogeneous() * Matrix4::new_nonuniform_scaling(&scale)
     };
     if matrix.iter().all(|number| number.is_finite()) {
         Ok(matrix)
@@ -104,7 +103,7 @@ impl Gatherer<'_> {
             return Err(unsupported("mesh", mesh, "it has no positions: export the file again"));
         };
         let positions = self.data.column(index, &[("VEC3", 3)], |number, _| number == Number::F32)?;
-        self.afford("vertices", self.surface.points.len(), positions.count, self.limits.vertices)?;
+        afford("vertices", self.surface.points.len(), positions.count, self.limits.vertices)?;
         let triangles = self.triangles(mesh, primitive, positions.count)?;
 
         let map = Map::new(here);
@@ -146,7 +145,7 @@ impl Gatherer<'_> {
         let column =
             primitive.indices.map(|index| self.data.column(index, &[("SCALAR", 1)], is_index)).transpose()?;
         let corners = column.as_ref().map_or(vertices, |column| column.count);
-        self.afford("triangles", self.surface.triangles.len(), corners / 3, self.limits.triangles)?;
+        afford("triangles", self.surface.triangles.len(), corners / 3, self.limits.triangles)?;
         if corners < 3 || !corners.is_multiple_of(3) {
             return Err(unsupported("mesh", mesh, "its corners are not three for each triangle"));
         }
@@ -165,11 +164,11 @@ impl Gatherer<'_> {
             })
             .collect()
     }
+}
 
-    fn afford(&self, what: &'static str, now: usize, more: usize, most: u64) -> Result<(), GlbError> {
-        let got = now as u64 + more as u64;
-        if got > most { Err(GlbError::TooMany { what, got, most }) } else { Ok(()) }
-    }
+fn afford(what: &'static str, now: usize, more: usize, most: u64) -> Result<(), GlbError> {
+    let got = now as u64 + more as u64;
+    if got > most { Err(GlbError::TooMany { what, got, most }) } else { Ok(()) }
 }
 
 /// From a mesh's own frame to the body frame: glTF has x to the left, y up, z to the front.

@@ -15,10 +15,9 @@ pub use config::{Facing, ImportConfig, Unit};
 pub use error::ImportError;
 pub use repair::Repair;
 use serde::{Deserialize, Serialize};
-use simworld_core::asset::{Asset, Model, ModelVertex, Paint};
+use simworld_core::asset::{Asset, ContentId, Model, ModelVertex, Paint};
 use simworld_core::geometry::{Point3, Vector3};
 use simworld_core::scene::{EntityKind, Shape};
-use xxhash_rust::xxh3::xxh3_128;
 
 use self::decompose::{Fineness, Solid, decompose};
 use self::measure::{Bulk, enclosed};
@@ -40,8 +39,10 @@ pub struct Thing {
     pub words: String,
     /// How large it is, where that is known.
     pub size: SizeHint,
-    /// Where it comes from, and under which licence.
+    /// Where it comes from.
     pub source: String,
+    /// Under which licence, as an SPDX expression; empty where none is known.
+    pub licence: String,
 }
 
 /// An asset from a file, and how it came about.
@@ -122,13 +123,9 @@ pub fn import_glb(bytes: &[u8], thing: &Thing, config: &ImportConfig) -> Result<
         center_of_mass: bulk.center.into(),
         hulls: solids.len(),
     };
-    let digest = xxh3_128(bytes);
+    let digest = ContentId::of_bytes(bytes);
     let asset = Asset {
-        source: format!(
-            "{}{}glb {digest:032x}",
-            thing.source,
-            if thing.source.is_empty() { "" } else { "; " }
-        ),
+        source: format!("{}{}glb {digest}", thing.source, if thing.source.is_empty() { "" } else { "; " }),
         ..asset(surface, solids, thing, class, bulk)?
     };
     asset.validate()?;
@@ -251,7 +248,8 @@ fn asset(
     let tags = thing.words.split(|c: char| !c.is_alphanumeric()).filter(|word| word.len() > 1);
     let shape = Shape::cuboid(length, width, height);
     let asset = Asset::new(&thing.name, kind, shape).tagged(tags.map(str::to_lowercase));
-    Ok(Asset { mass, color, model: Some(Arc::new(model)), ..asset })
+    let (material, licence) = (class.map(|class| class.material), thing.licence.clone());
+    Ok(Asset { mass, material, color, licence, model: Some(Arc::new(model)), ..asset })
 }
 
 fn model(surface: Surface, solids: Vec<Solid>) -> Model {

@@ -4,7 +4,7 @@
 
 mod rows;
 
-use serde::{Deserialize, Serialize};
+use simworld_core::asset::Material;
 use simworld_core::scene::EntityKind;
 
 /// A class of things.
@@ -19,44 +19,9 @@ pub struct SizePrior {
     /// How many times longer, wider or higher, or less so, one may be; above 1.
     pub spread: f64,
     /// What it is made of.
-    pub stuff: Stuff,
+    pub material: Material,
     /// Which share of the room inside its surface is that, in (0, 1]; none if it is fixed to the ground.
     pub solid: Option<f64>,
-}
-
-/// What classes of things are made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs)]
-pub enum Stuff {
-    Concrete,
-    Fabric,
-    Flesh,
-    Glass,
-    Metal,
-    Paper,
-    Plastic,
-    Rubber,
-    Stone,
-    Wood,
-}
-
-impl Stuff {
-    /// Mass of a full piece, kg/m³ (Engineering Toolbox, rounded).
-    pub const fn density(self) -> f64 {
-        match self {
-            Self::Concrete => 2400.0,
-            Self::Fabric => 400.0,
-            Self::Flesh => 985.0,
-            Self::Glass => 2500.0,
-            Self::Metal => 7850.0,
-            Self::Paper => 800.0,
-            Self::Plastic => 950.0,
-            Self::Rubber => 1200.0,
-            Self::Stone => 2700.0,
-            Self::Wood => 500.0,
-        }
-    }
 }
 
 impl SizePrior {
@@ -91,7 +56,7 @@ impl SizePrior {
 
     /// How heavy a cubic metre within its surface is, kg/m³; none if it is fixed to the ground.
     pub fn bulk_density(&self) -> Option<f64> {
-        self.solid.map(|share| share * self.stuff.density())
+        self.solid.map(|share| share * self.material.density())
     }
 }
 
@@ -123,8 +88,15 @@ fn is_one(word: &str, name: &str) -> bool {
     word == name || plural("s") || plural("es")
 }
 
-fn prior((names, kind, size, spread, stuff, solid): &rows::Row) -> SizePrior {
-    SizePrior { name: names[0], kind: *kind, size: *size, spread: *spread, stuff: *stuff, solid: *solid }
+fn prior((names, kind, size, spread, material, solid): &rows::Row) -> SizePrior {
+    SizePrior {
+        name: names[0],
+        kind: *kind,
+        size: *size,
+        spread: *spread,
+        material: *material,
+        solid: *solid,
+    }
 }
 
 #[cfg(test)]

@@ -5,19 +5,18 @@
 //! that a thing of the typical size that fills the usual part of its box (half for a car, a tenth for a chair) has the typical
 //! mass.
 
+use simworld_core::asset::Material;
 use simworld_core::scene::EntityKind;
-
-use super::Stuff;
 
 /// Names with their synonyms, kind, length, width and height in metres, how many times larger or smaller one may be, what it
 /// is made of, and which share of the room inside its surface is that (none: it is fixed to the ground).
-pub(super) type Row = (&'static [&'static str], EntityKind, [f64; 3], f64, Stuff, Option<f64>);
+pub(super) type Row = (&'static [&'static str], EntityKind, [f64; 3], f64, Material, Option<f64>);
 
 use EntityKind::{
     Bench, Bicycle, Building, Bus, BusStop, Car, Chair, Cone, Dog, Hydrant, Mailbox, Motorcycle, Parcel,
     Person, Prop, Robot, Scooter, Shrub, Sign, StreetLamp, Table, TrafficSignal, TrashBin, Tree, Truck,
 };
-use Stuff::{Concrete, Fabric, Flesh, Glass, Metal, Paper, Plastic, Rubber, Stone, Wood};
+use Material::{Concrete, Fabric, Flesh, Glass, Metal, Paper, Plastic, Rubber, Stone, Wood};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
