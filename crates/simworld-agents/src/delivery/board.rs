@@ -104,13 +104,9 @@ impl Board {
         self.around(point).map(|cell| cell.news).sum()
     }
 
-    /// What hangs near a point, the oldest order first; some of it may be out of reach.
-    pub(super) fn near(&self, point: Point2, notice: Notice) -> Vec<OrderId> {
-        let mut near: Vec<OrderId> = self.around(point).flat_map(|cell| cell.list(notice)).copied().collect();
-        if self.cells.len() > 1 {
-            near.sort_unstable();
-        }
-        near
+    /// What hangs near a point; some of it may be out of reach. Cell by cell, and in each the oldest order first.
+    pub(super) fn near(&self, point: Point2, notice: Notice) -> impl Iterator<Item = OrderId> {
+        self.around(point).flat_map(move |cell| cell.list(notice)).copied()
     }
 
     /// Puts something up, which is news.
@@ -171,15 +167,16 @@ mod tests {
         assert_eq!(board.len(), 300);
         for _ in 0..200 {
             let here = point(1200.0);
-            let near = board.near(here, Notice::Open);
-            assert!(near.is_sorted() && board.near(here, Notice::Offer).is_empty());
+            let mut near: Vec<OrderId> = board.near(here, Notice::Open).collect();
+            near.sort_unstable();
+            assert_eq!(board.near(here, Notice::Offer).count(), 0);
             assert_eq!(board.news(here), near.len() as u64);
             for (index, at) in points.iter().enumerate() {
                 let found = near.binary_search(&OrderId(index as u32)).is_ok();
                 assert!(found || !board.reaches((at - here).norm()), "order {index} is near and not told");
             }
         }
-        assert!(board.near(points[0], Notice::Open).len() < 60, "most is far from anywhere");
+        assert!(board.near(points[0], Notice::Open).count() < 60, "most is far from anywhere");
         board.take_down(points[0], Notice::Open, OrderId(0));
         assert!(!board.shows(points[0], Notice::Open, OrderId(0)) && board.len() == 299);
     }

@@ -207,24 +207,32 @@ impl<'a> CourierView<'a> {
         (point.xy() - self.position()).norm()
     }
 
-    /// What hangs on the board within reach, the oldest order first.
-    fn told(&self, notice: Notice) -> impl Iterator<Item = &'a Order> + use<'a> {
-        let near = self.state.board.near(self.position(), notice);
+    /// What hangs on the board within reach, the oldest order first, each with how far it is to where it hangs, m.
+    fn told(
+        &self,
+        notice: Notice,
+        place: impl Fn(&Order) -> Option<Point3>,
+    ) -> Vec<(OrderId, f64, &'a Order)> {
         let state = self.state;
-        near.into_iter().filter_map(|id| state.order(id))
+        let near = state.board.near(self.position(), notice).filter_map(|id| {
+            let order = state.order(id)?;
+            let distance = self.distance_to(&place(order)?);
+            state.board.reaches(distance).then_some((id, distance, order))
+        });
+        let mut told: Vec<_> = near.collect();
+        told.sort_unstable_by_key(|told| told.0);
+        told
     }
 
     /// The orders that take bids and of which it is told, oldest first.
     pub fn open_orders(&self) -> impl Iterator<Item = OpenOrder> + '_ {
-        self.told(Notice::Open).filter_map(|order| {
+        let told = self.told(Notice::Open, |order| Some(order.pickup));
+        told.into_iter().filter_map(|(_, approach, order)| {
             let Stage::Open(open) = &order.stage else { return None };
-            if !self.state.board.reaches(self.distance_to(&order.pickup)) {
-                return None;
-            }
             Some(OpenOrder {
                 id: order.id,
                 ceiling: order.ceiling,
-                approach: self.distance_to(&order.pickup),
+                approach,
                 route: order.route,
                 closes_in: open.closes.saturating_sub(self.state.tick) as f64 * self.state.dt,
                 own_bid: open.bids.iter().find(|bid| bid.courier == self.index).map(|bid| bid.price),
@@ -265,12 +273,9 @@ impl<'a> CourierView<'a> {
     pub fn offers(&self) -> impl Iterator<Item = SharedOffer> + '_ {
         // What it accepted it knows of wherever it is.
         let accepted = self.courier().accepted.iter().filter_map(|id| self.state.order(*id));
-        let offered = self.told(Notice::Offer).filter(|order| {
-            let offer = order.stage.terms().and_then(|terms| terms.offer);
-            offer.is_some_and(|offer| {
-                offer.accepted.is_none() && self.state.board.reaches(self.distance_to(&offer.meet))
-            })
-        });
+        let open = |order: &Order| order.stage.terms()?.offer.filter(|offer| offer.accepted.is_none());
+        let offered = self.told(Notice::Offer, move |order| Some(open(order)?.meet));
+        let offered = offered.into_iter().map(|(_, _, order)| order);
         accepted.chain(offered).filter_map(|order| {
             let terms = order.stage.terms()?;
             let offer = terms.offer?;

@@ -26,7 +26,7 @@ pub(crate) use sight::{crosses, eyes, hides, looked_at};
 use simworld_core::action::Action;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
-use simworld_core::net::{Route, RouteScratch, WaypointGraph};
+use simworld_core::net::WaypointGraph;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::{Executor, ExecutorError, Goal, Plan, PlanStep, Progress};
 use thiserror::Error;
@@ -95,8 +95,6 @@ pub struct RuleExecutor {
     /// The ways there are; `None` goes straight.
     ways: Option<Arc<WaypointGraph>>,
     state: State,
-    scratch: RouteScratch,
-    route: Route,
 }
 
 /// Everything that a snapshot holds.
@@ -151,13 +149,7 @@ impl RuleExecutor {
     }
 
     fn made_of(ways: Option<Arc<WaypointGraph>>, config: ExecutorConfig) -> Self {
-        Self {
-            config,
-            ways,
-            state: State::default(),
-            scratch: RouteScratch::default(),
-            route: Route::default(),
-        }
+        Self { config, ways, state: State::default() }
     }
 
     /// The step of the plan under way; of blocks the innermost.
@@ -307,7 +299,7 @@ impl Executor for RuleExecutor {
     }
 
     fn state_hash(&self, hasher: &mut StateHasher) {
-        // The saved bytes are the whole state; what else the executor holds is memory of searches.
+        // The saved bytes are the whole state.
         hasher.bytes(&self.save());
     }
 }

@@ -1,10 +1,12 @@
 //! Navigation: from waypoint to waypoint to the goal.
 
+use std::cell::RefCell;
+
 use serde::{Deserialize, Serialize};
 use simworld_core::action::Action;
 use simworld_core::geometry::{Point2, direction, heading, yaw_of};
 use simworld_core::id::{CrossingId, EntityId, WaypointId};
-use simworld_core::net::{WaypointGraph, polyline};
+use simworld_core::net::{Route, RouteScratch, WaypointGraph, polyline};
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Scene};
 use simworld_core::seam::Goal;
@@ -308,7 +310,7 @@ impl RuleExecutor {
     }
 
     /// The places to pass from where one is to the goal, the goal last.
-    fn find_way(&mut self, scene: &dyn Scene, me: &EntityRef<'_>, goal: Point2) -> Vec<Leg> {
+    fn find_way(&self, scene: &dyn Scene, me: &EntityRef<'_>, goal: Point2) -> Vec<Leg> {
         let here = me.planar();
         let Some(ways) = &self.ways else { return over_ground(scene, me, here, goal) };
         let (Some(from), Some(to)) = (ways.nearest(here), ways.nearest(goal)) else {
@@ -324,18 +326,17 @@ impl RuleExecutor {
         let back = walkway_from(scene, me, ways, goal, to);
         let ends = [&out, &back].map(|way| way.as_ref().map(|(waypoint, _)| *waypoint));
         let mut legs: Vec<Leg> = out.into_iter().flat_map(|(_, points)| points).map(Leg::open).collect();
-        if ways.route(ends[0].unwrap_or(from), ends[1].unwrap_or(to), &mut self.scratch, &mut self.route) {
+        walk_along(ways, ends[0].unwrap_or(from), ends[1].unwrap_or(to), |route| {
             let from = ends[0].map_or(here, |waypoint| ways.waypoint(waypoint).position);
             let to = ends[1].map_or(goal, |waypoint| ways.waypoint(waypoint).position);
-            let route = trimmed(ways, &self.route.waypoints, from, to);
             let mut before: Option<WaypointId> = None;
-            for waypoint in route {
+            for waypoint in trimmed(ways, route, from, to) {
                 let crossing = before.and_then(|b| ways.edge(b, *waypoint)).and_then(|edge| edge.crossing);
                 let point = ways.waypoint(*waypoint).position;
                 legs.push(Leg { point, crossing, footing: Footing::Walkway });
                 before = Some(*waypoint);
             }
-        }
+        });
         let footing = if let Some((_, mut points)) = back {
             // From the goal to the walkway, so the other way round.
             points.reverse();
@@ -367,6 +368,21 @@ impl Navigation {
         self.legs.splice(self.next..next, points.into_iter().map(Leg::open));
         true
     }
+}
+
+thread_local! {
+    /// The memory of searches. It is as large as the network, so that one for each agent would not fit into the memory of a
+    /// machine with a city of ten thousand; nothing of a search is left for the next.
+    static SEARCH: RefCell<(RouteScratch, Route)> = RefCell::default();
+}
+
+/// Hands over the waypoints of the shortest route, if there is one.
+fn walk_along(ways: &WaypointGraph, from: WaypointId, to: WaypointId, walk: impl FnOnce(&[WaypointId])) {
+    SEARCH.with_borrow_mut(|(scratch, route)| {
+        if ways.route(from, to, scratch, route) {
+            walk(&route.waypoints);
+        }
+    });
 }
 
 /// A straight way, or one over the ground if something stands in between.

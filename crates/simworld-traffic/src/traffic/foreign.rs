@@ -9,6 +9,8 @@ use crate::vehicle::{Obstacle, Tracks};
 
 /// Width of a cell of the search grid, m.
 const CELL: f64 = 8.0;
+/// Cells to a row of a tile.
+const TILE: i64 = 32;
 /// Half the width that a vehicle sweeps, with a margin, m.
 const SWEPT: f64 = 1.3;
 /// Who reaches no farther than this to all sides walks, or rides something small: drivers stop before the strip for them, m.
@@ -43,8 +45,54 @@ impl Foreign {
 /// Finds the tracks and crossings at a place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Finder {
-    tracks: BTreeMap<(i64, i64), Vec<u32>>,
-    crossings: BTreeMap<(i64, i64), Vec<u32>>,
+    tracks: Cells,
+    crossings: Cells,
+}
+
+/// What is in the cells of the search grid. Ten thousand bodies look into it in every step: a few tiles are found at once, and
+/// a cell in its tile without search.
+#[derive(Clone, Debug, Default)]
+struct Cells {
+    tiles: BTreeMap<(i64, i64), Tile>,
+}
+
+/// A square of cells, row by row: where what is in each begins, and where that in the last one ends.
+#[derive(Clone, Debug)]
+struct Tile {
+    starts: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Cells {
+    /// Of pairs of a cell and what is in it; what is in a cell keeps its order.
+    fn new(mut pairs: Vec<((i64, i64), u32)>) -> Self {
+        let tile = |cell: (i64, i64)| (cell.0.div_euclid(TILE), cell.1.div_euclid(TILE));
+        let place = |cell: (i64, i64)| (cell.1.rem_euclid(TILE) * TILE + cell.0.rem_euclid(TILE)) as usize;
+        pairs.sort_by_key(|pair| (tile(pair.0), place(pair.0)));
+        let make = |within: &[((i64, i64), u32)]| {
+            let mut starts = vec![0; (TILE * TILE) as usize + 1];
+            for pair in within {
+                starts[place(pair.0) + 1] += 1;
+            }
+            for index in 1..starts.len() {
+                starts[index] += starts[index - 1];
+            }
+            Tile { starts, items: within.iter().map(|pair| pair.1).collect() }
+        };
+        let tiles = pairs.chunk_by(|a, b| tile(a.0) == tile(b.0));
+        Self { tiles: tiles.map(|within| (tile(within[0].0), make(within))).collect() }
+    }
+
+    /// What is in the cell of a place.
+    fn at(&self, at: Point2) -> &[u32] {
+        self.within((cell(at.x), cell(at.y)))
+    }
+
+    fn within(&self, (column, row): (i64, i64)) -> &[u32] {
+        let Some(tile) = self.tiles.get(&(column.div_euclid(TILE), row.div_euclid(TILE))) else { return &[] };
+        let place = (row.rem_euclid(TILE) * TILE + column.rem_euclid(TILE)) as usize;
+        &tile.items[tile.starts[place] as usize..tile.starts[place + 1] as usize]
+    }
 }
 
 fn cell(x: f64) -> i64 {
@@ -73,24 +121,21 @@ fn cells(path: &[Point2], margin: f64) -> Vec<(i64, i64)> {
 
 impl Finder {
     pub(super) fn new(tracks: &Tracks) -> Self {
-        let mut finder = Self::default();
+        let (mut paths, mut strips) = (Vec::new(), Vec::new());
         for track in 0..tracks.count() as u32 {
-            for cell in cells(tracks.path(track), SWEPT + 1.0) {
-                finder.tracks.entry(cell).or_default().push(track);
-            }
+            paths.extend(cells(tracks.path(track), SWEPT + 1.0).into_iter().map(|cell| (cell, track)));
         }
         for (index, crossing) in tracks.network.crossings.iter().enumerate() {
-            for cell in cells(&[crossing.start, crossing.end], crossing.width) {
-                finder.crossings.entry(cell).or_default().push(index as u32);
-            }
+            let found = cells(&[crossing.start, crossing.end], crossing.width);
+            strips.extend(found.into_iter().map(|cell| (cell, index as u32)));
         }
-        finder
+        Self { tracks: Cells::new(paths), crossings: Cells::new(strips) }
     }
 
     /// Calls with each crossing that may lie along a straight way.
     pub(super) fn crossings_along(&self, from: Point2, to: Point2, each: &mut impl FnMut(u32)) {
         for cell in cells(&[from, to], CELL * 0.5) {
-            self.crossings.get(&cell).into_iter().flatten().for_each(|index| each(*index));
+            self.crossings.within(cell).iter().for_each(|index| each(*index));
         }
     }
 
@@ -128,9 +173,8 @@ impl Finder {
     /// Counts a person on the crossings where they are; false if that is none.
     fn count_on_crossings(&self, tracks: &Tracks, body: &Foreign, on_crossing: &mut [u32]) -> bool {
         let reach = body.radius.max(body.half_width);
-        let here = (cell(body.position.x), cell(body.position.y));
         let mut crosses = false;
-        for index in self.crossings.get(&here).into_iter().flatten() {
+        for index in self.crossings.at(body.position) {
             let crossing = &tracks.network.crossings[*index as usize];
             let strip = [crossing.start, crossing.end];
             let near = polyline::closest(&strip, &body.position);
@@ -144,7 +188,7 @@ impl Finder {
 
     /// The tracks that may pass under a place.
     pub(super) fn tracks_at(&self, at: Point2) -> impl Iterator<Item = u32> {
-        self.tracks.get(&(cell(at.x), cell(at.y))).into_iter().flatten().copied()
+        self.tracks.at(at).iter().copied()
     }
 }
 
@@ -185,5 +229,28 @@ impl Foreign {
         let yaw = polyline::at(tracks.path(track), (near + far) * 0.5).1;
         let v = self.velocity.dot(&direction(yaw)).max(0.0);
         Obstacle { track, near, far, v, stands: self.velocity.norm() < STANDING }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::seed::Seed;
+
+    use super::*;
+
+    #[test]
+    fn a_cell_holds_what_was_put_there_also_beyond_the_origin() {
+        let mut rng = Seed(5).stream("test/cells").rng();
+        let mut index = || rng.below(120) as i64 - 60;
+        let pairs: Vec<((i64, i64), u32)> = (0..4000).map(|item| ((index(), index()), item)).collect();
+        let cells = Cells::new(pairs.clone());
+        for column in -70..70 {
+            for row in -70..70 {
+                let there: Vec<u32> =
+                    pairs.iter().filter(|pair| pair.0 == (column, row)).map(|pair| pair.1).collect();
+                let at = Point2::new((column as f64 + 0.5) * CELL, (row as f64 + 0.5) * CELL);
+                assert_eq!(cells.at(at), there, "column {column}, row {row}");
+            }
+        }
     }
 }

@@ -5,7 +5,7 @@ use simworld_core::ops;
 use simworld_core::seed::StreamRng;
 
 use super::PolicyKind;
-use super::pace::{backlog, pending, time_for, working_speed};
+use super::pace::{backlog, pending, time_at, working_speed};
 use crate::delivery::{BidResult, Cents, CourierView, OpenOrder};
 
 /// What a second is worth to a courier, $: three quarters of what one earns who is paid the usual ceiling of $15 for the
@@ -72,34 +72,59 @@ fn nearest_arm(share: f64) -> usize {
     (0..ARMS.len()).min_by(|a, b| gap(a).total_cmp(&gap(b))).unwrap_or(0)
 }
 
-/// What a job costs a courier in time, energy and lateness, $.
-///
-/// Who holds orders already comes to this one later, and pays for that what the customer deducts.
-fn cost(view: &CourierView<'_>, order: &OpenOrder) -> f64 {
-    let length = order.approach + order.route;
-    let energy = length * view.config().energy.per_metre(working_speed(view), view.is_riding());
-    let drinks = energy / view.config().prices.drink_energy;
-    let orders = &view.config().orders;
-    let late = time_for(view, backlog(view) + length) - orders.allowance * length / orders.allowance_speed;
-    let deducted = (late.max(0.0) * orders.late_per_second.dollars())
-        .min((1.0 - orders.late_floor) * order.ceiling.dollars());
-    WAGE * time_for(view, length) + DRUNK_SHARE * drinks * view.drink_price().dollars() + deducted
+/// What work takes of a courier as it stands: reckoned once, and not for every order that it may choose.
+struct Means<'a> {
+    view: CourierView<'a>,
+    /// At which it works, m/s.
+    speed: f64,
+    /// Energy that a metre takes at that speed.
+    per_metre: f64,
+    /// What is left to walk for the orders in hand, m.
+    backlog: f64,
 }
 
-/// Chooses an order to bid for and a price, before the persona has its say.
+impl<'a> Means<'a> {
+    fn of(view: &CourierView<'a>) -> Self {
+        let speed = working_speed(view);
+        let per_metre = view.config().energy.per_metre(speed, view.is_riding());
+        Self { view: *view, speed, per_metre, backlog: backlog(view) }
+    }
+
+    /// What a job costs in time, energy and lateness, $.
+    ///
+    /// Who holds orders already comes to this one later, and pays for that what the customer deducts.
+    fn cost(&self, order: &OpenOrder) -> f64 {
+        let config = self.view.config();
+        let length = order.approach + order.route;
+        let drinks = length * self.per_metre / config.prices.drink_energy;
+        let orders = &config.orders;
+        let late =
+            time_at(self.speed, self.backlog + length) - orders.allowance * length / orders.allowance_speed;
+        let deducted = (late.max(0.0) * orders.late_per_second.dollars())
+            .min((1.0 - orders.late_floor) * order.ceiling.dollars());
+        WAGE * time_at(self.speed, length)
+            + DRUNK_SHARE * drinks * self.view.drink_price().dollars()
+            + deducted
+    }
+}
+
+/// Chooses among the orders that take bids one to bid for, and a price, before the persona has its say.
 pub(super) fn choose(
     kind: PolicyKind,
     learner: &Learner,
     view: &CourierView<'_>,
+    open: &[OpenOrder],
     rng: &mut StreamRng,
 ) -> Option<(OpenOrder, f64)> {
-    let (horizon, backlog) = (view.config().horizon, backlog(view) + pending(view));
+    let means = Means::of(view);
+    let cost = |order: &OpenOrder| means.cost(order);
+    let (horizon, backlog) = (view.config().horizon, means.backlog + pending(open));
     // What cannot be finished within what it plans, or brings less than it costs, is left to others.
     let worth_it = |order: &OpenOrder| {
-        let work = time_for(view, backlog + order.approach + order.route);
-        order.closes_in + work <= horizon && cost(view, order) < order.ceiling.dollars()
+        let work = time_at(means.speed, backlog + order.approach + order.route);
+        order.closes_in + work <= horizon && cost(order) < order.ceiling.dollars()
     };
-    let open = view.open_orders().filter(|order| order.own_bid.is_none() && worth_it(order));
+    let open = open.iter().filter(|order| order.own_bid.is_none() && worth_it(order)).copied();
     let length = |order: &OpenOrder| order.approach + order.route;
     let order = match kind {
         PolicyKind::NearestOnly => {
@@ -114,11 +139,11 @@ pub(super) fn choose(
             rng.choose(&all).copied()
         }
         _ => {
-            let gain = |order: &OpenOrder| order.ceiling.dollars() - cost(view, order);
+            let gain = |order: &OpenOrder| order.ceiling.dollars() - cost(order);
             open.max_by(|a, b| gain(a).total_cmp(&gain(b)))
         }
     }?;
-    let (ceiling, cost) = (order.ceiling.dollars(), cost(view, &order));
+    let (ceiling, cost) = (order.ceiling.dollars(), cost(&order));
     let price = match kind {
         PolicyKind::CostPlusLow => cost * 1.1,
         PolicyKind::CostPlusMedium => cost * 1.35,

@@ -2,7 +2,7 @@
 
 use simworld_core::ops;
 
-use crate::delivery::{CourierView, HeldOrder};
+use crate::delivery::{CourierView, HeldOrder, OpenOrder};
 
 /// Share of its length, measured straight or along sidewalks, by which a walk takes longer than at full speed: waits at
 /// crossings, ways round corners. Measured on the default city: couriers cover 0.7 to 0.85 of it.
@@ -41,9 +41,14 @@ pub(super) fn working_speed(view: &CourierView<'_>) -> f64 {
     if view.is_riding() { view.speed() } else { brisk(view) }
 }
 
+/// How long a way takes who works at a speed, s.
+pub(super) fn time_at(speed: f64, length: f64) -> f64 {
+    length * HINDRANCE / speed.max(0.1)
+}
+
 /// How long a way takes, s.
 pub(super) fn time_for(view: &CourierView<'_>, length: f64) -> f64 {
-    length * HINDRANCE / working_speed(view).max(0.1)
+    time_at(working_speed(view), length)
 }
 
 /// What is left to walk for the orders in hand, m.
@@ -52,8 +57,8 @@ pub(super) fn backlog(view: &CourierView<'_>) -> f64 {
     view.held_orders().map(left).sum()
 }
 
-/// What there may be to walk for the orders that it has bid for, m.
-pub(super) fn pending(view: &CourierView<'_>) -> f64 {
-    let bid_for = view.open_orders().filter(|order| order.own_bid.is_some());
+/// What there may be to walk for the orders that it has bid for, of those that take bids, m.
+pub(super) fn pending(open: &[OpenOrder]) -> f64 {
+    let bid_for = open.iter().filter(|order| order.own_bid.is_some());
     bid_for.map(|order| order.approach + order.route).sum()
 }
