@@ -1,6 +1,9 @@
 //! Experiments of the paper: what is finished is kept, and what is gone on with ends as if it had not been interrupted.
 
 use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, read_log, resume};
@@ -50,25 +53,32 @@ fn what_is_gone_on_with_ends_as_if_it_had_not_been_interrupted() {
 /// The folder of the run that is killed, for the process that plays it.
 const KILLED: &str = "SIMWORLD_KILLED_RUN";
 
+/// The run that is killed, with a checkpoint every so many steps.
+fn killed() -> RunConfig {
+    RunConfig { seeds: 1, checkpoint_interval: 30, ..simworld_tests::small(400) }
+}
+
 /// Not a test by itself: the run that the next one kills.
 #[test]
 fn a_run_that_is_killed() {
     let Some(path) = std::env::var_os(KILLED) else { return };
-    let config = RunConfig { seeds: 1, ..simworld_tests::small(400) };
-    play(&config, &OutputFolder::create(path.as_ref()).unwrap(), &Watch::silent()).unwrap();
+    play(&killed(), &OutputFolder::create(path.as_ref()).unwrap(), &Watch::silent()).unwrap();
+}
+
+/// What a run that went on says of it, if it did.
+fn resumed(run: &Path) -> String {
+    fs::read_to_string(run.join("seed-3/resumed.txt")).unwrap_or_default()
 }
 
 #[test]
 fn whoever_is_killed_leaves_a_whole_log_and_goes_on_to_the_same_end() {
     let folder = tempfile::tempdir().unwrap();
-    let config = RunConfig { seeds: 1, ..simworld_tests::small(400) };
-    let expected =
-        play(&config, &OutputFolder::create(&folder.path().join("whole")).unwrap(), &Watch::silent());
-    let expected = expected.unwrap().seeds[0].digest;
-    let whole_log = folder.path().join("whole/seed-3/events.jsonl");
+    let whole = folder.path().join("whole");
+    let expected = play(&killed(), &OutputFolder::create(&whole).unwrap(), &Watch::silent()).unwrap();
+    let whole_log = whole.join("seed-3/events.jsonl");
     let mut rng = Seed(8).stream("test/kill").rng();
     let moments = if std::env::var_os("SIMWORLD_SOAK").is_some() { 40 } else { 3 };
-    let mut cut = 0;
+    let (mut cut, mut went_on) = (0, 0);
     for moment in 0..moments {
         let path = folder.path().join(format!("run-{moment}"));
         let log = path.join("seed-3/events.jsonl");
@@ -89,12 +99,64 @@ fn whoever_is_killed_leaves_a_whole_log_and_goes_on_to_the_same_end() {
         let left = read_log(&log).unwrap();
         assert!(left.end.0 > 0 || left.recording.trail.is_empty());
         cut += usize::from(left.broken_off.is_some());
-        let whole = read_log(&whole_log).unwrap();
-        assert!(whole.recording.trail.starts_with(&left.recording.trail), "the log is whole up to its end");
-        let resumed = resume(&OutputFolder::open(&path).unwrap(), &Watch::silent()).unwrap();
-        assert_eq!(resumed.seeds[0].digest, expected);
+        assert!(
+            read_log(&whole_log).unwrap().recording.trail.starts_with(&left.recording.trail),
+            "the log is whole up to its end"
+        );
+        let again = resume(&OutputFolder::open(&path).unwrap(), &Watch::silent()).unwrap();
+        assert_eq!(again, expected);
+        went_on += usize::from(resumed(&path).starts_with("went on from step "));
+        for file in ["events.jsonl", "track.jsonl", "hashes.csv", "map.svg", "report.json"] {
+            let of = |run: &Path| fs::read(run.join("seed-3").join(file)).unwrap();
+            assert!(of(&path) == of(&whole), "{file} is that of a run that was not cut off");
+        }
     }
     assert!(cut > 0, "nobody was killed in time");
+    assert!(went_on > 0, "nobody went on from a checkpoint");
+}
+
+#[test]
+fn a_checkpoint_that_is_damaged_is_left_out_for_the_one_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("whole");
+    let expected = play(&killed(), &OutputFolder::create(&whole).unwrap(), &Watch::silent()).unwrap();
+    let stopped = folder.path().join("stopped");
+    let out = OutputFolder::create(&stopped).unwrap();
+    // Somebody interrupts it as soon as the second progress is shown.
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    let watch = Watch::new(stop, move |_, _| {
+        let asked = Arc::clone(&asked);
+        Box::new(move |step, _| asked.store(step >= 100, Ordering::Relaxed))
+    });
+    assert_eq!(play(&killed(), &out, &watch).unwrap().seeds[0].steps, 100);
+    let checkpoint = |step: u64| stopped.join(format!("seed-3/checkpoint-{step:09}.bin"));
+    assert!(checkpoint(100).is_file() && checkpoint(90).is_file() && !checkpoint(60).exists());
+    let mut bytes = fs::read(checkpoint(100)).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 4;
+    fs::write(checkpoint(100), &bytes).unwrap();
+    let again = resume(&OutputFolder::open(&stopped).unwrap(), &Watch::silent()).unwrap();
+    assert_eq!(again, expected);
+    let notes = resumed(&stopped);
+    assert_eq!(
+        notes,
+        "checkpoint-000000100.bin was left out: it is damaged\nwent on from step 90, by checkpoint-000000090.bin\n"
+    );
+    assert!(!checkpoint(90).exists(), "a finished run needs none");
+}
+
+#[test]
+fn without_a_sound_checkpoint_a_run_begins_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let (config, path) = (killed(), folder.path().join("run"));
+    let expected = play(&config, &OutputFolder::create(&path).unwrap(), &Watch::silent()).unwrap();
+    let seed = path.join("seed-3");
+    fs::remove_file(seed.join("report.json")).unwrap();
+    fs::write(seed.join("checkpoint-000000050.bin"), b"nothing of the kind").unwrap();
+    let again = resume(&OutputFolder::open(&path).unwrap(), &Watch::silent()).unwrap();
+    assert_eq!(again, expected);
+    assert_eq!(resumed(&path), "checkpoint-000000050.bin was left out: it is damaged\nbegan anew\n");
 }
 
 #[test]

@@ -27,7 +27,7 @@ impl Auction {
 }
 
 /// Gathers auctions event by event.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct AuctionBook {
     /// The place of each courier in the list of them.
     seats: BTreeMap<EntityId, usize>,

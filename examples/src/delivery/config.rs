@@ -37,6 +37,8 @@ pub struct RunConfig {
     pub frames: u32,
     /// Steps between two digests of the trail, in [1, 10 000].
     pub digest_interval: u64,
+    /// Steps between two checkpoints, from which a run that was cut off goes on, in [0, 10⁸]; 0 writes none.
+    pub checkpoint_interval: u64,
     /// Who plays: policies, and `model`, are dealt to the couriers in turn.
     pub policies: Vec<Brain>,
     /// The model of those that think with one.
@@ -74,6 +76,7 @@ impl Default for RunConfig {
             pedestrians: 80,
             frames: 3,
             digest_interval: 10,
+            checkpoint_interval: 500,
             policies: Brain::policies(),
             model: ModelSettings::default(),
             personas: Vec::new(),
@@ -167,7 +170,7 @@ impl RunConfig {
     }
 
     fn check(&self) -> Result<(), OutOfRange> {
-        let whole: [(&'static str, u64, u64, u64); 7] = [
+        let whole: [(&'static str, u64, u64, u64); 8] = [
             ("seeds", self.seeds.into(), 1, 1000),
             ("agents", self.agents.into(), 1, 10_000),
             ("steps", self.steps, 1, 100_000_000),
@@ -175,6 +178,7 @@ impl RunConfig {
             ("pedestrians", self.pedestrians.into(), 0, 1_000_000),
             ("frames", self.frames.into(), 0, 1000),
             ("digest_interval", self.digest_interval, 1, 10_000),
+            ("checkpoint_interval", self.checkpoint_interval, 0, 100_000_000),
         ];
         for (key, value, low, high) in whole {
             if !(low..=high).contains(&value) {

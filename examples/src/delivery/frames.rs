@@ -20,7 +20,6 @@ pub struct FrameTaker {
     renderer: Renderer,
     intrinsics: Intrinsics,
     interval: u64,
-    taken: u32,
     frame: Frame,
 }
 
@@ -33,7 +32,7 @@ impl FrameTaker {
         let renderer = Renderer::new(&RenderConfig::default())?;
         let intrinsics = Intrinsics::from_fov(960, 540, 1.2).map_err(RenderError::from)?;
         let interval = (steps / (u64::from(frames) + 1)).max(1);
-        Ok(Self { renderer, intrinsics, interval, taken: 0, frame: Frame::new() })
+        Ok(Self { renderer, intrinsics, interval, frame: Frame::new() })
     }
 
     /// Takes a frame if one is due at this step, and writes it as `frame-TICK.png`.
@@ -46,11 +45,12 @@ impl FrameTaker {
         if !tick.is_multiple_of(self.interval) {
             return Ok(());
         }
-        let courier = assembly.couriers.get(self.taken as usize % assembly.couriers.len().max(1));
+        let courier = assembly
+            .couriers
+            .get((tick / self.interval).saturating_sub(1) as usize % assembly.couriers.len().max(1));
         let Some(camera) = courier.and_then(|courier| behind(world, *courier, self.intrinsics)) else {
             return Ok(());
         };
-        self.taken += 1;
         self.renderer.render(world, &camera, &mut self.frame)?;
         self.frame.write_png(folder.join(format!("frame-{tick:06}.png")))?;
         Ok(())

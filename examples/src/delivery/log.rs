@@ -1,7 +1,7 @@
 //! The event log: JSON lines, one record each, whole up to the last finished line whenever the run stops.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -105,6 +105,25 @@ impl LogWriter {
         Ok(writer)
     }
 
+    /// Goes on with a log that is there, behind its first `length` bytes; what comes after them is cut off.
+    ///
+    /// # Errors
+    /// The file cannot be changed.
+    pub fn go_on(path: &Path, length: u64) -> Result<Self, LogError> {
+        let file =
+            cut_off(path, length).map_err(|source| LogError::File { path: path.to_owned(), source })?;
+        Ok(Self { path: path.to_owned(), file: BufWriter::new(file) })
+    }
+
+    /// How long the file is with all that was written, bytes.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn length(&mut self) -> Result<u64, LogError> {
+        self.flush()?;
+        self.file.stream_position().map_err(|source| LogError::File { path: self.path.clone(), source })
+    }
+
     /// Adds a record.
     ///
     /// # Errors
@@ -131,6 +150,14 @@ impl LogWriter {
         self.write(&LogRecord::End { tick })?;
         self.flush()
     }
+}
+
+/// A file that ends after its first `length` bytes, to be gone on with there.
+pub(super) fn cut_off(path: &Path, length: u64) -> std::io::Result<File> {
+    let mut file = OpenOptions::new().write(true).open(path)?;
+    file.set_len(length)?;
+    file.seek(SeekFrom::End(0))?;
+    Ok(file)
 }
 
 /// What a log says of a run.

@@ -6,8 +6,10 @@
 mod assemble;
 mod auctions;
 mod bodies;
+mod checkpoint;
 mod config;
 mod frames;
+mod journal;
 mod locate;
 mod log;
 mod map;

@@ -1,6 +1,5 @@
 //! Plays a configuration, all its seeds, and writes what happened.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -18,23 +17,18 @@ use simworld_core::seed::Seed;
 use thiserror::Error;
 
 use super::assemble::{AssembleError, Assembly, assemble, make_city};
-use super::auctions::{Auction, AuctionBook};
+use super::auctions::Auction;
 use super::config::ConfigError;
 use super::frames::{FrameError, FrameTaker};
-use super::log::{LogError, LogRecord, LogWriter, ReadLog, read_log};
+use super::journal::{End, Journal, LOG};
+use super::log::{LogError, ReadLog, read_log};
 use super::output::{OutputError, OutputFolder};
-use super::players::{Player, players};
+use super::players::{Brain, Player, players};
 use super::report::{RunReport, SeedReport};
-use super::track::TrackWriter;
 use super::{RunConfig, Watch, draw_map};
 
-/// Steps between two points of a courier's trail on the map.
-const TRAIL_STEP: u64 = 10;
 /// Steps between two updates of the progress display.
 const PROGRESS_STEP: u64 = 50;
-
-/// The name of the event log of a seed.
-const LOG: &str = "events.jsonl";
 
 /// Why a run ended before its time. What was logged until then is whole.
 #[derive(Debug, Error)]
@@ -114,7 +108,7 @@ pub fn play(config: &RunConfig, folder: &OutputFolder, watch: &Watch) -> Result<
             }
             let before = read_log(&path.join(LOG)).ok();
             let run = run_seed(config, &city, *seed, Some(&path), taker.as_mut(), watch)?;
-            if let Some(before) = before.filter(|_| !watch.is_stopped()) {
+            if let Some(before) = before.filter(|_| !watch.is_stopped() && gives_the_same_again(config)) {
                 confirm(&before, &path)?;
             }
             write_seed(folder, &city, &run)?;
@@ -127,14 +121,19 @@ pub fn play(config: &RunConfig, folder: &OutputFolder, watch: &Watch) -> Result<
     Ok(report)
 }
 
-/// Goes on with a run that was cut off: seeds that are finished are kept, the others are played again and must give every
-/// hash that was logged.
+/// Goes on with a run that was cut off: seeds that are finished are kept, the others go on from their newest sound checkpoint or
+/// begin anew, and must give every hash that was logged.
 ///
 /// # Errors
 /// The folder holds no run, or as [`play`].
 pub fn resume(folder: &OutputFolder, watch: &Watch) -> Result<RunReport, RunError> {
     let config = RunConfig::read(&folder.path().join("config.toml"))?;
     play(&config, folder, watch)
+}
+
+/// Whether what was cut off comes again as it was: a model that is asked again may answer otherwise, unless it is on a tape.
+fn gives_the_same_again(config: &RunConfig) -> bool {
+    !config.policies.contains(&Brain::Model) || config.model.tape.is_some()
 }
 
 /// The report of a seed that came to its end.
@@ -200,57 +199,56 @@ pub fn run_seed(
     mut taker: Option<&mut FrameTaker>,
     watch: &Watch,
 ) -> Result<SeedRun, RunError> {
-    let mut assembly = assemble(config, city, seed)?;
-    let mut log = folder.map(|folder| LogWriter::create(&folder.join(LOG), seed)).transpose()?;
-    let track = |folder: &Path| TrackWriter::create(&folder.join("track.jsonl"), &assembly, config.steps);
-    let mut track = folder.map(track).transpose()?;
+    let (mut assembly, mut journal) = begin(config, city, seed, folder)?;
     let progress = watch.begin(&format!("seed {}", seed.0), config.steps);
-    let mut trails: Vec<Vec<Point2>> = vec![Vec::new(); assembly.couriers.len()];
-    let (mut written, mut book) = (Written::default(), AuctionBook::new(&assembly.couriers));
-    assembly.episode.events().iter().for_each(|event| book.take(event));
-    if let Some(log) = &mut log {
-        Written::log_events(&assembly, log)?;
-    }
     while !assembly.episode.is_over() && !watch.is_stopped() {
         let stepped = assembly.episode.step().map(|_| ());
-        if let Some(log) = &mut log {
-            written.log_step(&assembly, log)?;
-        }
-        if let Some(track) = &mut track {
-            track.take_if_due(&assembly)?;
-        }
+        journal.take_step(&assembly)?;
         stepped?;
-        assembly.episode.events().iter().for_each(|event| book.take(event));
         assembly.episode.task().audit()?;
         let tick = assembly.episode.simulation().world().clock().tick().0;
-        if tick.is_multiple_of(TRAIL_STEP) {
-            extend_trails(&assembly, &mut trails);
-        }
         if tick.is_multiple_of(PROGRESS_STEP) {
             progress(tick, &headline(&assembly));
         }
         if let (Some(taker), Some(folder)) = (taker.as_deref_mut(), folder) {
             taker.take_if_due(&assembly, folder)?;
         }
+        if !assembly.episode.is_over() {
+            journal.checkpoint_if_due(&assembly)?;
+        }
     }
-    let end = assembly.episode.simulation().world().clock().tick();
-    progress(end.0, &headline(&assembly));
-    if let Some(log) = log {
-        log.finish(end)?;
+    let tick = assembly.episode.simulation().world().clock().tick();
+    progress(tick.0, &headline(&assembly));
+    let end = if assembly.episode.is_over() { End::Reached } else { End::Stopped };
+    if end == End::Stopped {
+        journal.checkpoint(&assembly)?;
     }
-    if let Some(track) = track {
-        track.finish()?;
-    }
-    if let Some(folder) = folder {
-        write_trail(folder, &assembly)?;
-    }
+    let (auctions, trails) = journal.finish(tick, end)?;
     Ok(SeedRun {
-        report: seed_report(&assembly, seed, end),
+        report: seed_report(&assembly, seed, tick),
         couriers: assembly.episode.task().report(),
         players: players(config, seed),
-        auctions: book.finish(),
+        auctions,
         trails,
     })
+}
+
+/// A run at its beginning, or where its folder has a checkpoint of it.
+fn begin(
+    config: &RunConfig,
+    city: &City,
+    seed: Seed,
+    folder: Option<&Path>,
+) -> Result<(Assembly, Journal), RunError> {
+    let assembled = || Ok(assemble(config, city, seed)?);
+    if let Some(folder) = folder
+        && let Some(taken_up) = Journal::take_up(config, seed, folder, &assembled)?
+    {
+        return Ok(taken_up);
+    }
+    let assembly = assembled()?;
+    let journal = Journal::begin(config, &assembly, seed, folder)?;
+    Ok((assembly, journal))
 }
 
 /// The report of an assembled run as it stands.
@@ -267,54 +265,4 @@ pub(super) fn seed_report(assembly: &Assembly, seed: Seed, end: Tick) -> SeedRep
 
 fn headline(assembly: &Assembly) -> String {
     assembly.episode.task().report().map_or(String::new(), |report| format!("{} delivered", report.delivered))
-}
-
-fn extend_trails(assembly: &Assembly, trails: &mut [Vec<Point2>]) {
-    let world = assembly.episode.simulation().world();
-    for (trail, courier) in trails.iter_mut().zip(&assembly.couriers) {
-        trail.extend(world.entity(*courier).map(|entity| entity.planar()));
-    }
-}
-
-/// How much of the growing record is in the log.
-#[derive(Default)]
-struct Written {
-    commands: usize,
-    digests: usize,
-}
-
-impl Written {
-    fn log_step(&mut self, assembly: &Assembly, log: &mut LogWriter) -> Result<(), LogError> {
-        let commands = &assembly.episode.simulation().recording().commands;
-        for command in &commands[self.commands..] {
-            log.write(&LogRecord::Command(command.clone()))?;
-        }
-        self.commands = commands.len();
-        Self::log_events(assembly, log)?;
-        let trail = assembly.episode.trail();
-        for (tick, digest) in &trail[self.digests..] {
-            log.write(&LogRecord::Digest { tick: *tick, digest: *digest })?;
-        }
-        self.digests = trail.len();
-        log.flush()
-    }
-
-    fn log_events(assembly: &Assembly, log: &mut LogWriter) -> Result<(), LogError> {
-        for event in assembly.episode.events() {
-            log.write(&LogRecord::Event(event.clone()))?;
-        }
-        Ok(())
-    }
-}
-
-/// The trail of hashes as a table of its own, for eyes and diff.
-fn write_trail(folder: &Path, assembly: &Assembly) -> Result<(), RunError> {
-    let mut text = String::from("tick,digest\n");
-    for (tick, digest) in assembly.episode.trail() {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{tick},{digest}");
-    }
-    let path = folder.join("hashes.csv");
-    std::fs::write(&path, text).map_err(|source| OutputError::NotWritable { path, source })?;
-    Ok(())
 }

@@ -139,6 +139,8 @@ pub struct Thinkers {
     renderer: Option<SharedRenderer>,
     asked: Arc<AtomicU64>,
     couriers: u32,
+    /// What was asked and taken before the run was cut off, if it was.
+    before: Option<ModelUsage>,
 }
 
 impl Thinkers {
@@ -207,6 +209,7 @@ impl Thinkers {
             renderer,
             asked: Arc::default(),
             couriers: 0,
+            before: None,
         })
     }
 
@@ -232,7 +235,7 @@ impl Thinkers {
     /// What they were asked and took in so many steps.
     pub fn usage(&self, steps: u64) -> ModelUsage {
         let account = self.models.ledger().total();
-        ModelUsage {
+        let mut usage = ModelUsage {
             couriers: self.couriers,
             requests: self.asked.load(Ordering::Relaxed),
             paper_requests: PAPER_REQUESTS * steps * u64::from(self.couriers),
@@ -241,7 +244,21 @@ impl Thinkers {
             prompt_tokens: account.usage.prompt,
             completion_tokens: account.usage.completion,
             cost: account.cost as f64 / 1e8,
+        };
+        if let Some(before) = &self.before {
+            usage.requests += before.requests;
+            usage.answered += before.answered;
+            usage.failed += before.failed;
+            usage.prompt_tokens += before.prompt_tokens;
+            usage.completion_tokens += before.completion_tokens;
+            usage.cost += before.cost;
         }
+        usage
+    }
+
+    /// Counts on from what a run took until it was cut off.
+    pub(super) fn go_on_from(&mut self, before: ModelUsage) {
+        self.before = Some(before);
     }
 }
 

@@ -2,7 +2,7 @@
 //! finished line whenever the run stops. Positions in whole decimetres, world frame.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Write};
+use std::io::{BufRead, BufReader, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -12,6 +12,7 @@ use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 
+use super::log::cut_off;
 use super::{Assembly, LogError};
 
 /// The version of the format; a reader refuses others.
@@ -159,9 +160,7 @@ impl TrackWriter {
     pub fn create(path: &Path, assembly: &Assembly, steps: u64) -> Result<Self, LogError> {
         let file = File::create(path).map_err(|source| LogError::File { path: path.to_owned(), source })?;
         let world = assembly.episode.simulation().world();
-        let dt = world.clock().dt();
-        let a_second = (1.0 / dt).round().max(1.0) as u64;
-        let interval = a_second.max((steps * assembly.couriers.len() as u64).div_ceil(MOST_SAMPLES));
+        let (dt, interval) = (world.clock().dt(), interval(assembly, steps));
         let name = |id: &EntityId| {
             let name = world.entity(*id).map_or_else(String::new, |body| body.label().to_owned());
             Tracked { id: *id, name }
@@ -171,6 +170,26 @@ impl TrackWriter {
         writer.line(&Line::Header { version: VERSION, dt, interval, couriers })?;
         writer.take_if_due(assembly)?;
         Ok(writer)
+    }
+
+    /// Goes on with the track of a run of that many steps, behind its first `length` bytes; what comes after them is cut off.
+    ///
+    /// # Errors
+    /// The file cannot be changed.
+    pub fn go_on(path: &Path, length: u64, assembly: &Assembly, steps: u64) -> Result<Self, LogError> {
+        let file =
+            cut_off(path, length).map_err(|source| LogError::File { path: path.to_owned(), source })?;
+        let interval = interval(assembly, steps);
+        Ok(Self { path: path.to_owned(), file: BufWriter::new(file), interval })
+    }
+
+    /// How long the file is with all that was written, bytes.
+    ///
+    /// # Errors
+    /// As [`take_if_due`](Self::take_if_due).
+    pub fn length(&mut self) -> Result<u64, LogError> {
+        let length = self.file.flush().and_then(|()| self.file.stream_position());
+        length.map_err(|source| LogError::File { path: self.path.clone(), source })
     }
 
     /// Adds a sample if one is due after this step.
@@ -212,6 +231,12 @@ impl TrackWriter {
             .and_then(|()| self.file.write_all(b"\n"))
             .map_err(|source| LogError::File { path: self.path.clone(), source })
     }
+}
+
+/// Steps between two samples of a run of that many steps.
+fn interval(assembly: &Assembly, steps: u64) -> u64 {
+    let a_second = (1.0 / assembly.episode.simulation().world().clock().dt()).round().max(1.0) as u64;
+    a_second.max((steps * assembly.couriers.len() as u64).div_ceil(MOST_SAMPLES))
 }
 
 /// Reads a track; a last line that is cut short is left out.
