@@ -12,6 +12,8 @@ pub mod generation;
 pub mod gym;
 mod lanes;
 pub mod language;
+#[cfg(feature = "assets")]
+pub mod library;
 pub mod mind;
 pub mod model;
 pub mod observer;

@@ -1,7 +1,9 @@
 //! A scene that is edited by words, and how it looks before and after.
 
 mod plan;
+mod sheet;
 mod view;
 
 pub use plan::Plan;
+pub use sheet::contact_sheet;
 pub use view::View;

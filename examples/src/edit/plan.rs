@@ -213,7 +213,7 @@ impl Plan<'_> {
 }
 
 /// Linear-light sRGB to a colour of the page.
-fn to_srgb(linear: [f32; 3]) -> String {
+pub(super) fn to_srgb(linear: [f32; 3]) -> String {
     let [r, g, b] = linear.map(|channel| {
         let channel = f64::from(channel.clamp(0.0, 1.0));
         let encoded = if channel <= 0.003_130_8 {

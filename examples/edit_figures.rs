@@ -1,0 +1,123 @@
+//! Every figure that is claimed of worlds by words, measured here and now, beside its bar.
+//!
+//! ```sh
+//! cargo run --release --example edit_figures
+//! ```
+
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::{Parser, ValueEnum};
+use comfy_table::Table;
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use simworld_agents::retrieval::AssetIndex;
+use simworld_core::asset::{Asset, Catalogue};
+use simworld_examples::{Outcome, exit_code};
+
+/// Measures the figures of worlds by words and prints each beside its bar.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// Assets that are searched.
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    assets: u32,
+    /// Only this part.
+    #[arg(long)]
+    only: Option<Part>,
+}
+
+/// A part of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// Assets found by words.
+    Retrieval,
+}
+
+/// What is asked for: names, synonyms, descriptions, and what is not there.
+const QUERIES: &[&str] = &[
+    "park bench",
+    "sofa",
+    "a red telephone kiosk",
+    "tree with pink blossom",
+    "trolley for the supermarket",
+    "high office building with a clock tower",
+    "a wooden table for a garden",
+    "lorry",
+    "dragon",
+    "a thing to sit on made of stone",
+    "red brick residential building with a fire escape",
+];
+
+fn main() -> ExitCode {
+    exit_code(job(&Arguments::parse()))
+}
+
+fn job(arguments: &Arguments) -> Outcome<()> {
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED);
+    table.set_header(["what", "measured", "bar"]);
+    let wants = |part: Part| arguments.only.is_none_or(|only| only == part);
+    if wants(Part::Retrieval) {
+        retrieval(arguments.assets as usize, &mut table)?;
+    }
+    println!("{table}");
+    Ok(())
+}
+
+/// The library over and over, until there are so many, each time under another name and with a word of its own.
+fn many(count: usize) -> Outcome<Catalogue> {
+    let library = Catalogue::library();
+    let mut catalogue = Catalogue::new();
+    for index in 0..count {
+        let round = index / library.len();
+        let (_, asset) = library.iter().nth(index % library.len()).ok_or("the library is empty")?;
+        let asset = match round {
+            0 => asset.clone(),
+            round => {
+                let name = format!("{}_of_series_{round}", asset.name);
+                Asset { name, ..asset.clone() }.tagged([format!("series{round}")])
+            }
+        };
+        catalogue.add(asset)?;
+    }
+    Ok(catalogue)
+}
+
+fn retrieval(count: usize, table: &mut Table) -> Outcome<()> {
+    let catalogue = many(count)?;
+    let (index, built) = timed(|| AssetIndex::of(&catalogue));
+    let mut times = Vec::new();
+    for words in QUERIES {
+        let time = median(51, || index.retrieve(words, 10));
+        let first =
+            index.retrieve(words, 1).first().map_or_else(|| "nothing".to_owned(), |hit| hit.name.clone());
+        println!("{:>10}  {words}: {first}", micros(time));
+        times.push(time);
+    }
+    times.sort_unstable();
+    let (middle, worst) = (times[times.len() / 2], times[times.len() - 1]);
+    table.add_row([
+        format!("ten of {} assets by words, median of {} queries", catalogue.len(), QUERIES.len()),
+        format!("{} (slowest {}; index built in {})", micros(middle), micros(worst), micros(built)),
+        "1000 µs".to_owned(),
+    ]);
+    Ok(())
+}
+
+#[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
+fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let result = work();
+    (result, start.elapsed())
+}
+
+/// The median of some times of the same work.
+fn median<T>(times: usize, mut work: impl FnMut() -> T) -> Duration {
+    let mut all: Vec<Duration> = (0..times).map(|_| timed(|| std::hint::black_box(work())).1).collect();
+    all.sort_unstable();
+    all[times / 2]
+}
+
+fn micros(time: Duration) -> String {
+    format!("{:.1} µs", time.as_secs_f64() * 1e6)
+}

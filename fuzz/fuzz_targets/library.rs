@@ -1,0 +1,18 @@
+//! Manifests of asset folders: any text is refused with its line, or every path of it stays within the folder.
+
+#![no_main]
+
+use std::path::{Component, Path};
+
+use libfuzzer_sys::fuzz_target;
+use simworld_agents::library::Manifest;
+
+fuzz_target!(|text: &str| {
+    if let Ok(manifest) = Manifest::read(text, 1000) {
+        for row in &manifest.assets {
+            let Some(path) = &row.get_ref().model else { continue };
+            assert!(Path::new(path).components().all(|part| matches!(part, Component::Normal(_))), "{path:?}");
+            assert!(!path.contains([':', '\\', '\0']), "{path:?}");
+        }
+    }
+});
