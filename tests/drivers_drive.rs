@@ -351,7 +351,6 @@ fn rush(wheels: Wheels, cities: usize, minds: usize, trips: usize) {
     let outcomes: Vec<(usize, Outcome)> = each_case(cities, |city| {
         let rush =
             Rush { city, segments: 60, density: 10.0, minds, trips, wheels, longest: 900.0 * trips as f64 };
-
         (city, Streets::new(&rush).drive(&rush))
     });
     let sum = |of: fn(&Outcome) -> usize| outcomes.iter().map(|(_, outcome)| of(outcome)).sum::<usize>();
@@ -359,7 +358,7 @@ fn rush(wheels: Wheels, cities: usize, minds: usize, trips: usize) {
     println!(
         "{} of {} trips ended at their kerb, {:.1} km, {} lights and {} stop signs passed",
         sum(|outcome| outcome.arrived),
-        outcomes.len() * minds * trips,
+        sum(|outcome| outcome.sent),
         driven / 1000.0,
         sum(|outcome| outcome.signals),
         sum(|outcome| outcome.stops)
@@ -371,16 +370,22 @@ fn rush(wheels: Wheels, cities: usize, minds: usize, trips: usize) {
         })
         .collect();
     assert!(faults.is_empty(), "{faults:#?}");
-    assert_eq!(sum(|outcome| outcome.arrived), outcomes.len() * minds * trips);
+    let sent = sum(|outcome| outcome.sent);
+    assert!(
+        sent * 10 > outcomes.len() * minds * trips * 7,
+        "{sent} trips: too few vehicles for so many minds"
+    );
+    assert_eq!(sum(|outcome| outcome.arrived), sent);
     assert!(sum(|outcome| outcome.signals) > outcomes.len(), "nobody met a light");
+    assert!(sum(|outcome| outcome.stops) > 0, "nobody met a stop sign");
 }
 
 #[test]
 fn trips_through_dense_traffic_end_at_the_kerb_and_harm_nobody() {
-    if is_whole() { rush(Wheels::Rolling, 25, 4, 1) } else { rush(Wheels::Rolling, 1, 4, 1) }
+    if is_whole() { rush(Wheels::Rolling, 100, 4, 2) } else { rush(Wheels::Rolling, 1, 4, 1) }
 }
 
 #[test]
 fn on_tyres_as_well() {
-    if is_whole() { rush(Wheels::Tyres, 4, 4, 2) } else { rush(Wheels::Tyres, 1, 2, 1) }
+    if is_whole() { rush(Wheels::Tyres, 32, 4, 2) } else { rush(Wheels::Tyres, 1, 2, 1) }
 }

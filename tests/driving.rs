@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use simworld_agents::executor::RuleExecutor;
-use simworld_citygen::{City, CityConfig, Style};
+use simworld_citygen::{City, CityConfig, RoadSource, Style};
 use simworld_core::command::Command;
 use simworld_core::geometry::{Aabb, Obb, Point2, Point3, direction, yaw_of};
 use simworld_core::id::{EntityId, LaneId};
 use simworld_core::kinematic::{KinematicDynamics, KinematicVehicle};
-use simworld_core::net::{Aspect, Control, RoadNetwork, polyline};
+use simworld_core::net::{Aspect, Control, RoadNetwork, StreetPlan, polyline};
 use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
 use simworld_core::seam::{Dynamics, Executor, Goal, Plan, PlanStep, Progress};
 use simworld_core::seed::{Seed, StreamRng};
@@ -39,9 +39,9 @@ pub struct Rush {
     pub segments: u32,
     /// Ambient vehicles a kilometre of lane.
     pub density: f64,
-    /// How many are driven by minds, and how many trips each makes, one after another.
+    /// How many are driven by minds, if the city has so many that can be.
     pub minds: usize,
-    /// Trips of each.
+    /// Trips of each, one after another.
     pub trips: usize,
     /// What they drive on.
     pub wheels: Wheels,
@@ -87,6 +87,8 @@ impl Faults {
 /// What came of a run.
 #[derive(Debug, Default)]
 pub struct Outcome {
+    /// Trips that were to be made.
+    pub sent: usize,
     /// Trips that ended at their kerb.
     pub arrived: usize,
     /// m driven by minds.
@@ -139,7 +141,8 @@ impl Streets {
         let style = Style::ALL[rush.city % Style::ALL.len()];
         let config = CityConfig { roads: style.roads(rush.segments), ..CityConfig::default() };
         let seed = Seed(1 + rush.city as u64);
-        let city = City::generate(&config, seed).expect("any seed grows a city");
+        let plan = with_stop_signs(config.roads.streets(seed).expect("any seed grows streets"));
+        let city = City::from_plan(plan, &config, seed).expect("any streets make a city");
         let mut world = World::new();
         city.populate(&mut world).expect("a city fits into a world");
         let vehicles = (rush.density * lane_kilometres(&city.network)) as u32;
@@ -167,8 +170,8 @@ impl Streets {
                 }
             }
         }
-        assert_eq!(chosen.len(), rush.minds, "too few vehicles for so many minds");
         let drivers = chosen.iter().map(|id| Driver::new(&world, *id, rush.trips)).collect();
+        let outcome = Outcome { sent: chosen.len() * rush.trips, ..Outcome::default() };
         let mut simulation = Simulation::new(world);
         simulation.add_dynamics("traffic", Box::new(traffic));
         match rush.wheels {
@@ -178,7 +181,7 @@ impl Streets {
         simulation.set_trail_interval(0);
         let goals = city.buildings.iter().map(|building| building.access).collect();
         let rng = seed.stream("rush").rng();
-        Self { simulation, network, goals, drivers, rng, outcome: Outcome::default() }
+        Self { simulation, network, goals, drivers, rng, outcome }
     }
 
     /// Drives until all trips have ended.
@@ -390,6 +393,18 @@ impl Driver {
         }
         self.pending = None;
     }
+}
+
+/// Stop signs at every second junction of three streets; grown streets have none.
+fn with_stop_signs(mut plan: StreetPlan) -> StreetPlan {
+    let mut ends = vec![0; plan.nodes.len()];
+    for street in &plan.streets {
+        ends[street.from] += 1;
+        ends[street.to] += 1;
+    }
+    let of_three = ends.iter().enumerate().filter(|(_, ends)| **ends == 3).map(|(node, _)| node);
+    plan.controls.extend(of_three.step_by(2).map(|node| (node, Control::Stop)));
+    plan
 }
 
 /// Cars, and of rolling wheels bicycles, motorcycles and trucks as well, with some road before them.

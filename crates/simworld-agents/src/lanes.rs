@@ -1,5 +1,6 @@
 //! Where on the road network somebody drives, and what lies ahead there.
 
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, direction};
 use simworld_core::id::LaneId;
 use simworld_core::net::{Connection, Lane, RoadNetwork, Turn, polyline};
@@ -10,7 +11,7 @@ const BESIDE: f64 = 15.0;
 const ALONG: f64 = 0.5;
 
 /// A place on a lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OnLane {
     pub(crate) lane: LaneId,
     /// m along the lane.

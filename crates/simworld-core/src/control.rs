@@ -4,7 +4,7 @@
 //! physical bodies; the fast bodies on lanes need none.
 
 use crate::action::Action;
-use crate::geometry::{Point2, Pose, planar, yaw_of};
+use crate::geometry::{Point2, Pose, direction, planar, yaw_of};
 use crate::net::polyline;
 use crate::ops::{atan2, wrap_angle};
 use serde::{Deserialize, Serialize};
@@ -43,6 +43,13 @@ impl Pid {
         let slope = self.last.map_or(0.0, |last| (error - last) / dt);
         self.last = Some(error);
         self.proportional * error + self.integral * self.sum + self.derivative * slope
+    }
+
+    /// Lets the integral term contribute at most so much upwards from here on, in the unit of the output.
+    pub fn cap(&mut self, most: f64) {
+        if self.integral > 0.0 {
+            self.sum = self.sum.min(most / self.integral);
+        }
     }
 
     /// Forgets what was.
@@ -89,10 +96,14 @@ impl Driver {
     fn pedal(&mut self, speed: f64, wanted: f64, dt: f64) -> Action {
         /// Below this the foot changes pedals for nothing.
         const DEAD_BAND: f64 = 0.05;
+        /// From this speed on all of the integral term may be needed, m/s.
+        const FULL_DRAG: f64 = 2.0;
         if wanted <= 0.0 && speed < 0.3 {
             self.pedals.reset();
             return Action::Brake { level: 1.0 };
         }
+        // What drag takes grows with the speed: a foot that held a speed lets go of the pedal when one is to roll to a line.
+        self.pedals.cap(self.pedals.windup * (wanted / FULL_DRAG).clamp(0.0, 1.0));
         let demand = self.pedals.update(wanted - speed, dt);
         if demand < -DEAD_BAND {
             Action::Brake { level: (-demand).min(1.0) }
@@ -109,14 +120,17 @@ impl Driver {
         let bearing = wrap_angle(atan2(target.y, target.x) - yaw_of(pose));
         // Pure pursuit (Coulter 1992): the arc through the target; the PID takes out what is left beside the path.
         let arc = atan2(2.0 * self.wheelbase * crate::ops::sin(bearing), target.norm().max(1.0));
-        let correction = self.wheel.update(-near.lateral, dt) / (1.0 + speed);
+        // Before its begin one is as far beside the path as beside its first piece made longer.
+        let (point, heading) = polyline::at(path, near.station);
+        let aside = direction(heading).perp(&(here - point));
+        let correction = self.wheel.update(-aside, dt) / (1.0 + speed);
         (arc + correction).clamp(-self.lock, self.lock)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::geometry::{Point3, direction, pose_facing};
+    use crate::geometry::{Point3, pose_facing};
     use crate::ops::tan;
 
     use super::*;
@@ -141,6 +155,37 @@ mod tests {
             }
             self.at += direction(self.yaw) * (self.v * dt);
         }
+    }
+
+    #[test]
+    fn who_stands_before_the_begin_of_a_path_goes_straight_on_to_it() {
+        let path = [Point2::new(0.0, 0.0), Point2::new(40.0, 0.0)];
+        let mut body = Bicycle { at: Point2::new(-6.0, 0.05), yaw: 0.0, v: 0.0 };
+        let mut driver = Driver::default();
+        for _ in 0..50 {
+            let pose = pose_facing(Point3::new(body.at.x, body.at.y, 0.0), body.yaw);
+            let actions = driver.drive(&pose, body.v, &path, 3.0, 0.1);
+            body.step(&actions, 0.1);
+            assert!(body.at.y.abs() < 0.15, "{}", body.at);
+        }
+        assert!(body.at.x > 0.0);
+    }
+
+    #[test]
+    fn a_foot_that_held_a_speed_rolls_to_a_line_and_not_over_it() {
+        let path = [Point2::new(0.0, 0.0), Point2::new(200.0, 0.0)];
+        let mut body = Bicycle { at: path[0], yaw: 0.0, v: 0.0 };
+        let mut driver = Driver::default();
+        let (line, lag) = (120.0, 0.8);
+        for _ in 0..600 {
+            let left = line - body.at.x;
+            let wanted = (2.0 * 2.0 * left.max(0.0)).sqrt().min(left / lag).clamp(0.0, 12.0);
+            let pose = pose_facing(Point3::new(body.at.x, body.at.y, 0.0), body.yaw);
+            let actions = driver.drive(&pose, body.v, &path, wanted, 0.1);
+            body.step(&actions, 0.1);
+        }
+        assert!(body.v < 0.05, "{} m/s", body.v);
+        assert!((line - 1.0..line + 0.2).contains(&body.at.x), "it stands at {}", body.at.x);
     }
 
     #[test]

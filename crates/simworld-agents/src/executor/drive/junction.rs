@@ -39,12 +39,17 @@ const OTHERS: f64 = 2.4;
 const CROSSES: f64 = 1.3;
 const COMES: f64 = 1.5;
 const CLEARS: f64 = 1.0;
+/// Acceleration to the side with which others are expected to clear it in a bend, m/s².
+const CAREFUL: f64 = 1.5;
 /// Braking with which others are expected to stop, m/s².
 const EASILY: f64 = 2.5;
 /// A gap begins with the start, s: from the decision to the line.
 const START: f64 = 1.2;
 /// Time that one wants between two who meet, s.
 const MARGIN: f64 = 0.6;
+/// Who rolls so near to its line while one stands at one's own, or has hardly started, is not relied on to stop, m and m/s.
+const NEAR_LINE: f64 = 15.0;
+const STARTS: f64 = 2.5;
 /// Vehicles are looked for within this distance of their line, m.
 pub(super) const SIGHT: f64 = 100.0;
 /// After so long at the line those who stand are not waited for any more, s: they let one go, or cannot go themselves.
@@ -90,6 +95,8 @@ struct Meeting {
     ends: Ends,
     own: Zone,
     other: Zone,
+    /// How fast others go round its bend, m/s.
+    pace: f64,
 }
 
 /// Why one waits at a line.
@@ -122,21 +129,24 @@ impl Junction {
                 ends,
                 own: trace.zone(&theirs, near, ends),
                 other: theirs.zone(&trace, near, ends),
+                pace: round_bend(other, CAREFUL),
             }
         };
         let others = turn.conflicts.iter().filter(|id| network.connections[id.index()].from != turn.from);
-        let turned =
-            wrap_angle(polyline::at(&turn.path, turn.length).1 - polyline::at(&turn.path, 0.0).1).abs();
-        let bend =
-            if turned > 0.15 { (LATERAL * turn.length / turned).sqrt().max(2.5) } else { f64::INFINITY };
         let limit = lane(network, turn.from).speed_limit.min(lane(network, turn.to).speed_limit);
         Self {
             meetings: others.map(meet).collect(),
             strips: people::strips(network, turn),
             length: turn.length,
-            speed: bend.min(limit),
+            speed: round_bend(turn, LATERAL).min(limit),
         }
     }
+}
+
+/// The speed for the mean bend of a way across at that acceleration to the side, m/s; infinite where it is straight.
+fn round_bend(way: &Connection, lateral: f64) -> f64 {
+    let turned = wrap_angle(polyline::at(&way.path, way.length).1 - polyline::at(&way.path, 0.0).1).abs();
+    if turned > 0.15 { (lateral * way.length / turned).sqrt().max(2.5) } else { f64::INFINITY }
 }
 
 /// How one would cross: from where the front is, m before the line, and how fast.
@@ -175,7 +185,7 @@ impl Asker {
             let is_before = front < meeting.other.enter() + 0.3;
             return is_before && (meeting.critical.is_none() || self.waited > PATIENT);
         }
-        let clears = time_over(meeting.other.passed() - rear, v, CLEARS, speed.max(3.0));
+        let clears = time_over(meeting.other.passed() - rear, v, CLEARS, speed.min(meeting.pace).max(3.0));
         let comes = time_over(meeting.other.enter() - front, v, COMES, speed.max(v));
         clears + MARGIN * 0.5 <= self.time(meeting.own.enter()) || self.gone(meeting, v) <= comes
     }
@@ -190,7 +200,8 @@ impl Asker {
         let clear = self.gone(meeting, v) <= comes(meeting.other.enter());
         match meeting.critical {
             Some(critical) => clear && self.time(0.0) + critical - START <= comes(0.0),
-            // It gives way, if it still can.
+            // It gives way, if it still can; but before one who stands it may go, and who rolls so near to its line means to.
+            None if self.v < STARTS && !other.stands() && distance < NEAR_LINE => clear,
             None => clear || v * v <= 2.0 * EASILY * distance.max(0.0),
         }
     }

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Aabb, Point2, direction};
 use simworld_core::id::{EntityId, LaneId};
 use simworld_core::net::{LaneKind, RoadNetwork, polyline};
@@ -13,8 +14,9 @@ use crate::lanes::{OnLane, lane};
 const TO_KERB: f64 = 0.3;
 /// Room before and behind a parked vehicle, m: enough to pull out.
 const GAP: f64 = 2.0;
-/// Room behind it through which one pulls in forwards, m.
-const APPROACH: f64 = 9.0;
+/// Room behind it through which one pulls in forwards, m: nearer than this the path in is so far to the right that one would not
+/// come past who is parked there.
+const APPROACH: f64 = 11.0;
 /// How far from where one wants to be one looks for a place, m.
 const NEARBY: f64 = 80.0;
 /// Nearer to the middle of the lane than this one need not pull in, m.
@@ -23,30 +25,73 @@ const ASIDE: f64 = 0.5;
 const JUNCTION: f64 = 6.0;
 
 /// A place to stop: on the lane, and how far to its right, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Berth {
     pub(super) on: OnLane,
     pub(super) aside: f64,
 }
 
-/// The free place nearest to a place on a lane for a vehicle of that size; in the lane itself if the kerb is taken.
+impl Berth {
+    /// Whether a vehicle of that size has room to come there, and to leave.
+    pub(super) fn is_free(
+        &self,
+        scene: &dyn Scene,
+        network: &RoadNetwork,
+        who: &[EntityId],
+        size: (f64, f64),
+    ) -> bool {
+        let (middle, heading) = pose(network, self.on.lane, self.on.station, self.aside);
+        let (ahead, reach) = (direction(heading), size.0 * 0.5 + GAP);
+        let behind = size.0 * 0.5 + if self.aside > ASIDE { APPROACH } else { GAP };
+        let mut free = true;
+        let _ = scene.visit(&Aabb::column_around(middle, reach.max(behind)), &mut |other| {
+            if who.contains(&other.id)
+                || other.attachment.is_some()
+                || !other.is_solid()
+                || other.kind == EntityKind::Building
+            {
+                return ControlFlow::Continue(());
+            }
+            let corners = other.obb().footprint().map(|corner| {
+                let offset = corner - middle;
+                (offset.dot(&ahead), ahead.perp(&offset))
+            });
+            let span = |of: fn(&(f64, f64)) -> f64| {
+                corners
+                    .iter()
+                    .map(of)
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+            };
+            let (along, across) = (span(|c| c.0), span(|c| c.1));
+            let half = size.1 * 0.5 + 0.1;
+            free = along.1 < -behind || along.0 > reach || across.1 < -half || across.0 > half;
+            if free { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        free
+    }
+}
+
+/// The free place nearest to a place on a lane for a vehicle of that size, at a station after `first`; in the lane itself if
+/// the kerb is taken.
 pub(super) fn berth(
     scene: &dyn Scene,
     network: &RoadNetwork,
     who: &[EntityId],
-    on: &OnLane,
+    (on, first): (&OnLane, f64),
     size: (f64, f64),
 ) -> Berth {
     let aside = to_the_right(network, on, size.1);
     let length = lane(network, on.lane).length;
-    let (low, high) = (JUNCTION.min(length * 0.5), (length - JUNCTION - size.0 * 0.5).max(length * 0.5));
+    let high = (length - JUNCTION - size.0 * 0.5).max(length * 0.5);
+    let low = JUNCTION.min(length * 0.5).max(first).min(high);
     let step = size.0 * 0.5;
     let mut shift = 0.0;
     while shift <= NEARBY {
         for station in [on.station + shift, on.station - shift] {
             let place = OnLane { station: station.clamp(low, high), ..*on };
-            if is_free(scene, network, who, &place, aside, size) {
-                return Berth { on: place, aside };
+            let berth = Berth { on: place, aside };
+            if berth.is_free(scene, network, who, size) {
+                return berth;
             }
         }
         shift += step;
@@ -78,42 +123,4 @@ pub(super) fn pose(network: &RoadNetwork, id: LaneId, station: f64, aside: f64) 
     let (point, heading) = polyline::at(&lane(network, id).path, station);
     let ahead = direction(heading);
     (point + simworld_core::geometry::Vector2::new(ahead.y, -ahead.x) * aside, heading)
-}
-
-fn is_free(
-    scene: &dyn Scene,
-    network: &RoadNetwork,
-    who: &[EntityId],
-    on: &OnLane,
-    aside: f64,
-    size: (f64, f64),
-) -> bool {
-    let (middle, heading) = pose(network, on.lane, on.station, aside);
-    let (ahead, reach) = (direction(heading), size.0 * 0.5 + GAP);
-    let behind = size.0 * 0.5 + if aside > ASIDE { APPROACH } else { GAP };
-    let mut free = true;
-    let _ = scene.visit(&Aabb::column_around(middle, reach.max(behind)), &mut |other| {
-        if who.contains(&other.id)
-            || other.attachment.is_some()
-            || !other.is_solid()
-            || other.kind == EntityKind::Building
-        {
-            return ControlFlow::Continue(());
-        }
-        let corners = other.obb().footprint().map(|corner| {
-            let offset = corner - middle;
-            (offset.dot(&ahead), ahead.perp(&offset))
-        });
-        let span = |of: fn(&(f64, f64)) -> f64| {
-            corners
-                .iter()
-                .map(of)
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-        };
-        let (along, across) = (span(|c| c.0), span(|c| c.1));
-        let half = size.1 * 0.5 + 0.1;
-        free = along.1 < -behind || along.0 > reach || across.1 < -half || across.0 > half;
-        if free { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    });
-    free
 }

@@ -33,6 +33,7 @@ use simworld_core::seam::Goal;
 use self::around::Seen;
 use self::change::Change;
 use self::junction::Line;
+use self::kerb::Berth;
 use self::plan::Wish;
 pub use self::trouble::CannotArrive;
 use self::turn_round::Turning;
@@ -65,6 +66,8 @@ const NEVER: f64 = 900.0;
 pub(super) struct Driving {
     /// Where the goal was when the way was found.
     goal: Point2,
+    /// The place at the kerb where it ends.
+    berth: Option<Berth>,
     path: Vec<Point2>,
     lines: Vec<Line>,
     limits: Vec<(f64, f64)>,
@@ -161,6 +164,7 @@ impl RuleExecutor {
             way.tries += 1;
             way.renew(scene, vehicle, own, Wish { closed: way.closed.clone(), ..Wish::to(way.goal) })?;
         }
+        way.mind_berth(scene, vehicle, own)?;
         let left = polyline::length(&way.path) - way.station;
         if left <= ARRIVED && own.speed.abs() < STANDING {
             return Ok(Arrival::There);

@@ -7,13 +7,19 @@ use simworld_core::net::{RoadNetwork, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
 use super::change::Change;
+use super::kerb::{self, Berth};
 use super::route::{From, Lanes, Way, way};
 use super::watch::Own;
-use super::{CannotArrive, Driving, kerb};
+use super::{CannotArrive, Driving};
 use crate::lanes::{OnLane, lane, lane_at, nearest_lane};
 
 /// Length over which one pulls in to the kerb, m.
 const PULL_IN: f64 = 16.0;
+/// One sees who stands at a place at the kerb from so near, m, looks each so many ticks, and turns away no more when one is
+/// almost in it, m.
+const IN_VIEW: f64 = 50.0;
+const LOOKS: u64 = 10;
+const ALMOST_IN: f64 = 5.0;
 /// Lanes farther away than this are no part of the way, m: one drives over open ground.
 const OFF_ROAD: f64 = 60.0;
 /// Who stands so far beside a lane looks into the mirror before joining it, m.
@@ -51,16 +57,20 @@ impl Driving {
             let to = nearest_lane(network, goal, None)?;
             (from.distance.min(to.distance) <= OFF_ROAD).then_some((network, from, to))
         });
-        let found = match on_roads {
+        let (mut found, berth) = match on_roads {
             Some((network, from, to)) => by_road(scene, network, own, (&from, &to), &wish)
+                .map(|(way, berth)| (way, Some(berth)))
                 .ok_or(CannotArrive::NoWay { from: own.at, to: goal })?,
-            None => Way { path: vec![own.at, goal], ..Way::default() },
+            None => (Way { path: vec![own.at, goal], ..Way::default() }, None),
         };
+        // A piece of no length has no sides.
+        found.path.dedup_by(|a, b| (*a - *b).norm() < 1e-6);
         // Axles stand 0.58 of the length apart: a sedan's 2.6 of 4.5 m, a bus's 7 of 12 m.
         let mut driver = Driver::default();
         driver.wheelbase = own.half_length * 2.0 * 0.58;
         Ok(Self {
             goal,
+            berth,
             path: found.path,
             lines: found.lines,
             limits: found.limits,
@@ -105,6 +115,26 @@ impl Driving {
         *self = found;
         Ok(())
     }
+
+    /// Looks for another place at the kerb when somebody has taken the one that one is coming to.
+    pub(super) fn mind_berth(
+        &mut self,
+        scene: &dyn Scene,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+    ) -> Result<(), CannotArrive> {
+        let left = polyline::length(&self.path) - self.station;
+        let Some((berth, network)) = self.berth.zip(scene.roads()) else { return Ok(()) };
+        // In a turn one goes on as one is: a new path would begin across it.
+        let in_last_lane = self.lines.is_empty();
+        let looks = in_last_lane
+            && (ALMOST_IN..IN_VIEW).contains(&left)
+            && scene.clock().tick().0.is_multiple_of(LOOKS);
+        if !looks || berth.aside <= 0.0 || berth.is_free(scene, network, own.ids, own.size()) {
+            return Ok(());
+        }
+        self.renew(scene, vehicle, own, Wish { closed: self.closed.clone(), ..Wish::to(self.goal) })
+    }
 }
 
 /// The lane where one is.
@@ -123,9 +153,11 @@ fn by_road(
     own: &Own<'_>,
     (from, to): (&OnLane, &OnLane),
     wish: &Wish,
-) -> Option<Way> {
-    let size = (own.half_length * 2.0, own.half_width * 2.0);
-    let berth = kerb::berth(scene, network, own.ids, to, size);
+) -> Option<(Way, Berth)> {
+    // What one has passed is not gone back to.
+    let first = if to.lane == from.lane { from.station + PULL_IN } else { 0.0 };
+    let first = if to.station > from.station { first } else { 0.0 };
+    let berth = kerb::berth(scene, network, own.ids, (to, first), own.size());
     // From beside the lane one joins it some way ahead.
     let join = match from.distance {
         // Before its begin one is in a junction.
@@ -136,7 +168,9 @@ fn by_road(
     let length = lane(network, from.lane).length;
     let entry = OnLane { station: (from.station + join).min(length), ..*from };
     let hold = wish.on.map_or(2.0, |(_, hold)| hold);
-    let begin = From { on: &entry, at: own.at, hold, lanes: wish.lanes };
+    // Who is in the lane begins in its middle: a first piece across it would have all behind beside one.
+    let at = if join > 0.0 { own.at } else { polyline::at(&lane(network, entry.lane).path, entry.station).0 };
+    let begin = From { on: &entry, at, hold, lanes: wish.lanes };
     let mut found =
         way(network, &begin, &berth.on, &wish.closed).or_else(|| way(network, &begin, &berth.on, &[]))?;
     if from.distance > BESIDE && own.speed < 1.0 {
@@ -152,7 +186,7 @@ fn by_road(
         found.changes.insert(0, mirror);
     }
     pull_in(&mut found.path, berth.aside);
-    Some(found)
+    Some((found, berth))
 }
 
 /// Bends the end of a path to the right, by so much, m.

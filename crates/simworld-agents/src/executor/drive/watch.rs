@@ -59,6 +59,11 @@ impl<'a> Own<'a> {
             solid: vehicle.obb(),
         }
     }
+
+    /// Length and width, m.
+    pub(super) fn size(&self) -> (f64, f64) {
+        (self.half_length * 2.0, self.half_width * 2.0)
+    }
 }
 
 /// What the road ahead allows.
