@@ -10,6 +10,8 @@ pub mod episode;
 pub mod executor;
 pub mod generation;
 pub mod gym;
+#[cfg(feature = "http")]
+mod http;
 mod lanes;
 pub mod language;
 #[cfg(feature = "assets")]

@@ -5,9 +5,15 @@
 //! replays without the generator.
 
 mod error;
+#[cfg(all(feature = "assets", feature = "http"))]
+mod hunyuan;
 mod prompt;
 
 pub use error::GenerateError;
+#[cfg(all(feature = "assets", feature = "http"))]
+pub use hunyuan::{
+    Canceller, HunyuanConfig, HunyuanError, HunyuanGenerator, HunyuanVersion, Texture, Ticket, Way,
+};
 pub use prompt::{AssetPrompt, LONGEST_PROMPT, SizeHint};
 use simworld_core::asset::Asset;
 

@@ -35,6 +35,8 @@ pub use openai::{LimitField, OpenAiChat, OpenAiConfig, PlainKey, SchemaMode, Str
 pub use pace::{Pace, Paced};
 pub use reply::{ChatReply, Finish, ToolCall, Usage};
 pub use request::{ChatRequest, Image, Message, Part, Role, Schema, Tool, ToolChoice};
+#[cfg(all(feature = "assets", feature = "http"))]
+pub(crate) use retry::Attempts;
 pub use retry::{Retried, RetryConfig};
 pub use scripted::Scripted;
 pub use tape::{NoModel, Recorded, Tape};

@@ -28,6 +28,18 @@ impl Default for RetryConfig {
     }
 }
 
+impl RetryConfig {
+    pub(crate) fn check(&self) -> Result<(), ModelError> {
+        let times = [self.first_wait, self.longest_wait, self.total];
+        if self.attempts == 0 || times.iter().any(|time| !(0.0..=1e9).contains(time)) {
+            return Err(ModelError::Config(format!(
+                "{self:?} allows no attempt or has a time that is not from 0 to 1e9 s"
+            )));
+        }
+        Ok(())
+    }
+}
+
 /// Asks again after connections that broke, timeouts, too many requests and failures of the server, and after nothing else.
 ///
 /// Waits are drawn from a stream between half of what they are and the whole, so that many agents do not come back at once; a
@@ -51,12 +63,7 @@ impl<M: ChatModel> Retried<M> {
         stream: Stream,
         clock: Arc<dyn Clock>,
     ) -> Result<Self, ModelError> {
-        let times = [config.first_wait, config.longest_wait, config.total];
-        if config.attempts == 0 || times.iter().any(|time| !(0.0..=1e9).contains(time)) {
-            return Err(ModelError::Config(format!(
-                "{config:?} allows no attempt or has a time that is not from 0 to 1e9 s"
-            )));
-        }
+        config.check()?;
         Ok(Self { inner, config, clock, random: stream.rng(), repeats: 0 })
     }
 
@@ -74,34 +81,60 @@ impl<M: ChatModel> Retried<M> {
         &mut self,
         ask: &mut dyn FnMut(&mut M, &mut Repeat) -> Result<ChatReply, ModelError>,
     ) -> Result<ChatReply, ModelError> {
-        let start = self.clock.now();
-        let mut backoff = self.config.first_wait;
-        let mut left = self.config.attempts - 1; // the constructor refuses none
+        let mut attempts = Attempts::begin(self.config, self.clock.now());
         loop {
             let mut repeat = Repeat::May;
             let answer = ask(&mut self.inner, &mut repeat);
             let error = match answer {
-                Err(error) if error.is_passing() && left > 0 && repeat == Repeat::May => error,
+                Err(error) if error.is_passing() && repeat == Repeat::May => error,
                 answer => return answer,
             };
-            let wait = self.wait(&error, backoff);
-            let since = self.clock.now().saturating_sub(start);
-            if since.saturating_add(wait) > Duration::from_secs_f64(self.config.total) {
+            let Some(wait) = attempts.wait(error.retry_after(), self.clock.now(), &mut self.random) else {
                 return Err(error);
-            }
+            };
             self.clock.sleep(wait);
             self.repeats += 1;
-            left -= 1;
-            backoff *= 2.0;
         }
     }
+}
 
-    fn wait(&mut self, error: &ModelError, backoff: f64) -> Duration {
-        let share = self.random.uniform(0.5, 1.0);
-        match error.retry_after() {
-            Some(wait) => wait.saturating_add(Duration::from_secs_f64(self.config.first_wait * share)),
-            None => Duration::from_secs_f64(backoff.min(self.config.longest_wait) * share),
+/// The attempts at one request.
+pub(crate) struct Attempts {
+    config: RetryConfig,
+    start: Duration,
+    backoff: f64,
+    left: u32,
+}
+
+impl Attempts {
+    /// Before the first, at a time of a clock.
+    pub(crate) fn begin(config: RetryConfig, now: Duration) -> Self {
+        // whoever takes a configuration refuses one without attempts
+        Self { config, start: now, backoff: config.first_wait, left: config.attempts.saturating_sub(1) }
+    }
+
+    /// After a failure in passing: how long to wait before the next one, if there is to be one.
+    pub(crate) fn wait(
+        &mut self,
+        retry_after: Option<Duration>,
+        now: Duration,
+        random: &mut StreamRng,
+    ) -> Option<Duration> {
+        if self.left == 0 {
+            return None;
         }
+        let share = random.uniform(0.5, 1.0);
+        let wait = match retry_after {
+            Some(wait) => wait.saturating_add(Duration::from_secs_f64(self.config.first_wait * share)),
+            None => Duration::from_secs_f64(self.backoff.min(self.config.longest_wait) * share),
+        };
+        let since = now.saturating_sub(self.start);
+        if since.saturating_add(wait) > Duration::from_secs_f64(self.config.total) {
+            return None;
+        }
+        self.left -= 1;
+        self.backoff *= 2.0;
+        Some(wait)
     }
 }
 

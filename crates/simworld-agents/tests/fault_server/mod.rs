@@ -79,6 +79,11 @@ impl FaultServer {
         format!("http://{}/v1", self.address)
     }
 
+    /// The address without a path.
+    pub fn root(&self) -> String {
+        format!("http://{}", self.address)
+    }
+
     /// A configuration for this server that waits half a second.
     pub fn config(&self) -> OpenAiConfig {
         OpenAiConfig {
@@ -128,11 +133,14 @@ fn read_request(stream: &mut TcpStream) -> Option<Heard> {
             let length = head
                 .lines()
                 .filter_map(|line| line.split_once(':'))
-                .find(|(name, _)| name.eq_ignore_ascii_case("content-length"))?
-                .1;
+                .find(|(name, _)| name.eq_ignore_ascii_case("content-length"))
+                .map_or("0", |(_, length)| length);
             let body = end + 4..end + 4 + length.trim().parse::<usize>().ok()?;
             if bytes.len() >= body.end {
-                return Some(Heard { head, body: serde_json::from_slice(&bytes[body]).ok()? });
+                let body = &bytes[body];
+                // What is asked for with GET has no body.
+                let body = if body.is_empty() { Value::Null } else { serde_json::from_slice(body).ok()? };
+                return Some(Heard { head, body });
             }
         }
         match stream.read(&mut buffer) {

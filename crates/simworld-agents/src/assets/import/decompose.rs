@@ -18,7 +18,7 @@ use super::measure::{Bulk, enclosed};
 const DIRECTIONS: usize = 96;
 
 /// The most voxels that are looked at for all triangles together; with more the grid is coarser.
-const MOST_TESTS: f64 = 4e7;
+const MOST_TESTS: f64 = 1e7;
 
 /// A convex solid and what it encloses.
 pub(super) struct Solid {

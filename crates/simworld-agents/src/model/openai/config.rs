@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use ureq::http::Uri;
 
 use super::super::ModelError;
+use crate::http;
 
 /// A server and its model. It holds no key, only the name of the variable that does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,22 +105,7 @@ impl OpenAiConfig {
     /// The address, if everything can work.
     pub(super) fn checked(&self) -> Result<Uri, ModelError> {
         let config = |reason: String| Err(ModelError::Config(reason));
-        let Ok(uri) = self.base_url.parse::<Uri>() else {
-            return config("base_url is no address: write it as http://host:port/v1".into());
-        };
-        // What may hold a secret is not repeated.
-        if uri.authority().is_some_and(|authority| authority.as_str().contains('@')) || uri.query().is_some()
-        {
-            return config(
-                "base_url holds a user or a query: put a key into an environment variable instead".into(),
-            );
-        }
-        match uri.scheme_str() {
-            Some("http") => {}
-            Some("https") if cfg!(feature = "https") => {}
-            Some("https") => return config("base_url is https: build with the feature `https`".into()),
-            _ => return config("base_url begins neither with http:// nor with https://".into()),
-        }
+        let uri = http::checked_url(&self.base_url)?;
         for (name, seconds) in [("connect_timeout", self.connect_timeout), ("timeout", self.timeout)] {
             if !(0.001..=86_400.0).contains(&seconds) {
                 return config(format!("{name} is {seconds} s: it must be from 0.001 to 86,400"));
@@ -130,24 +116,6 @@ impl OpenAiConfig {
         }
         Ok(uri)
     }
-
-    pub(super) fn check_key_is_safe(&self, uri: &Uri) -> Result<(), ModelError> {
-        let plain = uri.scheme_str() == Some("http");
-        if plain && !is_loopback(uri) && self.plain_key == PlainKey::LoopbackOnly {
-            return Err(ModelError::Config(format!(
-                "a key would travel in the open to {}: use https, or set plain_key to allowed",
-                self.base_url
-            )));
-        }
-        Ok(())
-    }
-}
-
-pub(super) fn is_loopback(uri: &Uri) -> bool {
-    let host = uri.host().unwrap_or_default();
-    let host = host.strip_prefix('[').and_then(|host| host.strip_suffix(']')).unwrap_or(host);
-    host.eq_ignore_ascii_case("localhost")
-        || host.parse::<std::net::IpAddr>().is_ok_and(|address| address.is_loopback())
 }
 
 #[cfg(test)]
@@ -174,14 +142,14 @@ mod tests {
     fn a_key_travels_in_the_open_only_where_that_is_said() {
         let mut config = with("http://10.0.0.7/v1");
         let uri = config.checked().unwrap();
-        assert!(config.check_key_is_safe(&uri).is_err());
+        assert!(http::check_key_is_safe(&uri, config.plain_key).is_err());
         config.plain_key = PlainKey::Allowed;
-        config.check_key_is_safe(&uri).unwrap();
+        http::check_key_is_safe(&uri, config.plain_key).unwrap();
         for near in ["http://127.0.0.1:1/v1", "http://[::1]/v1", "http://LOCALHOST/v1"] {
             let config = with(near);
-            config.check_key_is_safe(&config.checked().unwrap()).unwrap();
+            http::check_key_is_safe(&config.checked().unwrap(), config.plain_key).unwrap();
         }
-        assert!(!is_loopback(&"http://127.0.0.1.example.org/".parse().unwrap()));
+        assert!(!http::is_loopback(&"http://127.0.0.1.example.org/".parse().unwrap()));
     }
 
     #[test]

@@ -3,14 +3,13 @@
 use std::time::Duration;
 
 use serde_json::Value;
-use ureq::http::HeaderMap;
 use ureq::http::response::Parts;
 
 use super::super::ModelError;
 use super::super::error::shortened;
 use super::answer;
 use super::config::OpenAiConfig;
-use super::key::ApiKey;
+use crate::http::{self, ApiKey};
 
 /// The error of a status that is not good, with the beginning of what the server says.
 pub(super) fn of_status(
@@ -26,7 +25,7 @@ pub(super) fn of_status(
         Ok(value) => answer::said(&Value::String(clean(&message_of(&value)))),
         Err(_) => shortened(clean(&String::from_utf8_lossy(said)).trim()),
     };
-    let retry_after = retry_after(&head.headers);
+    let retry_after = http::retry_after(&head.headers);
     match status {
         300..=399 => {
             let to = head.headers.get("location").and_then(|to| to.to_str().ok()).unwrap_or("nowhere");
@@ -81,47 +80,4 @@ fn message_of(value: &Value) -> String {
     let error = value.get("error").unwrap_or(value);
     let message = error.get("message").unwrap_or(error);
     message.as_str().map_or_else(|| message.to_string(), str::to_owned)
-}
-
-/// Seconds, or a date: counted from the server's own `Date`, so that no clock of ours is asked.
-fn retry_after(headers: &HeaderMap) -> Option<Duration> {
-    let text = |name: &str| headers.get(name).and_then(|value| value.to_str().ok());
-    let value = text("retry-after")?.trim();
-    if let Ok(seconds) = value.parse::<f64>() {
-        // some servers give decimals; a wait of years is none that anybody means
-        return (0.0..=f64::from(u32::MAX)).contains(&seconds).then(|| Duration::from_secs_f64(seconds));
-    }
-    let until = httpdate::parse_http_date(value).ok()?;
-    let now = httpdate::parse_http_date(text("date")?).ok()?;
-    Some(until.duration_since(now).unwrap_or_default())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn headers(pairs: &[(&'static str, &'static str)]) -> HeaderMap {
-        pairs.iter().map(|(name, value)| (name.parse().unwrap(), value.parse().unwrap())).collect()
-    }
-
-    #[test]
-    fn retry_after_is_seconds_or_a_date() {
-        let date = ("date", "Sun, 06 Nov 1994 08:49:37 GMT");
-        for (value, wait) in [
-            ("7", Some(7)),
-            ("2.0", Some(2)),
-            (" 0 ", Some(0)),
-            ("Sun, 06 Nov 1994 08:50:37 GMT", Some(60)),
-            ("Sun, 06 Nov 1994 08:40:00 GMT", Some(0)),
-            ("-3", None),
-            ("soon", None),
-            ("nan", None),
-            ("inf", None),
-            ("99999999999999999999", None),
-        ] {
-            let found = retry_after(&headers(&[("retry-after", value), date]));
-            assert_eq!(found, wait.map(Duration::from_secs), "{value}");
-        }
-        assert_eq!(retry_after(&headers(&[("retry-after", "Sun, 06 Nov 1994 08:50:37 GMT")])), None);
-    }
 }

@@ -8,25 +8,19 @@ mod config;
 mod fault;
 mod key;
 mod sse;
-#[cfg(feature = "https")]
-mod tls;
-mod transport;
 mod wire;
 
 use std::io::Read;
 use std::sync::Arc;
-use std::time::Duration;
 
-use ureq::http::{Response, Uri};
-use ureq::unversioned::resolver::DefaultResolver;
-use ureq::unversioned::transport::{Connector, DefaultConnector};
+use ureq::http::Response;
 use ureq::{Agent, Body};
 
 pub use config::{LimitField, OpenAiConfig, PlainKey, SchemaMode, StreamUsage};
 
-use self::key::{ApiKey, Scrubber};
-use self::transport::KeyedConnector;
+use self::key::Scrubber;
 use super::{ChatModel, ChatReply, ChatRequest, ModelError};
+use crate::http::{self, ApiKey, Connecting};
 
 /// The most bytes that are read of what a server says about a failure.
 const ERROR_BODY: u64 = 64 * 1024;
@@ -60,11 +54,16 @@ impl OpenAiChat {
     /// [`ModelError::Store`] if the file of certificates cannot be read.
     pub fn new(config: OpenAiConfig) -> Result<Self, ModelError> {
         let uri = config.checked()?;
-        let key = config.key_variable.as_deref().map(ApiKey::from_variable).transpose()?.map(Arc::new);
+        let key = http::key(config.key_variable.as_deref())?;
         if key.is_some() {
-            config.check_key_is_safe(&uri)?;
+            http::check_key_is_safe(&uri, config.plain_key)?;
         }
-        let agent = agent(&config, &uri, key.clone())?;
+        let connecting = Connecting {
+            connect_timeout: config.connect_timeout,
+            timeout: config.timeout,
+            root_certificates: config.root_certificates.as_deref(),
+        };
+        let agent = http::agent(connecting, &uri, key.clone())?;
         let url = format!("{}/chat/completions", config.base_url.trim_end_matches('/'));
         Ok(Self { agent, url, config, key })
     }
@@ -97,7 +96,7 @@ impl OpenAiChat {
     fn without_key(&self, answer: Result<ChatReply, ModelError>) -> Result<ChatReply, ModelError> {
         let mut reply = answer.map_err(|error| key::scrub_error(error, self.key.as_deref()))?;
         if let Some(key) = &self.key {
-            key.scrub_reply(&mut reply);
+            key::scrub_reply(key, &mut reply);
         }
         Ok(reply)
     }
@@ -154,31 +153,4 @@ impl std::fmt::Debug for OpenAiChat {
             .field("config", &self.config)
             .finish_non_exhaustive()
     }
-}
-
-fn agent(config: &OpenAiConfig, uri: &Uri, key: Option<Arc<ApiKey>>) -> Result<Agent, ModelError> {
-    let connect = Some(Duration::from_secs_f64(config.connect_timeout));
-    let mut builder = Agent::config_builder()
-        .http_status_as_error(false)
-        .max_redirects(0)
-        .timeout_resolve(connect)
-        .timeout_connect(connect)
-        .timeout_global(Some(Duration::from_secs_f64(config.timeout)))
-        .user_agent(concat!("simworld/", env!("CARGO_PKG_VERSION")));
-    if config::is_loopback(uri) {
-        // a proxy of the environment reaches its own loopback, not ours
-        builder = builder.proxy(None);
-    }
-    #[cfg(not(feature = "https"))]
-    if config.root_certificates.is_some() {
-        return Err(ModelError::Config(
-            "root_certificates is for https: build with the feature `https`".into(),
-        ));
-    }
-    #[cfg(feature = "https")]
-    {
-        builder = builder.tls_config(tls::config(config.root_certificates.as_deref())?);
-    }
-    let connector = DefaultConnector::new().chain(KeyedConnector::new(key));
-    Ok(Agent::with_parts(builder.build(), connector, DefaultResolver::default()))
 }

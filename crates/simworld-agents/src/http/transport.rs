@@ -12,12 +12,12 @@ use super::key::ApiKey;
 
 /// Wraps every connection of an agent.
 #[derive(Debug)]
-pub(super) struct KeyedConnector {
+pub(crate) struct KeyedConnector {
     key: Option<Arc<ApiKey>>,
 }
 
 impl KeyedConnector {
-    pub(super) fn new(key: Option<Arc<ApiKey>>) -> Self {
+    pub(crate) fn new(key: Option<Arc<ApiKey>>) -> Self {
         Self { key }
     }
 }
@@ -36,7 +36,7 @@ impl<In: Transport> Connector<In> for KeyedConnector {
 
 /// A connection that fills in the key.
 #[derive(Debug)]
-pub(super) struct KeyedTransport<In> {
+pub(crate) struct KeyedTransport<In> {
     inner: In,
     key: Option<Arc<ApiKey>>,
 }

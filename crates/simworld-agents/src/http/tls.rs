@@ -4,10 +4,10 @@ use std::path::Path;
 
 use ureq::tls::{Certificate, PemItem, RootCerts, TlsConfig, parse_pem};
 
-use super::super::ModelError;
+use crate::model::ModelError;
 
 /// Mozilla's, or those of a file.
-pub(super) fn config(roots: Option<&Path>) -> Result<TlsConfig, ModelError> {
+pub(crate) fn config(roots: Option<&Path>) -> Result<TlsConfig, ModelError> {
     let roots = match roots {
         None => RootCerts::WebPki,
         Some(path) => RootCerts::new_with_certs(&read(path)?),
