@@ -15,7 +15,7 @@ use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use simworld_agents::thought::Waking;
 use simworld_examples::delivery::{Brain, Eyes, OutputFolder, RunConfig, Watch, play, replay, resume};
-use simworld_examples::experiment::{Preset, Results, conduct};
+use simworld_examples::experiment::{Preset, Results, conduct, keep_rows};
 use simworld_examples::report::{holds_run, keep_index, write_report};
 
 /// Couriers at work in a generated city: they bid for orders, walk or ride them through traffic, and tire.
@@ -176,6 +176,7 @@ fn experiment(
     bars.clear();
     let results = Results::of(preset, &trials);
     results.write(&folder)?;
+    keep_rows(&trials, &folder)?;
     let path = write_report(folder.path())?;
     println!("{results}");
     println!("written to {}; open {}", folder.path().display(), path.display());

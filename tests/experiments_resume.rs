@@ -5,9 +5,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::{Field, Row};
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{OutputFolder, RunConfig, Watch, play, read_log, resume};
-use simworld_examples::experiment::{Arm, ExperimentError, Preset, Results, Trial, conduct};
+use simworld_examples::experiment::{Arm, ExperimentError, Preset, Results, Trial, conduct, keep_rows};
 
 /// A small experiment over the levels of a preset.
 fn arms(preset: Preset) -> Vec<Arm> {
@@ -193,4 +195,57 @@ fn every_bid_is_in_an_auction_and_every_courier_in_a_table() {
     }
     let results = Results::of(Preset::Competition, &trials);
     assert_eq!(results.tables[0].rows.len(), arms[0].config.policies.len());
+}
+
+#[test]
+fn rows_read_back_from_parquet_are_those_of_the_trials() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = OutputFolder::create(&folder.path().join("out")).unwrap();
+    let trials = run(&arms(Preset::Competition), &out).unwrap();
+    keep_rows(&trials, &out).unwrap();
+    // Row by row, where they were written column by column.
+    let read = |name: &str| -> Vec<Row> {
+        let file = fs::File::open(out.path().join(name)).unwrap();
+        SerializedFileReader::new(file).unwrap().get_row_iter(None).unwrap().map(Result::unwrap).collect()
+    };
+    let field = |row: &Row, name: &str| -> Field {
+        row.get_column_iter().find(|column| column.0 == name).unwrap_or_else(|| panic!("no {name}")).1.clone()
+    };
+    let couriers = read("couriers.parquet");
+    assert_eq!(couriers.len(), trials.iter().map(|trial| trial.players.len()).sum::<usize>());
+    let expected = trials.iter().flat_map(|trial| {
+        let rows = trial.players.iter().zip(&trial.report.couriers).enumerate();
+        rows.map(move |(index, (player, row))| (trial, index, player, row))
+    });
+    for (read, (trial, index, player, row)) in couriers.iter().zip(expected) {
+        assert_eq!(field(read, "setting"), Field::Str(trial.arm.clone()));
+        assert_eq!(field(read, "seed"), Field::Long(trial.seed as i64));
+        assert_eq!(field(read, "courier"), Field::Long(index as i64));
+        assert_eq!(field(read, "policy"), Field::Str(player.policy.to_string()));
+        assert_eq!(field(read, "neuroticism"), Field::Double(player.persona.neuroticism));
+        assert_eq!(field(read, "profit"), Field::Double(row.profit.dollars()));
+        assert_eq!(field(read, "distance"), Field::Double(row.distance));
+        assert_eq!(field(read, "bids"), Field::Long(i64::from(row.bids)));
+        for (name, count) in &row.actions {
+            assert_eq!(field(read, &format!("action_{name}")), Field::Long(i64::from(*count)));
+        }
+    }
+    let bids = read("bids.parquet");
+    let kept: usize = trials.iter().flat_map(|trial| &trial.auctions).map(|auction| auction.bids.len()).sum();
+    assert_eq!(bids.len(), kept);
+    let won = bids.iter().filter(|row| field(row, "won") == Field::Bool(true)).count();
+    let winners = trials.iter().flat_map(|trial| &trial.auctions).filter(|auction| auction.winner.is_some());
+    assert_eq!(won, winners.count());
+    let asked: f64 = bids
+        .iter()
+        .map(|row| match field(row, "price") {
+            Field::Double(price) => price,
+            other => panic!("{other}"),
+        })
+        .sum();
+    let all = trials.iter().flat_map(|trial| &trial.auctions).flat_map(|auction| &auction.bids);
+    assert!((asked - all.map(|bid| bid.1).sum::<f64>()).abs() < 1e-6);
+    let metrics = read("metrics.parquet");
+    assert_eq!(metrics.len(), trials.iter().map(|trial| trial.metrics.len()).sum::<usize>());
+    assert_eq!(field(&metrics[0], "value"), Field::Double(trials[0].metrics[0].1));
 }

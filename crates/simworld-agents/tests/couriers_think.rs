@@ -269,3 +269,38 @@ fn who_reasons_before_it_acts_takes_two_requests_remembers_and_sees() {
     play(&mut Town::new(quiet(), 1, 4), &mut mind, 50).expect("the model answers");
     assert_eq!(asked.all().len(), 50);
 }
+
+#[test]
+fn what_a_slow_model_decides_is_done_when_it_has_answered() {
+    let config = CourierConfig { latency: 1.0, pause: 6.0, interval: 6.0, ..CourierConfig::default() };
+    let mut town = Town::new(quiet(), 1, 4);
+    let me = town.couriers[0];
+    let new = || diligent().0.with_config(config.clone()).expect("in range");
+    let (mut mind, mut done) = (new(), Vec::new());
+    for step in 0..100 {
+        let mut wanted = Vec::new();
+        mind.decide(&town.task, town.simulation.world(), me, &mut wanted).expect("the model answers");
+        if !wanted.is_empty() {
+            done.push(step);
+        }
+        // What is decided and not done yet is saved too.
+        let mut other = new();
+        assert!(other.restore(&mind.save()));
+        mind = other;
+        town.step(&[]);
+    }
+    // Asked at once, and again after six seconds; each answer takes one.
+    assert_eq!(done, [10, 70]);
+    let slow = CourierConfig { latency: -1.0, ..CourierConfig::default() };
+    assert_eq!(slow.validate().expect_err("out of range").field, "latency");
+}
+
+#[test]
+fn who_has_to_ask_again_rests_longer() {
+    let mut town = Town::new(quiet(), 1, 4);
+    let (mouth, asked) = model(|_, _| Ok("Let me think.".to_owned()));
+    let mut mind = ModelCourier::new(mouth).with_config(CourierConfig::patient()).expect("in range");
+    play(&mut town, &mut mind, 5000).expect("rubbish costs no more than the turn");
+    let all = asked.all().len();
+    assert!(all >= 40 && all * 50 <= 10_000, "{all} requests where the paper has 10,000");
+}

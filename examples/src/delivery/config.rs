@@ -169,6 +169,13 @@ impl RunConfig {
         toml::to_string_pretty(self)
     }
 
+    /// Steps between two checkpoints, if there are any. A run with a tape has none: what was answered is on it, counted from the
+    /// beginning of the run.
+    pub(super) fn checkpoints(&self) -> Option<u64> {
+        let on_tape = self.policies.contains(&Brain::Model) && self.model.tape.is_some();
+        (self.checkpoint_interval > 0 && !on_tape).then_some(self.checkpoint_interval)
+    }
+
     fn check(&self) -> Result<(), OutOfRange> {
         let whole: [(&'static str, u64, u64, u64); 8] = [
             ("seeds", self.seeds.into(), 1, 1000),

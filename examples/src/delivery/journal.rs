@@ -43,7 +43,8 @@ struct Files {
     folder: PathBuf,
     log: LogWriter,
     track: TrackWriter,
-    interval: u64,
+    /// Steps between two checkpoints, if any are wanted.
+    interval: Option<u64>,
 }
 
 impl Journal {
@@ -62,7 +63,7 @@ impl Journal {
             log_events(assembly, &mut log)?;
             let track = TrackWriter::create(&folder.join(TRACK), assembly, config.steps)?;
             clear(folder)?;
-            Ok(Files { folder: folder.to_owned(), log, track, interval: config.checkpoint_interval })
+            Ok(Files { folder: folder.to_owned(), log, track, interval: config.checkpoints() })
         };
         let mut book = AuctionBook::new(&assembly.couriers);
         assembly.episode.events().iter().for_each(|event| book.take(event));
@@ -136,7 +137,7 @@ impl Journal {
         let folder = folder.to_owned();
         Ok(Self {
             seed,
-            files: Some(Files { folder, log, track, interval: config.checkpoint_interval }),
+            files: Some(Files { folder, log, track, interval: config.checkpoints() }),
             book: checkpoint.book,
             trails: checkpoint.trails,
             hashes: checkpoint.hashes,
@@ -183,7 +184,7 @@ impl Journal {
     pub(super) fn checkpoint_if_due(&mut self, assembly: &Assembly) -> Result<(), RunError> {
         let tick = assembly.episode.simulation().world().clock().tick();
         match &self.files {
-            Some(files) if files.interval > 0 && tick.0.is_multiple_of(files.interval) => {
+            Some(Files { interval: Some(interval), .. }) if tick.0.is_multiple_of(*interval) => {
                 self.checkpoint(assembly)
             }
             _ => Ok(()),
@@ -195,7 +196,7 @@ impl Journal {
     /// # Errors
     /// As [`checkpoint_if_due`](Self::checkpoint_if_due).
     pub(super) fn checkpoint(&mut self, assembly: &Assembly) -> Result<(), RunError> {
-        let Some(files) = self.files.as_mut().filter(|files| files.interval > 0) else { return Ok(()) };
+        let Some(files) = self.files.as_mut().filter(|files| files.interval.is_some()) else { return Ok(()) };
         let tick = assembly.episode.simulation().world().clock().tick();
         let beside = Beside {
             log: files.log.length()?,

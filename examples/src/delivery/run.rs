@@ -242,6 +242,7 @@ fn begin(
 ) -> Result<(Assembly, Journal), RunError> {
     let assembled = || Ok(assemble(config, city, seed)?);
     if let Some(folder) = folder
+        && config.checkpoints().is_some()
         && let Some(taken_up) = Journal::take_up(config, seed, folder, &assembled)?
     {
         return Ok(taken_up);

@@ -2,28 +2,24 @@
 
 use std::collections::BTreeMap;
 
-use simworld_agents::delivery::PolicyKind;
-use simworld_core::evaluation::{Accumulator, Groups, rank_sum, signed_rank};
+use simworld_core::evaluation::{Accumulator, Groups};
 
 use super::chart::{Dots, Scale, heat, violins};
-use super::findings::Finding;
+use super::claims;
 use super::results::{Chart, Results};
 use super::table::Table;
 use super::trial::Trial;
 use crate::delivery::Brain;
 
-/// Fewer bids than this say nothing of a policy.
-const FEW: u64 = 5;
-
 /// What the bids of a policy came to.
 #[derive(Clone, Debug, Default)]
-struct Bidding {
+pub(super) struct Bidding {
     /// Bids as shares of the ceiling.
-    shares: Accumulator,
+    pub(super) shares: Accumulator,
     /// One for each bid that won, zero for the others.
-    wins: Accumulator,
+    pub(super) wins: Accumulator,
     /// The shares of those that won.
-    winning: Accumulator,
+    pub(super) winning: Accumulator,
     dots: Dots,
 }
 
@@ -35,7 +31,7 @@ pub(super) fn results(trials: &[Trial]) -> Results {
     Results {
         tables: vec![by_policy(trials, &policies, &bidding)],
         charts: vec![violin_chart(&policies, &bidding), matrix(&policies, &wins)],
-        findings: findings(trials, &bidding),
+        findings: claims::findings(trials),
     }
 }
 
@@ -45,7 +41,7 @@ fn policies(trials: &[Trial]) -> Vec<Brain> {
     Brain::all().filter(plays).collect()
 }
 
-fn bidding(trials: &[Trial]) -> BTreeMap<Brain, Bidding> {
+pub(super) fn bidding(trials: &[Trial]) -> BTreeMap<Brain, Bidding> {
     let mut all: BTreeMap<Brain, Bidding> = BTreeMap::new();
     for trial in trials {
         for (who, share, won) in trial.bids() {
@@ -60,7 +56,7 @@ fn bidding(trials: &[Trial]) -> BTreeMap<Brain, Bidding> {
 }
 
 /// How often one policy won where another bid too.
-fn wins(trials: &[Trial]) -> BTreeMap<(Brain, Brain), u32> {
+pub(super) fn wins(trials: &[Trial]) -> BTreeMap<(Brain, Brain), u32> {
     let mut wins = BTreeMap::new();
     for trial in trials {
         for auction in &trial.auctions {
@@ -130,56 +126,4 @@ fn matrix(policies: &[Brain], wins: &BTreeMap<(Brain, Brain), u32>) -> Chart {
         caption: "How often the policy of a row won where both bid and one of them won.".to_owned(),
         svg: heat(&names, &names, &values, Scale { middle: 0.5, reach: 0.5 }),
     }
-}
-
-fn findings(trials: &[Trial], bidding: &BTreeMap<Brain, Bidding>) -> Vec<Finding> {
-    let seen: Vec<&Bidding> = bidding.values().filter(|bidding| bidding.shares.count() >= FEW).collect();
-    let of =
-        |figure: fn(&Bidding) -> f64| -> Vec<f64> { seen.iter().map(|bidding| figure(bidding)).collect() };
-    let (means, rates) = (of(|b| b.shares.mean()), of(|b| b.wins.mean()));
-    let earners: Vec<&&Bidding> = seen.iter().filter(|bidding| bidding.winning.count() > 0).collect();
-    let asked: Vec<f64> = earners.iter().map(|b| b.shares.mean()).collect();
-    let paid: Vec<f64> = earners.iter().map(|b| b.winning.mean()).collect();
-    vec![
-        Finding::trend("Policies that bid high win less", -1.0, &means, &rates),
-        Finding::trend(
-            "Policies that bid in a narrow range win less",
-            1.0,
-            &of(|b| b.shares.deviation()),
-            &rates,
-        ),
-        Finding::signs("The lower bidder on average wins head to head", signed_rank(&head_to_head(trials))),
-        Finding::trend("Those who bid low earn a thin margin on what they win", 1.0, &asked, &paid),
-        inactive(trials),
-    ]
-}
-
-/// For each trial, by how much the share of wins of the policy that bids lower on average exceeds one half.
-fn head_to_head(trials: &[Trial]) -> Vec<f64> {
-    let excess = |trial: &Trial| {
-        let (bidding, wins) = (bidding(std::slice::from_ref(trial)), wins(std::slice::from_ref(trial)));
-        let mean = |policy: &Brain| bidding.get(policy).map(|bidding| bidding.shares.mean());
-        let lower: Accumulator = wins
-            .iter()
-            .flat_map(|((winner, loser), count)| {
-                let is_lower = mean(winner) < mean(loser);
-                std::iter::repeat_n(f64::from(u8::from(is_lower)), *count as usize)
-            })
-            .collect();
-        if lower.count() > 0 { lower.mean() - 0.5 } else { 0.0 }
-    };
-    trials.iter().map(excess).collect()
-}
-
-/// Whether those who hardly act earn less than the others.
-pub(super) fn inactive(trials: &[Trial]) -> Finding {
-    let (idle, busy): (Vec<_>, Vec<_>) = trials
-        .iter()
-        .flat_map(Trial::couriers)
-        .partition(|(player, _)| player.policy == Brain::Policy(PolicyKind::NearlyInactive));
-    let earned = |rows: Vec<(_, &simworld_agents::delivery::CourierRow)>| -> Vec<f64> {
-        rows.into_iter().map(|(_, row): (_, _)| row.earned.dollars()).collect()
-    };
-    let test = rank_sum(&earned(idle), &earned(busy));
-    Finding::ranks("The inactive earn less than the others", -1.0, test)
 }

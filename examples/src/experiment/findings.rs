@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Serialize;
-use simworld_core::evaluation::{RankSum, SignedRank, permutation, spearman};
+use simworld_core::evaluation::{SignedRank, bootstrap, mean, permutation, signed_rank, spearman};
 use simworld_core::seed::Seed;
 
 /// How likely chance alone may be where a finding holds.
@@ -58,20 +58,24 @@ impl Finding {
         }
     }
 
-    /// That values of one set are greater (`claimed` 1) or less (-1) than those of another.
-    pub(super) fn ranks(claim: &str, claimed: f64, test: Option<RankSum>) -> Self {
-        let Some(RankSum { superiority, p, .. }) = test else { return Self::silent(claim) };
-        let evidence =
-            format!("greater in {:.0} % of pairs, rank-sum test, {}", superiority * 100.0, probability(p));
-        Self::judged(claim, claimed, superiority - 0.5, p, evidence)
-    }
-
-    /// That differences are positive.
-    pub(super) fn signs(claim: &str, test: Option<SignedRank>) -> Self {
-        let Some(SignedRank { positive, negative, p }) = test else { return Self::silent(claim) };
-        let evidence =
-            format!("signed ranks {positive:.1} for and {negative:.1} against it, {}", probability(p));
-        Self::judged(claim, 1.0, positive - negative, p, evidence)
+    /// That a figure of each trial is above zero (`claimed` 1) or below (-1): trials are what chance draws anew, while those who play
+    /// stay the same. `what` names the figure.
+    pub(super) fn across(claim: &str, claimed: f64, what: &str, figures: &[f64]) -> Self {
+        let Some(SignedRank { positive, negative, p }) = signed_rank(figures) else {
+            return Self::silent(claim);
+        };
+        let stream = Seed(0).stream("findings").named(claim);
+        let interval = bootstrap(figures, mean, 2000, 0.95, stream)
+            .map(|interval| format!(" [{:.2}, {:.2}]", interval.low, interval.high))
+            .unwrap_or_default();
+        let sided = figures.iter().filter(|figure| **figure * claimed > 0.0).count();
+        let evidence = format!(
+            "{what} {:.2}{interval} on average of {} seeds, with the claimed sign in {sided}, signed-rank test, {}",
+            mean(figures),
+            figures.len(),
+            probability(p)
+        );
+        Self::judged(claim, claimed, positive - negative, p, evidence)
     }
 
     fn silent(claim: &str) -> Self {

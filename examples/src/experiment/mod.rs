@@ -4,6 +4,7 @@
 //! [`Results`] puts tables, charts and findings together; [`report`](crate::report) makes a page of them.
 
 mod chart;
+mod claims;
 mod competition;
 mod conduct;
 mod findings;
@@ -11,6 +12,7 @@ mod main_run;
 mod persona;
 mod preset;
 mod results;
+mod rows;
 mod sweep;
 mod table;
 mod trial;
@@ -19,6 +21,7 @@ pub use conduct::{ExperimentError, conduct, recorded};
 pub use findings::{Finding, Verdict};
 pub use preset::{Arm, Preset, PresetError, at_scale};
 pub use results::{Chart, Results};
+pub use rows::{RowsError, keep_rows};
 pub use table::Table;
 pub(crate) use table::escaped;
 pub use trial::Trial;

@@ -38,13 +38,11 @@ impl Results {
     /// Of the trials of a preset.
     pub fn of(preset: Preset, trials: &[Trial]) -> Self {
         match preset {
-            Preset::Main => main_run::results(trials),
+            Preset::Main | Preset::Scale => main_run::results(trials),
             Preset::Competition => competition::results(trials),
             Preset::Orders => sweep::results(trials, "order volume", sweep::OF_ORDERS),
             Preset::Money => sweep::results(trials, "initial money $", sweep::OF_MONEY),
             Preset::Persona => persona::results(trials),
-            // The bids of ten thousand are no picture; their tables are those of the main setting.
-            Preset::Scale => Results { charts: Vec::new(), ..main_run::results(trials) },
         }
     }
 

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use simworld_agents::delivery::CourierRow;
 use simworld_core::evaluation::Accumulator;
 use simworld_core::hash::StateHasher;
 
@@ -153,6 +154,29 @@ fn metrics(arms: &[Arm], trials: &[Trial]) -> String {
             sharing and investment are counts over all couriers. Energy efficiency is energy consumed per dollar earned, as the \
             paper defines it, so less is better; the paper prints the largest in bold. The paper's rows are of twenty \
             couriers of one model each, 5000 steps, three seeds.</p>"
+        + &reading(trials)
+}
+
+/// What the figures are made of, where the paper leaves open what its own are made of.
+fn reading(trials: &[Trial]) -> String {
+    let rows = || trials.iter().flat_map(|trial| &trial.report.couriers);
+    let over_all = |figure: fn(&CourierRow) -> f64| rows().map(figure).collect::<Accumulator>();
+    let (earned, profit) = (over_all(|row| row.earned.dollars()), over_all(|row| row.profit.dollars()));
+    let (energy, paid) = (over_all(|row| row.energy), rows().filter(|row| row.delivered > 0).count());
+    if earned.sum() <= 0.0 || energy.sum() <= 0.0 {
+        return String::new();
+    }
+    let (per_dollar, per_unit) = (energy.sum() / earned.sum(), earned.sum() / energy.sum());
+    format!(
+        "<p class=note>Profit is what a courier owns at the end less what it owned at the start: here it was paid {:.2} $ on \
+         average, {:.2} $ of which went into scooters, drinks and batteries, and {paid} of {} couriers brought home \
+         anything. A dollar earned took {per_dollar:.2} of energy; a unit of energy earned \
+         {per_unit:.2} $. The paper does not say how much energy a metre takes, and its figures are of the size of the \
+         second; nothing here is scaled to meet them.</p>",
+        earned.mean(),
+        earned.mean() - profit.mean(),
+        earned.count()
+    )
 }
 
 fn figures(results: &Results) -> String {

@@ -82,6 +82,11 @@ pub trait Reasoner: Send {
         question: &Question,
         check: &mut dyn FnMut(&Value) -> Result<(), String>,
     ) -> Result<Value, ReasonError>;
+
+    /// How many requests it made so far; zero of one that makes none.
+    fn requests(&self) -> u64 {
+        0
+    }
 }
 
 impl<R: Reasoner + ?Sized> Reasoner for Box<R> {
@@ -91,6 +96,10 @@ impl<R: Reasoner + ?Sized> Reasoner for Box<R> {
         check: &mut dyn FnMut(&Value) -> Result<(), String>,
     ) -> Result<Value, ReasonError> {
         (**self).reason(question, check)
+    }
+
+    fn requests(&self) -> u64 {
+        (**self).requests()
     }
 }
 
@@ -102,6 +111,7 @@ pub struct ModelReasoner {
     max_tokens: u32,
     temperature: f64,
     seed: Option<i64>,
+    requests: u64,
 }
 
 impl std::fmt::Debug for ModelReasoner {
@@ -118,7 +128,7 @@ impl ModelReasoner {
     /// Asks this model: at most 800 tokens an answer, at temperature 0, one repair.
     pub fn new(model: Box<dyn ChatModel>) -> Self {
         let prompts = Arc::new(Prompts::standard());
-        Self { model, prompts, repairs: 1, max_tokens: 800, temperature: 0.0, seed: None }
+        Self { model, prompts, repairs: 1, max_tokens: 800, temperature: 0.0, seed: None, requests: 0 }
     }
 
     /// With prompts of one's own.
@@ -173,6 +183,7 @@ impl Reasoner for ModelReasoner {
         let mut request = self.request(question);
         let mut tries = 0;
         loop {
+            self.requests += 1;
             let reply = self.model.chat(&request)?;
             let fault = match usable(&reply, &question.schema, check) {
                 Ok(answer) => return Ok(answer),
@@ -187,6 +198,10 @@ impl Reasoner for ModelReasoner {
             request.messages.push(Message::assistant(beginning(&reply.text, SHOWN)));
             request.messages.push(Message::user(repair));
         }
+    }
+
+    fn requests(&self) -> u64 {
+        self.requests
     }
 }
 

@@ -33,10 +33,14 @@ pub struct CourierConfig {
     pub thinking: Thinking,
     /// When.
     pub waking: Waking,
-    /// Shortest time between two thoughts, s, in [0.1, 3600]: news that come sooner are thought of together.
+    /// Shortest time between two thoughts, s, in [0.1, 3600]: news that come sooner are thought of together. Longer by as much
+    /// as a thought took more requests than it needs, because an answer could not be used.
     pub pause: f64,
     /// Longest time between two thoughts, s, in [`pause`, 3600].
     pub interval: f64,
+    /// How long the model takes for an answer, s of the simulation, in [0, 3600]. A world in lockstep stands still while a model
+    /// answers; with this it goes on, and what is decided is done so much later. 0: at once.
+    pub latency: f64,
     /// Memories that come to mind at a thought, in [0, 100].
     pub memories: usize,
     /// Failures of the model in a row (no connection, no time) after which the mind fails, in [1, 10 000]. An answer that
@@ -51,6 +55,7 @@ impl Default for CourierConfig {
             waking: Waking::Events,
             pause: 1.0,
             interval: 5.0,
+            latency: 0.0,
             memories: 0,
             patience: 3,
         }
@@ -89,6 +94,7 @@ impl CourierConfig {
         let checks = [
             ("pause", self.pause, 0.1..=3600.0, "0.1 to 3600 s"),
             ("interval", self.interval, self.pause..=3600.0, "pause to 3600 s"),
+            ("latency", self.latency, 0.0..=3600.0, "0 to 3600 s"),
             ("memories", self.memories as f64, 0.0..=100.0, "0 to 100"),
             ("patience", f64::from(self.patience), 1.0..=10_000.0, "1 to 10 000"),
         ];

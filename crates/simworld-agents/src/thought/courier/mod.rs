@@ -52,6 +52,8 @@ struct State {
     seen: u64,
     news: VecDeque<String>,
     faults: u32,
+    /// What is decided and not done yet, and when it will be, s.
+    decided: Option<(f64, Intent)>,
 }
 
 impl ModelCourier {
@@ -185,6 +187,21 @@ impl ModelCourier {
         }
     }
 
+    /// How many answers a decision takes.
+    fn questions(&self) -> f64 {
+        match self.config.thinking {
+            Thinking::Once => 1.0,
+            Thinking::ReasonThenAct => 2.0,
+        }
+    }
+
+    /// Sets when it thinks next after a thought that took so many requests.
+    fn rest(&mut self, now: f64, requests: u64) {
+        let longer = (requests as f64 / self.questions()).max(1.0);
+        self.state.rested = now + self.config.pause * longer;
+        self.state.due = now + (self.config.interval).max(self.config.pause * longer);
+    }
+
     /// An answer that cannot be used costs the turn, and the courier is told; a model that fails is borne for a while.
     fn bear(&mut self, who: EntityId, error: &ReasonError) -> Result<(), MindError> {
         let borne = match error {
@@ -221,18 +238,32 @@ impl Mind<DeliveryTask> for ModelCourier {
             return Err(MindError { who, reason: "it is no courier of this task".to_owned() });
         };
         let now = view.now();
+        if let Some((due, intent)) = self.state.decided.take() {
+            // Half a step is nothing: times are sums of steps.
+            if now + 0.5 * scene.clock().dt() < due {
+                self.state.decided = Some((due, intent));
+                return Ok(());
+            }
+            out.push(intent);
+        }
         let rested = self.state.rested;
         let woken = view.wakes(&mut self.state.seen, &mut self.state.due, || rested);
         if !woken && self.config.waking == Waking::Events {
             return Ok(());
         }
-        self.state.due = now + self.config.interval;
-        self.state.rested = now + self.config.pause;
-        match self.think(task, scene, who, &CourierMenu::new(view)) {
+        let before = self.reasoner.requests();
+        let thought = self.think(task, scene, who, &CourierMenu::new(view));
+        self.rest(now, self.reasoner.requests() - before);
+        match thought {
             Ok(action) => {
                 self.state.faults = 0;
                 self.state.news.clear();
-                out.push(action.into());
+                let latency = self.config.latency * self.questions();
+                if latency > 0.0 {
+                    self.state.decided = Some((now + latency, action.into()));
+                } else {
+                    out.push(action.into());
+                }
                 Ok(())
             }
             Err(error) => self.bear(who, &error),
