@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use clap::{Parser, ValueEnum};
 use rayon::prelude::*;
 use serde_json::json;
-use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, Scripted};
+use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, Part as Content, Scripted};
 use simworld_core::clock::Tick;
 use simworld_core::scene::Scene;
 use simworld_core::seed::Seed;
@@ -194,7 +194,8 @@ fn requests(steps: u64) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A model that works: it delivers before it fetches, fetches before it bids, and bids two thirds of what is offered.
+/// A model that works: it goes where it is going, delivers before it fetches, fetches before it bids, and bids two thirds of what
+/// is offered.
 fn busy(request: &ChatRequest) -> ChatReply {
     let Some(schema) = request.schema.as_ref().filter(|schema| schema.name != "thought") else {
         return ChatReply::of(r#"{"thought": "There is work to do."}"#);
@@ -202,8 +203,12 @@ fn busy(request: &ChatRequest) -> ChatReply {
     let deed = &schema.json["properties"]["deed"];
     let branches = deed["anyOf"].as_array().map_or(std::slice::from_ref(deed), Vec::as_slice);
     let find = |act: &str| branches.iter().find(|branch| branch["properties"]["act"]["enum"][0] == act);
-    let chosen =
-        ["deliver_order", "pick_up_order", "bid_order"].into_iter().find_map(|act| Some((act, find(act)?)));
+    let goes = request.messages[1]
+        .content
+        .iter()
+        .any(|part| matches!(part, Content::Text(text) if text.contains("on the way to")));
+    let acts: &[&str] = if goes { &["bid_order"] } else { &["deliver_order", "pick_up_order", "bid_order"] };
+    let chosen = acts.iter().find_map(|act| Some((*act, find(act)?)));
     let deed = match chosen {
         Some((act, branch)) => {
             let fields = &branch["properties"];

@@ -96,14 +96,23 @@ fn lead(trials: &[Trial], figure: fn(&CourierRow) -> f64) -> Vec<f64> {
 /// Whether those who hardly act win fewer orders than the others.
 fn inactive_win(trials: &[Trial]) -> Finding {
     let lead = lead(trials, |row| f64::from(row.won));
-    Finding::across("The inactive win fewer orders than the others", 1.0, "orders more of the others", &lead)
+    Finding::across(
+        "The inactive win fewer orders than the others",
+        1.0,
+        "orders by which the others lead",
+        &lead,
+    )
 }
 
 /// Whether they earn less; in a short run hardly anybody is paid before it ends, and the finding says so.
 fn inactive(trials: &[Trial]) -> Finding {
     let lead = lead(trials, |row| row.earned.dollars());
-    let mut finding =
-        Finding::across("The inactive earn less than the others", 1.0, "dollars more of the others", &lead);
+    let mut finding = Finding::across(
+        "The inactive earn less than the others",
+        1.0,
+        "dollars by which the others lead",
+        &lead,
+    );
     let all = trials.iter().flat_map(|trial| &trial.report.couriers).count();
     let paid =
         trials.iter().flat_map(|trial| &trial.report.couriers).filter(|row| row.earned.dollars() > 0.0);
