@@ -6,8 +6,9 @@ use simworld_core::alteration::Alteration;
 use simworld_core::asset::Catalogue;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Point2, Point3, Pose, heading, pose_facing, yaw_of};
-use simworld_core::id::EntityId;
+use simworld_core::id::{EntityId, RoadId};
 use simworld_core::ops::wrap_angle;
+use simworld_core::passage::Passage;
 use simworld_core::scene::{EntityDesc, EntityRef, Relation, Scene, Shape};
 use simworld_core::seed::Stream;
 
@@ -18,6 +19,7 @@ use super::editable::Editable;
 use super::error::EditError;
 use super::land::Streets;
 use super::place::Placer;
+use super::row::tell;
 use super::solid::Solid;
 use super::stand::Subject;
 use crate::language::edits::Focus;
@@ -77,6 +79,7 @@ impl Applier<'_> {
     pub(super) fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
         match edit {
             Edit::Add { make, count, stands } => self.add(make, *count, stands),
+            Edit::Row { make, line, spacing } => self.row(make, line, *spacing),
             Edit::Remove { things } => things.iter().try_for_each(|thing| self.remove(*thing)),
             Edit::Move { things, stands } => self.move_all(things, stands),
             Edit::Rotate { things, angle } => things.iter().try_for_each(|thing| {
@@ -98,6 +101,11 @@ impl Applier<'_> {
             Edit::Copy { thing, count, stands } => self.copy(*thing, *count, stands),
             Edit::Name { thing, name } => self.alter(*thing, Alteration::Name(Some(name.clone()))),
             Edit::SetEnvironment(environment) => self.change(&Command::SetEnvironment(*environment)),
+            Edit::SetPassage { roads, passage } => self.pass(roads, *passage),
+            Edit::Leave { why } => {
+                tell(&mut self.edited.answer, why.clone());
+                Ok(())
+            }
             Edit::Count { what, things } => {
                 self.edited.answer = Some(format!("{} {what}", things.len()));
                 Ok(())
@@ -131,18 +139,43 @@ impl Applier<'_> {
         for rank in 0..count {
             let subject = Subject { id: None, kind: desc.kind, info: &desc.info };
             let pose = self.place(subject, (rank, count), stands, &[])?;
-            let spawn = Command::Spawn(Box::new(EntityDesc { pose, ..desc.clone() }));
-            let applied = self.scene.change(&spawn)?;
-            self.back.extend(applied.undo);
-            self.edited.made.extend(applied.spawned);
-            self.focus.it = applied.spawned.or(self.focus.it);
-            self.focus.place = Some(simworld_core::geometry::planar(&pose));
+            self.spawn(EntityDesc { pose, ..desc.clone() })?;
         }
         Ok(())
     }
 
+    pub(super) fn spawn(&mut self, desc: EntityDesc) -> Result<(), EditError> {
+        let at = simworld_core::geometry::planar(&desc.pose);
+        let applied = self.scene.change(&Command::Spawn(Box::new(desc)))?;
+        self.back.extend(applied.undo);
+        self.edited.made.extend(applied.spawned);
+        self.focus.it = applied.spawned.or(self.focus.it);
+        self.focus.place = Some(at);
+        Ok(())
+    }
+
+    /// Closes or opens streets both ways; what is so already is left.
+    fn pass(&mut self, roads: &[RoadId], passage: Passage) -> Result<(), EditError> {
+        let network = self.scene.world().roads().cloned();
+        let mut legs = Vec::new();
+        for road in roads {
+            let known = network.as_ref().and_then(|network| network.roads.get(road.index()));
+            let missing =
+                || EditError::NotFound { wanted: format!("road {}", road.0), near: "it is gone".to_owned() };
+            legs.extend(known.ok_or_else(missing)?.directions().map(|direction| (*road, direction)));
+        }
+        legs.retain(|leg| self.scene.world().is_closed(*leg) != (passage == Passage::Closed));
+        if legs.is_empty() {
+            let is = if passage == Passage::Open { "open" } else { "closed" };
+            let what = format!("to have that street {is}");
+            return Err(EditError::Impossible { what, why: format!("it is {is} already") });
+        }
+        self.focus.roads = roads.to_vec();
+        legs.into_iter().try_for_each(|leg| self.change(&Command::SetPassage { leg, passage }))
+    }
+
     /// The recipe of a new thing, still without a place.
-    fn recipe(&self, make: &Make) -> Result<EntityDesc, EditError> {
+    pub(super) fn recipe(&self, make: &Make) -> Result<EntityDesc, EditError> {
         let unknown = || EditError::UnknownThing {
             wanted: make.asset.clone(),
             near: "name one of the catalogue".to_owned(),
@@ -291,13 +324,13 @@ impl Applier<'_> {
         Ok(())
     }
 
-    fn change(&mut self, command: &Command) -> Result<(), EditError> {
+    pub(super) fn change(&mut self, command: &Command) -> Result<(), EditError> {
         let applied = self.scene.change(command)?;
         self.back.extend(applied.undo);
         Ok(())
     }
 
-    fn entity(&self, id: EntityId) -> Result<EntityRef<'_>, EditError> {
+    pub(super) fn entity(&self, id: EntityId) -> Result<EntityRef<'_>, EditError> {
         let missing = || EditError::NotFound { wanted: format!("thing {id}"), near: "it is gone".to_owned() };
         self.scene.world().entity(id).ok_or_else(missing)
     }

@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use simworld_core::geometry::Obb;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
+use simworld_core::traffic::RoadLeg;
 
 /// How far above what holds it up a thing may be, or sunk into it, m.
 const SUPPORT_GAP: f64 = 0.05;
@@ -25,6 +26,8 @@ pub struct Difference {
     pub altered: Vec<EntityId>,
     /// Whether sun or weather is another.
     pub environment: bool,
+    /// Directions of roads that were closed or opened.
+    pub passages: Vec<RoadLeg>,
 }
 
 impl Difference {
@@ -32,6 +35,8 @@ impl Difference {
     pub fn between(before: &World, after: &World) -> Self {
         let mut difference =
             Self { environment: before.environment() != after.environment(), ..Self::default() };
+        difference.passages =
+            before.closed_roads().symmetric_difference(after.closed_roads()).copied().collect();
         for old in before.iter() {
             match after.entity(old.id) {
                 None => difference.removed.push(old.id),

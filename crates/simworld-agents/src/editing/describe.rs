@@ -72,6 +72,17 @@ impl Stand {
             Self::AlongRoad { .. } => "along the street".to_owned(),
             Self::AtCornerOf { anchor } => format!("at the corner of {}", label(anchor)),
             Self::Towards { anchor, .. } => format!("on that side of {}", label(anchor)),
+            Self::Offset { anchor, heading, distance } => {
+                let degrees = heading.to_degrees();
+                format!("{distance:.2} m from {}, {degrees:.0}° from east", label(anchor))
+            }
+            Self::Apart { anchor, least, most } => {
+                format!("{least:.1} to {most:.1} m from {}", label(anchor))
+            }
+            Self::OnBlockOf { anchor } => format!("on the block of {}", label(anchor)),
+            Self::InMiddleOf { anchor } => format!("in the middle of {}", label(anchor)),
+            Self::AtEdgeOf { anchor } => format!("at the edge of {}", label(anchor)),
+            Self::AtJunction { .. } => "at the junction".to_owned(),
             Self::At { point } => format!("at ({:.1}, {:.1})", point.x, point.y),
             Self::Around { point } => format!("around ({:.1}, {:.1})", point.x, point.y),
         }

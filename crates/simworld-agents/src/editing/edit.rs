@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::environment::Environment;
 use simworld_core::geometry::Point2;
-use simworld_core::id::{EntityId, RoadId};
+use simworld_core::id::{EntityId, IntersectionId, RoadId};
+use simworld_core::passage::Passage;
 use simworld_core::scene::Relation;
 
 /// One change of a scene, or one question about it.
@@ -19,6 +20,15 @@ pub enum Edit {
         count: u32,
         /// How they stand to what is there; all of it must hold. Nothing: somewhere near the viewpoint.
         stands: Vec<Stand>,
+    },
+    /// Puts new things into a row, evenly: all of them, or with an answer that says how many places were left out.
+    Row {
+        /// What.
+        make: Make,
+        /// Along what.
+        line: Line,
+        /// How far apart, or how many.
+        spacing: Spacing,
     },
     /// Takes things out.
     Remove {
@@ -85,6 +95,18 @@ pub enum Edit {
     },
     /// Sets sun and weather.
     SetEnvironment(Environment),
+    /// Closes streets to traffic, both ways, or opens them.
+    SetPassage {
+        /// The pieces of streets, from junction to junction.
+        roads: Vec<RoadId>,
+        /// Whether traffic may enter from now on.
+        passage: Passage,
+    },
+    /// Changes nothing, and says why: what was asked only on a condition that does not hold.
+    Leave {
+        /// Why.
+        why: String,
+    },
     /// Asks how many there are.
     Count {
         /// Of what, in the words of the question.
@@ -122,6 +144,58 @@ impl Make {
     pub fn of(asset: impl Into<String>) -> Self {
         Self { asset: asset.into(), color: None, scale: 1.0, name: None }
     }
+}
+
+/// Where a row of things stands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Line {
+    /// Beyond the kerb of a street, from its beginning to its end.
+    Road {
+        /// The pieces of the street.
+        roads: Vec<RoadId>,
+        /// On which side.
+        sides: Sides,
+    },
+    /// Along one of the long sides of a thing.
+    Along {
+        /// Which thing.
+        anchor: EntityId,
+    },
+    /// Straight from one thing to another, or beside that line if something stands on it.
+    Between {
+        /// From which.
+        one: EntityId,
+        /// To which.
+        other: EntityId,
+    },
+    /// In a circle around a thing.
+    Around {
+        /// Which thing.
+        anchor: EntityId,
+    },
+}
+
+/// On which side of a street.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sides {
+    /// On that which has more room.
+    #[default]
+    Either,
+    /// On both.
+    Both,
+}
+
+/// How the places of a row are told off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Spacing {
+    /// One every so many metres. Where something is in the way it stands up to a tenth of that farther on or back, or is left out.
+    Every(f64),
+    /// So many, as far from each other as the line allows.
+    Count(u32),
 }
 
 /// How a thing stands to what is there. Each is a test ([`Stand::holds`]) and a region that things are put into.
@@ -173,6 +247,45 @@ pub enum Stand {
         heading: f64,
         /// Seen from what.
         anchor: EntityId,
+    },
+    /// So far off in a direction: the gap between the two is the distance, within a quarter of a metre or a twentieth, and its
+    /// middle lies within 6° of the direction, seen from the middle of the thing.
+    Offset {
+        /// From what.
+        anchor: EntityId,
+        /// Radians from east.
+        heading: f64,
+        /// m.
+        distance: f64,
+    },
+    /// With a gap between the two that is no less and no more, m.
+    Apart {
+        /// From what.
+        anchor: EntityId,
+        /// The least gap, m.
+        least: f64,
+        /// The greatest gap, m.
+        most: f64,
+    },
+    /// On the same block: no street lies between the middles of the two, which are at most 250 m apart.
+    OnBlockOf {
+        /// Of what.
+        anchor: EntityId,
+    },
+    /// In the middle of an area: within a tenth of its size, or 2 m, of the middle.
+    InMiddleOf {
+        /// Of what.
+        anchor: EntityId,
+    },
+    /// At most 2 m inside or outside the edge of an area.
+    AtEdgeOf {
+        /// Of what.
+        anchor: EntityId,
+    },
+    /// At a junction: at most 20 m from where its streets meet.
+    AtJunction {
+        /// Which.
+        junction: IntersectionId,
     },
     /// At a point, exactly.
     At {

@@ -1,5 +1,7 @@
 //! The scene agent: words or typed edits to commands that take effect at once, with undo, redo and reasons.
 
+use std::sync::Arc;
+
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
@@ -14,6 +16,7 @@ use super::history::History;
 use super::land::Streets;
 use super::place::Placing;
 use crate::language::edits::{self, Focus, Reading};
+use crate::language::streets::StreetNames;
 
 /// Edits a scene by words. What it does follows from its seed, its words and the scene alone.
 ///
@@ -60,7 +63,14 @@ impl SceneEditor {
         Self {
             seed,
             catalogue: Catalogue::standard(),
-            focus: Focus { from: Point2::origin(), who: None, it: None, place: None },
+            focus: Focus {
+                from: Point2::origin(),
+                who: None,
+                it: None,
+                place: None,
+                roads: Vec::new(),
+                streets: Arc::default(),
+            },
             history: History::default(),
             streets: None,
             placed: 0,
@@ -105,6 +115,7 @@ impl SceneEditor {
     /// # Errors
     /// What is not understood, not there, open, or impossible; then the scene is as it was.
     pub fn say(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
+        self.learn_streets(scene.world());
         let reading = edits::read(words, scene.world(), &self.catalogue, &self.focus)?;
         let mut applier = self.applier(scene);
         let outcome = (0..reading.len()).try_for_each(|index| carry_out(&reading, index, &mut applier));
@@ -151,6 +162,13 @@ impl SceneEditor {
         let back = change_all(scene, &undone.back)?;
         self.history.did_again(undone.what.clone(), back);
         Ok(Some(undone.what))
+    }
+
+    /// Keeps the names of the streets, which are gathered once.
+    fn learn_streets(&mut self, scene: &dyn Scene) {
+        if !self.focus.streets.is_of(scene.roads()) {
+            self.focus.streets = Arc::new(StreetNames::of(scene.roads()));
+        }
     }
 
     fn applier<'a>(&'a mut self, scene: &'a mut dyn Editable) -> Applier<'a> {

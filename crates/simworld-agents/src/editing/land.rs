@@ -74,6 +74,20 @@ impl Streets {
         found.into_iter().map(|road| RoadId::from_index(road as usize)).collect()
     }
 
+    /// Whether a street lies between two points.
+    pub(super) fn crosses(&self, from: Point2, to: Point2) -> bool {
+        let count = ((to - from).norm() / CELL).ceil().max(1.0) as u32;
+        let mut near: Vec<u32> = (0..=count)
+            .flat_map(|step| around(&self.roads, from + (to - from) * (f64::from(step) / f64::from(count))))
+            .collect();
+        near.sort_unstable();
+        near.dedup();
+        near.into_iter().any(|road| {
+            let pieces = self.network.roads[road as usize].centerline.windows(2);
+            pieces.into_iter().any(|piece| polyline::crossing(from, to, piece[0], piece[1]).is_some())
+        })
+    }
+
     pub(super) fn road(&self, id: RoadId) -> &Road {
         &self.network.roads[id.index()]
     }

@@ -19,13 +19,14 @@ mod error;
 mod history;
 mod land;
 mod place;
+mod row;
 mod sample;
 mod solid;
 mod stand;
 
 pub use apply::Edited;
 pub use check::{Difference, Fault, faults};
-pub use edit::{Edit, Make, Stand};
+pub use edit::{Edit, Line, Make, Sides, Spacing, Stand};
 pub use editable::Editable;
 pub use editor::SceneEditor;
 pub use error::EditError;

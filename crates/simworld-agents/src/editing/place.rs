@@ -210,7 +210,13 @@ impl Placer<'_> {
         under
     }
 
-    fn judge(&self, subject: Subject<'_>, stands: &[Stand], spot: &Spot, solid: &Solid) -> Outcome {
+    pub(super) fn judge(
+        &self,
+        subject: Subject<'_>,
+        stands: &[Stand],
+        spot: &Spot,
+        solid: &Solid,
+    ) -> Outcome {
         let on_top = stands.iter().find_map(|stand| match stand {
             Stand::To { relation: Relation::OnTopOf, anchor } => Some(*anchor),
             _ => None,

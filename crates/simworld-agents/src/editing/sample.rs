@@ -2,17 +2,17 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use simworld_core::geometry::{Point2, Vector2, direction, heading};
-use simworld_core::id::RoadId;
+use simworld_core::geometry::{Point2, Point3, Vector2, direction, heading};
+use simworld_core::id::{IntersectionId, RoadId};
 use simworld_core::net::{LaneKind, polyline};
 use simworld_core::ops::sin_cos;
-use simworld_core::scene::{EntityKind, Relation, Scene};
+use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
 use simworld_core::seed::StreamRng;
 
 use super::edit::Stand;
 use super::land::Streets;
 use super::solid::Solid;
-use super::stand::{ALONG, FAR_SIDE, NEAR, OPPOSITE};
+use super::stand::{AIM, ALONG, EDGE, FAR_SIDE, JUNCTION, NEAR, OPPOSITE};
 
 /// A place to try: where the middle of the bottom comes to stand, its height, and which way the thing looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,9 +102,61 @@ impl Sampler<'_> {
                 let at = anchor.planar() + direction(turned) * (reach + gap);
                 Some(Spot { at, base: anchor.base(), yaw: self.yaw(turned, &anchor), odd: gap / 15.0 })
             }
+            Stand::Offset { anchor, heading, distance } => {
+                let turned = heading + rng.uniform(-0.9, 0.9) * AIM * rng.unit();
+                Some(self.off(&solid(*anchor)?, turned, *distance, rng))
+            }
+            Stand::Apart { anchor, least, most } => {
+                let gap = least + (most - least) * rng.unit();
+                Some(self.off(&solid(*anchor)?, rng.uniform(-PI, PI), gap, rng))
+            }
+            Stand::OnBlockOf { anchor } => {
+                let anchor = solid(*anchor)?;
+                let far = rng.unit();
+                Some(self.off(&anchor, rng.uniform(-PI, PI), 0.5 + far * far * 60.0, rng))
+            }
+            Stand::InMiddleOf { anchor } => {
+                let anchor = solid(*anchor)?;
+                let reach = (anchor.half().min() * 0.2).max(2.0) * rng.unit();
+                let at = anchor.planar() + direction(rng.uniform(-PI, PI)) * reach;
+                Some(Spot { at, base: anchor.base(), yaw: anchor.yaw(), odd: 0.1 * reach })
+            }
+            Stand::AtEdgeOf { anchor } => {
+                let anchor = solid(*anchor)?;
+                let side = *rng.choose(&Side::ALL)?;
+                let share = rng.uniform(-0.95, 0.95);
+                let inward = self.item.half.x.max(self.item.half.y) + rng.uniform(0.0, EDGE * 0.5);
+                Some(self.beside(&anchor, side, share, -2.0 * inward, 0.3))
+            }
+            Stand::AtJunction { junction } => self.at_junction(*junction, rng),
             Stand::At { point } => Some(Spot { at: *point, base: self.level(*point), yaw: 0.0, odd: 0.0 }),
             Stand::Around { point } => Some(self.around(*point, 20.0, rng)),
         }
+    }
+
+    /// With a gap between it and a thing, in a direction from the thing's middle.
+    fn off(&self, anchor: &Solid, heading: f64, gap: f64, rng: &mut StreamRng) -> Spot {
+        let yaw = self.yaw(heading, anchor) + if rng.chance(0.25) { FRAC_PI_2 } else { 0.0 };
+        let shape = Shape::cuboid(self.item.half.x * 2.0, self.item.half.y * 2.0, 1.0);
+        let at = |reach: f64| anchor.planar() + direction(heading) * reach;
+        let (mut near, mut far) = (0.0, gap + anchor.half().norm() + self.item.half.norm() + 1.0);
+        // The gap grows with the reach, so that halving finds where it is the one asked for.
+        for _ in 0..48 {
+            let middle = (near + far) * 0.5;
+            let point = at(middle);
+            let solid = Solid::standing(shape, Point3::new(point.x, point.y, anchor.base()), yaw);
+            *(if anchor.gap(&solid) < gap { &mut near } else { &mut far }) = middle;
+        }
+        Spot { at: at(far), base: anchor.base(), yaw, odd: (gap / 60.0).min(1.0) }
+    }
+
+    /// Beside the corners of a junction, beyond the kerb.
+    fn at_junction(&self, junction: IntersectionId, rng: &mut StreamRng) -> Option<Spot> {
+        let place = self.streets?.network().intersections.get(junction.index())?;
+        let way = rng.uniform(-PI, PI);
+        let reach = rng.uniform(4.0, JUNCTION);
+        let at = place.center + direction(way) * reach;
+        Some(Spot { at, base: place.height, yaw: way + PI, odd: reach / JUNCTION })
     }
 
     /// A place near the viewpoint.
@@ -181,7 +233,7 @@ impl Sampler<'_> {
     }
 
     /// Which way a thing looks that stands on the side of an anchor to which `outward` leads.
-    fn yaw(&self, outward: f64, anchor: &Solid) -> f64 {
+    pub(super) fn yaw(&self, outward: f64, anchor: &Solid) -> f64 {
         let large = anchor.half().norm() > 3.0;
         match self.item.kind {
             // Vehicles stand along walls, and so do doors' guards; people and dogs look at what they stand at.
@@ -285,7 +337,7 @@ impl Sampler<'_> {
         Some(self.on_edge(road, station, left, kerb + off, off / 6.0))
     }
 
-    fn on_edge(
+    pub(super) fn on_edge(
         &self,
         road: &simworld_core::net::Road,
         station: f64,

@@ -73,6 +73,13 @@ impl Solid {
         self.shape.planar_distance(&self.pose, &point)
     }
 
+    /// From the edge of its footprint to a point inside or outside, m.
+    pub(super) fn edge_distance(&self, point: Point2) -> f64 {
+        let (local, half) = (self.local(point), self.half());
+        let inside = Vector2::new(half.x - local.x.abs(), half.y - local.y.abs());
+        if inside.min() >= 0.0 { inside.min() } else { self.distance_to(point) }
+    }
+
     /// Between two footprints, m; zero where they touch.
     pub(super) fn gap(&self, other: &Self) -> f64 {
         if self.obb().footprints_overlap(&other.obb()) {

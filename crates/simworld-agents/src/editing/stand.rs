@@ -1,8 +1,9 @@
 //! How things stand to each other, as geometric tests.
 
-use simworld_core::geometry::{Point2, Twist, direction};
+use simworld_core::geometry::{Point2, Twist, direction, heading as heading_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::{Road, polyline};
+use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityInfo, EntityKind, EntityRef, Scene};
 
 use super::edit::Stand;
@@ -21,6 +22,14 @@ pub(super) const ALONG: f64 = 4.0;
 pub(super) const ROADSIDE: f64 = 6.0;
 /// As far from a corner as "at" it, m.
 pub(super) const CORNER: f64 = 3.0;
+/// As far from where streets meet as "at the junction", m.
+pub(super) const JUNCTION: f64 = 20.0;
+/// As far from an edge as "at" it, m.
+pub(super) const EDGE: f64 = 2.0;
+/// As far as things on one block are from each other, m.
+pub(super) const BLOCK: f64 = 250.0;
+/// Half the width of a direction that is named with a distance, radians.
+pub(super) const AIM: f64 = 0.105;
 /// As far from a point as "here", m.
 pub(super) const AROUND: f64 = 25.0;
 
@@ -53,7 +62,13 @@ impl Stand {
     pub fn holds(&self, scene: &dyn Scene, thing: EntityId) -> bool {
         scene.entity(thing).is_some_and(|entity| {
             let subject = Subject { id: Some(thing), kind: entity.kind, info: entity.info };
-            let asks = matches!(self, Self::AcrossFrom { .. } | Self::AlongRoad { .. });
+            let asks = matches!(
+                self,
+                Self::AcrossFrom { .. }
+                    | Self::AlongRoad { .. }
+                    | Self::OnBlockOf { .. }
+                    | Self::AtJunction { .. }
+            );
             let streets = scene.roads().filter(|_| asks).map(Streets::of);
             self.would_hold(scene, streets.as_ref(), subject, &Solid::of(&entity))
         })
@@ -113,23 +128,56 @@ impl Stand {
                     && forward * forward * 2.0 >= way.norm_squared()
                     && Solid::of(&from).gap(solid) <= FAR_SIDE
             }),
+            Self::Offset { anchor: from, heading, distance } => anchor(from).is_some_and(|from| {
+                let way = at - from.planar();
+                let off = wrap_angle(heading_of(&way) - heading).abs();
+                (Solid::of(&from).gap(solid) - distance).abs() <= slack(*distance) && off <= AIM
+            }),
+            Self::Apart { anchor: from, least, most } => {
+                anchor(from).is_some_and(|from| (*least..=*most).contains(&Solid::of(&from).gap(solid)))
+            }
+            Self::OnBlockOf { anchor: of } => anchor(of).is_some_and(|of| {
+                let apart = (at - of.planar()).norm();
+                apart <= BLOCK && !streets.is_some_and(|streets| streets.crosses(of.planar(), at))
+            }),
+            Self::InMiddleOf { anchor: of } => anchor(of).is_some_and(|of| {
+                let of = Solid::of(&of);
+                (at - of.planar()).norm() <= (of.half().min() * 0.2).max(2.0)
+            }),
+            Self::AtEdgeOf { anchor: of } => {
+                anchor(of).is_some_and(|of| Solid::of(&of).edge_distance(at) <= EDGE)
+            }
+            Self::AtJunction { junction } => streets.is_some_and(|streets| {
+                let place = streets.network().intersections.get(junction.index());
+                place.is_some_and(|place| solid.distance_to(place.center) <= JUNCTION)
+            }),
             Self::At { point } => (at - point).norm() <= 1e-6,
             Self::Around { point } => solid.distance_to(*point) <= AROUND,
         }
     }
 
     /// The thing that it is about first, if it is about one.
-    pub(super) fn anchor(&self) -> Option<EntityId> {
+    pub(crate) fn anchor(&self) -> Option<EntityId> {
         match self {
             Self::To { anchor, .. }
             | Self::AcrossFrom { anchor }
             | Self::Along { anchor }
             | Self::AtCornerOf { anchor }
             | Self::Towards { anchor, .. }
+            | Self::Offset { anchor, .. }
+            | Self::Apart { anchor, .. }
+            | Self::OnBlockOf { anchor }
+            | Self::InMiddleOf { anchor }
+            | Self::AtEdgeOf { anchor }
             | Self::Between { one: anchor, .. } => Some(*anchor),
-            Self::AlongRoad { .. } | Self::At { .. } | Self::Around { .. } => None,
+            Self::AlongRoad { .. } | Self::AtJunction { .. } | Self::At { .. } | Self::Around { .. } => None,
         }
     }
+}
+
+/// How much more or less a distance may be that was named, m.
+pub(super) fn slack(distance: f64) -> f64 {
+    (distance * 0.05).max(0.25)
 }
 
 fn is_between(at: Point2, one: Point2, other: Point2) -> bool {

@@ -1,7 +1,7 @@
 //! What a sentence means, before anything is looked for: orders that refer to things.
 
 use simworld_core::action::StepDirection;
-use simworld_core::id::EntityId;
+use simworld_core::id::{EntityId, RoadId};
 use simworld_core::net::{Aspect, Turn};
 use simworld_core::scene::Relation;
 
@@ -207,6 +207,8 @@ pub(super) struct Reference {
     pub(super) relation: Option<Stands>,
     /// Whether any of the class will do ("a bench") and not a certain one ("the bench").
     pub(super) indefinite: bool,
+    /// Which of them are not meant.
+    pub(super) except: Option<Box<Self>>,
     /// The words themselves, for answers.
     pub(super) text: String,
 }
@@ -224,6 +226,10 @@ pub(super) enum Stands {
     NearestTo(Box<Reference>, bool),
     /// On a side of the agent.
     Side(Side),
+    /// On the edge of a street.
+    OnStreet(Vec<RoadId>),
+    /// With a gap of at most so much to a thing, m.
+    Within(f64, Box<Reference>),
     /// In a direction from a thing or, without one, from the agent.
     Compass(Compass, Option<Box<Reference>>),
 }
@@ -249,6 +255,8 @@ pub(super) struct Traits {
     pub(super) sells: Option<String>,
     /// Not the one spoken of last.
     pub(super) other: bool,
+    /// More or, with `false`, less of a measure than this, in m and kg.
+    pub(super) than: Option<(Measure, bool, f64)>,
 }
 
 /// What a phrase names.
@@ -314,6 +322,7 @@ impl Reference {
             traits: Traits::default(),
             relation: None,
             indefinite: false,
+            except: None,
             text,
         }
     }

@@ -2,9 +2,13 @@
 
 use simworld_core::scene::{EntityKind, EntityRef, Place, Relation};
 use simworld_core::seam::Which;
+use simworld_core::value::Value;
 
 use super::clause::{Measure, Side};
 use super::lexer::{Lexeme, Token};
+
+/// The attribute of a piece of ground that says what it is used as: `park`, `square`, `river` and the like.
+pub(super) const AREA: &str = "area";
 
 /// A class of things that people have words for.
 #[derive(Debug, PartialEq)]
@@ -13,6 +17,8 @@ pub(super) struct Category {
     pub(super) words: &'static [&'static str],
     kinds: &'static [EntityKind],
     place: Option<Place>,
+    /// The use of the ground, if it is an area: the value of its attribute [`AREA`].
+    area: Option<&'static str>,
 }
 
 impl Category {
@@ -26,6 +32,16 @@ impl Category {
         self.place.is_some()
     }
 
+    /// Whether it is a piece of ground, on which things stand.
+    pub(super) const fn is_area(&self) -> bool {
+        self.area.is_some()
+    }
+
+    /// What its things are used as, if they are places.
+    pub(super) const fn place(&self) -> Option<Place> {
+        self.place
+    }
+
     /// What its things are.
     pub(super) const fn kinds(&self) -> &'static [EntityKind] {
         self.kinds
@@ -33,21 +49,32 @@ impl Category {
 
     /// The class as data.
     pub(super) fn to_which(&self) -> Which {
-        Which::Any { kinds: self.kinds.to_vec(), place: self.place }
+        let ground = self.area.map(|_| EntityKind::Ground);
+        Which::Any { kinds: self.kinds.iter().copied().chain(ground).collect(), place: self.place }
     }
 
     /// Whether an entity is of this class.
     pub(super) fn holds(&self, entity: &EntityRef<'_>) -> bool {
-        self.kinds.contains(&entity.kind) || self.place.is_some_and(|place| entity.info.place == Some(place))
+        let is_area = |area: &str| {
+            let used = entity.info.attributes.get(AREA);
+            entity.kind == EntityKind::Ground && matches!(used, Some(Value::Text(used)) if used == area)
+        };
+        self.kinds.contains(&entity.kind)
+            || self.place.is_some_and(|place| entity.info.place == Some(place))
+            || self.area.is_some_and(is_area)
     }
 }
 
 const fn things(words: &'static [&'static str], kinds: &'static [EntityKind]) -> Category {
-    Category { words, kinds, place: None }
+    Category { words, kinds, place: None, area: None }
 }
 
 const fn places(words: &'static [&'static str], place: Place) -> Category {
-    Category { words, kinds: &[], place: Some(place) }
+    Category { words, kinds: &[], place: Some(place), area: None }
+}
+
+const fn areas(words: &'static [&'static str], area: &'static str) -> Category {
+    Category { words, kinds: &[], place: None, area: Some(area) }
 }
 
 /// The class with that word; it is one of the table's own words.
@@ -170,6 +197,14 @@ pub(super) const CATEGORIES: &[Category] = &[
     places(&["office", "office building", "workplace"], Place::Office),
     places(&["factory", "warehouse"], Place::Factory),
     places(&["charging station", "charging point", "charger"], Place::ChargingStation),
+    areas(&["park", "gardens", "public garden", "green"], "park"),
+    areas(&["square", "plaza", "piazza", "market square", "market place", "marketplace"], "square"),
+    areas(&["river", "river side", "riverside", "river bank", "riverbank", "canal", "stream"], "river"),
+    areas(&["lake", "pond"], "lake"),
+    areas(&["harbour basin", "dock", "quay"], "harbour"),
+    areas(&["forest", "wood", "woods"], "forest"),
+    areas(&["meadow", "lawn", "grass"], "meadow"),
+    areas(&["beach"], "beach"),
     places(&["rest area", "rest stop", "resting place", "pavilion", "rest place"], Place::RestArea),
 ];
 

@@ -32,6 +32,7 @@ mod resolve;
 mod speech;
 mod spelling;
 mod staying;
+pub(crate) mod streets;
 #[cfg(feature = "thought")]
 mod structured;
 mod tails;
@@ -41,6 +42,7 @@ mod unknown;
 mod verbs;
 mod ways;
 mod weather;
+mod whereabouts;
 
 use draft::Draft;
 use names::Names;

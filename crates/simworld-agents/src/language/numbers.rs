@@ -84,6 +84,9 @@ pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
     let second = numeral(lexemes.get(1));
     let article =
         |at: usize| ["a", "an"].iter().any(|word| fits(&lexemes[at.min(lexemes.len())..], word).is_some());
+    if first == 0.5 && article(1) && fits(&lexemes[2..], "dozen").is_some() {
+        return Some((6.0, 3));
+    }
     if first == 0.5 && article(1) {
         return Some((0.5, 2));
     }
@@ -161,4 +164,41 @@ pub(super) fn duration(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         None if matches!(lexemes[0].token, Token::Number(_)) => Some((number, tokens)),
         None => None,
     }
+}
+
+/// A length, m, with how many tokens it takes: "5 metres", "half a metre", "one and a half metres", "150 cm", "six feet".
+pub(super) fn length(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
+    let about = longest_phrase(lexemes, ABOUT).unwrap_or(0);
+    let (mut number, mut at) = number(lexemes.get(about..)?)?;
+    at += about;
+    if let Some(words) = longest_phrase(&lexemes[at..], &["and a half"]) {
+        (number, at) = (number + 0.5, at + words);
+    }
+    let (unit, words) = longest(&lexemes[at..], UNITS)?;
+    at += words;
+    if let Some(words) = longest_phrase(&lexemes[at..], &["and a half"]) {
+        (number, at) = (number + 0.5, at + words);
+    }
+    (number > 0.0 && number.is_finite()).then_some((number * unit, at))
+}
+
+/// What makes a number no less exact.
+const ABOUT: &[&str] =
+    &["some", "about", "around", "roughly", "exactly", "approximately", "just", "only", "a good"];
+
+/// Units of length, m.
+pub(super) const UNITS: &[(&[&str], f64)] = &[
+    (&["metres", "metre", "meters", "meter", "m", "ms", "mtrs"], 1.0),
+    (&["centimetres", "centimetre", "centimeters", "centimeter", "cm", "cms"], 0.01),
+    (&["kilometres", "kilometre", "kilometers", "kilometer", "km", "kms"], 1000.0),
+    (&["feet", "foot", "ft", "feets"], 0.3048),
+    (&["yards", "yard", "yd", "yds"], 0.9144),
+    (&["inches", "inch"], 0.0254),
+];
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words_of_length() -> impl Iterator<Item = &'static str> {
+    let numerals = NUMERALS.iter().map(|(word, _)| *word);
+    let units = UNITS.iter().flat_map(|(words, _)| *words).copied();
+    numerals.chain(units).chain(ABOUT.iter().flat_map(|phrase| phrase.split(' ')))
 }

@@ -291,6 +291,8 @@ impl Parser<'_> {
                 }
                 let anchor = self.reference(depth + 1)?;
                 reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
+            } else if let Some(than) = self.comparison() {
+                reference.traits.than = Some(than);
             } else if self.eat_any(SELLING) {
                 let Some((goods, words)) = self.names.goods(self.rest()) else {
                     return Err(self.not_understood(&format!("sold here are {}", self.names.sold())));
@@ -374,6 +376,9 @@ impl Parser<'_> {
     pub(super) fn relation(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
         let start = self.at;
         self.eat_any(COPULAS);
+        if let Some(stands) = self.on_ground(depth)? {
+            return Ok(Some(stands));
+        }
         if depth < DEEPEST
             && let Some(stands) = self.by_compass(depth)?
         {

@@ -3,6 +3,8 @@
 use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2, Point3, direction};
+use simworld_core::id::RoadId;
+use simworld_core::net::polyline;
 use simworld_core::scene::{EntityRef, Relation};
 use simworld_core::seam::PlanError;
 
@@ -24,6 +26,8 @@ const MOST_ANCHORS: usize = 256;
 const IN_DIRECTION: f64 = 300.0;
 /// How far things to the left and right are looked for, m.
 const BESIDE_ME: f64 = 150.0;
+/// As far beyond the kerb as "on" a street, m.
+const EDGE: f64 = 6.0;
 /// Half the width of what counts as ahead or behind, as the sine of the angle: 45°.
 const AHEAD: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
@@ -38,6 +42,17 @@ impl View<'_> {
         match relation {
             Stands::Side(side) => Ok(self.on_side(reference, *side, purpose)),
             Stands::Compass(compass, of) => self.in_direction(reference, *compass, of.as_deref(), purpose),
+            Stands::OnStreet(roads) => Ok(self.on_street(reference, roads, purpose)),
+            Stands::Within(reach, anchor) => {
+                let anchor = self.find(anchor, Purpose::Any)?;
+                let half = anchor.info.shape.size().xy().norm() * 0.5;
+                let mut found = self.around(reference, anchor.planar(), half + reach, purpose);
+                found.retain(|(_, id)| {
+                    let entity = self.scene.entity(*id).filter(|entity| entity.id != anchor.id);
+                    entity.is_some_and(|entity| gap(&anchor, &entity) <= *reach)
+                });
+                Ok(found)
+            }
             Stands::Between(one, other) => self.between(reference, one, other, purpose),
             Stands::NearestTo(anchor, nearest) => {
                 let anchor = self.find(anchor, Purpose::Any)?;
@@ -153,6 +168,32 @@ impl View<'_> {
         found.retain(|(rank, id)| rank.is_finite() && *id != one.id && *id != other.id);
         sort(&mut found);
         Ok(found)
+    }
+
+    /// On the edge of a street, the nearest first.
+    fn on_street(&self, reference: &Reference, roads: &[RoadId], purpose: Purpose) -> Vec<Ranked> {
+        let Some(network) = self.scene.roads() else { return Vec::new() };
+        let mut found: Vec<Ranked> = Vec::new();
+        for road in roads.iter().filter_map(|road| network.roads.get(road.index())) {
+            let reach = road.width + EDGE;
+            for piece in road.centerline.windows(2) {
+                let region = Aabb::column_around(piece[0], 0.0).union(&Aabb::column_around(piece[1], 0.0));
+                let _ = self.scene.visit(&region.inflated(reach), &mut |entity| {
+                    let near = polyline::closest(piece, &entity.planar());
+                    let beyond = near.is_some_and(|near| {
+                        let kerb = if near.lateral >= 0.0 { road.left_kerb } else { road.right_kerb };
+                        near.distance - kerb <= EDGE
+                    });
+                    if beyond && self.fits(&entity, reference, purpose) {
+                        found.push((self.distance(&entity), entity.id));
+                    }
+                    ControlFlow::Continue(())
+                });
+            }
+        }
+        sort(&mut found);
+        found.dedup_by_key(|(_, id)| *id);
+        found
     }
 
     /// On a side of the agent, the nearest first.

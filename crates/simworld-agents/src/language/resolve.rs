@@ -10,6 +10,7 @@ use simworld_core::seam::PlanError;
 use super::clause::{Choice, Count, Measure, Reference, Target};
 use super::compass::Compass;
 use super::paint::Paint;
+use super::streets::StreetNames;
 use super::{AmbiguityPolicy, RANGE};
 
 /// How far one looks first, m; then three times as far, until enough is found.
@@ -52,6 +53,8 @@ pub(super) struct View<'a> {
     pub(super) speaker: Option<EntityId>,
     /// What to do if several things fit.
     pub(super) policy: AmbiguityPolicy,
+    /// The names of streets, where the scene is spoken of and not what somebody is to do in it.
+    pub(super) streets: Option<&'a StreetNames>,
 }
 
 /// Whether goods of that name are sold there.
@@ -79,6 +82,7 @@ impl<'a> View<'a> {
             gone: Vec::new(),
             speaker: None,
             policy,
+            streets: None,
         }
     }
 
@@ -180,12 +184,7 @@ impl<'a> View<'a> {
     fn rank_by(&self, found: &mut [Ranked], measure: Measure, most: bool) {
         for (rank, id) in found.iter_mut() {
             let Some(entity) = self.scene.entity(*id) else { continue };
-            let size = entity.info.shape.size();
-            let value = match measure {
-                Measure::Height => size.z,
-                Measure::Volume => size.x * size.y * size.z,
-                Measure::Mass => entity.info.mass.unwrap_or(0.0),
-            };
+            let value = measured(&entity, measure);
             *rank = if most { -value } else { value };
         }
         found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -285,6 +284,10 @@ impl<'a> View<'a> {
                 entity.info.attributes.get(key).is_some_and(|value| *value == true.into()) == set
             })
             && traits.sells.as_ref().is_none_or(|goods| sells(entity, goods))
+            && traits.than.is_none_or(|(measure, more, limit)| {
+                let value = measured(entity, measure);
+                if more { value > limit } else { value < limit }
+            })
             && (!traits.parked || entity.info.attributes.get("parked") == Some(&true.into()))
             && (!traits.free || self.is_free(entity, Purpose::Seat) && self.is_free(entity, Purpose::Item))
             && self.is_free(entity, purpose)
@@ -346,6 +349,16 @@ impl<'a> View<'a> {
         } else {
             format!("near are {}", listed.join(", "))
         }
+    }
+}
+
+/// So much of a measure, in m, m³ and kg.
+fn measured(entity: &EntityRef<'_>, measure: Measure) -> f64 {
+    let size = entity.info.shape.size();
+    match measure {
+        Measure::Height => size.z,
+        Measure::Volume => size.x * size.y * size.z,
+        Measure::Mass => entity.info.mass.unwrap_or(0.0),
     }
 }
 

@@ -1,5 +1,7 @@
 //! The notation of `tests/edits`, and the judge of what a sentence did.
 
+mod ground;
+
 use std::collections::BTreeMap;
 
 use simworld_agents::editing::{Difference, EditError, Edited, SceneEditor, Stand, faults};
@@ -9,10 +11,11 @@ use simworld_core::id::EntityId;
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityRef, Relation, Scene, World};
 use simworld_core::seed::Seed;
+use simworld_core::traffic::RoadLeg;
 
 use crate::city::City;
 
-pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
+pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 
 /// One thing that is asked, and what must then be true.
 pub(crate) struct Asked {
@@ -79,7 +82,7 @@ impl Judge<'_> {
         }
         let edited = outcome.as_ref().map_err(ToString::to_string)?;
         let mut rest = Rest::of(self.changed);
-        for clause in meaning.split(" + ") {
+        for clause in meaning.split(" + ").filter(|clause| !clause.is_empty()) {
             self.clause(clause.trim(), edited, &mut rest)?;
         }
         rest.is_empty()?;
@@ -170,6 +173,8 @@ impl Judge<'_> {
                 if words.iter().all(names) && exact { Ok(()) } else { Err(format!("told {answer:?}")) }
             }
             "weather" | "hour" => self.sky(clause, rest),
+            "row" => self.row(told, rest),
+            "close" | "open" => self.passages(&words, verb == "close", rest),
             other => panic!("no notation {other} in {clause}"),
         }
     }
@@ -180,6 +185,7 @@ impl Judge<'_> {
         let mut words: Vec<&str> = told.split_whitespace().collect();
         let catalogue = Catalogue::standard();
         let asset = words.remove(0);
+        let is_big = words.contains(&"big");
         let is_made = |entity: &EntityRef<'_>, name: &str| {
             if let Some(kind) = name.strip_prefix("any ") {
                 return entity.kind.as_str() == kind;
@@ -188,12 +194,16 @@ impl Judge<'_> {
                 .find(name)
                 .and_then(|id| catalogue.get(id))
                 .unwrap_or_else(|| panic!("no asset {name}"));
-            entity.kind == asset.kind && (entity.info.shape.size() - asset.collider.size()).norm() < 1e-9
+            let size = asset.collider.size() * if is_big { 2.0 } else { 1.0 };
+            entity.kind == asset.kind && (entity.info.shape.size() - size).norm() < 1e-9
         };
         let name = if asset == "any" { format!("any {}", words.remove(0)) } else { asset.to_owned() };
         let count = take_count(&mut words);
         let is_colored = words.first().is_some_and(|word| COLORS.contains(word));
         let color = is_colored.then(|| words.remove(0));
+        if is_big {
+            words.retain(|word| *word != "big");
+        }
         let place = words.join(" ");
         for _ in 0..count {
             let fits = |id: &EntityId| {
@@ -277,7 +287,7 @@ impl Judge<'_> {
                     told.split(['(', ')', ',', ' ']).filter_map(|text| text.parse().ok()).collect();
                 (place_of(self.after, thing) - Point2::new(numbers[0], numbers[1])).norm() < 0.01
             }
-            other => panic!("no relation {other}"),
+            other => self.stands_on_ground(thing, other, &keys),
         }
     }
 
@@ -349,6 +359,7 @@ struct Rest {
     moved: Vec<EntityId>,
     altered: Vec<EntityId>,
     environment: bool,
+    passages: Vec<RoadLeg>,
 }
 
 impl Rest {
@@ -359,17 +370,18 @@ impl Rest {
             moved: changed.moved.clone(),
             altered: changed.altered.clone(),
             environment: changed.environment,
+            passages: changed.passages.clone(),
         }
     }
 
     fn is_empty(&self) -> Result<(), String> {
-        let Self { added, removed, moved, altered, environment } = self;
+        let Self { added, removed, moved, altered, environment, passages } = self;
         let all = [added, removed, moved, altered];
-        if all.iter().all(|list| list.is_empty()) && !environment {
+        if all.iter().all(|list| list.is_empty()) && !environment && passages.is_empty() {
             Ok(())
         } else {
             Err(format!(
-                "besides added {added:?}, removed {removed:?}, moved {moved:?}, altered {altered:?}, sky {environment}"
+                "besides added {added:?}, removed {removed:?}, moved {moved:?}, altered {altered:?}, sky {environment}, streets {passages:?}"
             ))
         }
     }

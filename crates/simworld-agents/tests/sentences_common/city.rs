@@ -27,6 +27,7 @@ struct Thing {
     #[serde(default)]
     open: bool,
     signal_group: Option<i64>,
+    area: Option<String>,
 }
 
 /// A city and what its things are called in the tables.
@@ -45,7 +46,9 @@ impl City {
         let mut world = World::new();
         let roads_of = |plan: &StreetPlan| RoadNetwork::derive(plan, &NetworkConfig::default());
         let mut plan = StreetPlan::grid(3, 3, 100.0);
-        if name != "town" {
+        if name == "quarter" {
+            name_streets(&mut plan);
+        } else if name != "town" {
             // A crossroads far away lends its signals, all of them red at first.
             plan = StreetPlan::crossroads(100.0);
             for node in &mut plan.nodes {
@@ -54,6 +57,9 @@ impl City {
         }
         let roads = roads_of(&plan).expect("the streets are sound");
         world.set_roads(std::sync::Arc::new(roads));
+        if name == "quarter" {
+            close(&mut world, piece("mill_b"));
+        }
         let mut ids = BTreeMap::new();
         for (key, thing) in things {
             let id = world.spawn(describe(&thing)).unwrap_or_else(|error| panic!("{key}: {error}"));
@@ -79,6 +85,57 @@ impl City {
     }
 }
 
+/// The streets of the quarter: key, name, and whether it goes east at that height or north at that place, m.
+pub(crate) const STREETS: [(&str, &str, bool, f64); 6] = [
+    ("oak", "Oak Street", true, 0.0),
+    ("elm", "Elm Street", true, 100.0),
+    ("mill", "Mill Lane", true, 200.0),
+    ("harbour", "Harbour Road", false, 0.0),
+    ("station", "Station Road", false, 100.0),
+    ("walk", "River Walk", false, 200.0),
+];
+
+/// Names the streets of a grid of 3 by 3.
+fn name_streets(plan: &mut StreetPlan) {
+    for (_, name, goes_east, at) in STREETS {
+        let name = plan.add_name(name);
+        for street in &mut plan.streets {
+            let [a, b] = [street.from, street.to].map(|node| plan.nodes[node]);
+            let on_it = if goes_east { a.y == at && b.y == at } else { a.x == at && b.x == at };
+            if on_it {
+                street.name = Some(name);
+            }
+        }
+    }
+}
+
+/// The middle of a piece of a street of the quarter: "oak_a" is the first of Oak Street, "oak_b" the second.
+pub(crate) fn piece(key: &str) -> [f64; 2] {
+    let (street, half) = key.split_once('_').unwrap_or_else(|| panic!("no piece {key}"));
+    let along = if half == "a" { 50.0 } else { 150.0 };
+    let (.., goes_east, at) =
+        STREETS.into_iter().find(|known| known.0 == street).unwrap_or_else(|| panic!("no street {street}"));
+    if goes_east { [along, at] } else { [at, along] }
+}
+
+/// The road whose middle that is.
+pub(crate) fn road_at(world: &World, [x, y]: [f64; 2]) -> simworld_core::id::RoadId {
+    let roads = &world.roads().expect("the quarter has streets").roads;
+    let is_there = |road: &simworld_core::net::Road| {
+        let (a, b) = (road.centerline[0], road.centerline[road.centerline.len() - 1]);
+        ((a.x + b.x) * 0.5 - x).abs() < 1.0 && ((a.y + b.y) * 0.5 - y).abs() < 1.0
+    };
+    simworld_core::id::RoadId::from_index(roads.iter().position(is_there).expect("there is such a street"))
+}
+
+fn close(world: &mut World, middle: [f64; 2]) {
+    let road = road_at(world, middle);
+    for direction in [simworld_core::net::LaneDirection::Forward, simworld_core::net::LaneDirection::Backward]
+    {
+        world.set_passage((road, direction), simworld_core::passage::Passage::Closed).expect("it has lanes");
+    }
+}
+
 fn describe(thing: &Thing) -> EntityDesc {
     let kind = EntityKind::from_name(&thing.kind).unwrap_or_else(|| panic!("no kind {}", thing.kind));
     let pose = pose_facing(Point3::new(thing.at[0], thing.at[1], 0.0), thing.facing.to_radians());
@@ -100,6 +157,9 @@ fn describe(thing: &Thing) -> EntityDesc {
         if set {
             desc = desc.with(key, true);
         }
+    }
+    if let Some(area) = &thing.area {
+        desc = desc.with("area", area.as_str());
     }
     if let Some(group) = thing.signal_group {
         desc = desc.with("signal_group", group);

@@ -5,10 +5,16 @@
 
 mod ask;
 mod change;
+mod dressed;
+mod given;
+mod ground;
 mod make;
+mod offsets;
 mod parse;
+mod passage;
 mod places;
 mod resolve;
+mod rows;
 mod sky;
 mod slips;
 mod stated;
@@ -16,16 +22,19 @@ mod turn;
 mod wish;
 mod words;
 
+use std::sync::Arc;
+
 use parse::{Reader, UNDERSTOOD};
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::Point2;
-use simworld_core::id::EntityId;
+use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
 use wish::Wish;
 
 use super::names::Names;
 use super::parser::shortened;
 use super::resolve::View;
+use super::streets::StreetNames;
 use super::{AmbiguityPolicy, LONGEST_SENTENCE, hearing};
 use crate::editing::EditError;
 
@@ -40,6 +49,10 @@ pub(crate) struct Focus {
     pub(crate) it: Option<EntityId>,
     /// What "there" stands for.
     pub(crate) place: Option<Point2>,
+    /// The streets that were spoken of last.
+    pub(crate) roads: Vec<RoadId>,
+    /// What streets are called.
+    pub(crate) streets: Arc<StreetNames>,
 }
 
 /// A sentence that was read.
@@ -71,13 +84,13 @@ pub(crate) fn read(
     let view = view_of(scene, focus);
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
-    slips::correct(words, &mut lexemes, &names, catalogue);
+    slips::correct(words, &mut lexemes, &names, catalogue, &focus.streets);
     let mut reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0 };
     let wishes = reader.sentence()?;
     Ok(Reading { words: words.to_owned(), wishes })
 }
 
-fn view_of<'a>(scene: &'a dyn Scene, focus: &Focus) -> View<'a> {
+fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
     let it = focus.it;
     View {
         scene,
@@ -95,8 +108,18 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &Focus) -> View<'a> {
         them: it.filter(|it| scene.entity(*it).is_some_and(|it| super::lexicon::is_animate(it.kind))),
         gone: Vec::new(),
         policy: AmbiguityPolicy::Nearest,
+        streets: Some(&focus.streets),
     }
 }
 
 /// Edits are about the whole scene, m.
 const EVERYWHERE: f64 = 1.0e5;
+
+/// The words of the parts, so that none is taken for a misspelling.
+fn more_words() -> impl Iterator<Item = &'static str> {
+    offsets::words()
+        .chain(passage::words())
+        .chain(rows::words())
+        .chain(dressed::words())
+        .chain(given::words())
+}

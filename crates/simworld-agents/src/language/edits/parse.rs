@@ -83,8 +83,23 @@ impl<'a> Reader<'a> {
     }
 
     /// One wish up to a boundary, or several that share a verb.
-    fn wish(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+    pub(super) fn wish(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
+        if let Some(made) = self.given(end)? {
+            return Ok(made);
+        }
+        if let Some(wish) = self.passage(end) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
+        if let Some(made) = self.rows(end) {
+            self.at = end;
+            return Ok(made);
+        }
+        if let Some(wish) = self.dressed(end).or_else(|| self.cleared(end)) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
         if let Some(sky) = self.sky(end) {
             self.at = end;
             return Ok(vec![vec![Wish::Sky(sky)]]);
@@ -142,6 +157,9 @@ impl<'a> Reader<'a> {
             // "Put the bench ..." moves it, "put a bench ..." makes one.
             Verb::Put if self.is_definite(self.at) => self.moves(end).map(|wish| vec![wish]),
             Verb::Put => self.additions(end),
+            Verb::Move if !self.is_definite(self.at) && self.word(self.at - 1) == Some("bring") => {
+                self.additions(end)
+            }
             Verb::Move => self.moves(end).map(|wish| vec![wish]),
             Verb::Take => self.take(end),
             Verb::Remove => {
@@ -164,6 +182,9 @@ impl<'a> Reader<'a> {
                 Ok(vec![vec![Wish::Describe { what }]])
             }
             Verb::Make => self.make(end),
+            Verb::Close | Verb::Open => {
+                Err(self.not_understood("say which street: by its name, or in front of what"))
+            }
         }
     }
 
@@ -210,6 +231,7 @@ impl<'a> Reader<'a> {
         let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);
         let mut what = parser.reference(0)?;
         what.indefinite |= any;
+        self.except(&mut parser, &mut what);
         if parser.at < end { Err(parser.not_understood("end here, or go on with \"and\"")) } else { Ok(what) }
     }
 

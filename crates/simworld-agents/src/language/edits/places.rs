@@ -10,7 +10,7 @@ use super::super::numbers;
 use super::super::paint::PAINTS;
 use super::parse::{Reader, joint};
 use super::wish::{Anchor, NewThing, Where, Wish};
-use super::words::{ABOUT_IT, SIZES, VERBS, Verb, WAYS, Way};
+use super::words::{ABOUT_IT, FACTORS, SIZES, VERBS, Verb, WAYS, Way};
 
 /// What ends the noun of a new thing: what it is called.
 const CALLED: &[&str] = &["called", "named", "with the name", "with the name of", "by the name of"];
@@ -102,8 +102,10 @@ impl Reader<'_> {
             return None;
         }
         let verb = (self.at + 1..end).find(|at| {
-            longest(&self.lexemes[*at..end], VERBS)
-                .is_some_and(|(verb, _)| matches!(verb, Verb::Add | Verb::Put))
+            // "In the park" ends with no order to park.
+            self.word(at - 1) != Some("the")
+                && longest(&self.lexemes[*at..end], VERBS)
+                    .is_some_and(|(verb, _)| matches!(verb, Verb::Add | Verb::Put))
         })?;
         let (kind, count) = longest(&self.lexemes[verb..end], VERBS)?;
         let at = self.places(verb).ok()?;
@@ -161,6 +163,9 @@ impl Reader<'_> {
                 break;
             } else if let Some((paint, words)) = longest(rest, PAINTS).filter(|_| thing.paint.is_none()) {
                 (thing.paint, self.at) = (Some(paint), self.at + words);
+            } else if let Some((factor, words)) = longest(rest, FACTORS).filter(|_| !thing.words.is_empty()) {
+                // "A bench twice as big".
+                (thing.scale, self.at) = (factor, self.at + words);
             } else if let Some((factor, words)) = longest(rest, SIZES).filter(|_| thing.words.is_empty()) {
                 (thing.scale, self.at) = (factor, self.at + words);
             } else if let Token::Word(word) = &rest[0].token {
@@ -180,6 +185,9 @@ impl Reader<'_> {
 
     /// Whether a place begins at a token.
     pub(super) fn is_place(&self, at: usize) -> bool {
+        if self.begins_offset(at) || self.begins_junction(at) {
+            return true;
+        }
         let rest = &self.lexemes[at.min(self.lexemes.len())..];
         longest(rest, WAYS).is_some()
             || longest(rest, ABOUT_IT).is_some()
@@ -214,6 +222,12 @@ impl Reader<'_> {
     }
 
     fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+        if let Some(place) = self.junction(end) {
+            return Ok(place);
+        }
+        if let Some(place) = self.offset(end)? {
+            return Ok(place);
+        }
         if let Some((east, north, count)) = self.shift(self.at) {
             self.at += count;
             return Ok(Where::Shift(east, north));
@@ -249,10 +263,15 @@ impl Reader<'_> {
             Way::Across => Where::Across(self.anchor(end)?),
             Way::Along => Where::Along(self.anchor(end)?),
             Way::Corner => Where::Corner(self.anchor(end)?),
-            Way::At => Where::To(simworld_core::scene::Relation::NextTo, self.anchor(end)?),
+            Way::At => Where::By(self.anchor(end)?),
+            Way::Around => Where::Around(self.anchor(end)?),
+            Way::Both => Where::BothSides(self.anchor(end)?),
+            Way::Middle => Where::Middle(self.anchor(end)?),
+            Way::Edge => Where::Edge(self.anchor(end)?),
+            Way::Block => Where::Block(self.anchor(end)?),
             Way::In => Where::To(simworld_core::scene::Relation::Inside, self.anchor(end)?),
             Way::On => match self.anchor(end)? {
-                street @ Anchor::Street(_) => Where::Along(street),
+                street @ Anchor::Street(..) => Where::Along(street),
                 thing => Where::To(simworld_core::scene::Relation::OnTopOf, thing),
             },
         };
@@ -260,7 +279,7 @@ impl Reader<'_> {
     }
 
     /// What something is to stand to: the longest phrase from here that names a thing or a street.
-    fn anchor(&mut self, end: usize) -> Result<Anchor, PlanError> {
+    pub(super) fn anchor(&mut self, end: usize) -> Result<Anchor, PlanError> {
         let start = self.at;
         if self.eat_any(&["itself", "themselves"]) {
             return Ok(Anchor::Itself);
@@ -268,9 +287,8 @@ impl Reader<'_> {
         if self.eat_any(&["me", "myself", "us", "where i am", "where i stand", "my position", "the viewer"]) {
             return Ok(Anchor::Viewer);
         }
-        if let Some((street, count)) = self.street(end) {
-            self.at += count;
-            return Ok(Anchor::Street(street));
+        if let Some(street) = self.street(end) {
+            return Ok(street);
         }
         let mut parser = self.parser(start, self.before_politeness(start, end));
         let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);
@@ -281,21 +299,17 @@ impl Reader<'_> {
         Ok(Anchor::Thing(thing))
     }
 
-    /// The name of a street at the start of the words.
-    fn street(&self, end: usize) -> Option<(String, usize)> {
-        let network = self.view.scene.roads()?;
-        let rest = self.rest(end);
-        let skip = longest_phrase(rest, &["the"]).unwrap_or(0);
-        let fits = |name: &&String| {
-            let words: Vec<String> = name.split_whitespace().map(str::to_lowercase).collect();
-            longest_phrase(&rest[skip..], &[words.join(" ").as_str()])
+    /// The name of a street, which it passes.
+    pub(super) fn street(&mut self, end: usize) -> Option<Anchor> {
+        let start = self.at;
+        self.eat_any(&["the"]);
+        let found = self.view.streets.and_then(|streets| streets.at(self.rest(end)));
+        let Some(street) = found else {
+            self.at = start;
+            return None;
         };
-        let best = network
-            .names
-            .iter()
-            .filter_map(|name| Some((fits(&name)?, name)))
-            .max_by_key(|(count, _)| *count)?;
-        Some((best.1.clone(), best.0 + skip))
+        self.at += street.words;
+        Some(Anchor::Street(street.name.to_owned(), street.roads.to_vec()))
     }
 
     fn between(&mut self, end: usize) -> Result<Where, PlanError> {

@@ -3,17 +3,16 @@
 use std::ops::ControlFlow;
 
 use simworld_core::asset::Catalogue;
-use simworld_core::environment::{Environment, Sun};
-use simworld_core::geometry::{Aabb, Point2, yaw_of};
-use simworld_core::id::{EntityId, RoadId};
+use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
+use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Relation, Scene};
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Choice, Count, Reference, Stands, Target};
 use super::super::resolve::{Purpose, View};
 use super::places::is_pronoun;
+use super::sky::changed;
 use super::wish::{Anchor, Where, Wish};
-use super::words::Sky;
 use super::{Focus, Reading, view_of};
 use crate::editing::{Edit, EditError, Stand};
 
@@ -46,17 +45,20 @@ impl Reading {
     }
 }
 
-struct Finder<'a> {
-    scene: &'a dyn Scene,
-    catalogue: &'a Catalogue,
-    focus: &'a Focus,
-    view: View<'a>,
+pub(super) struct Finder<'a> {
+    pub(super) scene: &'a dyn Scene,
+    pub(super) catalogue: &'a Catalogue,
+    pub(super) focus: &'a Focus,
+    pub(super) view: View<'a>,
 }
 
 impl Finder<'_> {
-    fn edits(&self, wish: &Wish) -> Result<Vec<Edit>, EditError> {
+    pub(super) fn edits(&self, wish: &Wish) -> Result<Vec<Edit>, EditError> {
         let edit = match wish {
             Wish::Add { things, at } => {
+                if let Some(row) = self.lined_up(things, at)? {
+                    return Ok(vec![row]);
+                }
                 let stands = self.stands(at, &[])?;
                 let add = |thing: &super::wish::NewThing| {
                     Ok(Edit::Add {
@@ -105,7 +107,10 @@ impl Finder<'_> {
             }
             Wish::List { what, at } => Edit::List { things: self.listed(what.as_ref(), at)? },
             Wish::Describe { what } => Edit::Describe { thing: self.one(what)? },
-            Wish::Sky(skies) => Edit::SetEnvironment(sky(*self.scene.environment(), skies)),
+            Wish::Row { thing, line, spacing } => self.row(thing, line, *spacing)?,
+            Wish::Passage { which, passage } => self.passage(which, *passage)?,
+            Wish::Given { what, there, then } => return self.given(what, *there, then),
+            Wish::Sky(skies) => Edit::SetEnvironment(changed(*self.scene.environment(), skies)),
         };
         Ok(vec![edit])
     }
@@ -123,6 +128,19 @@ impl Finder<'_> {
                 Edit::Move { things: vec![thing], stands: vec![Stand::At { point }] }
             };
             return Ok(things.into_iter().map(shifted).collect());
+        }
+        let own = at.iter().find_map(|place| match place {
+            Where::ShiftOwn(forward, left) => Some(Vector2::new(*forward, *left)),
+            _ => None,
+        });
+        if let Some(own) = own {
+            let shifted = |thing: EntityId| {
+                let entity = self.scene.entity(thing)?;
+                let ahead = direction(yaw_of(entity.pose));
+                let point = entity.planar() + ahead * own.x + Vector2::new(-ahead.y, ahead.x) * own.y;
+                Some(Edit::Move { things: vec![thing], stands: vec![Stand::At { point }] })
+            };
+            return Ok(things.into_iter().filter_map(shifted).collect());
         }
         let stands = self.stands(at, &things)?;
         Ok(vec![Edit::Move { things, stands }])
@@ -148,6 +166,7 @@ impl Finder<'_> {
     fn multiplied(&self, what: &Reference, times: u32) -> Result<Vec<Edit>, EditError> {
         let things = self.candidates(what)?;
         let stand = match &what.relation {
+            Some(Stands::OnStreet(roads)) => Some(Stand::AlongRoad { roads: roads.clone() }),
             Some(Stands::To(relation, anchor)) => {
                 Some(Stand::To { relation: *relation, anchor: self.one(anchor)? })
             }
@@ -175,13 +194,7 @@ impl Finder<'_> {
         let stands = self.stands(at, &[])?;
         let middle = stands.iter().find_map(|stand| match stand {
             Stand::Around { point } | Stand::At { point } => Some(*point),
-            Stand::To { anchor, .. } | Stand::AcrossFrom { anchor } | Stand::Along { anchor } => {
-                self.scene.entity(*anchor).map(|entity| entity.planar())
-            }
-            Stand::Between { one, .. }
-            | Stand::AtCornerOf { anchor: one }
-            | Stand::Towards { anchor: one, .. } => self.scene.entity(*one).map(|entity| entity.planar()),
-            Stand::AlongRoad { .. } => None,
+            stand => self.scene.entity(stand.anchor()?).map(|entity| entity.planar()),
         });
         let middle = middle.unwrap_or(self.focus.from);
         let mut found: Vec<(f64, EntityId)> = Vec::new();
@@ -214,8 +227,11 @@ impl Finder<'_> {
     }
 
     /// All that a phrase may mean, the nearest first, at least one.
-    fn candidates(&self, reference: &Reference) -> Result<Vec<EntityId>, EditError> {
+    pub(super) fn candidates(&self, reference: &Reference) -> Result<Vec<EntityId>, EditError> {
         self.is_about_viewer(reference)?;
+        if let (Count::All, Choice::Nth(nth)) = (reference.count, reference.choice) {
+            return self.every_nth(reference, nth);
+        }
         let open = reference.choice == Choice::Open;
         // The farthest of all is looked for everywhere, and no other choice is.
         let choice = if open { Choice::Farthest } else { reference.choice };
@@ -226,6 +242,10 @@ impl Finder<'_> {
             found.reverse();
         }
         let mut things: Vec<EntityId> = found.into_iter().map(|(_, id)| id).collect();
+        if let Some(except) = &reference.except {
+            let spared = self.candidates(except)?;
+            things.retain(|thing| !spared.contains(thing));
+        }
         if things.is_empty() {
             return Err(self.view.find(reference, Purpose::Any).err().map_or_else(
                 || EditError::NotFound { wanted: reference.text.clone(), near: String::new() },
@@ -250,7 +270,7 @@ impl Finder<'_> {
     }
 
     /// The one thing that a phrase means; where several fit and nothing decides, which is asked.
-    fn one(&self, reference: &Reference) -> Result<EntityId, EditError> {
+    pub(super) fn one(&self, reference: &Reference) -> Result<EntityId, EditError> {
         let found = self.candidates(reference)?;
         let decided = reference.choice != Choice::Open
             || reference.indefinite
@@ -295,19 +315,22 @@ impl Finder<'_> {
 
     // ---- places ----
 
-    fn stands(&self, at: &[Where], moved: &[EntityId]) -> Result<Vec<Stand>, EditError> {
+    pub(super) fn stands(&self, at: &[Where], moved: &[EntityId]) -> Result<Vec<Stand>, EditError> {
         let mut stands = Vec::new();
         for place in at {
             let stand = match place {
                 Where::To(relation, anchor) => match anchor {
-                    Anchor::Street(name) => Stand::AlongRoad { roads: self.street(name)? },
+                    Anchor::Street(_, roads) => Stand::AlongRoad { roads: roads.clone() },
                     _ => self.to(*relation, self.anchor(anchor, moved)?)?,
                 },
                 Where::Between(one, other) => {
                     Stand::Between { one: self.anchor(one, moved)?, other: self.anchor(other, moved)? }
                 }
                 Where::Across(anchor) => Stand::AcrossFrom { anchor: self.anchor(anchor, moved)? },
-                Where::Along(Anchor::Street(name)) => Stand::AlongRoad { roads: self.street(name)? },
+                Where::Along(Anchor::Street(_, roads)) | Where::BothSides(Anchor::Street(_, roads)) => {
+                    Stand::AlongRoad { roads: roads.clone() }
+                }
+                Where::BothSides(anchor) => Stand::Along { anchor: self.anchor(anchor, moved)? },
                 Where::Along(anchor) => Stand::Along { anchor: self.anchor(anchor, moved)? },
                 Where::Corner(anchor) => Stand::AtCornerOf { anchor: self.anchor(anchor, moved)? },
                 Where::Compass(compass, anchor) => {
@@ -320,20 +343,25 @@ impl Finder<'_> {
                     let missing = || EditError::NotFound { wanted, near: "name it".to_owned() };
                     Stand::At { point: self.focus.place.ok_or_else(missing)? }
                 }
-                Where::Anywhere | Where::Shift(..) => continue,
+                Where::Anywhere | Where::Shift(..) | Where::ShiftOwn(..) => continue,
+                place => self.stand_on_ground(place, moved)?,
             };
             stands.push(stand);
         }
         Ok(stands)
     }
 
-    fn to(&self, relation: Relation, anchor: EntityId) -> Result<Stand, EditError> {
+    pub(super) fn to(&self, relation: Relation, anchor: EntityId) -> Result<Stand, EditError> {
         let kind = self.scene.entity(anchor).map(|entity| entity.kind);
         let impossible = |why: &str| {
             let what = format!("to stand {}", Stand::To { relation, anchor }.told(self.scene));
             Err(EditError::Impossible { what, why: why.to_owned() })
         };
         match (relation, kind) {
+            // "On Market Square", "over the park": where else would one be on the ground.
+            (Relation::OnTopOf | Relation::Inside, Some(EntityKind::Ground)) => {
+                Ok(Stand::To { relation: Relation::Inside, anchor })
+            }
             (Relation::Inside, Some(kind)) if kind.is_solid() => {
                 impossible("it is solid; say next to it, or on top of it")
             }
@@ -344,7 +372,7 @@ impl Finder<'_> {
         }
     }
 
-    fn anchor(&self, anchor: &Anchor, moved: &[EntityId]) -> Result<EntityId, EditError> {
+    pub(super) fn anchor(&self, anchor: &Anchor, moved: &[EntityId]) -> Result<EntityId, EditError> {
         let itself = || {
             let what = "to put a thing beside or upon itself".to_owned();
             Err(EditError::Impossible { what, why: "name another thing".to_owned() })
@@ -362,7 +390,7 @@ impl Finder<'_> {
                     why: "nobody looks at the scene; name a thing or a place".to_owned(),
                 }
             }),
-            Anchor::Street(name) => Err(EditError::Impossible {
+            Anchor::Street(name, _) => Err(EditError::Impossible {
                 what: format!("to stand so to {name}"),
                 why: "a street is long; say along it".to_owned(),
             }),
@@ -370,17 +398,6 @@ impl Finder<'_> {
                 let found = self.one(reference)?;
                 if moved.contains(&found) { itself() } else { Ok(found) }
             }
-        }
-    }
-
-    fn street(&self, name: &str) -> Result<Vec<RoadId>, EditError> {
-        let roads = self.scene.roads().map(|network| {
-            let ids = (0..network.roads.len()).map(RoadId::from_index);
-            ids.filter(|id| network.road_name(*id) == Some(name)).collect::<Vec<_>>()
-        });
-        match roads {
-            Some(roads) if !roads.is_empty() => Ok(roads),
-            _ => Err(EditError::NotFound { wanted: format!("street {name:?}"), near: String::new() }),
         }
     }
 }
@@ -402,35 +419,6 @@ fn plural(reference: &Reference) -> bool {
     };
     // The first noun of the class is what the phrase is about; what follows belongs to its relation.
     words.iter().find(|word| is_singular(word) || is_plural(word)).is_some_and(is_plural)
-}
-
-fn sky(mut now: Environment, skies: &[Sky]) -> Environment {
-    let weather = &mut now.weather;
-    let mut hour = None;
-    for sky in skies {
-        match *sky {
-            Sky::Rain(rate) => (weather.rain, weather.snow, weather.cloud_cover) = (rate, 0.0, 0.95),
-            Sky::Snow(rate) => {
-                (weather.rain, weather.snow, weather.cloud_cover) = (0.0, rate, 0.95);
-                weather.temperature = weather.temperature.min(-1.0);
-            }
-            Sky::Fog(visibility) => (weather.visibility, weather.cloud_cover) = (visibility, 1.0),
-            Sky::Clear => {
-                let clear = simworld_core::environment::Weather::default();
-                *weather = simworld_core::environment::Weather { temperature: weather.temperature, ..clear };
-            }
-            Sky::Cloudy => weather.cloud_cover = 0.95,
-            Sky::DryUp => weather.rain = 0.0,
-            Sky::NoSnow => weather.snow = 0.0,
-            Sky::NoFog => weather.visibility = 20_000.0,
-            Sky::Windy(speed) => weather.wind = simworld_core::geometry::Vector2::new(speed, 0.0),
-            Sky::Hour(at) => hour = Some(at),
-        }
-    }
-    if let Some(hour) = hour {
-        now.sun = Sun::at_hour(hour);
-    }
-    now
 }
 
 impl From<PlanError> for EditError {

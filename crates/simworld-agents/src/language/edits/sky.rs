@@ -1,5 +1,7 @@
 //! Weather and time of day in words.
 
+use simworld_core::environment::{Environment, Sun};
+
 use super::super::lexer::Token;
 use super::super::lexicon::{fits, longest, longest_phrase};
 use super::super::numbers;
@@ -101,4 +103,35 @@ fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
         }
     }
     (0.0..=24.0).contains(&hour).then_some((Sky::Hour(hour % 24.0), at))
+}
+
+/// Sun and weather as they are wished for.
+pub(super) fn changed(mut now: Environment, skies: &[Sky]) -> Environment {
+    let weather = &mut now.weather;
+    let mut hour = None;
+    for sky in skies {
+        match *sky {
+            Sky::Rain(rate) => (weather.rain, weather.snow, weather.cloud_cover) = (rate, 0.0, 0.95),
+            Sky::Snow(rate) => {
+                (weather.rain, weather.snow, weather.cloud_cover) = (0.0, rate, 0.95);
+                weather.temperature = weather.temperature.min(-1.0);
+            }
+            Sky::Fog(visibility) => (weather.visibility, weather.cloud_cover) = (visibility, 1.0),
+            Sky::Clear => {
+                let clear = simworld_core::environment::Weather::default();
+                *weather = simworld_core::environment::Weather { temperature: weather.temperature, ..clear };
+            }
+            Sky::Cloudy => weather.cloud_cover = 0.95,
+            Sky::DryUp => weather.rain = 0.0,
+            Sky::NoSnow => weather.snow = 0.0,
+            Sky::NoFog => weather.visibility = 20_000.0,
+            Sky::Windy(speed) => weather.wind = simworld_core::geometry::Vector2::new(speed, 0.0),
+            Sky::Warmth(degrees) => weather.temperature = degrees,
+            Sky::Hour(at) => hour = Some(at),
+        }
+    }
+    if let Some(hour) = hour {
+        now.sun = Sun::at_hour(hour);
+    }
+    now
 }

@@ -10,6 +10,7 @@ use super::super::lexicon::CATEGORIES;
 use super::super::names::Names;
 use super::super::paint::PAINTS;
 use super::super::spelling::{correct_but, is_known};
+use super::super::streets::StreetNames;
 use super::super::verbs::base_form;
 use super::words;
 
@@ -45,7 +46,13 @@ enum Slip {
 }
 
 /// Puts unknown words right that are near one word of edits, and one only; marks of abbreviations go.
-pub(super) fn correct(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>, catalogue: &Catalogue) {
+pub(super) fn correct(
+    words: &str,
+    lexemes: &mut Vec<Lexeme>,
+    names: &Names<'_>,
+    catalogue: &Catalogue,
+    streets: &StreetNames,
+) {
     let mut at = 1;
     while at < lexemes.len() {
         let short =
@@ -63,7 +70,9 @@ pub(super) fn correct(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>,
         at += 1;
         let Token::Word(word) = &lexemes[here].token else { continue };
         let right = USUAL.iter().find(|(wrong, _)| wrong == word).map(|(_, right)| (*right).to_owned());
-        if right.is_none() && (own.contains(word) || is_known(word) || names.has_word(word)) {
+        if right.is_none()
+            && (own.contains(word) || is_known(word) || names.has_word(word) || streets.has_word(word))
+        {
             continue;
         }
         // Names are written with a capital, and may be anything.
@@ -92,7 +101,9 @@ pub(super) fn correct(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>,
             _ => None,
         })
         .collect();
-    correct_but(lexemes, names, &|word| own.contains(word) || new_names.iter().any(|name| name == word));
+    correct_but(lexemes, names, &|word| {
+        own.contains(word) || streets.has_word(word) || new_names.iter().any(|name| name == word)
+    });
 }
 
 /// "Sportscar": the words of an asset's name that are written as one.

@@ -1,6 +1,5 @@
 //! Wishes that are no orders: "the truck should be blue", "the museum could use a bench", "a bench by the fountain, please".
 
-use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::super::lexicon::{longest, longest_phrase};
@@ -110,7 +109,13 @@ impl Reader<'_> {
         for cut in from + 1..end {
             let lacks = longest_phrase(&self.lexemes[cut..end], LACKS);
             let Some(count) = (if gives.is_some() { Some(0) } else { lacks }) else { continue };
-            let Ok(anchor) = self.one_of(from, cut) else { continue };
+            self.at = from;
+            let street = self.street(cut).filter(|_| self.at == cut);
+            let anchor = match (street, self.one_of(from, cut)) {
+                (Some(street), _) => street,
+                (None, Ok(thing)) => Anchor::Thing(thing),
+                (None, Err(_)) => continue,
+            };
             self.at = cut + count;
             if self.is_definite(self.at) {
                 continue;
@@ -120,9 +125,12 @@ impl Reader<'_> {
             let stop = self.at + relation.map_or(0, |(_, words)| words);
             if self.before_politeness(stop.saturating_sub(1), end) <= stop {
                 self.at = end;
-                let relation = relation.map_or(Relation::NextTo, |(relation, _)| relation);
-                let at = vec![Where::To(relation, Anchor::Thing(anchor))];
-                return Some(Wish::Add { things: vec![thing], at });
+                let place = match (relation, anchor) {
+                    (None, street @ Anchor::Street(..)) => Where::Along(street),
+                    (None, anchor) => Where::By(anchor),
+                    (Some((relation, _)), anchor) => Where::To(relation, anchor),
+                };
+                return Some(Wish::Add { things: vec![thing], at: vec![place] });
             }
         }
         self.at = start;

@@ -1,12 +1,15 @@
 //! What a sentence about the scene means, before anything is looked for.
 
 use simworld_core::geometry::Point2;
+use simworld_core::id::RoadId;
+use simworld_core::passage::Passage;
 use simworld_core::scene::Relation;
 
 use super::super::clause::{Reference, Target};
 use super::super::compass::Compass;
 use super::super::paint::Paint;
 use super::words::Sky;
+use crate::editing::Spacing;
 
 /// One wish.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +80,42 @@ pub(super) enum Wish {
         what: Reference,
     },
     Sky(Vec<Sky>),
+    /// New things at even distances.
+    Row {
+        thing: NewThing,
+        line: Where,
+        spacing: Spacing,
+    },
+    /// Closes streets, or opens them.
+    Passage {
+        which: Vec<StreetRef>,
+        passage: Passage,
+    },
+    /// Only if there is such a thing or, with `false`, if there is none.
+    Given {
+        what: Reference,
+        there: bool,
+        then: Box<Self>,
+    },
+}
+
+/// A street that is spoken of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum StreetRef {
+    /// By its name; between two that cross it, if they are named.
+    Named { roads: Vec<RoadId>, between: Option<[Vec<RoadId>; 2]> },
+    /// By how it runs to a thing.
+    To(Relation, Reference),
+    /// All around a thing.
+    Around(Reference),
+    /// The nearest to who looks at the scene.
+    Nearest,
+    /// What was spoken of last.
+    It,
+    /// Whatever is closed.
+    Closed,
+    /// A name that no street bears.
+    Unknown(String),
 }
 
 /// A thing that is to be made, in the words that name it.
@@ -102,6 +141,23 @@ pub(super) enum Where {
     Corner(Anchor),
     Compass(Compass, Anchor),
     At(Point2),
+    /// Beside a thing, or in an area.
+    By(Anchor),
+    /// Near, and all around if there are many.
+    Around(Anchor),
+    /// On both sides of a street.
+    BothSides(Anchor),
+    /// A gap of so much, m, in a direction.
+    Offset(f64, Bearing, Anchor),
+    /// A gap within these, m, in any direction.
+    Apart(f64, f64, Anchor),
+    Block(Anchor),
+    Middle(Anchor),
+    Edge(Anchor),
+    /// Where two streets meet.
+    Junction(Vec<RoadId>, Vec<RoadId>, String),
+    /// So far from where it is now as it is turned, m forward and to the left.
+    ShiftOwn(f64, f64),
     /// So far from where it is now, m east and north.
     Shift(f64, f64),
     Here,
@@ -110,12 +166,21 @@ pub(super) enum Where {
     Anywhere,
 }
 
+/// A direction from a thing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Bearing {
+    /// By the compass.
+    Compass(Compass),
+    /// By the thing's own front: before it, behind it, to its left, to its right.
+    Side(Relation),
+}
+
 /// What something is to stand to.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Anchor {
     Thing(Reference),
     /// A street by its name.
-    Street(String),
+    Street(String, Vec<RoadId>),
     /// Itself.
     Itself,
     /// What was spoken of last.
@@ -133,8 +198,22 @@ impl Where {
             | Self::Across(anchor)
             | Self::Along(anchor)
             | Self::Corner(anchor)
+            | Self::By(anchor)
+            | Self::Around(anchor)
+            | Self::BothSides(anchor)
+            | Self::Offset(_, _, anchor)
+            | Self::Apart(_, _, anchor)
+            | Self::Block(anchor)
+            | Self::Middle(anchor)
+            | Self::Edge(anchor)
             | Self::Compass(_, anchor) => anchor,
-            Self::At(_) | Self::Shift(..) | Self::Here | Self::There | Self::Anywhere => return,
+            Self::At(_)
+            | Self::Shift(..)
+            | Self::ShiftOwn(..)
+            | Self::Junction(..)
+            | Self::Here
+            | Self::There
+            | Self::Anywhere => return,
         };
         let is_it = match anchor {
             Anchor::It => true,

@@ -24,6 +24,10 @@ pub(super) enum Verb {
     Describe,
     /// To change somehow: "make it red", "make the tree bigger", "make it rain".
     Make,
+    /// Streets, to traffic.
+    Close,
+    /// Streets, to traffic.
+    Open,
     /// To take something up, and then put it somewhere.
     Take,
 }
@@ -45,7 +49,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
     (&["put", "place", "set", "set up", "drop", "park", "stick", "position", "leave", "lay", "put down", "stand",
         "locate", "set down", "plop", "pop", "throw", "chuck", "plonk", "deploy", "arrange", "situate", "dump",
         "slap", "plunk", "mount", "line up", "scatter", "squeeze", "fit", "wedge", "cram", "tuck",
-        "squash"], Verb::Put),
+        "squash", "string", "space", "spread", "sprinkle", "hang", "form", "make me a"], Verb::Put),
     (&["remove", "delete", "erase", "get rid of", "take away", "destroy", "clear away", "clear", "take out",
         "demolish", "dispose of", "eliminate", "tear down", "yeet", "kill", "lose", "scrap", "knock down", "bin",
         "ditch", "we dont need", "i dont need", "we do not need", "i do not need", "i dont want", "we dont want",
@@ -54,6 +58,8 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
         "strip out", "pull down", "zap", "nuke", "banish", "vanish"], Verb::Remove),
     (&["replace", "substitute"], Verb::Replace),
     (&["rotate", "turn", "spin", "swivel", "orient", "orientate", "face", "aim", "point", "twist"], Verb::Turn),
+    (CLOSING, Verb::Close),
+    (OPENING, Verb::Open),
     (&["swap", "exchange", "switch", "trade", "interchange", "swap over", "swap around"], Verb::Swap),
     (&["paint", "repaint", "recolour", "recolor", "colour", "color", "dye", "change the colour of",
         "change the color of", "tint", "set the colour of", "set the color of", "respray", "spray", "spray paint",
@@ -62,7 +68,9 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
         "supersize"], Verb::Grow),
     (&["shrink", "scale down", "reduce", "reduce the size of", "downscale", "decrease the size of"], Verb::Shrink),
     (&["double", "triple", "halve", "double the size of", "triple the size of", "halve the size of",
-        "double the number of"], Verb::Double),
+        "double the number of", "triple the number of", "twice as many", "there should be twice as many",
+        "there ought to be twice as many", "there must be twice as many", "i want twice as many",
+        "we need twice as many", "double the amount of", "double the count of"], Verb::Double),
     (&["copy", "duplicate", "clone", "make a copy of", "replicate", "make another copy of", "make copies of",
         "copy paste", "make a duplicate of", "make a clone of", "make another"], Verb::Copy),
     (&["rename", "call", "name", "label", "christen", "title"], Verb::Name),
@@ -88,6 +96,12 @@ pub(super) enum Way {
     Between,
     Across,
     Along,
+    /// On both sides of a street.
+    Both,
+    Around,
+    Middle,
+    Edge,
+    Block,
     Corner,
     /// "At the bench" is beside it, "at (3, 4)" just there.
     At,
@@ -107,9 +121,10 @@ pub(super) const WAYS: &[(&[&str], Way)] = &[
         "just by", "adjacent to", "at the side of", "alongside", "directly next to", "touching", "by the side of",
         "to the side of", "against", "immediately next to", "close beside", "directly beside", "flanking",
         "bordering"], Way::To(Relation::NextTo)),
-    (&["near", "near to", "close to", "not far from", "in the vicinity of", "close by", "around", "in proximity of",
+    (&["around", "round", "all around", "in a circle around", "in a ring around", "all round"], Way::Around),
+    (&["near", "near to", "close to", "not far from", "in the vicinity of", "close by", "in proximity of",
         "in proximity to", "nearby", "somewhere near", "somewhere around", "in the neighbourhood of",
-        "in the neighborhood of", "not too far from", "somewhere close to", "within reach of", "round",
+        "in the neighborhood of", "not too far from", "somewhere close to", "within reach of",
         "in the area of", "in the proximity of", "a short walk from", "quite near", "pretty close to", "very near",
         "very close to", "near by", "nearer to", "closer to", "in close proximity to"], Way::To(Relation::Near)),
     (&["far from", "far away from", "away from", "a long way from", "nowhere near", "at a distance from",
@@ -130,7 +145,15 @@ pub(super) const WAYS: &[(&[&str], Way)] = &[
         "just right of", "on right side of", "on right of"], Way::To(Relation::RightOf)),
     (&["on top of", "onto", "atop", "upon", "on the top of", "over", "above", "on the roof of", "up on",
         "on to"], Way::To(Relation::OnTopOf)),
-    (&["inside", "inside of", "within", "into", "in the middle of", "in the inside of",
+    (&["in the middle of", "in the centre of", "in the center of", "at the centre of", "at the center of", "in the heart of",
+        "right in the middle of", "into the middle of"], Way::Middle),
+    (&["at the edge of", "on the edge of", "along the edge of", "at the border of", "on the rim of"], Way::Edge),
+    (&["on the same block as", "in the same block as", "on the block of", "in the block of", "in the block around",
+        "on the block around", "within the block of", "on the block where"], Way::Block),
+    (&["on both sides of", "along both sides of", "on each side of", "on either side of", "at both sides of",
+        "to both sides of"], Way::Both),
+    (&["all over", "throughout", "across", "all across", "over the whole of"], Way::In),
+    (&["inside", "inside of", "within", "into", "in the inside of",
         "in the interior of"], Way::To(Relation::Inside)),
     (&["between", "in between", "halfway between", "midway between", "in the middle between", "right between",
         "somewhere between", "in the gap between", "half way between", "in the space between", "inbetween",
@@ -141,7 +164,8 @@ pub(super) const WAYS: &[(&[&str], Way)] = &[
         "on the opposite side of the street from", "on the opposite side of the road from", "facing", "vis a vis",
         "across of", "just across from"], Way::Across),
     (&["along", "lining", "along the side of", "all along", "along the length of", "down the length of",
-        "in a row along", "in a line along", "lined up along"], Way::Along),
+        "in a row along", "in a line along", "lined up along", "down", "up and down", "following",
+        "on the side of", "along the edge and side of"], Way::Along),
     (&["at the corner of", "on the corner of", "at a corner of", "at one corner of", "by the corner of",
         "near the corner of", "in the corner of", "next to the corner of", "on a corner of",
         "at one of the corners of", "at corner of", "on one corner of", "right at the corner of",
@@ -198,6 +222,19 @@ pub(super) const SIZES: &[(&[&str], f64)] = &[
     (&["tiny", "miniature"], 0.5),
 ];
 
+/// To close streets.
+#[rustfmt::skip]
+pub(super) const CLOSING: &[&str] = &["close", "close down", "close off", "shut", "shut down", "shut off", "block",
+    "block off", "bar", "barricade", "cordon off", "seal off", "pedestrianise", "pedestrianize", "ban traffic from",
+    "ban cars from", "bar traffic from", "bar cars from", "keep traffic out of", "keep cars out of",
+    "keep cars off", "keep traffic off", "stop traffic on", "stop the traffic on", "stop cars on"];
+
+/// To open streets.
+#[rustfmt::skip]
+pub(super) const OPENING: &[&str] = &["open", "reopen", "re open", "open up", "unblock", "unbar", "unseal", "unclose",
+    "let traffic back onto", "let the traffic back onto", "let cars back onto", "let the cars back onto",
+    "let traffic onto", "let cars onto", "allow traffic on", "allow cars on", "clear for traffic", "open up again"];
+
 /// How a thing is to change in size, with the factor.
 #[rustfmt::skip]
 pub(super) const FACTORS: &[(&[&str], f64)] = &[
@@ -239,17 +276,20 @@ pub(super) enum Sky {
     NoFog,
     Hour(f64),
     Windy(f64),
+    /// Air temperature, °C.
+    Warmth(f64),
 }
 
 #[rustfmt::skip]
 pub(super) const SKIES: &[(&[&str], Sky)] = &[
     (&["rain", "rainy", "raining", "wet", "rains", "rain weather", "shower", "showers", "drizzle", "drizzly",
         "drizzling"], Sky::Rain(4.0)),
-    (&["light rain", "drizzle", "a little rain", "a bit of rain", "lightly raining"], Sky::Rain(2.0)),
+    (&["light rain", "drizzle", "a little rain", "a bit of rain", "lightly raining", "rain lightly", "some rain",
+        "rain a little"], Sky::Rain(2.0)),
     (&["heavy rain", "pour", "pouring", "downpour", "rain heavily", "pour with rain", "heavily raining", "storm",
-        "stormy", "rainstorm", "rain hard", "thunderstorm", "rain cats and dogs"], Sky::Rain(20.0)),
+        "stormy", "rainstorm", "rain hard", "thunderstorm", "a lot of rain", "rain cats and dogs"], Sky::Rain(20.0)),
     (&["snow", "snowy", "snowing", "snowfall", "snows", "snow weather"], Sky::Snow(3.0)),
-    (&["light snow", "a little snow"], Sky::Snow(1.0)),
+    (&["light snow", "a little snow", "snow lightly", "snow a little", "some snow"], Sky::Snow(1.0)),
     (&["heavy snow", "blizzard", "snowstorm", "snow heavily", "heavily snowing"], Sky::Snow(10.0)),
     (&["fog", "foggy", "mist", "misty", "hazy", "haze", "some fog"], Sky::Fog(200.0)),
     (&["thick fog", "dense fog", "heavy fog", "very foggy", "really foggy"], Sky::Fog(60.0)),
@@ -259,6 +299,13 @@ pub(super) const SKIES: &[(&[&str], Sky)] = &[
         "nice and sunny", "blue sky", "blue skies"], Sky::Clear),
     (&["cloudy", "overcast", "clouds", "grey sky", "gray sky", "clouded"], Sky::Cloudy),
     (&["windy", "wind", "breezy"], Sky::Windy(10.0)),
+    (&["winter", "wintry", "freezing", "icy", "frosty", "in winter", "winter time", "in the winter"], Sky::Warmth(-2.0)),
+    (&["cold", "chilly"], Sky::Warmth(2.0)),
+    (&["autumn", "autumnal", "in autumn", "in fall", "in the fall", "cool"], Sky::Warmth(9.0)),
+    (&["spring", "in spring", "springtime", "mild"], Sky::Warmth(13.0)),
+    (&["warm"], Sky::Warmth(22.0)),
+    (&["summer", "summery", "in summer", "in the summer"], Sky::Warmth(26.0)),
+    (&["hot", "very hot"], Sky::Warmth(32.0)),
     (&["dawn", "sunrise", "daybreak"], Sky::Hour(6.0)),
     (&["morning", "early morning", "breakfast time"], Sky::Hour(8.0)),
     (&["noon", "midday", "noontime", "lunchtime", "lunch time", "high noon", "day", "daytime", "day time",
@@ -290,6 +337,7 @@ pub(super) const SKY_NOISE: &[&str] = &["it", "its", "it is", "be", "a", "an", "
     "o clock", "that", "need", "we", "i", "so", "everything", "put", "weather to", "add", "will", "would", "could",
     "can", "you", "by", "whole", "one", "really", "nice", "after", "would like", "more", "campus", "harbour",
     "town", "just", "mode", "can you", "atmosphere", "mood", "environment", "lighting", "light", "hour", "for",
+    "supposed", "let it be", "supposed to be", "season", "months", "late", "early", "atmospheric", "quite",
     "then", "fall", "falling", "come", "coming", "down", "shall", "must"];
 
 /// Every single word here, so that none is taken for a misspelling.
@@ -299,6 +347,9 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
     let skies = SKIES.iter().chain(ENDINGS).flat_map(|(words, _)| *words);
     let sizes = SIZES.iter().chain(FACTORS).flat_map(|(words, _)| *words);
     let sides = ABOUT_IT.iter().flat_map(|(words, _)| *words);
+    let more = super::super::numbers::words_of_length()
+        .chain(super::super::whereabouts::words())
+        .chain(super::more_words());
     let phrases = verbs.chain(ways).chain(sides).chain(skies).chain(sizes).chain(HARMLESS).chain(SKY_NOISE);
-    phrases.flat_map(|phrase| phrase.split(' '))
+    phrases.flat_map(|phrase| phrase.split(' ')).chain(more)
 }

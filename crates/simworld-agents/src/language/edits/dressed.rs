@@ -1,0 +1,99 @@
+//! Wishes that name the place first and the things behind it: "surround the statue with six shrubs", "line River Walk with
+//! trees", "clear the square of benches".
+
+use simworld_core::scene::Relation;
+
+use super::super::clause::{Count, Reference, Stands};
+use super::super::lexicon::{longest, longest_phrase};
+use super::parse::Reader;
+use super::wish::{Anchor, Where, Wish};
+
+/// How things stand to a place that is dressed with them.
+#[derive(Clone, Copy)]
+enum Dress {
+    Along,
+    Around,
+    In,
+}
+
+#[rustfmt::skip]
+const DRESS: &[(&[&str], Dress)] = &[
+    (&["line", "edge", "flank", "border", "fringe", "line both sides of", "line the side of", "line the sides of"], Dress::Along),
+    (&["surround", "encircle", "ring", "circle", "enclose", "frame"], Dress::Around),
+    (&["fill", "furnish", "dot", "sprinkle", "equip", "populate", "decorate", "strew", "provide"], Dress::In),
+];
+/// What is to be rid of things.
+const CLEAR: &[&str] = &["clear", "rid", "empty", "free", "clean", "strip"];
+
+impl Reader<'_> {
+    /// "Surround the statue with six shrubs".
+    pub(super) fn dressed(&mut self, end: usize) -> Option<Wish> {
+        let start = self.at;
+        let wish = self.try_dressed(end);
+        self.at = start;
+        wish
+    }
+
+    fn try_dressed(&mut self, end: usize) -> Option<Wish> {
+        self.at += self.polite_at(self.at);
+        let (dress, words) = longest(self.rest(end), DRESS)?;
+        let from = self.at + words;
+        for cut in from + 1..end {
+            if longest_phrase(&self.lexemes[cut..end], &["with", "by", "using"]).is_none() {
+                continue;
+            }
+            self.at = from;
+            let Some(anchor) = self.anchor(cut).ok().filter(|_| self.at == cut) else { continue };
+            self.at = cut + 1;
+            let mut thing = self.new_thing(end).ok()?;
+            if self.before_politeness(self.at, end) > self.at {
+                continue;
+            }
+            let place = match dress {
+                Dress::Along => Where::Along(anchor),
+                Dress::Around => {
+                    // Less does not surround a thing.
+                    thing.count = if thing.count == 1 { 8 } else { thing.count };
+                    let spacing = crate::editing::Spacing::Count(thing.count);
+                    return Some(Wish::Row { thing, line: Where::Around(anchor), spacing });
+                }
+                Dress::In => Where::By(anchor),
+            };
+            return Some(Wish::Add { things: vec![thing], at: vec![place] });
+        }
+        None
+    }
+
+    /// "Clear the square of benches", "get the trees off Elm Street".
+    pub(super) fn cleared(&self, end: usize) -> Option<Wish> {
+        let start = self.at + self.polite_at(self.at);
+        let end = self.before_politeness(start, end);
+        let phrase = |at: usize, phrases: &[&str]| longest_phrase(&self.lexemes[at..end], phrases);
+        if let Some(words) = phrase(start, &["get", "take"])
+            && (start..end).any(|at| phrase(at, &["off", "out of"]).is_some())
+        {
+            let what = self.one_of(start + words, end).ok()?;
+            let is_there =
+                matches!(&what.relation, Some(Stands::OnStreet(_) | Stands::To(Relation::Inside, _)));
+            return is_there.then_some(Wish::Remove { what: vec![what] });
+        }
+        let from = start + phrase(start, CLEAR)?;
+        let cut = (from + 1..end).find(|at| phrase(*at, &["of all", "of", "from"]).is_some())?;
+        let mut reader = Reader { at: from, ..*self };
+        let place = reader.anchor(cut).ok().filter(|_| reader.at == cut)?;
+        let what = self.one_of(cut + phrase(cut, &["of all", "of", "from"])?, end).ok()?;
+        let relation = match place {
+            Anchor::Street(_, roads) => Stands::OnStreet(roads),
+            Anchor::Thing(area) => Stands::To(Relation::Inside, Box::new(area)),
+            _ => return None,
+        };
+        let what = Reference { relation: Some(relation), count: Count::All, ..what };
+        Some(Wish::Remove { what: vec![what] })
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    let dress = DRESS.iter().flat_map(|(words, _)| *words).copied();
+    dress.chain(CLEAR.iter().copied()).flat_map(|phrase| phrase.split(' '))
+}

@@ -1,0 +1,334 @@
+//! Rows, streets, areas and distances: what the words about them mean in the scene.
+
+use simworld_core::geometry::{Point2, direction, yaw_of};
+use simworld_core::id::{EntityId, IntersectionId, RoadId};
+use simworld_core::net::{LaneDirection, RoadNetwork, polyline};
+use simworld_core::passage::Passage;
+use simworld_core::scene::{EntityKind, Relation};
+
+use super::super::clause::{Choice, Count, Reference};
+use super::resolve::Finder;
+use super::wish::{Anchor, Bearing, NewThing, StreetRef, Where, Wish};
+use crate::editing::{Edit, EditError, Line, Sides, Spacing, Stand};
+
+/// So many of a kind along something stand in a row.
+const ROW: u32 = 3;
+/// So many around something stand in a circle, if it is no wider than this, m.
+const RING: (u32, f64) = (4, 8.0);
+/// A street farther than this from a thing is not before, behind or beside it, m.
+const STREET: f64 = 80.0;
+/// The streets around a thing are those within, m.
+const BLOCK: f64 = 250.0;
+/// The farthest that a distance from a thing may be, m.
+const FAR: f64 = 500.0;
+
+impl Finder<'_> {
+    // ---- rows ----
+
+    /// Several things along something are a row.
+    pub(super) fn lined_up(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Edit>, EditError> {
+        let ([thing], [line]) = (things, at) else { return Ok(None) };
+        let is_row = match line {
+            Where::Along(_) | Where::BothSides(_) | Where::Between(..) => thing.count >= ROW,
+            Where::Around(anchor @ Anchor::Thing(_)) => {
+                let anchor = self.anchor(anchor, &[])?;
+                let size = self
+                    .scene
+                    .entity(anchor)
+                    .map_or(f64::INFINITY, |entity| entity.info.shape.size().xy().max());
+                thing.count >= RING.0 && size <= RING.1
+            }
+            _ => false,
+        };
+        if is_row { self.row(thing, line, Spacing::Count(thing.count)).map(Some) } else { Ok(None) }
+    }
+
+    pub(super) fn row(&self, thing: &NewThing, line: &Where, spacing: Spacing) -> Result<Edit, EditError> {
+        let line = match line {
+            Where::Along(Anchor::Street(_, roads)) => {
+                Line::Road { roads: roads.clone(), sides: Sides::Either }
+            }
+            Where::BothSides(Anchor::Street(_, roads)) => {
+                Line::Road { roads: roads.clone(), sides: Sides::Both }
+            }
+            Where::Along(anchor) | Where::BothSides(anchor) => {
+                Line::Along { anchor: self.anchor(anchor, &[])? }
+            }
+            Where::Between(one, other) => {
+                Line::Between { one: self.anchor(one, &[])?, other: self.anchor(other, &[])? }
+            }
+            Where::Around(anchor) => Line::Around { anchor: self.anchor(anchor, &[])? },
+            _ => {
+                let what = "a row there".to_owned();
+                return Err(EditError::Impossible {
+                    what,
+                    why: "say along or around what, or between what".to_owned(),
+                });
+            }
+        };
+        Ok(Edit::Row { make: thing.make(self.catalogue)?, line, spacing })
+    }
+
+    // ---- conditions ----
+
+    pub(super) fn given(&self, what: &Reference, there: bool, then: &Wish) -> Result<Vec<Edit>, EditError> {
+        let all = Reference { count: Count::All, ..what.clone() };
+        let found = match self.candidates(&all) {
+            Ok(found) => found,
+            Err(EditError::NotFound { .. }) => Vec::new(),
+            Err(error) => return Err(error),
+        };
+        if found.is_empty() == there {
+            let why = match found.first().and_then(|thing| self.scene.entity(*thing)) {
+                Some(entity) => format!("nothing was changed: there is {} ({})", entity.label(), entity.id),
+                None => format!("nothing was changed: there is no {}", what.text),
+            };
+            return Ok(vec![Edit::Leave { why }]);
+        }
+        let focus = super::Focus { it: found.first().copied().or(self.focus.it), ..self.focus.clone() };
+        let view = super::view_of(self.scene, &focus);
+        Finder { scene: self.scene, catalogue: self.catalogue, focus: &focus, view }.edits(then)
+    }
+
+    /// Every second, third ... of all that fit, in the order in which they stand.
+    pub(super) fn every_nth(&self, reference: &Reference, nth: u32) -> Result<Vec<EntityId>, EditError> {
+        let mut all = self.candidates(&Reference { choice: Choice::Open, ..reference.clone() })?;
+        let place = |id: &EntityId| self.scene.entity(*id).map_or(Point2::origin(), |entity| entity.planar());
+        let spread = |pick: fn(&Point2) -> f64| {
+            let values = || all.iter().map(|id| pick(&place(id)));
+            values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+        };
+        let is_wide = spread(|at| at.x) >= spread(|at| at.y);
+        all.sort_by(|a, b| {
+            let (a, b) = (place(a), place(b));
+            if is_wide {
+                a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+            } else {
+                a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x))
+            }
+        });
+        let step = nth.max(1) as usize;
+        let chosen: Vec<EntityId> = all.into_iter().skip(step - 1).step_by(step).collect();
+        if chosen.is_empty() {
+            let near = format!("there are fewer than {nth}");
+            return Err(EditError::NotFound { wanted: reference.text.clone(), near });
+        }
+        Ok(chosen)
+    }
+
+    // ---- places ----
+
+    /// A place that has to do with the ground, or with a distance.
+    pub(super) fn stand_on_ground(&self, place: &Where, moved: &[EntityId]) -> Result<Stand, EditError> {
+        if let Where::By(Anchor::Street(_, roads))
+        | Where::Around(Anchor::Street(_, roads))
+        | Where::Edge(Anchor::Street(_, roads)) = place
+        {
+            return Ok(Stand::AlongRoad { roads: roads.clone() });
+        }
+        Ok(match place {
+            Where::By(anchor) => {
+                let anchor = self.anchor(anchor, moved)?;
+                let relation = if self.is_ground(anchor) { Relation::Inside } else { Relation::NextTo };
+                self.to(relation, anchor)?
+            }
+            Where::Around(anchor) => self.to(Relation::Near, self.anchor(anchor, moved)?)?,
+            Where::Middle(anchor) => {
+                let anchor = self.anchor(anchor, moved)?;
+                if !self.is_ground(anchor) {
+                    return self.to(Relation::Inside, anchor);
+                }
+                Stand::InMiddleOf { anchor }
+            }
+            Where::Edge(anchor) => Stand::AtEdgeOf { anchor: self.anchor(anchor, moved)? },
+            Where::Block(anchor) => Stand::OnBlockOf { anchor: self.anchor(anchor, moved)? },
+            Where::Offset(distance, bearing, anchor) => {
+                let anchor = self.anchor(anchor, moved)?;
+                check_distance(*distance)?;
+                Stand::Offset { anchor, heading: self.heading(*bearing, anchor), distance: *distance }
+            }
+            Where::Apart(least, most, anchor) => {
+                let anchor = self.anchor(anchor, moved)?;
+                check_distance(*least)?;
+                Stand::Apart { anchor, least: *least, most: *most }
+            }
+            Where::Junction(one, other, named) => {
+                Stand::AtJunction { junction: self.junction(one, other, named)? }
+            }
+            _ => {
+                let what = "to stand there".to_owned();
+                return Err(EditError::Impossible { what, why: "name a thing or a place".to_owned() });
+            }
+        })
+    }
+
+    fn is_ground(&self, thing: EntityId) -> bool {
+        self.scene.entity(thing).is_some_and(|entity| entity.kind == EntityKind::Ground)
+    }
+
+    /// Radians from east.
+    fn heading(&self, bearing: Bearing, anchor: EntityId) -> f64 {
+        let yaw = self.scene.entity(anchor).map_or(0.0, |entity| yaw_of(entity.pose));
+        let turn = match bearing {
+            Bearing::Compass(compass) => return compass.heading(),
+            Bearing::Side(Relation::LeftOf) => std::f64::consts::FRAC_PI_2,
+            Bearing::Side(Relation::Behind) => std::f64::consts::PI,
+            Bearing::Side(Relation::RightOf) => -std::f64::consts::FRAC_PI_2,
+            Bearing::Side(_) => 0.0,
+        };
+        simworld_core::ops::wrap_angle(yaw + turn)
+    }
+
+    /// Where two streets meet; of several places the nearest to the viewpoint.
+    fn junction(&self, one: &[RoadId], other: &[RoadId], named: &str) -> Result<IntersectionId, EditError> {
+        let missing = || {
+            let near = "they do not meet".to_owned();
+            EditError::NotFound { wanted: format!("corner of {named}"), near }
+        };
+        let network = self.scene.roads().ok_or_else(missing)?;
+        let meets = |place: &IntersectionId| ends(network, other).any(|end| end == *place);
+        let distance = |place: &IntersectionId| {
+            let center =
+                network.intersections.get(place.index()).map_or(Point2::origin(), |place| place.center);
+            (center - self.focus.from).norm()
+        };
+        let found = ends(network, one)
+            .filter(meets)
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
+        found.ok_or_else(missing)
+    }
+
+    // ---- streets ----
+
+    pub(super) fn passage(&self, which: &[StreetRef], passage: Passage) -> Result<Edit, EditError> {
+        let mut roads = Vec::new();
+        for street in which {
+            roads.extend(self.roads_of(street)?);
+        }
+        roads.sort_unstable();
+        roads.dedup();
+        Ok(Edit::SetPassage { roads, passage })
+    }
+
+    fn roads_of(&self, street: &StreetRef) -> Result<Vec<RoadId>, EditError> {
+        let missing = |wanted: &str, near: &str| {
+            Err(EditError::NotFound { wanted: wanted.to_owned(), near: near.to_owned() })
+        };
+        let Some(network) = self.scene.roads() else { return missing("street", "this scene has none") };
+        match street {
+            StreetRef::Named { roads, between: None } => Ok(roads.clone()),
+            StreetRef::Named { roads, between: Some([one, other]) } => {
+                let (one, other) =
+                    (self.junction(roads, one, "these")?, self.junction(roads, other, "these")?);
+                let [from, to] = [one, other].map(|place| network.intersections[place.index()].center);
+                let lies = |road: &RoadId| {
+                    let line = &network.roads[road.index()].centerline;
+                    let (middle, _) = polyline::at(line, polyline::length(line) * 0.5);
+                    let along = to - from;
+                    (0.0..=along.norm_squared()).contains(&(middle - from).dot(&along))
+                };
+                Ok(roads.iter().copied().filter(lies).collect())
+            }
+            StreetRef::To(relation, thing) => {
+                self.road_beside(network, *relation, self.one(thing)?, &thing.text)
+            }
+            StreetRef::Around(thing) => self.roads_around(network, self.one(thing)?, &thing.text),
+            StreetRef::Nearest => match nearest_road(network, self.focus.from, &|_| true) {
+                Some(road) => Ok(vec![road]),
+                None => missing("street", "there is none nearby"),
+            },
+            StreetRef::It if self.focus.roads.is_empty() => missing("street that is meant", "name it"),
+            StreetRef::It => Ok(self.focus.roads.clone()),
+            StreetRef::Closed => {
+                let ids = (0..network.roads.len()).map(RoadId::from_index);
+                let closed = |road: &RoadId| {
+                    [LaneDirection::Forward, LaneDirection::Backward]
+                        .iter()
+                        .any(|way| self.scene.is_closed((*road, *way)))
+                };
+                let closed: Vec<RoadId> = ids.filter(closed).collect();
+                if closed.is_empty() { missing("closed street", "all of them are open") } else { Ok(closed) }
+            }
+            StreetRef::Unknown(name) => missing(name, "no street has that name"),
+        }
+    }
+
+    /// The nearest street on that side of a thing.
+    fn road_beside(
+        &self,
+        network: &RoadNetwork,
+        relation: Relation,
+        thing: EntityId,
+        text: &str,
+    ) -> Result<Vec<RoadId>, EditError> {
+        let missing = || EditError::NotFound {
+            wanted: format!("street {} {text}", Stand::To { relation, anchor: thing }.told(self.scene)),
+            near: format!("none lies there within {STREET} m"),
+        };
+        let anchor = self.scene.entity(thing).ok_or_else(missing)?;
+        let ahead = direction(self.heading(Bearing::Side(relation), thing));
+        let has_side =
+            matches!(relation, Relation::InFrontOf | Relation::Behind | Relation::LeftOf | Relation::RightOf);
+        let on_side = |foot: Point2| {
+            let way = foot - anchor.planar();
+            // As much ahead as aside.
+            !has_side || way.dot(&ahead) * std::f64::consts::SQRT_2 >= way.norm()
+        };
+        nearest_road(network, anchor.planar(), &on_side).map(|road| vec![road]).ok_or_else(missing)
+    }
+
+    /// The first street in each of the four directions from a thing.
+    fn roads_around(
+        &self,
+        network: &RoadNetwork,
+        thing: EntityId,
+        text: &str,
+    ) -> Result<Vec<RoadId>, EditError> {
+        let missing = || EditError::NotFound {
+            wanted: format!("street around {text}"),
+            near: "there is none".to_owned(),
+        };
+        let from = self.scene.entity(thing).ok_or_else(missing)?.planar();
+        let first = |turn: u32| {
+            let to = from + direction(f64::from(turn) * std::f64::consts::FRAC_PI_2) * BLOCK;
+            let crossed = network.roads.iter().enumerate().flat_map(|(index, road)| {
+                let pieces = road.centerline.windows(2);
+                pieces
+                    .filter_map(move |piece| Some((polyline::crossing(from, to, piece[0], piece[1])?, index)))
+            });
+            let nearest = crossed.min_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.1.cmp(&b.1)));
+            nearest.map(|(_, index)| RoadId::from_index(index))
+        };
+        let found: Vec<RoadId> = (0..4).filter_map(first).collect();
+        if found.is_empty() { Err(missing()) } else { Ok(found) }
+    }
+}
+
+/// The junctions at which some roads end.
+fn ends<'a>(network: &'a RoadNetwork, roads: &'a [RoadId]) -> impl Iterator<Item = IntersectionId> + 'a {
+    roads.iter().filter_map(|road| network.roads.get(road.index())).flat_map(|road| [road.from, road.to])
+}
+
+/// The road nearest to a point whose nearest point passes a test, within a street's reach.
+fn nearest_road(network: &RoadNetwork, point: Point2, fits: &dyn Fn(Point2) -> bool) -> Option<RoadId> {
+    let mut best: Option<(f64, usize)> = None;
+    for (index, road) in network.roads.iter().enumerate() {
+        let far = road.centerline.iter().all(|at| (at.x - point.x).abs().min((at.y - point.y).abs()) > BLOCK);
+        let Some(near) = (if far { None } else { polyline::closest(&road.centerline, &point) }) else {
+            continue;
+        };
+        let (foot, _) = polyline::at(&road.centerline, near.station);
+        if near.distance <= STREET && best.is_none_or(|(least, _)| near.distance < least) && fits(foot) {
+            best = Some((near.distance, index));
+        }
+    }
+    best.map(|(_, index)| RoadId::from_index(index))
+}
+
+fn check_distance(distance: f64) -> Result<(), EditError> {
+    if distance <= FAR {
+        return Ok(());
+    }
+    let what = format!("a place {distance:.0} m off");
+    Err(EditError::Impossible { what, why: format!("name a thing within {FAR:.0} m of it") })
+}

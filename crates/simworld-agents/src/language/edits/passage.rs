@@ -1,0 +1,194 @@
+//! Closing and opening streets: "close the road in front of the museum", "nobody should be able to drive down Station Road",
+//! "Mill Lane should be open again".
+
+use simworld_core::passage::Passage;
+use simworld_core::scene::Relation;
+
+use super::super::lexer::Token;
+use super::super::lexicon::{longest, longest_phrase};
+use super::parse::{Reader, joint};
+use super::wish::{Anchor, StreetRef, Wish};
+use super::words::{CLOSING, OPENING, WAYS, Way};
+
+/// That a street is closed, or to be.
+#[rustfmt::skip]
+const CLOSED: &[&str] = &["closed", "blocked", "shut", "barred", "sealed off", "car free", "carfree", "free of cars",
+    "free of traffic", "traffic free", "off limits", "no more cars", "no cars", "no traffic", "no more traffic",
+    "no vehicles", "no car", "nobody should be able to drive", "nobody may drive", "nobody drives", "no one may drive",
+    "nobody should drive", "cars should not drive", "cars must not drive", "cars may not use", "cars cannot use",
+    "without cars", "without traffic", "pedestrians only", "impassable", "nobody is to drive", "no cars allowed"];
+/// That a street is open, or to be.
+#[rustfmt::skip]
+const OPEN: &[&str] = &["open", "reopened", "opened", "unblocked", "passable", "back in use", "traffic may use",
+    "cars may use", "traffic can use", "cars can use", "traffic is allowed", "cars are allowed", "cars may drive",
+    "let the cars back", "let cars back", "let traffic back", "let the traffic back", "cars can drive",
+    "traffic may return", "cars may return", "opened up"];
+/// What says nothing more.
+#[rustfmt::skip]
+const NOISE: &[&str] = &["to", "traffic", "for", "on", "onto", "from", "again", "please", "is", "be", "should be", "must be",
+    "should", "must", "down", "make", "now", "let", "cars", "all", "up", "and", "the", "of", "to traffic", "to all traffic",
+    "to cars", "for traffic", "for cars", "has to be", "needs to be", "shall be", "i want", "we want", "to be", "allowed",
+    "vehicles", "along", "in", "any more", "anymore", "any longer", "completely", "entirely", "off", "can you", "could you",
+    "would you", "id like", "i would like", "lets", "let us", "there should be", "there must be", "there shall be", "both ways",
+    "through", "temporarily", "just", "are", "have", "into", "get", "it is", "time", "its time to", "keep", "declare",
+    "every car", "at once", "immediately", "right away", "stretch", "today", "will be", "so that", "ought to be"];
+
+/// Which way a sentence goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Key {
+    Says(Passage),
+    Nothing,
+}
+
+impl Reader<'_> {
+    /// A wish about streets alone, if every word up to the end is about it.
+    pub(super) fn passage(&self, end: usize) -> Option<Wish> {
+        let end = self.before_politeness(self.at, end);
+        for cut in self.at..end {
+            let Some((first, mut at)) = self.street_ref(cut, end) else { continue };
+            let mut which = vec![first];
+            while let Some(words) = at.checked_sub(0).and_then(|at| joint(&self.lexemes[at..end]))
+                && let Some((next, after)) = self.street_ref(at + words, end)
+            {
+                which.push(next);
+                at = after;
+            }
+            let (before, behind) = (self.keys(self.at, cut)?, self.keys(at, end));
+            let Some(behind) = behind else { continue };
+            match (before, behind) {
+                (Key::Says(one), Key::Says(other)) if one != other => {}
+                (Key::Says(passage), _) | (Key::Nothing, Key::Says(passage)) => {
+                    return Some(Wish::Passage { which, passage });
+                }
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// What the words say about streets; `None` if a word is about something else.
+    fn keys(&self, start: usize, end: usize) -> Option<Key> {
+        let (mut at, mut key) = (start, Key::Nothing);
+        while at < end {
+            let rest = &self.lexemes[at..end];
+            if matches!(rest[0].token, Token::Comma | Token::Break) {
+                at += 1;
+                continue;
+            }
+            let long = |phrases: &[&str]| longest_phrase(rest, phrases).unwrap_or(0);
+            let (closes, opens) = (long(CLOSING).max(long(CLOSED)), long(OPENING).max(long(OPEN)));
+            let noise = long(NOISE).max(self.polite_at(at).min(end - at));
+            let most = closes.max(opens).max(noise);
+            if most == 0 {
+                return None;
+            }
+            if most > noise || noise == closes || noise == opens {
+                let passage = if closes >= opens { Passage::Closed } else { Passage::Open };
+                if key != Key::Nothing && key != Key::Says(passage) {
+                    return None;
+                }
+                key = Key::Says(passage);
+            }
+            at += most;
+        }
+        Some(key)
+    }
+
+    /// A street that is named or described from here on, and where that ends.
+    fn street_ref(&self, at: usize, end: usize) -> Option<(StreetRef, usize)> {
+        let streets = self.view.streets?;
+        let skip = longest_phrase(&self.lexemes[at..end], &["the", "all of", "the whole of", "the whole"])
+            .unwrap_or(0);
+        if let Some(street) = streets.at(&self.lexemes[at + skip..end]) {
+            let after = at + skip + street.words;
+            let (between, after) = self.crossing_streets(after, end);
+            return Some((StreetRef::Named { roads: street.roads.to_vec(), between }, after));
+        }
+        self.described_street(at, end).or_else(|| self.unknown_street(at, end))
+    }
+
+    /// "Between Harbour Road and Station Road".
+    fn crossing_streets(
+        &self,
+        at: usize,
+        end: usize,
+    ) -> (Option<[Vec<simworld_core::id::RoadId>; 2]>, usize) {
+        let found = || {
+            let streets = self.view.streets?;
+            let from = at + longest_phrase(&self.lexemes[at..end], &["between", "from"])?;
+            let one = streets.in_short(&self.lexemes[from..end])?;
+            let mut next = from + one.words;
+            next += longest_phrase(&self.lexemes[next..end], &["and", "to", "up to"])?;
+            let other = streets.in_short(&self.lexemes[next..end])?;
+            Some(([one.roads.to_vec(), other.roads.to_vec()], next + other.words))
+        };
+        found().map_or((None, at), |(both, after)| (Some(both), after))
+    }
+
+    /// "The road in front of the museum", "the nearest street", "all the roads around the museum", "it".
+    fn described_street(&self, start: usize, end: usize) -> Option<(StreetRef, usize)> {
+        #[rustfmt::skip]
+        const BEFORE: &[&str] = &["the", "that", "this", "all the", "all", "every", "all of the", "any", "whatever", "a"];
+        const STREETS: &[&str] = &["road", "street", "roads", "streets", "lane", "lanes", "carriageway"];
+        #[rustfmt::skip]
+        const RUNS: &[&str] = &["that runs", "which runs", "running", "that is", "that goes", "that passes", "which is", "that leads",
+            "right", "directly", "just", "that are", "which are", "passing", "going"];
+        let phrase = |at: usize, phrases: &[&str]| longest_phrase(&self.lexemes[at.min(end)..end], phrases);
+        let is_it = |words: usize| start + words == end || joint(&self.lexemes[start + words..end]).is_some();
+        if let Some(words) = phrase(start, &["it", "them", "that one", "that street", "that road"])
+            .filter(|words| is_it(*words))
+        {
+            return Some((StreetRef::It, start + words));
+        }
+        let mut at = start + phrase(start, BEFORE).unwrap_or(0);
+        let nearest = phrase(at, &["nearest", "closest", "nearby"]);
+        let closed = phrase(at, &["closed", "blocked", "shut"]);
+        at += nearest.or(closed).unwrap_or(0);
+        at += phrase(at, STREETS)?;
+        if nearest.is_some() {
+            at += phrase(at, &["to me", "here", "from here", "to here"]).unwrap_or(0);
+            return Some((StreetRef::Nearest, at));
+        }
+        if closed.is_some() {
+            return Some((StreetRef::Closed, at));
+        }
+        at += phrase(at, RUNS).unwrap_or(0);
+        let (way, words) = longest(&self.lexemes[at.min(end)..end], WAYS)
+            .or(phrase(at, &["past"]).map(|words| (Way::At, words)))?;
+        let mut reader = Reader { at: at + words, ..*self };
+        let Ok(Anchor::Thing(thing)) = reader.anchor(end) else { return None };
+        let street = match way {
+            Way::To(relation) => StreetRef::To(relation, thing),
+            Way::Around => StreetRef::Around(thing),
+            Way::At | Way::Along | Way::On | Way::Edge => StreetRef::To(Relation::NextTo, thing),
+            _ => return None,
+        };
+        Some((street, reader.at))
+    }
+
+    /// "Pine Street", which is not here; or a thing that is no street.
+    fn unknown_street(&self, start: usize, end: usize) -> Option<(StreetRef, usize)> {
+        #[rustfmt::skip]
+        const KINDS: &[&str] = &["street", "road", "lane", "avenue", "walk", "boulevard", "alley", "drive", "way", "st", "rd", "ave"];
+        let is_name = |at: usize| {
+            self.word(at).is_some_and(|word| {
+                longest_phrase(&self.lexemes[at..=at], NOISE).is_none() && !KINDS.contains(&word)
+            })
+        };
+        if !is_name(start)
+            || longest_phrase(&self.lexemes[start..end], CLOSING)
+                .or(longest_phrase(&self.lexemes[start..end], OPENING))
+                .is_some()
+        {
+            return None;
+        }
+        let last = (start + 1..end.min(start + 4))
+            .find(|at| self.word(*at).is_some_and(|word| KINDS.contains(&word)))?;
+        (start..last).all(is_name).then(|| (StreetRef::Unknown(self.written(start, last + 1)), last + 1))
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    CLOSING.iter().chain(OPENING).chain(CLOSED).chain(OPEN).flat_map(|phrase| phrase.split(' '))
+}

@@ -1,0 +1,180 @@
+//! Rows: "a bench every twenty metres along Oak Street", "a ring of twelve cones around the fountain".
+
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::longest_phrase;
+use super::super::numbers;
+use super::parse::Reader;
+use super::wish::{Anchor, NewThing, Where, Wish};
+use crate::editing::Spacing;
+
+/// Before a distance.
+#[rustfmt::skip]
+const EVERY: &[&str] = &["every", "each", "one every", "one each", "at intervals of", "at an interval of", "in intervals of",
+    "with intervals of", "with a gap of", "with gaps of", "with a spacing of", "with a distance of", "at a spacing of",
+    "at distances of", "spaced every", "and one every", "with one every", "placed every", "spaced"];
+/// Behind a distance.
+#[rustfmt::skip]
+const APART: &[&str] = &["apart", "apart from each other", "from each other", "between them", "between each", "between each other",
+    "intervals", "between", "in between", "from one another", "between each of them", "away from each other",
+    "between one and the next", "apart from one another", "between every two"];
+/// That things stand in a line.
+#[rustfmt::skip]
+const ROWS: &[&str] = &["a row of", "a line of", "in a row", "in a line", "a straight line of", "a queue of", "in a straight line", "a chain of",
+    "an avenue of", "in line", "rows of"];
+/// That things stand in a circle.
+#[rustfmt::skip]
+const RINGS: &[&str] = &["a ring of", "a circle of", "in a ring", "in a circle", "ring of", "circle of"];
+/// Behind a number at the end.
+#[rustfmt::skip]
+const OF_THEM: &[&str] = &["of them", "of those", "in all", "in total", "altogether", "pieces"];
+
+/// What was said of the row, and the words that say the rest.
+#[derive(Default)]
+struct Said {
+    every: Option<f64>,
+    count: Option<u32>,
+    in_line: bool,
+    in_ring: bool,
+    rest: Vec<Lexeme>,
+}
+
+impl Reader<'_> {
+    /// Things at even distances, if the words up to the end say so.
+    pub(super) fn rows(&self, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let mut said = self.row_words(end);
+        if said.every.is_none() && said.count.is_none() && !said.in_line && !said.in_ring {
+            return None;
+        }
+        if said.in_line {
+            from_to_between(&mut said.rest);
+        }
+        let mut reader =
+            Reader { words: self.words, lexemes: &said.rest, names: self.names, view: self.view, at: 0 };
+        let stop = reader.before_politeness(0, said.rest.len());
+        let wishes = reader.wish(stop).ok().filter(|_| reader.at >= stop)?;
+        wishes.into_iter().map(|readings| said.into_rows(readings)).collect()
+    }
+
+    /// Takes the words about distances, rows and numbers out.
+    fn row_words(&self, end: usize) -> Said {
+        let mut said = Said::default();
+        let mut at = self.at;
+        while at < end {
+            let rest = &self.lexemes[at..end];
+            let words = spacing(rest).map(|(every, words)| {
+                said.every = said.every.or(Some(every));
+                words
+            });
+            let words = words
+                .or_else(|| longest_phrase(rest, ROWS).inspect(|_| said.in_line = true))
+                .or_else(|| longest_phrase(rest, RINGS).inspect(|_| said.in_ring = true))
+                .or_else(|| {
+                    let (count, words) = numbers::count(rest)?;
+                    let more =
+                        longest_phrase(&rest[words..], OF_THEM).filter(|more| words + more == rest.len())?;
+                    said.count = Some(count);
+                    Some(words + more)
+                });
+            match words {
+                Some(words) => at += words,
+                None => {
+                    said.rest.push(rest[0].clone());
+                    at += 1;
+                }
+            }
+        }
+        while said.rest.last().is_some_and(|last| matches!(last.token, Token::Comma | Token::Break)) {
+            said.rest.pop();
+        }
+        said
+    }
+}
+
+impl Said {
+    /// The readings of a wish as rows; nothing if a distance was named and it is none.
+    fn into_rows(&self, readings: Vec<Wish>) -> Option<Vec<Wish>> {
+        let rows: Vec<Wish> = readings.into_iter().filter_map(|wish| self.row(wish)).collect();
+        (!rows.is_empty()).then_some(rows)
+    }
+
+    fn row(&self, wish: Wish) -> Option<Wish> {
+        let Wish::Add { mut things, mut at } = wish else { return None };
+        let ([thing], [line]) = (&mut things[..], &mut at[..]) else { return None };
+        if let Some(count) = self.count {
+            thing.count = count;
+        }
+        let spacing = self.every.map_or(Spacing::Count(thing.count), Spacing::Every);
+        if self.every.is_some() {
+            // "Two benches every twenty metres" is not understood, rather than half of it.
+            let is_plain = thing.count == 1;
+            *line = along(line.clone()).filter(|_| is_plain)?;
+        } else if self.in_ring {
+            *line = Where::Around(anchor_of(line)?);
+        } else if let Some(line_up) = along(line.clone()) {
+            *line = line_up;
+        } else {
+            // A row of trees before a house: as many as that, somewhere there.
+            return Some(Wish::Add { things, at });
+        }
+        let (thing, line): (NewThing, Where) = (thing.clone(), line.clone());
+        Some(Wish::Row { thing, line, spacing })
+    }
+}
+
+/// The line that a place is, if things can be lined up there.
+fn along(place: Where) -> Option<Where> {
+    match place {
+        Where::Along(_) | Where::Between(..) | Where::BothSides(_) | Where::Around(_) => Some(place),
+        Where::By(anchor) | Where::Edge(anchor) => Some(Where::Along(anchor)),
+        Where::To(simworld_core::scene::Relation::NextTo, anchor) => Some(Where::Along(anchor)),
+        Where::To(simworld_core::scene::Relation::OnTopOf, anchor @ Anchor::Street(..)) => {
+            Some(Where::Along(anchor))
+        }
+        _ => None,
+    }
+}
+
+fn anchor_of(place: &Where) -> Option<Anchor> {
+    match place {
+        Where::Around(anchor) | Where::By(anchor) | Where::To(_, anchor) | Where::Along(anchor) => {
+            Some(anchor.clone())
+        }
+        _ => None,
+    }
+}
+
+/// A distance from one to the next at the start of the words, m, and how many words say so.
+fn spacing(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
+    if let Some(before) = longest_phrase(lexemes, EVERY)
+        && let Some((every, words)) = numbers::length(&lexemes[before..])
+    {
+        let after = longest_phrase(&lexemes[before + words..], APART).unwrap_or(0);
+        return Some((every, before + words + after));
+    }
+    let with = longest_phrase(lexemes, &["with", "leaving", "at", "in", "keep", "leave"]).unwrap_or(0);
+    let (every, words) = numbers::length(&lexemes[with..])?;
+    let after = longest_phrase(&lexemes[with + words..], APART)?;
+    // "Two metres between the bench and the tree" is a place.
+    let is_place = after == 1
+        && matches!(&lexemes[with + words].token, Token::Word(word) if word == "between")
+        && lexemes.len() > with + words + after;
+    (!is_place).then_some((every, with + words + after))
+}
+
+/// "From the bench to the tree" is between the two.
+fn from_to_between(lexemes: &mut [Lexeme]) {
+    let find = |lexemes: &[Lexeme], word: &str| {
+        lexemes.iter().rposition(|lexeme| matches!(&lexeme.token, Token::Word(own) if own == word))
+    };
+    if let (Some(from), Some(to)) = (find(lexemes, "from"), find(lexemes, "to"))
+        && from < to
+    {
+        lexemes[from].token = Token::Word("between".to_owned());
+        lexemes[to].token = Token::Word("and".to_owned());
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    EVERY.iter().chain(APART).chain(ROWS).chain(RINGS).chain(OF_THEM).flat_map(|phrase| phrase.split(' '))
+}

@@ -1,0 +1,105 @@
+//! What is said behind a thing where a scene is spoken of: on which street it stands, in which park, within how many metres,
+//! and that it is taller than so much.
+
+use simworld_core::scene::{EntityKind, Relation};
+use simworld_core::seam::PlanError;
+
+use super::clause::{Measure, Reference, Stands, Target};
+use super::lexicon::{longest, longest_phrase};
+use super::numbers;
+use super::parser::Parser;
+
+/// What stands before a street.
+#[rustfmt::skip]
+const ON_STREET: &[&str] = &[
+    "on", "along", "in", "at", "down", "lining", "beside", "off", "of", "from", "all along", "up and down", "on the edge of",
+    "along the edge of", "on both sides of",
+];
+/// What stands before an area in which something is.
+#[rustfmt::skip]
+const IN_AREA: &[&str] = &["in", "on", "inside", "at", "within", "of", "in the middle of", "from", "around in"];
+/// What stands before a distance that is the greatest.
+#[rustfmt::skip]
+const WITHIN: &[&str] = &["within", "not more than", "no more than", "at most", "less than", "no farther than", "in a radius of"];
+/// What stands behind it.
+const OF: &[&str] = &["of", "from", "away from", "around", "off", "to"];
+/// Words that compare with a number.
+const THAN: &[(&[&str], (Measure, bool))] = &[
+    (&["taller than", "higher than"], (Measure::Height, true)),
+    (&["shorter than", "lower than", "smaller than"], (Measure::Height, false)),
+    (&["heavier than"], (Measure::Mass, true)),
+    (&["lighter than"], (Measure::Mass, false)),
+];
+
+impl Parser<'_> {
+    /// On a street, in an area, or within a distance.
+    pub(super) fn on_ground(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
+        let Some(streets) = self.view.streets else { return Ok(None) };
+        let start = self.at;
+        if self.eat_any(WITHIN)
+            && let Some((reach, words)) = numbers::length(self.rest())
+        {
+            self.at += words;
+            if self.eat_any(OF) {
+                return Ok(Some(Stands::Within(reach, Box::new(self.reference(depth + 1)?))));
+            }
+        }
+        self.at = start;
+        if self.eat_any(ON_STREET) {
+            self.eat_any(&["the"]);
+            if let Some(street) = streets.at(self.rest()) {
+                self.at += street.words;
+                return Ok(Some(Stands::OnStreet(street.roads.to_vec())));
+            }
+        }
+        self.at = start;
+        if depth < 3
+            && self.eat_any(IN_AREA)
+            && let Ok(area) = self.reference(depth + 1)
+            && self.is_area(&area)
+        {
+            return Ok(Some(Stands::To(Relation::Inside, Box::new(area))));
+        }
+        self.at = start;
+        Ok(None)
+    }
+
+    /// "Taller than 8 metres".
+    pub(super) fn comparison(&mut self) -> Option<(Measure, bool, f64)> {
+        self.view.streets?;
+        let rest = self.rest();
+        let ((measure, more), words) = longest(rest, THAN)?;
+        let (limit, count) = match measure {
+            Measure::Mass => {
+                let (number, count) = numbers::number(&rest[words..])?;
+                let unit = longest_phrase(
+                    &rest[words + count..],
+                    &["kg", "kilos", "kilograms", "kilo", "kilogrammes"],
+                )?;
+                (number, count + unit)
+            }
+            _ => numbers::length(&rest[words..])?,
+        };
+        self.at += words + count;
+        self.eat_any(&["tall", "high", "in height"]);
+        Some((measure, more, limit))
+    }
+
+    /// Whether a phrase means a piece of ground.
+    fn is_area(&self, reference: &Reference) -> bool {
+        let is_ground =
+            |id| self.view.scene.entity(id).is_some_and(|entity| entity.kind == EntityKind::Ground);
+        match &reference.target {
+            Target::Any(class) => class.is_area(),
+            Target::Named(ids) => !ids.is_empty() && ids.iter().copied().all(is_ground),
+            Target::Id(id) => is_ground(*id),
+            _ => false,
+        }
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    let than = THAN.iter().flat_map(|(words, _)| *words).copied();
+    than.chain(WITHIN.iter().copied()).flat_map(|phrase| phrase.split(' '))
+}
