@@ -18,18 +18,18 @@ const FLOORS: [(&str, f64); 15] = [
     ("spacing", 95.0),
     ("streets", 95.0),
     ("areas", 95.0),
-    ("offsets", 93.0),
-    ("conditions", 93.0),
+    ("offsets", 95.0),
+    ("conditions", 95.0),
     ("environment", 95.0),
-    ("counts", 89.0),
+    ("counts", 95.0),
     ("single_relation", 95.0),
     ("nested_anchor", 95.0),
     ("multi_object", 95.0),
     ("other_verbs", 95.0),
     ("ambiguous", 95.0),
     ("unsatisfiable", 95.0),
-    ("paraphrase", 85.0),
-    ("typo", 87.0),
+    ("paraphrase", 95.0),
+    ("typo", 95.0),
 ];
 
 #[derive(Default)]

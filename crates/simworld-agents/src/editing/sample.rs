@@ -1,6 +1,6 @@
 //! Where a thing may be put so that it stands in a relation: places drawn from the region that the relation means.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use simworld_core::geometry::{Point2, Point3, Vector2, direction, heading};
 use simworld_core::id::{IntersectionId, RoadId};
@@ -152,9 +152,24 @@ impl Sampler<'_> {
 
     /// Beside the corners of a junction, beyond the kerb.
     fn at_junction(&self, junction: IntersectionId, rng: &mut StreamRng) -> Option<Spot> {
-        let place = self.streets?.network().intersections.get(junction.index())?;
-        let way = rng.uniform(-PI, PI);
-        let reach = rng.uniform(4.0, JUNCTION);
+        let streets = self.streets?;
+        let place = streets.network().intersections.get(junction.index())?;
+        let leaves = |road: &RoadId| {
+            let (road, count) = (streets.road(*road), streets.road(*road).centerline.len());
+            let line = &road.centerline;
+            heading(&if road.from == junction {
+                line[1] - line[0]
+            } else {
+                line[count - 2] - line[count - 1]
+            })
+        };
+        let ways: Vec<f64> = place.roads.iter().map(leaves).collect();
+        let next = |rank: usize| (ways[(rank + 1) % ways.len()] - ways[rank]).rem_euclid(TAU);
+        // A corner is where one street turns into the other, and not the far side of a fork.
+        let corners: Vec<usize> = (0..ways.len()).filter(|rank| next(*rank) < PI * 0.9).collect();
+        let rank = *rng.choose(&corners)?;
+        let way = ways[rank] + next(rank) * rng.uniform(0.3, 0.7);
+        let reach = rng.uniform(5.0, JUNCTION);
         let at = place.center + direction(way) * reach;
         Some(Spot { at, base: place.height, yaw: way + PI, odd: reach / JUNCTION })
     }

@@ -204,7 +204,6 @@ pub(super) const CATEGORIES: &[Category] = &[
     areas(&["harbour basin", "dock", "quay"], "harbour"),
     areas(&["forest", "wood", "woods"], "forest"),
     areas(&["meadow", "lawn", "grass"], "meadow"),
-    areas(&["beach"], "beach"),
     places(&["rest area", "rest stop", "resting place", "pavilion", "rest place"], Place::RestArea),
 ];
 

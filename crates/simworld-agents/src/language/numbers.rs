@@ -38,6 +38,7 @@ const NUMERALS: &[(&str, f64)] = &[
     ("dozen", 12.0),
     ("half", 0.5),
     ("couple", 2.0),
+    ("pair", 2.0),
 ];
 
 /// Places in a row, in words.
@@ -112,7 +113,7 @@ pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
 /// A count of two or more before a plural: "two", "a couple of"; a lone article is none.
 pub(super) fn count(lexemes: &[Lexeme]) -> Option<(u32, usize)> {
     let (number, tokens) = number(lexemes)?;
-    ((2.0..=100.0).contains(&number) && number.fract() == 0.0).then_some((number as u32, tokens))
+    ((2.0..=1000.0).contains(&number) && number.fract() == 0.0).then_some((number as u32, tokens))
 }
 
 /// A place in a row.

@@ -55,13 +55,23 @@ impl Parser<'_> {
         self.at = start;
         if depth < 3
             && self.eat_any(IN_AREA)
-            && let Ok(area) = self.reference(depth + 1)
-            && self.is_area(&area)
+            && let Some(area) = self.area(depth)
         {
             return Ok(Some(Stands::To(Relation::Inside, Box::new(area))));
         }
         self.at = start;
         Ok(None)
+    }
+
+    /// A piece of ground; "that is red" behind it is said of what stands there.
+    fn area(&mut self, depth: u32) -> Option<Reference> {
+        let is_that = |at: &usize| longest_phrase(&self.lexemes[*at..], &["that", "which", "who"]).is_some();
+        let whole = self.lexemes;
+        let cut = (self.at + 1..whole.len()).find(is_that).unwrap_or(whole.len());
+        self.lexemes = &whole[..cut];
+        let area = self.reference(depth + 1);
+        self.lexemes = whole;
+        area.ok().filter(|area| self.is_area(area))
     }
 
     /// "Taller than 8 metres".

@@ -75,13 +75,16 @@ impl Reader<'_> {
             &self.lexemes[self.at + adds..stop],
             &["one", "one there", "one here", "a new one"],
         )?;
-        if self.at + adds + words != stop {
-            return None;
-        }
         let Target::Any(class) = &what.target else { return None };
-        let (relation, anchor) = match &what.relation {
-            Some(super::super::clause::Stands::To(relation, anchor)) => (*relation, anchor),
-            _ => return None,
+        let from = self.at + adds + words;
+        let at = if from < stop {
+            let mut reader = Reader { at: from, ..*self };
+            reader.places(stop).ok().filter(|_| reader.at >= stop)?
+        } else {
+            let Some(super::super::clause::Stands::To(relation, anchor)) = &what.relation else {
+                return None;
+            };
+            vec![super::wish::Where::To(*relation, super::wish::Anchor::Thing((**anchor).clone()))]
         };
         let thing = super::wish::NewThing {
             words: class.words[0].split(' ').map(str::to_owned).collect(),
@@ -92,7 +95,6 @@ impl Reader<'_> {
             text: class.words[0].to_owned(),
         };
         self.at = end;
-        let at = vec![super::wish::Where::To(relation, super::wish::Anchor::Thing((**anchor).clone()))];
         Some(Wish::Add { things: vec![thing], at })
     }
 

@@ -1,5 +1,7 @@
 //! Rows, streets, areas and distances: what the words about them mean in the scene.
 
+use std::ops::ControlFlow;
+
 use simworld_core::geometry::{Point2, direction, yaw_of};
 use simworld_core::id::{EntityId, IntersectionId, RoadId};
 use simworld_core::net::{LaneDirection, RoadNetwork, polyline};
@@ -7,6 +9,7 @@ use simworld_core::passage::Passage;
 use simworld_core::scene::{EntityKind, Relation};
 
 use super::super::clause::{Choice, Count, Reference};
+use super::super::lexicon::class;
 use super::resolve::Finder;
 use super::wish::{Anchor, Bearing, NewThing, StreetRef, Where, Wish};
 use crate::editing::{Edit, EditError, Line, Sides, Spacing, Stand};
@@ -162,6 +165,17 @@ impl Finder<'_> {
         })
     }
 
+    /// Whether a thing stands in a park.
+    pub(super) fn is_in_park(&self, thing: EntityId) -> bool {
+        let Some(entity) = self.scene.entity(thing) else { return false };
+        let mut inside = false;
+        let _ = self.scene.visit(entity.bounds, &mut |other| {
+            inside |= class("park").holds(&other) && Relation::Inside.holds(&entity, &other);
+            ControlFlow::Continue(())
+        });
+        inside
+    }
+
     fn is_ground(&self, thing: EntityId) -> bool {
         self.scene.entity(thing).is_some_and(|entity| entity.kind == EntityKind::Ground)
     }
@@ -248,6 +262,16 @@ impl Finder<'_> {
                 };
                 let closed: Vec<RoadId> = ids.filter(closed).collect();
                 if closed.is_empty() { missing("closed street", "all of them are open") } else { Ok(closed) }
+            }
+            StreetRef::Thing(thing) => {
+                let found = self.one(thing)?;
+                let label =
+                    self.scene.entity(found).map_or_else(String::new, |entity| entity.label().to_owned());
+                let what = format!("to close or open {label} to traffic");
+                Err(EditError::Impossible {
+                    what,
+                    why: "it is no street; name one, or say in front of what it runs".to_owned(),
+                })
             }
             StreetRef::Unknown(name) => missing(name, "no street has that name"),
         }

@@ -11,6 +11,7 @@
 //! Where the words can be cut in several ways ("move the bench near the fountain next to the library"), all readings are
 //! kept in their order: the first whose things are there is meant.
 
+use simworld_core::passage::Passage;
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Reference, Target};
@@ -19,7 +20,7 @@ use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::parser::Parser;
 use super::super::resolve::View;
-use super::wish::Wish;
+use super::wish::{StreetRef, Wish};
 use super::words::{VERBS, Verb};
 
 /// What is understood, in one line, for answers.
@@ -88,6 +89,10 @@ impl<'a> Reader<'a> {
         if let Some(made) = self.given(end)? {
             return Ok(made);
         }
+        if let Some(wish) = self.asked_twice(self.lexemes.len()) {
+            self.at = self.lexemes.len();
+            return Ok(vec![vec![wish]]);
+        }
         if let Some(wish) = self.passage(end) {
             self.at = end;
             return Ok(vec![vec![wish]]);
@@ -155,6 +160,7 @@ impl<'a> Reader<'a> {
                 }
             }
             // "Put the bench ..." moves it, "put a bench ..." makes one.
+            Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
             Verb::Put if self.is_definite(self.at) => self.moves(end).map(|wish| vec![wish]),
             Verb::Put => self.additions(end),
             Verb::Move if !self.is_definite(self.at) && self.word(self.at - 1) == Some("bring") => {
@@ -182,10 +188,27 @@ impl<'a> Reader<'a> {
                 Ok(vec![vec![Wish::Describe { what }]])
             }
             Verb::Make => self.make(end),
+            Verb::Close | Verb::Open if self.one_of(self.at, end).is_ok() => {
+                let which = vec![StreetRef::Thing(self.one_to(end)?)];
+                let passage = if verb == Verb::Open { Passage::Open } else { Passage::Closed };
+                Ok(vec![vec![Wish::Passage { which, passage }]])
+            }
             Verb::Close | Verb::Open => {
                 Err(self.not_understood("say which street: by its name, or in front of what"))
             }
         }
+    }
+
+    /// "Put me a bench": whoever says so is not put anywhere.
+    fn is_for_me(&self, end: usize) -> bool {
+        longest_phrase(self.rest(end), &["me", "us"])
+            .is_some_and(|words| !self.is_definite((self.at + words).min(end)))
+    }
+
+    /// "Benches": some that are not there yet.
+    pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
+        let class = super::super::lexicon::category(&self.lexemes[at.min(end)..end]);
+        class.is_some_and(|(_, words)| self.is_plural(at, at + words))
     }
 
     // ---- things ----
@@ -325,7 +348,10 @@ impl<'a> Reader<'a> {
                     }
                     next += more;
                 }
+                let goes_on =
+                    longest_phrase(&self.lexemes[next..], &["put one", "place one", "stick one", "set one"]);
                 let begins = next < self.lexemes.len()
+                    && goes_on.is_none()
                     && longest(&self.lexemes[next..], VERBS)
                         .is_some_and(|(verb, _)| !matches!(verb, Verb::Put | Verb::Take) || !self.is_copy());
                 let speaks = self.lexemes[at].token == Token::Break

