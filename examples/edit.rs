@@ -3,6 +3,8 @@
 //! ```sh
 //! cargo run --release --example edit
 //! cargo run --release --example edit -- --say "add a red sports car next to the nearest hospital" --say undo
+//! cargo run --release --example edit -- --library examples/assets/harbour --say "put a buoy next to a bench"
+//! cargo run --release --example edit -- --show-catalogue catalogue.svg
 //! ```
 
 use std::io::{BufRead, IsTerminal, Write};
@@ -10,13 +12,16 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use simworld_agents::assets::ImportConfig;
 use simworld_agents::editing::{Difference, Edited, Placing, SceneEditor};
+use simworld_agents::library::{LOCK, Library, LibraryLimits};
+use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Source, make};
-use simworld_examples::edit::{Plan, View};
+use simworld_examples::edit::{Plan, View, contact_sheet};
 use simworld_examples::{Outcome, exit_code};
 
 /// Type how the scene is to change: "put two benches in front of the school", "paint them blue", "make it a foggy evening".
@@ -42,6 +47,15 @@ struct Arguments {
     /// Metres from the middle of a picture to its edge.
     #[arg(long, default_value_t = 40.0, value_parser = reach)]
     reach: f64,
+    /// A folder of assets with a library.toml, beside those that come with simworld; may be given several times.
+    #[arg(long, value_name = "DIR")]
+    library: Vec<PathBuf>,
+    /// Writes the library.lock of every such folder anew, before it is read.
+    #[arg(long, requires = "library")]
+    lock: bool,
+    /// Draws everything that can be added into a picture, and does nothing else.
+    #[arg(long, value_name = "FILE.svg")]
+    show_catalogue: Option<PathBuf>,
     /// The folder to write to.
     #[arg(long, value_name = "DIR", default_value = "out/edit")]
     out: PathBuf,
@@ -64,14 +78,39 @@ fn main() -> ExitCode {
     exit_code(job(&Arguments::parse()))
 }
 
+/// What can be added: what comes with simworld, and the folders.
+fn catalogue(arguments: &Arguments) -> Outcome<Catalogue> {
+    let mut catalogue = Catalogue::library();
+    for folder in &arguments.library {
+        let lock = folder.join(LOCK);
+        if arguments.lock && lock.exists() {
+            std::fs::remove_file(&lock)?;
+        }
+        let library = Library::read(folder, &ImportConfig::default(), &LibraryLimits::default())?;
+        if arguments.lock {
+            std::fs::write(&lock, library.lock())?;
+        }
+        library.add_to(&mut catalogue)?;
+        println!("{}: {} assets", library.name, library.assets.len());
+    }
+    Ok(catalogue)
+}
+
 fn job(arguments: &Arguments) -> Outcome<()> {
+    let catalogue = catalogue(arguments)?;
+    if let Some(path) = &arguments.show_catalogue {
+        std::fs::write(path, contact_sheet(&catalogue).to_string())?;
+        println!("{} assets in {}", catalogue.len(), path.display());
+        return Ok(());
+    }
     let source = Source::saved_or_small(arguments.city.as_ref());
     let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
     let mut world = World::new();
     city.populate(&mut world)?;
     std::fs::create_dir_all(&arguments.out)?;
     let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
-    let editor = SceneEditor::new(Seed(arguments.seed)).looking_from(arguments.from);
+    let editor =
+        SceneEditor::new(Seed(arguments.seed)).with_catalogue(catalogue).looking_from(arguments.from);
     println!("a city of {} things; type how it is to change", world.len());
     let mut desk = Desk { arguments, world, editor, view };
     if arguments.say.is_empty() {

@@ -1,11 +1,15 @@
 //! Assets by words: what people call things is found first, and nothing is taken for what it is not.
+#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
+use simworld_agents::editing::{Difference, EditError, SceneEditor, faults};
 use simworld_agents::retrieval::{AssetIndex, Choice, EmbedError, Embedder, Embeddings, Matched};
-use simworld_core::asset::{Asset, Catalogue};
-use simworld_core::scene::{EntityKind, Shape};
+use simworld_core::asset::{Asset, Catalogue, Season};
+use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::scene::{EntityDesc, EntityKind, Place, Scene, Shape, World};
+use simworld_core::seed::Seed;
 
 /// `tests/retrieval/queries.toml`, by family: what is said, and the assets that may come first.
 fn queries() -> BTreeMap<String, BTreeMap<String, String>> {
@@ -125,6 +129,117 @@ fn meaning_finds_what_words_do_not() {
     assert_eq!((hits[0].name.as_str(), hits[0].because[0].1), ("rowing_boat", Matched::Name));
     assert!(hits[0].score > hits[1].score * 1.5, "two rankings agree");
     assert!(index.retrieve_with("unspeakable", 2, &embeddings, &mut TwoMeanings).is_err());
+}
+
+/// A museum, a hospital far from it and a bench.
+fn town() -> World {
+    let mut world = World::new();
+    let house = |x: f64, place| {
+        EntityDesc::new(
+            EntityKind::Building,
+            pose_facing(Point3::new(x, 0.0, 0.0), 0.0),
+            Shape::cuboid(14.0, 20.0, 9.0),
+        )
+        .used_as(place)
+    };
+    for (x, place) in [(0.0, Place::Museum), (120.0, Place::Hospital)] {
+        world.spawn(house(x, place)).unwrap();
+    }
+    let pose = pose_facing(Point3::new(30.0, 30.0, 0.0), 0.0);
+    world.spawn(EntityDesc::new(EntityKind::Bench, pose, Shape::cuboid(0.6, 1.8, 0.85))).unwrap();
+    world
+}
+
+#[test]
+fn what_is_called_otherwise_is_made() {
+    for (words, name) in [
+        ("add a sofa next to the bench", "couch"),
+        ("put two settees near the bench", "couch"),
+        ("add a fire truck near the museum", "fire_engine"),
+        ("add a cash dispenser next to the museum", "cash_machine"),
+        ("place a porta potty behind the hospital", "portable_toilet"),
+        ("add a hot dog stand near the bench", "food_cart"),
+        ("add a small cafe next to the museum", "cafe"),
+        ("add a wooden table next to the bench", "table"),
+    ] {
+        let mut world = town();
+        let before = world.clone();
+        let done = SceneEditor::new(Seed(3))
+            .say(words, &mut world)
+            .unwrap_or_else(|error| panic!("{words}: {error}"));
+        for made in &done.made {
+            let entity = world.entity(*made).unwrap();
+            let asset = world.assets().and_then(|assets| assets.get(entity.info.asset?)).unwrap();
+            assert_eq!(asset.name, name, "{words}");
+            assert_eq!(entity.material(&world), asset.material, "{words}");
+            assert_eq!(faults(&world, *made), [], "{words}");
+        }
+        let changed = Difference::between(&before, &world);
+        assert_eq!((changed.added, changed.moved.len(), changed.altered.len()), (done.made, 0, 0), "{words}");
+    }
+}
+
+#[test]
+fn a_building_has_a_door_that_one_can_reach() {
+    let mut world = town();
+    let done = SceneEditor::new(Seed(3)).say("add a bakery next to the museum", &mut world).unwrap();
+    let bakery = world.entity(done.made[0]).unwrap();
+    let door = bakery.info.access.unwrap();
+    let gap = bakery.info.shape.planar_distance(bakery.pose, &door.xy());
+    assert!((gap - 0.5).abs() < 1e-6, "the door is {gap} m before the house");
+    let near = world.nearest(door.xy(), 3.0, &|other| {
+        other.id != bakery.id && other.info.shape.planar_distance(other.pose, &door.xy()) < 0.8
+    });
+    assert!(near.is_none(), "somebody built before the door");
+    assert_eq!(bakery.info.place, Some(Place::Store));
+}
+
+#[test]
+fn what_is_not_sure_is_asked_and_changes_nothing() {
+    for (words, near) in [
+        ("add a dragon next to the bench", "nothing in it"),
+        ("add a ball near the bench", "basketball"),
+        ("add a monument near the museum", "obelisk"),
+        ("add a submarine behind the museum", "nothing in it"),
+    ] {
+        let mut world = town();
+        let before = world.clone();
+        let error = SceneEditor::new(Seed(3)).say(words, &mut world).unwrap_err();
+        assert!(matches!(error, EditError::UnknownThing { .. }), "{words}: {error}");
+        assert!(error.to_string().contains(near), "{words}: {error}");
+        assert!(Difference::between(&before, &world).is_empty(), "{words}");
+    }
+}
+
+#[test]
+fn plants_come_in_the_season_that_is_asked_for() {
+    let library = Catalogue::library();
+    let maple = library.get(library.find("maple").unwrap()).unwrap();
+    for (words, season) in [
+        ("add an autumn maple near the bench", Season::Autumn),
+        ("add a winter maple near the bench", Season::Winter),
+    ] {
+        let mut world = town();
+        let done = SceneEditor::new(Seed(3))
+            .say(words, &mut world)
+            .unwrap_or_else(|error| panic!("{words}: {error}"));
+        assert_eq!(world.entity(done.made[0]).unwrap().info.color, maple.color_in(season), "{words}");
+    }
+}
+
+#[test]
+fn another_asset_of_the_name_is_kept_apart() {
+    let mut world = town();
+    let own = Asset::new("couch", EntityKind::Bench, Shape::cuboid(2.0, 2.0, 2.0));
+    let id = world.add_asset(own).unwrap();
+    let mut editor = SceneEditor::new(Seed(3));
+    let first = editor.say("add a couch next to the bench", &mut world).unwrap().made[0];
+    let second = editor.say("add a couch near the museum", &mut world).unwrap().made[0];
+    let made_from = |thing| world.entity(thing).unwrap().info.asset.unwrap();
+    assert_ne!(made_from(first), id);
+    assert_eq!(made_from(first), made_from(second), "one more asset, not two");
+    let asset = world.assets().unwrap().get(made_from(first)).unwrap();
+    assert!(asset.name.starts_with("couch_") && asset.collider == world.entity(first).unwrap().info.shape);
 }
 
 proptest! {

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use simworld_core::alteration::Alteration;
-use simworld_core::asset::Catalogue;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Point2, Point3, Pose, heading, pose_facing, yaw_of};
 use simworld_core::id::{EntityId, RoadId};
@@ -22,6 +21,7 @@ use super::place::Placer;
 use super::row::tell;
 use super::solid::Solid;
 use super::stand::Subject;
+use super::stock::{Stock, door_of};
 use crate::language::edits::Focus;
 
 /// Sizes beyond these are no longer the thing, as a factor.
@@ -50,7 +50,7 @@ pub(super) struct Memory {
 /// Carries out edits, and can take all of them back.
 pub(super) struct Applier<'a> {
     pub(super) scene: &'a mut dyn Editable,
-    pub(super) catalogue: &'a Catalogue,
+    pub(super) stock: &'a Stock,
     pub(super) streets: Option<&'a Streets>,
     pub(super) stream: Stream,
     pub(super) placed: u64,
@@ -144,8 +144,10 @@ impl Applier<'_> {
         Ok(())
     }
 
-    pub(super) fn spawn(&mut self, desc: EntityDesc) -> Result<(), EditError> {
+    /// Puts a recipe into the world, where its pose says.
+    pub(super) fn spawn(&mut self, mut desc: EntityDesc) -> Result<(), EditError> {
         let at = simworld_core::geometry::planar(&desc.pose);
+        desc.info.access = desc.info.access.map(|access| desc.pose * access);
         let applied = self.scene.change(&Command::Spawn(Box::new(desc)))?;
         self.back.extend(applied.undo);
         self.edited.made.extend(applied.spawned);
@@ -174,20 +176,22 @@ impl Applier<'_> {
         legs.into_iter().try_for_each(|leg| self.change(&Command::SetPassage { leg, passage }))
     }
 
-    /// The recipe of a new thing, still without a place.
-    pub(super) fn recipe(&self, make: &Make) -> Result<EntityDesc, EditError> {
+    /// The recipe of a new thing, still without a place: its access is in its own frame. What it is made from is an asset of the world.
+    pub(super) fn recipe(&mut self, make: &Make) -> Result<EntityDesc, EditError> {
         let unknown = || EditError::UnknownThing {
             wanted: make.asset.clone(),
             near: "name one of the catalogue".to_owned(),
         };
-        let found = self.catalogue.find(&make.asset).and_then(|id| Some((id, self.catalogue.get(id)?)));
+        check_factor(make.scale)?;
+        let stock = self.stock;
+        let catalogue = &stock.catalogue;
+        let found = catalogue.find(&make.asset).and_then(|id| Some((id, catalogue.get(id)?)));
         let (id, asset) = found.ok_or_else(unknown)?;
         let mut desc = asset.at(id, Pose::identity());
-        // The id is one of the world's own catalogue, or none.
-        desc.info.asset = self.scene.world().assets().and_then(|assets| assets.find(&make.asset));
+        desc.info.asset = self.stocked(asset)?;
+        desc.info.access = door_of(&desc);
         desc.info.color = make.color.or(desc.info.color);
         desc.info.name.clone_from(&make.name);
-        check_factor(make.scale)?;
         resize(&mut desc, make.scale);
         Ok(desc)
     }

@@ -15,6 +15,7 @@ use super::error::EditError;
 use super::history::History;
 use super::land::Streets;
 use super::place::Placing;
+use super::stock::Stock;
 use crate::language::edits::{self, Focus, Reading};
 use crate::language::streets::StreetNames;
 
@@ -48,7 +49,7 @@ use crate::language::streets::StreetNames;
 #[derive(Clone, Debug)]
 pub struct SceneEditor {
     seed: Seed,
-    catalogue: Catalogue,
+    stock: Arc<Stock>,
     focus: Focus,
     history: History,
     streets: Option<Streets>,
@@ -58,11 +59,11 @@ pub struct SceneEditor {
 }
 
 impl SceneEditor {
-    /// An editor with the standard catalogue that looks at the scene from its origin.
+    /// An editor with the library of the crate that looks at the scene from its origin.
     pub fn new(seed: Seed) -> Self {
         Self {
             seed,
-            catalogue: Catalogue::standard(),
+            stock: Arc::new(Stock::new(Catalogue::library())),
             focus: Focus {
                 from: Point2::origin(),
                 who: None,
@@ -81,7 +82,7 @@ impl SceneEditor {
     /// With other things to add.
     #[must_use]
     pub fn with_catalogue(mut self, catalogue: Catalogue) -> Self {
-        self.catalogue = catalogue;
+        self.stock = Arc::new(Stock::new(catalogue));
         self
     }
 
@@ -102,7 +103,7 @@ impl SceneEditor {
 
     /// What can be added.
     pub fn catalogue(&self) -> &Catalogue {
-        &self.catalogue
+        &self.stock.catalogue
     }
 
     /// What was tried for the things that were put somewhere last, also where none fitted.
@@ -116,7 +117,7 @@ impl SceneEditor {
     /// What is not understood, not there, open, or impossible; then the scene is as it was.
     pub fn say(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
         self.learn_streets(scene.world());
-        let reading = edits::read(words, scene.world(), &self.catalogue, &self.focus)?;
+        let reading = edits::read(words, scene.world(), &self.stock, &self.focus)?;
         let mut applier = self.applier(scene);
         let outcome = (0..reading.len()).try_for_each(|index| carry_out(&reading, index, &mut applier));
         let (edited, back, memory) = applier.finish(outcome.is_ok());
@@ -178,7 +179,7 @@ impl SceneEditor {
         }
         Applier {
             scene,
-            catalogue: &self.catalogue,
+            stock: &self.stock,
             streets: self.streets.as_ref(),
             stream: self.seed.stream("agents/editing"),
             placed: self.placed,
@@ -201,7 +202,7 @@ impl SceneEditor {
 /// Works out one wish of a sentence in the scene as it is by now, and carries it out.
 fn carry_out(reading: &Reading, index: usize, applier: &mut Applier<'_>) -> Result<(), EditError> {
     let focus = applier.focus.clone();
-    for edit in reading.resolve(index, applier.scene.world(), applier.catalogue, &focus)? {
+    for edit in reading.resolve(index, applier.scene.world(), applier.stock, &focus)? {
         applier.apply(&edit)?;
         applier.edited.edits.push(edit);
     }

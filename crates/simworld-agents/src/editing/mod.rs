@@ -23,6 +23,7 @@ mod row;
 mod sample;
 mod solid;
 mod stand;
+mod stock;
 
 pub use apply::Edited;
 pub use check::{Difference, Fault, faults};
@@ -32,3 +33,4 @@ pub use editor::SceneEditor;
 pub use error::EditError;
 pub(crate) use place::has_flat_top;
 pub use place::{Candidate, Outcome, Placing};
+pub(crate) use stock::Stock;

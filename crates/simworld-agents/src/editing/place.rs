@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2, Point3, Pose};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, Relation, Scene};
+use simworld_core::scene::{EntityKind, Relation, Scene, Shape};
 use simworld_core::seed::{Stream, StreamRng};
 
 use super::edit::Stand;
@@ -232,6 +232,16 @@ impl Placer<'_> {
         }
         if let Some(outcome) = self.obstacle(solid, on_top.is_some()) {
             return outcome;
+        }
+        // Who comes out of a new building finds room before its door.
+        let door =
+            subject.info.access.filter(|_| subject.kind == EntityKind::Building && subject.id.is_none());
+        let step = door.map(|door| {
+            let size = 2.0 * DOORWAY;
+            Solid::standing(Shape::cuboid(size, size, size), solid.pose * door, solid.yaw())
+        });
+        if let Some(with) = step.and_then(|step| in_the_way(self.scene, &step, self.lifted)) {
+            return Outcome::Collides { with };
         }
         // Who names a point, or a thing to stand on, means it.
         let exact = on_top.is_some() || stands.iter().any(|stand| matches!(stand, Stand::At { .. }));

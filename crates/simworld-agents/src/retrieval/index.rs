@@ -24,6 +24,8 @@ const HEAD: f64 = 1.6;
 const WHOLE: f64 = 2.0;
 /// What a reading with synonyms counts, over one as said.
 const RENAMED: f64 = 0.97;
+/// As many hits are looked at for one that is sure.
+const CONSIDERED: usize = 12;
 /// So much better than the next is a hit that is sure.
 const CLEAR: f64 = 1.15;
 
@@ -153,15 +155,17 @@ impl AssetIndex {
             .collect()
     }
 
-    /// What words mean: sure, if the best hit fits wholly and no other one nearly as well; else at most three that are near.
+    /// What words mean: sure, if one hit fits wholly and no other does nearly as well; else at most three that are near.
     pub fn choose(&self, words: &str) -> Choice {
-        let mut hits = self.retrieve(words, 3);
-        let is_clear = match &hits[..] {
-            [first, second, ..] => first.is_whole && (!second.is_whole || first.score > second.score * CLEAR),
-            [only] => only.is_whole,
-            [] => false,
+        let mut hits = self.retrieve(words, CONSIDERED);
+        let mut whole = hits.iter().filter(|hit| hit.is_whole);
+        let sure = match (whole.next(), whole.next()) {
+            (Some(first), Some(second)) if first.score > second.score * CLEAR => Some(first.clone()),
+            (Some(only), None) => Some(only.clone()),
+            _ => None,
         };
-        if is_clear { Choice::Sure(hits.swap_remove(0)) } else { Choice::Unsure(hits) }
+        hits.truncate(3);
+        sure.map_or(Choice::Unsure(hits), Choice::Sure)
     }
 
     pub(super) fn by_meaning(&self, index: usize, score: f64) -> Option<Hit> {

@@ -21,3 +21,4 @@ mod words;
 
 pub use embed::{EmbedError, Embedder, Embeddings};
 pub use index::{AssetIndex, Choice, Hit, Matched};
+pub(crate) use words::is_synonym;

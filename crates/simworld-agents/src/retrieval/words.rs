@@ -1,6 +1,6 @@
 //! Words as they are compared: stems, words that say nothing, synonyms.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
 /// What says nothing about a thing.
@@ -24,6 +24,7 @@ const SYNONYMS: &str = include_str!("synonyms.txt");
 /// Every synonym, as stems, with what it stands for; the longest phrases are looked for first.
 pub(super) struct Synonyms {
     phrases: BTreeMap<Vec<String>, Vec<String>>,
+    words: BTreeSet<String>,
     longest: usize,
 }
 
@@ -36,15 +37,16 @@ impl Synonyms {
     }
 
     fn read(text: &str) -> Self {
-        let mut phrases = BTreeMap::new();
+        let (mut phrases, mut words) = (BTreeMap::new(), BTreeSet::new());
         let lines = text.lines().filter(|line| !line.starts_with('#'));
         for (canonical, others) in lines.filter_map(|line| line.split_once(':')) {
             for other in others.split(',') {
                 phrases.insert(stems(other), stems(canonical));
+                words.extend(parts(other).chain(stems(other)));
             }
         }
         let longest = phrases.keys().map(Vec::len).max().unwrap_or(0);
-        Self { phrases, longest }
+        Self { phrases, words, longest }
     }
 
     /// What the words at the start stand for, and how many they are.
@@ -53,6 +55,12 @@ impl Synonyms {
             self.phrases.get(&stems[..count]).map(|canonical| (canonical.as_slice(), count))
         })
     }
+}
+
+/// Whether a word stands in the table of synonyms.
+pub(crate) fn is_synonym(word: &str) -> bool {
+    let words = &Synonyms::table().words;
+    words.contains(word) || words.contains(&stem(word))
 }
 
 /// The stems of a phrase, in order.

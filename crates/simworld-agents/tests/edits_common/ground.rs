@@ -23,7 +23,7 @@ impl Judge<'_> {
         let is_any = words[0] == "any";
         let name = if is_any { words.remove(1) } else { words[0] };
         words.remove(0);
-        let catalogue = Catalogue::standard();
+        let catalogue = Catalogue::library();
         let is_made = |id: &EntityId| {
             let entity = self.after.entity(*id).expect("it was added");
             let asset = catalogue.find(name).and_then(|id| catalogue.get(id));

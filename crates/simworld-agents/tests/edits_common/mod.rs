@@ -183,7 +183,7 @@ impl Judge<'_> {
 
     fn added(&self, told: &str, rest: &mut Rest) -> Result<(), String> {
         let mut words: Vec<&str> = told.split_whitespace().collect();
-        let catalogue = Catalogue::standard();
+        let catalogue = Catalogue::library();
         let asset = words.remove(0);
         let is_big = words.contains(&"big");
         let is_made = |entity: &EntityRef<'_>, name: &str| {

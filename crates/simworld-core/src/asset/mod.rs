@@ -199,11 +199,13 @@ impl Asset {
         }
     }
 
-    /// How many of some words it answers to: words of its name, its kind, its use and its tags.
+    /// How many of some words it answers to: words of its name, its kind, its use, its material and its tags.
     pub fn answers<W: AsRef<str>>(&self, words: &[W]) -> usize {
         let is_called = |word: &str| {
             let own = [self.name.as_str(), self.kind.as_str(), self.place.map_or("", Place::as_str)];
-            own.into_iter().chain(self.tags.iter().map(String::as_str)).any(|name| {
+            let made_of = self.material.map_or("", Material::as_str);
+            let wooden = if self.material == Some(Material::Wood) { "wooden" } else { "" };
+            own.into_iter().chain([made_of, wooden]).chain(self.tags.iter().map(String::as_str)).any(|name| {
                 name.eq_ignore_ascii_case(word)
                     || name.split(['_', ' ']).any(|part| part.eq_ignore_ascii_case(word))
             })

@@ -69,7 +69,7 @@ impl Finder<'_> {
                 });
             }
         };
-        Ok(Edit::Row { make: thing.make(self.catalogue)?, line, spacing })
+        Ok(Edit::Row { make: thing.make(self.stock)?, line, spacing })
     }
 
     // ---- conditions ----
@@ -90,7 +90,7 @@ impl Finder<'_> {
         }
         let focus = super::Focus { it: found.first().copied().or(self.focus.it), ..self.focus.clone() };
         let view = super::view_of(self.scene, &focus);
-        Finder { scene: self.scene, catalogue: self.catalogue, focus: &focus, view }.edits(then)
+        Finder { scene: self.scene, stock: self.stock, focus: &focus, view }.edits(then)
     }
 
     /// Every second, third ... of all that fit, in the order in which they stand.

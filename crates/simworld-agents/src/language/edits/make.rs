@@ -1,22 +1,23 @@
 //! The thing of the catalogue that words ask for.
 
-use simworld_core::asset::{Asset, Catalogue};
-use simworld_core::scene::EntityKind;
+use simworld_core::asset::{Asset, Catalogue, Season};
 
 use super::super::lexer::lex;
 use super::super::lexicon::category;
 use super::wish::NewThing;
 use super::words::HARMLESS;
-use crate::editing::{EditError, Make};
+use crate::editing::{EditError, Make, Stock};
+use crate::retrieval::{Choice, Hit};
 
 impl NewThing {
-    /// The asset that the words ask for: its name, its kind or one of its tags is the noun, and it answers to all other
-    /// words that mean something.
-    pub(super) fn make(&self, catalogue: &Catalogue) -> Result<Make, EditError> {
-        let words: Vec<&str> = self.words.iter().map(String::as_str).collect();
+    /// The asset that the words ask for: its name or its kind is the noun, and it answers to all other words that mean
+    /// something; or else the one that a search is sure of.
+    pub(super) fn make(&self, stock: &Stock) -> Result<Make, EditError> {
+        let (season, words) = self.season();
+        let mut left_over = None;
         for from in 0..words.len() {
             let (said, noun) = words.split_at(from);
-            let mut fitting = assets_called(catalogue, noun);
+            let mut fitting = assets_called(&stock.catalogue, noun);
             if fitting.is_empty() {
                 continue;
             }
@@ -26,38 +27,76 @@ impl NewThing {
             let is_large = |asset: &&&Asset| self.scale > 1.0 && asset.tags.iter().any(|tag| tag == "large");
             if let Some(asset) = fitting.iter().find(is_large).or(fitting.first()) {
                 let scale = if is_large(&asset) { 1.0 } else { self.scale };
-                let color = self.paint.map(super::super::paint::Paint::color);
-                return Ok(Make { asset: asset.name.clone(), color, scale, name: self.name.clone() });
+                return Ok(self.made_from(asset, scale, season));
             }
-            let near = format!(
-                "nothing here is {}; say it without, or name it by colour and size",
-                modifiers.join(" ")
-            );
-            return Err(EditError::UnknownThing { wanted: self.text.clone(), near });
+            left_over = Some(modifiers.join(" "));
+            break;
         }
-        let names: Vec<&str> = catalogue.iter().map(|(_, asset)| asset.name.as_str()).collect();
-        let near = format!("it has {}", names.join(", "));
-        Err(EditError::UnknownThing { wanted: words.join(" "), near })
+        let said: Vec<&str> = words.iter().copied().filter(|word| !HARMLESS.contains(word)).collect();
+        match (stock.index.choose(&said.join(" ")), left_over) {
+            (Choice::Sure(hit), _) => match stock.catalogue.get(hit.asset) {
+                Some(asset) => Ok(self.made_from(asset, self.scale, season)),
+                None => Err(self.unknown(&words, near(&[]))),
+            },
+            (Choice::Unsure(_), Some(modifiers)) => {
+                let near =
+                    format!("nothing here is {modifiers}; say it without, or name it by colour and size");
+                Err(EditError::UnknownThing { wanted: self.text.clone(), near })
+            }
+            (Choice::Unsure(hits), None) => Err(self.unknown(&words, near(&hits))),
+        }
+    }
+
+    fn made_from(&self, asset: &Asset, scale: f64, season: Option<Season>) -> Make {
+        let of_season = season.filter(|_| asset.seasons.is_some()).and_then(|season| asset.color_in(season));
+        let color = self.paint.map(super::super::paint::Paint::color).or(of_season);
+        Make { asset: asset.name.clone(), color, scale, name: self.name.clone() }
+    }
+
+    /// The season that is asked for, and the other words: "an autumn maple", "a birch in winter".
+    fn season(&self) -> (Option<Season>, Vec<&str>) {
+        let of = |word: &str| {
+            Season::ALL
+                .into_iter()
+                .find(|season| season.as_str() == word || word == "fall" && *season == Season::Autumn)
+        };
+        let words: Vec<&str> = self.words.iter().map(String::as_str).collect();
+        match words.iter().find_map(|word| of(word)) {
+            Some(season) if words.len() > 1 => {
+                (Some(season), words.into_iter().filter(|word| of(word).is_none() && *word != "in").collect())
+            }
+            _ => (None, words),
+        }
+    }
+
+    fn unknown(&self, words: &[&str], near: String) -> EditError {
+        EditError::UnknownThing { wanted: words.join(" "), near }
+    }
+}
+
+/// What an answer says of what is near.
+fn near(hits: &[Hit]) -> String {
+    let names: Vec<String> = hits.iter().map(|hit| hit.name.replace('_', " ")).collect();
+    match &names[..] {
+        [] => "nothing in it is called so; say what it looks like, or what it is for".to_owned(),
+        [only] => format!("the nearest is {only}; say that if it will do"),
+        [head @ .., last] => format!("near are {} and {last}; say which will do", head.join(", ")),
     }
 }
 
 /// The assets that a noun of all these words may mean, the plainest first.
 fn assets_called<'a>(catalogue: &'a Catalogue, noun: &[&str]) -> Vec<&'a Asset> {
     let spellings = singulars(&noun.join("_"));
-    let named = |asset: &&Asset| spellings.contains(&asset.name);
-    let all = || catalogue.iter().map(|(_, asset)| asset);
-    let mut found: Vec<&Asset> = all().filter(named).collect();
+    let found = spellings.iter().filter_map(|name| catalogue.get(catalogue.find(name)?));
+    let mut found: Vec<&Asset> = found.collect();
     let lexemes = lex(&noun.join(" "));
     if let Some((class, _)) = category(&lexemes).filter(|(_, count)| *count == lexemes.len()) {
         let kinds = class.kinds();
-        let mut of_kind: Vec<&Asset> = all().filter(|asset| kinds.contains(&asset.kind)).collect();
+        let all = catalogue.iter().map(|(_, asset)| asset);
+        let mut of_kind: Vec<&Asset> = all.filter(|asset| kinds.contains(&asset.kind)).collect();
         // The one that is called as its kind is comes first: "a car" is no sports car.
         of_kind.sort_by_key(|asset| asset.name != asset.kind.as_str());
         found.extend(of_kind);
-    }
-    if found.is_empty() {
-        let tagged = |asset: &&Asset| asset.tags.iter().any(|tag| spellings.contains(&tag.replace(' ', "_")));
-        found.extend(all().filter(tagged).filter(|asset| asset.kind != EntityKind::Building));
     }
     found
 }

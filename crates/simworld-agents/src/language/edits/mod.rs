@@ -25,7 +25,6 @@ mod words;
 use std::sync::Arc;
 
 use parse::{Reader, UNDERSTOOD};
-use simworld_core::asset::Catalogue;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
@@ -36,7 +35,7 @@ use super::parser::shortened;
 use super::resolve::View;
 use super::streets::StreetNames;
 use super::{AmbiguityPolicy, LONGEST_SENTENCE, hearing};
-use crate::editing::EditError;
+use crate::editing::{EditError, Stock};
 
 /// From where the scene is looked at, and what was spoken of.
 #[derive(Clone, Debug)]
@@ -74,7 +73,7 @@ impl Reading {
 pub(crate) fn read(
     words: &str,
     scene: &dyn Scene,
-    catalogue: &Catalogue,
+    stock: &Stock,
     focus: &Focus,
 ) -> Result<Reading, EditError> {
     if words.chars().count() > LONGEST_SENTENCE {
@@ -84,7 +83,7 @@ pub(crate) fn read(
     let view = view_of(scene, focus);
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
-    slips::correct(words, &mut lexemes, &names, catalogue, &focus.streets);
+    slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     let mut reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0 };
     let wishes = reader.sentence()?;
     Ok(Reading { words: words.to_owned(), wishes })

@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Relation, Scene};
@@ -14,7 +13,7 @@ use super::places::is_pronoun;
 use super::sky::changed;
 use super::wish::{Anchor, Where, Wish};
 use super::{Focus, Reading, view_of};
-use crate::editing::{Edit, EditError, Stand};
+use crate::editing::{Edit, EditError, Stand, Stock};
 
 /// The questions about what stands somewhere are answered so far around, m.
 const ASKED_AROUND: f64 = 80.0;
@@ -25,12 +24,12 @@ impl Reading {
         &self,
         index: usize,
         scene: &dyn Scene,
-        catalogue: &Catalogue,
+        stock: &Stock,
         focus: &Focus,
     ) -> Result<Vec<Edit>, EditError> {
         let mut refused = None;
         for wish in self.wishes.get(index).into_iter().flatten() {
-            let finder = Finder { scene, catalogue, focus, view: view_of(scene, focus) };
+            let finder = Finder { scene, stock, focus, view: view_of(scene, focus) };
             match finder.edits(wish) {
                 Ok(edits) => return Ok(edits),
                 Err(error) => refused = refused.or(Some(error)),
@@ -47,7 +46,7 @@ impl Reading {
 
 pub(super) struct Finder<'a> {
     pub(super) scene: &'a dyn Scene,
-    pub(super) catalogue: &'a Catalogue,
+    pub(super) stock: &'a Stock,
     pub(super) focus: &'a Focus,
     pub(super) view: View<'a>,
 }
@@ -62,7 +61,7 @@ impl Finder<'_> {
                 let stands = self.stands(at, &[])?;
                 let add = |thing: &super::wish::NewThing| {
                     Ok(Edit::Add {
-                        make: thing.make(self.catalogue)?,
+                        make: thing.make(self.stock)?,
                         count: thing.count,
                         stands: stands.clone(),
                     })
@@ -75,7 +74,7 @@ impl Finder<'_> {
                 let thing = self.one(what)?;
                 let point = self.entity(thing, what)?.planar();
                 let stands = vec![Stand::At { point }];
-                let add = Edit::Add { make: with.make(self.catalogue)?, count: with.count, stands };
+                let add = Edit::Add { make: with.make(self.stock)?, count: with.count, stands };
                 return Ok(vec![Edit::Remove { things: vec![thing] }, add]);
             }
             Wish::Rotate { what, angle } => Edit::Rotate { things: self.all(what)?, angle: *angle },

@@ -3,8 +3,6 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
-use simworld_core::asset::Catalogue;
-
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::CATEGORIES;
 use super::super::names::Names;
@@ -13,6 +11,8 @@ use super::super::spelling::{correct_but, is_known};
 use super::super::streets::StreetNames;
 use super::super::verbs::base_form;
 use super::words;
+use crate::editing::Stock;
+use crate::retrieval::is_synonym;
 
 /// Words shorter than this are taken as they are.
 const SHORTEST: usize = 3;
@@ -68,7 +68,7 @@ pub(super) fn correct(
     words: &str,
     lexemes: &mut Vec<Lexeme>,
     names: &Names<'_>,
-    catalogue: &Catalogue,
+    stock: &Stock,
     streets: &StreetNames,
 ) {
     let mut at = 1;
@@ -81,7 +81,7 @@ pub(super) fn correct(
             at += 1;
         }
     }
-    let own = Own { catalogue };
+    let own = Own { stock };
     let mut at = 0;
     while at < lexemes.len() {
         let here = at;
@@ -95,7 +95,7 @@ pub(super) fn correct(
         }
         // Names are written with a capital, and may be anything.
         let is_name = here > 0 && words[lexemes[here].start..].starts_with(char::is_uppercase);
-        if let Some(parts) = compound(word, catalogue) {
+        if let Some(parts) = compound(word, stock) {
             let lexeme = lexemes[here].clone();
             let part =
                 |part: String| Lexeme { lemma: base_form(&part), token: Token::Word(part), ..lexeme.clone() };
@@ -125,14 +125,8 @@ pub(super) fn correct(
 }
 
 /// "Sportscar": the words of an asset's name that are written as one.
-fn compound(word: &str, catalogue: &Catalogue) -> Option<Vec<String>> {
-    let joined = |name: &str| name.replace('_', "");
-    let fits = |name: &str| joined(name) == word || word.strip_suffix('s') == Some(joined(name).as_str());
-    let found = catalogue
-        .iter()
-        .map(|(_, asset)| asset.name.as_str())
-        .find(|name| name.contains('_') && fits(name))?;
-    Some(found.split('_').map(str::to_owned).collect())
+fn compound(word: &str, stock: &Stock) -> Option<Vec<String>> {
+    Some(stock.name_written_as(word)?.split('_').map(str::to_owned).collect())
 }
 
 /// The words of all tables, gathered once.
@@ -149,24 +143,17 @@ static TABLES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
 
 /// The words of edits: those of the tables and of a catalogue.
 struct Own<'a> {
-    catalogue: &'a Catalogue,
+    stock: &'a Stock,
 }
 
 impl Own<'_> {
-    fn of_catalogue(&self) -> impl Iterator<Item = &str> {
-        self.catalogue.iter().flat_map(|(_, asset)| {
-            let tags = asset.tags.iter().map(String::as_str);
-            asset.name.split('_').chain(tags)
-        })
-    }
-
     fn contains(&self, word: &str) -> bool {
-        TABLES.contains(word) || self.of_catalogue().any(|own| own == word)
+        TABLES.contains(word) || self.stock.has_word(word) || is_synonym(word)
     }
 
     /// All of them, each once.
     fn all(&self) -> BTreeSet<&str> {
-        TABLES.iter().map(String::as_str).chain(self.of_catalogue()).collect()
+        TABLES.iter().map(String::as_str).chain(self.stock.words()).collect()
     }
 }
 
@@ -194,7 +181,9 @@ fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
         let ends = known.chars().next_back() != word.chars().next_back();
         // Letters out of order are one slip, however far one of them went.
         let distance = strsim::osa_distance(word, known);
-        (if slip == Slip::Swapped && distance <= 2 { 1 } else { distance }, slip, ends, known)
+        // A word of everybody is likelier than one of the catalogue: "bech" is a bench and no beech.
+        let is_rare = !TABLES.contains(known);
+        (if slip == Slip::Swapped && distance <= 2 { 1 } else { distance }, slip, ends, is_rare, known)
     });
     let short = length == SHORTEST;
     let mut best: Vec<_> = ranked
@@ -203,8 +192,10 @@ fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
     best.sort_unstable();
     match &best[..] {
         [(.., only)] => Some((*only).to_owned()),
-        [first, second, ..] if (first.0, first.1, first.2) < (second.0, second.1, second.2) => {
-            Some(first.3.to_owned())
+        [first, second, ..]
+            if (first.0, first.1, first.2, first.3) < (second.0, second.1, second.2, second.3) =>
+        {
+            Some(first.4.to_owned())
         }
         _ => None,
     }

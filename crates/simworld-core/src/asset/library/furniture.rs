@@ -37,7 +37,7 @@ pub(super) const ROWS: &[Row] = &[
     row("parasol", Prop, round(1.4, 2.5), 28.0, Fabric, [0.7, 0.63, 0.48], &["sunshade", "umbrella", "terrace"]),
     row("awning_tent", Prop, boxed(3.0, 3.0, 2.7), 32.0, Fabric, [0.8, 0.8, 0.79], &["gazebo", "pavilion", "canopy", "event", "party"]),
     row("tent", Prop, boxed(2.4, 2.1, 1.3), 5.0, Fabric, [0.75, 0.25, 0.03], &["camping", "dome"]),
-    row("trash_can", TrashBin, round(0.23, 0.7), 9.0, Metal, [0.55, 0.56, 0.58], &["rubbish", "garbage"]),
+    row("metal_trash_can", TrashBin, round(0.23, 0.7), 9.0, Metal, [0.55, 0.56, 0.58], &["rubbish", "garbage"]),
     row("trash_bin_b", TrashBin, boxed(0.45, 0.6, 1.1), 42.0, Metal, [0.12, 0.12, 0.13], &["rubbish", "litter", "bin", "large"]),
     row("wheelie_bin", TrashBin, boxed(0.74, 0.58, 1.07), 13.0, Plastic, [0.03, 0.11, 0.05], &["rubbish", "household", "waste"]).can(&[Open]),
     row("dumpster", TrashBin, boxed(1.37, 1.07, 1.45), 65.0, Metal, [0.03, 0.11, 0.05], &["skip", "container", "waste", "rubbish"]).can(&[Open]),

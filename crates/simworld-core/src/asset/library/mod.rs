@@ -39,7 +39,7 @@ const ELEMENTS: &[(&str, &str)] = &[
     ("bp_table3", "long_table"),
     ("bp_trash_bin_a", "trash_bin"),
     ("bp_trash_bin_b", "trash_bin_b"),
-    ("bp_trash_can", "trash_can"),
+    ("bp_trash_can", "metal_trash_can"),
     ("bp_tree1", "tree_1"),
     ("bp_tree2", "tree_2"),
     ("bp_tree3", "tree_3"),
