@@ -36,14 +36,14 @@ impl NewThing {
         match (stock.index.choose(&said.join(" ")), left_over) {
             (Choice::Sure(hit), _) => match stock.catalogue.get(hit.asset) {
                 Some(asset) => Ok(self.made_from(asset, self.scale, season)),
-                None => Err(self.unknown(&words, near(&[]))),
+                None => Err(unknown(&words, near(&[]))),
             },
             (Choice::Unsure(_), Some(modifiers)) => {
                 let near =
                     format!("nothing here is {modifiers}; say it without, or name it by colour and size");
                 Err(EditError::UnknownThing { wanted: self.text.clone(), near })
             }
-            (Choice::Unsure(hits), None) => Err(self.unknown(&words, near(&hits))),
+            (Choice::Unsure(hits), None) => Err(unknown(&words, near(&hits))),
         }
     }
 
@@ -68,10 +68,10 @@ impl NewThing {
             _ => (None, words),
         }
     }
+}
 
-    fn unknown(&self, words: &[&str], near: String) -> EditError {
-        EditError::UnknownThing { wanted: words.join(" "), near }
-    }
+fn unknown(words: &[&str], near: String) -> EditError {
+    EditError::UnknownThing { wanted: words.join(" "), near }
 }
 
 /// What an answer says of what is near.
