@@ -9,7 +9,8 @@ use simworld_core::scene::{EntityKind, EntityRef, Scene};
 
 use crate::classes::class_of;
 use crate::look::{Look, Looks};
-use crate::mesh::MeshId;
+use crate::mesh::Drawn;
+use crate::models::model_of;
 use crate::shadow::ShadowView;
 use crate::view::View;
 
@@ -48,12 +49,12 @@ impl Instance {
 /// A run of instances of one mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Batch {
-    pub mesh: MeshId,
+    pub mesh: Drawn,
     pub instances: Range<u32>,
 }
 
 /// One instance to sort: mesh, then rank, then position among the found.
-type Entry = (MeshId, u32, u32);
+type Entry = (Drawn, u32, u32);
 
 /// Instances in the order in which they are drawn, first those on the picture, then those that cast shadows.
 #[derive(Default)]
@@ -63,7 +64,7 @@ pub(crate) struct DrawList {
     pub entities: Vec<(EntityId, u8)>,
     pub visible: Vec<Batch>,
     pub casters: Vec<Batch>,
-    found: Vec<(MeshId, Instance, EntityId, u8)>,
+    found: Vec<(Drawn, Instance, EntityId, u8)>,
     seen: Vec<Entry>,
     shading: Vec<Entry>,
 }
@@ -86,7 +87,14 @@ impl DrawList {
         let region = shadow.map_or_else(|| view.region(), |shadow| view.region().union(&shadow.region()));
         let _ = scene.visit(&region.inflated(OVERHANG), &mut |entity| {
             if entity.is_visible() {
-                self.consider(&entity, view, shadow, min_pixels, hidden, |entity| looks.of(entity, signals));
+                let look_of = |entity: &EntityRef<'_>| match entity.info.asset {
+                    Some(id) if model_of(scene, id).is_some() => (Drawn::Model(id), looks.of_model(entity)),
+                    _ => {
+                        let look = looks.of(entity, signals);
+                        (Drawn::Own(look.mesh), look)
+                    }
+                };
+                self.consider(&entity, view, shadow, min_pixels, hidden, look_of);
             }
             ControlFlow::Continue(())
         });
@@ -100,7 +108,7 @@ impl DrawList {
         shadow: Option<&ShadowView>,
         min_pixels: f64,
         hidden: Option<EntityId>,
-        look_of: impl Fn(&EntityRef<'_>) -> Look,
+        look_of: impl Fn(&EntityRef<'_>) -> (Drawn, Look),
     ) {
         // The ball around the bounds may miss what overhangs them, so it is tested with the most first.
         let (center, radius) = ball(entity.bounds, view);
@@ -110,7 +118,7 @@ impl DrawList {
         if !(view.sees(&center, roughly, min_pixels) && !hidden || shades(roughly)) {
             return;
         }
-        let look = look_of(entity);
+        let (mesh, look) = look_of(entity);
         let radius = radius + look.reach;
         let seen = !hidden && view.sees(&center, radius, min_pixels);
         let shading = casts(entity.kind) && shades(radius);
@@ -120,12 +128,12 @@ impl DrawList {
         let index = self.found.len() as u32;
         let relative = entity.position() - view.eye;
         let instance = Instance::new(entity, &relative, &look);
-        self.found.push((look.mesh, instance, entity.id, class_of(entity.kind)));
+        self.found.push((mesh, instance, entity.id, class_of(entity.kind)));
         if seen {
-            self.seen.push((look.mesh, rank(look.mesh, &center), index));
+            self.seen.push((mesh, rank(mesh, &center), index));
         }
         if shading {
-            self.shading.push((look.mesh, 0, index));
+            self.shading.push((mesh, 0, index));
         }
     }
 
@@ -158,7 +166,7 @@ fn batch(batches: &mut Vec<Batch>, sorted: &[Entry], first: u32) {
 
 /// Near ones first, so that what they hide is not shaded; flat surfaces keep the order of the visit, because where two
 /// lie in one plane the first is seen, and that must not change with the camera.
-fn rank(mesh: MeshId, center: &Vector3) -> u32 {
+fn rank(mesh: Drawn, center: &Vector3) -> u32 {
     // The bits of positive floats sort as the floats do.
     if mesh.pattern().is_flat() { 0 } else { (center.norm_squared() as f32).to_bits() }
 }

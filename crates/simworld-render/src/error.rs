@@ -70,6 +70,18 @@ pub enum RenderError {
         /// The most.
         limit: usize,
     },
+    /// A model that the adapter's buffers do not hold.
+    #[error(
+        "the model of asset {name:?} takes {bytes} bytes, and this adapter holds {limit}: give it fewer triangles"
+    )]
+    Model {
+        /// Of which asset.
+        name: String,
+        /// How many it takes.
+        bytes: u64,
+        /// The most.
+        limit: u64,
+    },
     /// The adapter ran out of memory.
     #[error("the adapter ran out of memory: draw a smaller picture or a smaller shadow map")]
     OutOfMemory,

@@ -11,6 +11,7 @@ mod gpu;
 mod light;
 mod look;
 mod mesh;
+mod models;
 mod renderer;
 mod sensor;
 mod shadow;

@@ -92,21 +92,16 @@ impl Looks {
         Self { variation: Seed(0).stream("render/variation") }
     }
 
+    /// The look of an entity that is drawn as its asset's model.
+    pub(crate) fn of_model(&self, entity: &EntityRef<'_>) -> Look {
+        let color = entity.info.color.unwrap_or([1.0; 3]);
+        Look { unit: 1.0, color, ..self.plain(entity) }
+    }
+
     /// The look of an entity under the aspects that signals show.
     pub(crate) fn of(&self, entity: &EntityRef<'_>, signals: &[Aspect]) -> Look {
-        let bits = self.variation.indexed(entity.id.into()).seed().0;
-        let size = entity.info.shape.size();
-        let mut look = Look {
-            mesh: primitive(&entity.info.shape),
-            scale: [size.x as f32, size.y as f32, size.z as f32],
-            unit: 1.0,
-            color: [0.5; 3],
-            second: [0.25; 3],
-            seed: (bits >> 40) as f32 / (1_u32 << 24) as f32,
-            state: 0.0,
-            param: 0.0,
-            reach: 0.0,
-        };
+        let bits = self.bits(entity);
+        let mut look = self.plain(entity);
         if matches!(look.mesh, MeshId::Cylinder | MeshId::Capsule | MeshId::Sphere) {
             look.unit = look.scale[0] * 0.5;
         }
@@ -115,6 +110,26 @@ impl Looks {
             look.color = color;
         }
         look
+    }
+
+    fn bits(&self, entity: &EntityRef<'_>) -> u64 {
+        self.variation.indexed(entity.id.into()).seed().0
+    }
+
+    /// Its solid in grey.
+    fn plain(&self, entity: &EntityRef<'_>) -> Look {
+        let size = entity.info.shape.size();
+        Look {
+            mesh: primitive(&entity.info.shape),
+            scale: [size.x as f32, size.y as f32, size.z as f32],
+            unit: 1.0,
+            color: [0.5; 3],
+            second: [0.25; 3],
+            seed: (self.bits(entity) >> 40) as f32 / (1_u32 << 24) as f32,
+            state: 0.0,
+            param: 0.0,
+            reach: 0.0,
+        }
     }
 }
 

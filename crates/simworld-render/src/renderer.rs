@@ -7,7 +7,8 @@ use simworld_core::scene::Scene;
 use crate::draw_list::{Batch, DrawList, Instance};
 use crate::gpu::{Globals, Gpu, Pipelines, Targets};
 use crate::light::Light;
-use crate::mesh::MeshLibrary;
+use crate::mesh::{Drawn, MeshLibrary, Pattern};
+use crate::models::Models;
 use crate::shadow::ShadowView;
 use crate::view::View;
 use crate::{Frame, RenderConfig, RenderError};
@@ -20,6 +21,7 @@ pub struct Renderer {
     gpu: Gpu,
     pipelines: Pipelines,
     meshes: Meshes,
+    models: Models,
     instances: wgpu::Buffer,
     targets: Option<Targets>,
     list: DrawList,
@@ -56,7 +58,8 @@ impl Renderer {
         let instances = instance_buffer(&gpu, 1024);
         gpu.check()?;
         let config = RenderConfig { shadow_resolution: side, ..config.clone() };
-        Ok(Self { config, gpu, pipelines, meshes, instances, targets: None, list: DrawList::default() })
+        let (models, list) = (Models::default(), DrawList::default());
+        Ok(Self { config, gpu, pipelines, meshes, models, instances, targets: None, list })
     }
 
     /// Its settings.
@@ -104,6 +107,7 @@ impl Renderer {
             self.config.shadow_resolution,
         );
         self.list.gather(scene, &view, shadow.as_ref(), self.config.min_pixels, hidden);
+        self.models.hold(&self.gpu, scene, &[&self.list.visible, &self.list.casters])?;
         self.upload(&Globals::new(&view, &light, shadow.as_ref()))?;
 
         let (width, height) = (camera.intrinsics.width, camera.intrinsics.height);
@@ -156,10 +160,7 @@ impl Renderer {
         });
         pass.set_pipeline(&self.pipelines.shadow);
         pass.set_bind_group(0, &self.pipelines.globals, &[]);
-        self.bind_meshes(&mut pass);
-        for batch in &self.list.casters {
-            self.draw(&mut pass, batch);
-        }
+        self.draw_batches(&mut pass, &self.list.casters, |_, _| {});
     }
 
     fn draw_picture(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets) {
@@ -186,16 +187,9 @@ impl Renderer {
     fn draw_entities(&self, pass: &mut wgpu::RenderPass<'_>, one: Option<&wgpu::RenderPipeline>) {
         pass.set_bind_group(0, &self.pipelines.globals, &[]);
         pass.set_bind_group(1, &self.pipelines.shadow_inputs, &[]);
-        self.bind_meshes(pass);
-        let mut bound = None;
-        for batch in &self.list.visible {
-            let pattern = batch.mesh.pattern();
-            if bound != Some(pattern) {
-                pass.set_pipeline(one.unwrap_or(&self.pipelines.picture[pattern as usize]));
-                bound = Some(pattern);
-            }
-            self.draw(pass, batch);
-        }
+        self.draw_batches(pass, &self.list.visible, |pass, pattern| {
+            pass.set_pipeline(one.unwrap_or(&self.pipelines.picture[pattern as usize]));
+        });
     }
 
     fn draw_sky(&self, pass: &mut wgpu::RenderPass<'_>) {
@@ -204,14 +198,35 @@ impl Renderer {
         pass.draw(0..3, 0..1);
     }
 
-    fn bind_meshes(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_vertex_buffer(0, self.meshes.vertices.slice(..));
+    /// Draws batches in their order; before each pattern, what is to be done for it.
+    fn draw_batches(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        batches: &[Batch],
+        mut begin: impl FnMut(&mut wgpu::RenderPass<'_>, Pattern),
+    ) {
         pass.set_vertex_buffer(1, self.instances.slice(..));
-        pass.set_index_buffer(self.meshes.indices.slice(..), wgpu::IndexFormat::Uint32);
-    }
-
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, batch: &Batch) {
-        pass.draw_indexed(self.meshes.ranges[batch.mesh as usize].clone(), 0, batch.instances.clone());
+        let (mut is_own, mut pattern) = (false, None);
+        for batch in batches {
+            if pattern != Some(batch.mesh.pattern()) {
+                begin(pass, batch.mesh.pattern());
+                pattern = Some(batch.mesh.pattern());
+            }
+            match batch.mesh {
+                Drawn::Model(id) => {
+                    self.models.draw(pass, id, batch.instances.clone());
+                    is_own = false;
+                }
+                Drawn::Own(mesh) => {
+                    if !is_own {
+                        pass.set_vertex_buffer(0, self.meshes.vertices.slice(..));
+                        pass.set_index_buffer(self.meshes.indices.slice(..), wgpu::IndexFormat::Uint32);
+                        is_own = true;
+                    }
+                    pass.draw_indexed(self.meshes.ranges[mesh as usize].clone(), 0, batch.instances.clone());
+                }
+            }
+        }
     }
 }
 

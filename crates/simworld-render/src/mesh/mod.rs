@@ -14,6 +14,7 @@ use builder::Builder;
 pub(crate) use builder::Vertex;
 pub(crate) use nature::CROWN_RADIUS;
 use people::Stance;
+use simworld_core::id::AssetId;
 pub(crate) use street::LAMP_REACH;
 
 /// How the fragments of a mesh are painted; each is a pipeline of its own.
@@ -105,6 +106,23 @@ meshes! {
     Crosswalk = Crosswalk, primitives::cuboid();
     Road = Road, primitives::cuboid();
     Ground = Ground, primitives::cuboid();
+}
+
+/// What is drawn of an entity: a mesh of this crate, or the model of its asset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Drawn {
+    // Before the large surfaces, as all small things.
+    Model(AssetId),
+    Own(MeshId),
+}
+
+impl Drawn {
+    pub(crate) const fn pattern(self) -> Pattern {
+        match self {
+            Self::Model(_) => Pattern::Plain,
+            Self::Own(mesh) => mesh.pattern(),
+        }
+    }
 }
 
 /// All meshes, ready for upload.

@@ -33,6 +33,12 @@ struct Finish {
 
 // The materials of mesh/builder.rs.
 fn finish_of(in: VertexIn) -> Finish {
+    if (is_model(in)) {
+        // Square roots of 10 bits a channel; times the colour of the entity where the part has that.
+        let roots = vec3f(vec3u(in.material >> 20u, in.material >> 10u, in.material) & vec3u(1023u)) / 1023.0;
+        let factor = select(vec3f(1.0), in.color.rgb, (in.material & 0x40000000u) != 0u);
+        return Finish(roots * roots * factor, 0.0, 0.0);
+    }
     let night = globals.sun_direction.w;
     let aspect = in.color.w;
     let skin = mix(vec3f(0.42, 0.24, 0.15), vec3f(0.72, 0.47, 0.33), fract(in.scale.w * 11.0));
@@ -64,9 +70,10 @@ fn vertex_main(in: VertexIn) -> Varyings {
     var out: Varyings;
     out.position = globals.clip_from_relative * vec4f(relative, 1.0);
     out.relative = relative;
-    out.normal = rotate(in.rotation, in.normal);
+    let normal = body_normal(in);
+    out.normal = rotate(in.rotation, normal);
     out.body = body_point(in);
-    out.body_normal = in.normal;
+    out.body_normal = normal;
     out.albedo = finish.albedo;
     out.finish = vec2f(finish.emission, finish.gloss);
     out.size = in.scale;

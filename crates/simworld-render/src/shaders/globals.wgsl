@@ -40,6 +40,16 @@ fn rotate(q: vec4f, v: vec3f) -> vec3f {
     return v + q.w * t + cross(q.xyz, t);
 }
 
+// Whether the vertex is one of an asset's model: its material is a colour.
+fn is_model(in: VertexIn) -> bool {
+    return (in.material & 0x80000000u) != 0u;
+}
+
+// Its normal in the body frame; models are stretched to the box of the instance, and their normals with them.
+fn body_normal(in: VertexIn) -> vec3f {
+    return select(in.normal, normalize(in.normal / in.scale.xyz), is_model(in));
+}
+
 // The vertex in the body frame, m.
 fn body_point(in: VertexIn) -> vec3f {
     return in.anchor * in.scale.xyz + in.offset * in.translation.w;
