@@ -49,13 +49,19 @@ impl PhysicsDynamics {
         self.insert(world, id, Box::new(Vehicle::of(&entity, parameters)?))
     }
 
-    /// Lets an entity fall and tumble as a free rigid body of its pose, velocity, shape and mass.
+    /// Lets an entity fall and tumble as a free rigid body of its pose, velocity, shape and mass; if its asset has a model, it
+    /// is met as the hulls of that.
     ///
     /// # Errors
     /// An unknown entity, or one that has a body.
     pub fn add_rigid(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
         let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
-        self.insert(world, id, Box::new(Rigid::of(&entity, material_of_entity(&entity, world))))
+        let rigid = Rigid::of(&entity, material_of_entity(&entity, world));
+        let rigid = match self.solids.of(&entity, world) {
+            Some(solid) => rigid.with_solid(solid),
+            None => rigid,
+        };
+        self.insert(world, id, Box::new(rigid))
     }
 
     /// Gives an entity a body of any kind.

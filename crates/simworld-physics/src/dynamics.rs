@@ -17,6 +17,7 @@ use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::mirror::Moving;
 use crate::shape::{BodyTag, marked};
+use crate::solid::Solids;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
@@ -29,7 +30,7 @@ const MOST_SUBSTEPS: f64 = 1000.0;
 
 /// The bodies of a world under the laws of physics.
 ///
-/// Solid things that do not move by themselves become fixed colliders; traffic near a body of this physics becomes
+/// Solid things that do not move by themselves become fixed colliders, by the hulls of their asset's model if it has one; traffic near a body of this physics becomes
 /// a moving obstacle; the entities that were given a body here are moved by it. A saved state
 /// is taken up by a physics with the same settings in which the same entities have bodies of the same kinds.
 ///
@@ -66,6 +67,8 @@ pub struct PhysicsDynamics {
     /// By ascending id.
     pub(crate) bodies: Vec<Owned>,
     pub(crate) contacts: Contacts,
+    /// What bodies meet of assets with a model.
+    pub(crate) solids: Solids,
     /// What the air and the roads are like.
     pub(crate) conditions: Conditions,
     /// Where bodies move in full detail; everywhere, if there are none.
@@ -116,6 +119,7 @@ impl PhysicsDynamics {
             slots: Vec::new(),
             bodies: Vec::new(),
             contacts: Contacts::default(),
+            solids: Solids::default(),
             conditions: Conditions::default(),
             interest: Vec::new(),
             nobody: RigidBodySet::new(),

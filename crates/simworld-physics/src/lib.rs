@@ -16,6 +16,7 @@ mod query;
 mod rigid;
 mod shape;
 mod snapshot;
+mod solid;
 mod surface;
 mod sync;
 mod vehicle;

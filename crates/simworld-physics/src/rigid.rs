@@ -1,6 +1,6 @@
 //! A free rigid body: it falls, tumbles and comes to rest, and takes no orders.
 
-use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
+use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape};
 use simworld_core::action::{Action, ActionSet};
 use simworld_core::asset::Material;
 use simworld_core::id::EntityId;
@@ -10,17 +10,20 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 use crate::body::{BodyContext, PhysicsBody};
 use crate::convert::{to_pose, to_vector};
 use crate::shape::collider_for;
+use crate::solid::with_solid;
 
 /// Density of things whose mass nobody gave, kg/m³: about that of seasoned softwood.
 const DENSITY: f64 = 500.0;
 
 /// A free rigid body with the shape and mass of an entity.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Rigid {
     state: BodyState,
     shape: Shape,
     mass: Option<f64>,
     material: Material,
+    /// What bodies meet instead of the shape, in the body frame.
+    solid: Option<SharedShape>,
 }
 
 impl Rigid {
@@ -29,7 +32,25 @@ impl Rigid {
     pub fn of(entity: &EntityRef<'_>, material: Material) -> Self {
         let state = BodyState { pose: *entity.pose, twist: *entity.twist };
         let mass = entity.info.mass.filter(|mass| mass.is_finite() && *mass > 0.0);
-        Self { state, shape: entity.info.shape, mass, material }
+        Self { state, shape: entity.info.shape, mass, material, solid: None }
+    }
+
+    /// With a solid of its own in the body frame, which bodies meet instead of the shape.
+    #[must_use]
+    pub fn with_solid(mut self, solid: SharedShape) -> Self {
+        self.solid = Some(solid);
+        self
+    }
+}
+
+impl std::fmt::Debug for Rigid {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Rigid")
+            .field("state", &self.state)
+            .field("shape", &self.shape)
+            .field("mass", &self.mass)
+            .field("material", &self.material)
+            .finish_non_exhaustive()
     }
 }
 
@@ -63,6 +84,10 @@ impl PhysicsBody for Rigid {
             .angvel(to_vector(&self.state.twist.angular))
             .ccd_enabled(true);
         let collider = collider_for(&self.shape, id, self.material);
+        let collider = match &self.solid {
+            Some(solid) => with_solid(collider, solid.clone()),
+            None => collider,
+        };
         let collider = match self.mass {
             Some(mass) => collider.mass(mass),
             None => collider.density(DENSITY),

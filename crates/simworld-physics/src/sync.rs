@@ -6,7 +6,7 @@
 use rapier3d_f64::prelude::{ColliderHandle, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Pose, planar};
-use simworld_core::id::EntityId;
+use simworld_core::id::{AssetId, EntityId};
 use simworld_core::scene::{EntityRef, Role, Scene, Shape, World};
 use simworld_core::seam::BodyState;
 
@@ -14,7 +14,7 @@ use crate::body::Bonds;
 use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
 use crate::mirror::Mirror;
-use crate::shape::{body_from, collider_for, material_of_entity, shape_from};
+use crate::shape::body_from;
 
 /// What the physics makes of a slot of the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -23,7 +23,7 @@ pub(crate) enum Slot {
     #[default]
     Vacant,
     /// A fixed collider.
-    Fixed { id: EntityId, shape: Shape, pose: Pose, collider: ColliderHandle },
+    Fixed { id: EntityId, asset: Option<AssetId>, shape: Shape, pose: Pose, collider: ColliderHandle },
     /// Something that others move.
     Traffic(Mirror),
     /// A body of this physics.
@@ -84,8 +84,11 @@ impl PhysicsDynamics {
             Slot::Own { .. } => {}
             _ if !entity.is_solid() => self.vacate(slot),
             _ if entity.kind.is_mobile() => self.synchronise_mirror(slot, entity, world),
-            Slot::Fixed { id, shape, pose, .. }
-                if *id == entity.id && pose == entity.pose && *shape == entity.info.shape => {}
+            Slot::Fixed { id, asset, shape, pose, .. }
+                if *id == entity.id
+                    && *asset == entity.info.asset
+                    && pose == entity.pose
+                    && *shape == entity.info.shape => {}
             _ => self.fix(slot, entity, world),
         }
     }
@@ -93,13 +96,13 @@ impl PhysicsDynamics {
     /// Makes a solid thing a fixed collider, in the place of what was in the slot.
     fn fix(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
         self.vacate(slot);
-        let (_, body_from_solid) = shape_from(&entity.info.shape);
-        let collider = collider_for(&entity.info.shape, entity.id, material_of_entity(entity, world))
-            .position(to_pose(entity.pose) * body_from_solid);
+        let collider = self.solids.collider(entity, world);
+        let world_from_solid = to_pose(entity.pose) * collider.position;
+        let collider = collider.position(world_from_solid);
         let collider = self.physics.insert_collider(collider, None);
         self.file(collider);
-        let (id, shape, pose) = (entity.id, entity.info.shape, *entity.pose);
-        self.slots[slot] = Slot::Fixed { id, shape, pose, collider };
+        let (id, asset, shape, pose) = (entity.id, entity.info.asset, entity.info.shape, *entity.pose);
+        self.slots[slot] = Slot::Fixed { id, asset, shape, pose, collider };
     }
 
     /// Takes out of the engine what others than the bodies have in a slot.
