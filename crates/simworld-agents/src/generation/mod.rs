@@ -7,13 +7,21 @@
 mod error;
 #[cfg(all(feature = "assets", feature = "http"))]
 mod hunyuan;
+mod procedural;
 mod prompt;
+mod reading;
+mod sculpt;
+mod stuff;
+mod thing;
+mod things;
+mod words;
 
 pub use error::GenerateError;
 #[cfg(all(feature = "assets", feature = "http"))]
 pub use hunyuan::{
     Canceller, HunyuanConfig, HunyuanError, HunyuanGenerator, HunyuanVersion, Texture, Ticket, Way,
 };
+pub use procedural::{KnownThing, ProceduralGenerator};
 pub use prompt::{AssetPrompt, LONGEST_PROMPT, SizeHint};
 use simworld_core::asset::Asset;
 

@@ -6,7 +6,7 @@ use super::verbs::base_form;
 
 /// The smallest piece of a sentence.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Token {
+pub(crate) enum Token {
     /// A word in lower case without its apostrophes; a symbol that means nothing here is a word nobody knows.
     Word(String),
     /// A finite number.
@@ -25,16 +25,16 @@ pub(super) enum Token {
 
 /// A token and the bytes it was read from.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Lexeme {
-    pub(super) token: Token,
+pub(crate) struct Lexeme {
+    pub(crate) token: Token,
     /// The base form, if the token is an inflected verb: "sit" for "sitting".
-    pub(super) lemma: Option<String>,
-    pub(super) start: usize,
-    pub(super) end: usize,
+    pub(crate) lemma: Option<String>,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
 }
 
 /// Reads the tokens of a text, in order.
-pub(super) fn lex(text: &str) -> Vec<Lexeme> {
+pub(crate) fn lex(text: &str) -> Vec<Lexeme> {
     let mut lexemes = Vec::new();
     let mut at = 0;
     while let Some(first) = text[at..].chars().next() {

@@ -4,7 +4,7 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::{fits, longest, longest_phrase};
 
 /// Numbers in words.
-const NUMERALS: &[(&str, f64)] = &[
+pub(crate) const NUMERALS: &[(&str, f64)] = &[
     ("a", 1.0),
     ("an", 1.0),
     ("one", 1.0),

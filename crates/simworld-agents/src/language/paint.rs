@@ -2,7 +2,7 @@
 
 /// A colour word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Paint {
+pub(crate) enum Paint {
     Red,
     Orange,
     Yellow,
@@ -17,7 +17,7 @@ pub(super) enum Paint {
 }
 
 /// Words for colours.
-pub(super) const PAINTS: &[(&[&str], Paint)] = &[
+pub(crate) const PAINTS: &[(&[&str], Paint)] = &[
     (&["red", "crimson", "scarlet"], Paint::Red),
     (&["orange"], Paint::Orange),
     (&["yellow"], Paint::Yellow),
@@ -33,7 +33,7 @@ pub(super) const PAINTS: &[(&[&str], Paint)] = &[
 
 impl Paint {
     /// A colour of that name as paint has it, linear-light sRGB.
-    pub(super) const fn color(self) -> [f32; 3] {
+    pub(crate) const fn color(self) -> [f32; 3] {
         match self {
             Self::Red => [0.55, 0.03, 0.02],
             Self::Orange => [0.8, 0.2, 0.02],
