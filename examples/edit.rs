@@ -13,8 +13,10 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use simworld_agents::assets::ImportConfig;
-use simworld_agents::editing::{Difference, Edited, Placing, SceneEditor};
+use simworld_agents::editing::{Difference, Edited, Placing, ReadBy, SceneEditor};
 use simworld_agents::library::{LOCK, Library, LibraryLimits};
+use simworld_agents::model::{OpenAiChat, OpenAiConfig};
+use simworld_agents::thought::ModelReader;
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point2, planar};
 use simworld_core::id::EntityId;
@@ -41,6 +43,12 @@ struct Arguments {
     /// A sentence to carry out instead of reading from the terminal; may be given several times.
     #[arg(long, value_name = "SENTENCE")]
     say: Vec<String>,
+    /// Asks a language model behind this OpenAI-compatible address (http or https) what the grammar does not understand.
+    #[arg(long, value_name = "URL")]
+    model: Option<String>,
+    /// The model's name, where the server has several.
+    #[arg(long, value_name = "NAME", default_value = "model")]
+    model_name: String,
     /// From where the scene is looked at, m east and north: what "here" and "the nearest" mean.
     #[arg(long, value_name = "X,Y", value_parser = point, default_value = "0,0", allow_hyphen_values = true)]
     from: Point2,
@@ -109,8 +117,16 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     city.populate(&mut world)?;
     std::fs::create_dir_all(&arguments.out)?;
     let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
-    let editor =
+    let mut editor =
         SceneEditor::new(Seed(arguments.seed)).with_catalogue(catalogue).looking_from(arguments.from);
+    if let Some(url) = &arguments.model {
+        let config = OpenAiConfig {
+            base_url: url.clone(),
+            model: arguments.model_name.clone(),
+            ..OpenAiConfig::default()
+        };
+        editor = editor.with_reader(ModelReader::new(Box::new(OpenAiChat::new(config)?)));
+    }
     println!("a city of {} things; type how it is to change", world.len());
     let mut desk = Desk { arguments, world, editor, view };
     if arguments.say.is_empty() {
@@ -180,6 +196,9 @@ impl Desk<'_> {
     }
 
     fn tell(&self, edited: &Edited) {
+        if edited.read_by == ReadBy::Reader {
+            println!("  the model understood {:?}", edited.edits);
+        }
         if let Some(answer) = &edited.answer {
             println!("  {answer}");
         }

@@ -10,8 +10,12 @@ use std::time::{Duration, Instant};
 use clap::{Parser, ValueEnum};
 use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
+use simworld_agents::editing::SceneEditor;
 use simworld_agents::retrieval::AssetIndex;
+use simworld_citygen::{City, CityConfig};
 use simworld_core::asset::{Asset, Catalogue};
+use simworld_core::scene::World;
+use simworld_core::seed::Seed;
 use simworld_examples::{Outcome, exit_code};
 
 /// Measures the figures of worlds by words and prints each beside its bar.
@@ -21,6 +25,9 @@ struct Arguments {
     /// Assets that are searched.
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     assets: u32,
+    /// Things in the city that is edited, at least.
+    #[arg(long, default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1000..=1_000_000))]
+    things: u32,
     /// Only this part.
     #[arg(long)]
     only: Option<Part>,
@@ -31,6 +38,8 @@ struct Arguments {
 enum Part {
     /// Assets found by words.
     Retrieval,
+    /// Sentences carried out.
+    Edits,
 }
 
 /// What is asked for: names, synonyms, descriptions, and what is not there.
@@ -59,6 +68,9 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     let wants = |part: Part| arguments.only.is_none_or(|only| only == part);
     if wants(Part::Retrieval) {
         retrieval(arguments.assets as usize, &mut table)?;
+    }
+    if wants(Part::Edits) {
+        edits(arguments.things as usize, &mut table)?;
     }
     println!("{table}");
     Ok(())
@@ -100,6 +112,64 @@ fn retrieval(count: usize, table: &mut Table) -> Outcome<()> {
         format!("ten of {} assets by words, median of {} queries", catalogue.len(), QUERIES.len()),
         format!("{} (slowest {}; index built in {})", micros(middle), micros(worst), micros(built)),
         "1000 µs".to_owned(),
+    ]);
+    Ok(())
+}
+
+/// What is asked of a large city: definite things, relations, rows, streets, colours, weather; each is taken back.
+const SENTENCES: &[&str] = &[
+    "add a red sports car next to the nearest hospital",
+    "put a bench in front of the nearest museum",
+    "add three trees near the nearest school",
+    "paint the nearest car blue",
+    "remove the bench nearest to the nearest restaurant",
+    "put a trash bin between the nearest bench and the nearest tree",
+    "move the nearest trash bin next to the nearest street lamp",
+    "add a cone 10 metres north of the nearest bench",
+    "rotate the nearest bench 90 degrees",
+    "close the nearest road",
+    "make it a foggy evening with light rain",
+    "put five cones along the nearest building",
+    "put a sign near the museum closest to a school",
+];
+
+/// Sentences to committed commands in a city of so many things.
+fn edits(least: usize, table: &mut Table) -> Outcome<()> {
+    let mut world = World::new();
+    let mut roads = (least / 60).max(12) as u32;
+    while world.len() < least {
+        world = World::new();
+        City::generate(&CityConfig::with_roads(roads), Seed(7))?.populate(&mut world)?;
+        roads += roads / 4 + 1;
+    }
+    let mut editor = SceneEditor::new(Seed(7));
+    // The first sentence files the streets.
+    let (first, filed) = timed(|| editor.say(SENTENCES[0], &mut world));
+    first?;
+    editor.undo(&mut world)?;
+    let mut times = Vec::new();
+    for words in SENTENCES {
+        let mut own = Vec::new();
+        for _ in 0..21 {
+            let (done, time) = timed(|| editor.say(words, &mut world));
+            done.map_err(|error| format!("{words}: {error}"))?;
+            editor.undo(&mut world)?;
+            own.push(time);
+        }
+        own.sort_unstable();
+        println!("{:>10}  {words}", micros(own[own.len() / 2]));
+        times.push(own[own.len() / 2]);
+    }
+    times.sort_unstable();
+    table.add_row([
+        format!("an edit among {} things, words to commands, median of {}", world.len(), SENTENCES.len()),
+        format!(
+            "{} (slowest {}; the first, which files the streets, {})",
+            micros(times[times.len() / 2]),
+            micros(times[times.len() - 1]),
+            micros(filed)
+        ),
+        "2000 µs".to_owned(),
     ]);
     Ok(())
 }

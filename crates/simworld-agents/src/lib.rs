@@ -23,5 +23,6 @@ mod panics;
 #[cfg(feature = "remote")]
 pub mod remote;
 pub mod retrieval;
+pub mod scenes;
 #[cfg(feature = "thought")]
 pub mod thought;

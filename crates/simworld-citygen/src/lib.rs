@@ -25,6 +25,7 @@ mod provenance;
 pub mod python;
 mod range;
 mod report;
+pub mod settlement;
 #[cfg(any(feature = "opendrive", feature = "osm"))]
 mod simplify;
 mod source;

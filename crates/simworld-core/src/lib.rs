@@ -26,6 +26,7 @@ pub mod scene;
 pub mod seam;
 pub mod seed;
 pub mod simulation;
+pub mod spec;
 #[cfg(feature = "testing")]
 pub mod testing;
 pub mod traffic;

@@ -56,17 +56,23 @@ impl Plan<'_> {
                 .set("fill", PAPER),
         );
         if let Some(network) = world.roads() {
-            ground = self.streets(ground, network);
+            ground = self.streets(ground, network, world);
         }
-        let mut things: Vec<(f64, Group)> = Vec::new();
+        let (mut things, mut areas): (Vec<(f64, Group)>, Vec<Group>) = (Vec::new(), Vec::new());
         let region = Aabb::column_around(self.middle, self.reach * 1.5);
         let _ = world.visit(&region, &mut |entity| {
-            if !matches!(entity.kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk) {
+            let is_area = entity.kind == EntityKind::Ground && entity.info.name.is_some();
+            if is_area {
+                areas.push(self.area(&entity, unit));
+            } else if !matches!(entity.kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk) {
                 things.push((entity.bounds.max.z, self.footprint(&entity, unit)));
             }
             ControlFlow::Continue(())
         });
         things.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for area in areas {
+            ground = ground.add(area);
+        }
         for (_, thing) in things {
             ground = ground.add(thing);
         }
@@ -111,7 +117,7 @@ impl Plan<'_> {
             .join(" ")
     }
 
-    fn streets(&self, mut group: Group, network: &RoadNetwork) -> Group {
+    fn streets(&self, mut group: Group, network: &RoadNetwork, world: &World) -> Group {
         let near =
             |points: &[Point2]| points.iter().any(|point| (point - self.middle).norm() < self.reach * 3.0);
         for walk in network.sidewalks.iter().filter(|walk| near(&walk.path)) {
@@ -123,6 +129,14 @@ impl Plan<'_> {
                 (road.left_kerb - road.right_kerb) * 0.5,
             );
             group = group.add(self.band(&middle, road.width, STREET));
+        }
+        let closed = network.roads.iter().enumerate().filter(|(index, _)| {
+            let road = simworld_core::id::RoadId::from_index(*index);
+            world.closed_roads().iter().any(|leg| leg.0 == road)
+        });
+        for (_, road) in closed {
+            // What is closed to traffic is struck through.
+            group = group.add(self.band(&road.centerline, 0.9, TOUCHED).set("stroke-dasharray", "3 2"));
         }
         for place in network.intersections.iter().filter(|place| near(&[place.center])) {
             group = group.add(Polygon::new().set("points", self.path(&place.outline)).set("fill", STREET));
@@ -137,6 +151,21 @@ impl Plan<'_> {
             .set("stroke", color)
             .set("stroke-width", width)
             .set("stroke-linejoin", "round")
+    }
+
+    /// A park, a square or water, with its name.
+    fn area(&self, entity: &EntityRef<'_>, unit: f64) -> Group {
+        let fill = entity.info.color.map_or_else(|| WALK.to_owned(), to_srgb);
+        let (x, y) = self.at(entity.planar());
+        let outline = Polygon::new().set("points", self.path(&entity.obb().footprint())).set("fill", fill);
+        let name = Text::new(entity.label())
+            .set("x", x)
+            .set("y", y)
+            .set("font-size", 11.0 * unit)
+            .set("text-anchor", "middle")
+            .set("fill", "#ffffff")
+            .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif");
+        Group::new().add(outline.set("opacity", 0.75)).add(name)
     }
 
     fn footprint(&self, entity: &EntityRef<'_>, unit: f64) -> Group {

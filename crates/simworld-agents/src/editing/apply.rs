@@ -18,6 +18,7 @@ use super::editable::Editable;
 use super::error::EditError;
 use super::land::Streets;
 use super::place::Placer;
+use super::reader::ReadBy;
 use super::row::tell;
 use super::solid::Solid;
 use super::stand::Subject;
@@ -38,6 +39,8 @@ pub struct Edited {
     pub made: Vec<EntityId>,
     /// The answer to a question.
     pub answer: Option<String>,
+    /// Who understood it.
+    pub read_by: ReadBy,
 }
 
 /// What an editor keeps of a sentence.
@@ -103,7 +106,7 @@ impl Applier<'_> {
             Edit::SetEnvironment(environment) => self.change(&Command::SetEnvironment(*environment)),
             Edit::SetPassage { roads, passage } => self.pass(roads, *passage),
             Edit::Leave { why } => {
-                tell(&mut self.edited.answer, why.clone());
+                tell(&mut self.edited.answer, why);
                 Ok(())
             }
             Edit::Count { what, things } => {

@@ -15,6 +15,7 @@ use super::error::EditError;
 use super::history::History;
 use super::land::Streets;
 use super::place::Placing;
+use super::reader::{Asked, EditReader, ReadBy, Shared, is_open};
 use super::stock::Stock;
 use crate::language::edits::{self, Focus, Reading};
 use crate::language::streets::StreetNames;
@@ -56,6 +57,7 @@ pub struct SceneEditor {
     /// How many things were put somewhere: each draws from a stream of its own.
     placed: u64,
     last: Vec<Placing>,
+    reader: Option<Shared>,
 }
 
 impl SceneEditor {
@@ -76,6 +78,7 @@ impl SceneEditor {
             streets: None,
             placed: 0,
             last: Vec::new(),
+            reader: None,
         }
     }
 
@@ -101,6 +104,14 @@ impl SceneEditor {
         self
     }
 
+    /// Asks this reader what the grammar does not understand, or has no thing for: a model
+    /// ([`ModelReader`](crate::thought::ModelReader)), or rules of one's own. What the grammar understands and refuses stays refused.
+    #[must_use]
+    pub fn with_reader(mut self, reader: impl EditReader + 'static) -> Self {
+        self.reader = Some(Shared::new(reader));
+        self
+    }
+
     /// What can be added.
     pub fn catalogue(&self) -> &Catalogue {
         &self.stock.catalogue
@@ -116,6 +127,26 @@ impl SceneEditor {
     /// # Errors
     /// What is not understood, not there, open, or impossible; then the scene is as it was.
     pub fn say(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
+        let refused = match (self.say_by_grammar(words, scene), &self.reader) {
+            (Err(error), Some(_)) if is_open(&error) => error,
+            (settled, _) => return settled,
+        };
+        let Some(reader) = self.reader.clone() else { return Err(refused) };
+        let (from, who, it) = (self.focus.from, self.focus.who, self.focus.it);
+        let edits = reader.read(&Asked {
+            words,
+            scene: scene.world(),
+            catalogue: &self.stock.catalogue,
+            from,
+            who,
+            it,
+        })?;
+        let mut edited = self.carry_out_all(words.to_owned(), &edits, scene)?;
+        edited.read_by = ReadBy::Reader;
+        Ok(edited)
+    }
+
+    fn say_by_grammar(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
         self.learn_streets(scene.world());
         let reading = edits::read(words, scene.world(), &self.stock, &self.focus)?;
         let mut applier = self.applier(scene);
@@ -132,13 +163,22 @@ impl SceneEditor {
     /// # Errors
     /// What is not there, or impossible; then the scene is as it was.
     pub fn edit(&mut self, edits: &[Edit], scene: &mut dyn Editable) -> Result<Edited, EditError> {
+        self.carry_out_all(format!("{} edits", edits.len()), edits, scene)
+    }
+
+    fn carry_out_all(
+        &mut self,
+        what: String,
+        edits: &[Edit],
+        scene: &mut dyn Editable,
+    ) -> Result<Edited, EditError> {
         let mut applier = self.applier(scene);
         let outcome = edits.iter().try_for_each(|edit| applier.apply(edit));
         applier.edited.edits = edits.to_vec();
         let (edited, back, memory) = applier.finish(outcome.is_ok());
         self.remember(memory);
         outcome?;
-        self.history.push(format!("{} edits", edits.len()), back);
+        self.history.push(what, back);
         Ok(edited)
     }
 

@@ -62,6 +62,16 @@ pub enum EditError {
         /// Why not, and what to do instead.
         why: String,
     },
+    /// The reader that was asked failed, or its answer cannot be used; the grammar did not understand the words.
+    #[error(
+        "{words:?} is not understood, and who was asked beside the grammar cannot say what it means: {fault}"
+    )]
+    Reader {
+        /// What was said.
+        words: String,
+        /// What went wrong.
+        fault: String,
+    },
     /// The world refused a change.
     #[error(transparent)]
     Refused(#[from] CommandError),

@@ -37,8 +37,8 @@ struct Track<'a> {
 }
 
 /// Adds a sentence to an answer.
-pub(super) fn tell(answer: &mut Option<String>, more: String) {
-    *answer = Some(answer.take().map_or_else(|| more.clone(), |before| format!("{before}; {more}")));
+pub(super) fn tell(answer: &mut Option<String>, more: &str) {
+    *answer = Some(answer.take().map_or_else(|| more.to_owned(), |before| format!("{before}; {more}")));
 }
 
 impl Applier<'_> {
@@ -55,7 +55,7 @@ impl Applier<'_> {
         if left_out > 0 {
             tell(
                 &mut self.edited.answer,
-                format!("{left_out} places were left out: something stands there, or streets meet"),
+                &format!("{left_out} places were left out: something stands there, or streets meet"),
             );
         }
         Ok(())
@@ -211,10 +211,9 @@ fn stations(track: &Track<'_>, spacing: Spacing, extent: f64) -> Result<Vec<f64>
                 let what = format!("a row of {count} things");
                 return impossible(what, format!("name one to {MOST}"));
             }
-            let share = |rank: u32| match track.is_ring {
-                true => f64::from(rank) / f64::from(count),
-                false => (f64::from(rank) + 0.5) / f64::from(count),
-            };
+            // A ring ends where it begins, and a line half a step before its end.
+            let first = if track.is_ring { 0.0 } else { 0.5 };
+            let share = |rank: u32| (f64::from(rank) + first) / f64::from(count);
             Ok((0..count).map(|rank| share(rank) * length).collect())
         }
     }

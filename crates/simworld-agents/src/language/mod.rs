@@ -29,6 +29,7 @@ mod relate;
 mod remarks;
 mod requests;
 mod resolve;
+pub(crate) mod scenes;
 mod speech;
 mod spelling;
 mod staying;
@@ -47,7 +48,7 @@ mod whereabouts;
 use draft::Draft;
 use names::Names;
 #[cfg(feature = "thought")]
-pub(crate) use paint::name_of_color;
+pub(crate) use paint::{name_of_color, named_colors};
 use parser::{Parser, shortened};
 use resolve::View;
 use simworld_core::id::EntityId;

@@ -31,6 +31,12 @@ pub(crate) const PAINTS: &[(&[&str], Paint)] = &[
     (&["black", "dark"], Paint::Black),
 ];
 
+/// The colours that models may name, with what each is, linear-light sRGB.
+#[cfg(feature = "thought")]
+pub(crate) fn named_colors() -> impl Iterator<Item = (&'static str, [f32; 3])> {
+    PAINTS.iter().map(|(words, paint)| (words[0], paint.color()))
+}
+
 impl Paint {
     /// A colour of that name as paint has it, linear-light sRGB.
     pub(crate) const fn color(self) -> [f32; 3] {

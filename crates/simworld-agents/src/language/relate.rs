@@ -26,6 +26,8 @@ const MOST_ANCHORS: usize = 256;
 const IN_DIRECTION: f64 = 300.0;
 /// How far things to the left and right are looked for, m.
 const BESIDE_ME: f64 = 150.0;
+/// As far as the whole of a scene, m.
+const EVERYWHERE: f64 = 5e4;
 /// As far beyond the kerb as "on" a street, m.
 const EDGE: f64 = 6.0;
 /// Half the width of what counts as ahead or behind, as the sine of the angle: 45°.
@@ -242,6 +244,11 @@ impl View<'_> {
     /// What fits within a distance of a point, the nearest to the agent first.
     fn around(&self, reference: &Reference, point: Point2, reach: f64, purpose: Purpose) -> Vec<Ranked> {
         let mut found: Vec<Ranked> = Vec::new();
+        let everywhere = reach >= EVERYWHERE && self.of_index(reference, f64::INFINITY, purpose, &mut found);
+        if everywhere {
+            sort(&mut found);
+            return found;
+        }
         let _ = self.scene.visit(&Aabb::column_around(point, reach), &mut |entity| {
             if self.fits(&entity, reference, purpose) {
                 found.push((self.distance(&entity), entity.id));

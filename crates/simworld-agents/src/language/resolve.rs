@@ -17,6 +17,8 @@ use super::{AmbiguityPolicy, RANGE};
 const FIRST_LOOK: f64 = 30.0;
 /// Things so much farther away than the nearest are not meant by "the bench" when it could be either, m.
 const EITHER: f64 = 50.0;
+/// From here on a class is looked for in the scene's index, m.
+pub(super) const FAR_LOOK: f64 = 400.0;
 /// "All the chairs" are those within, m.
 const ALL_WITHIN: f64 = 50.0;
 
@@ -247,6 +249,10 @@ impl<'a> View<'a> {
 
     fn within(&self, reach: f64, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
         let mut found = Vec::new();
+        if reach >= FAR_LOOK && self.of_index(reference, reach, purpose, &mut found) {
+            sort(&mut found);
+            return found;
+        }
         let _ = self.scene.visit(&Aabb::column_around(self.from, reach), &mut |entity| {
             if self.fits(&entity, reference, purpose) {
                 let distance = self.distance(&entity);
@@ -258,6 +264,35 @@ impl<'a> View<'a> {
         });
         sort(&mut found);
         found
+    }
+
+    /// Adds those of a class within reach by the scene's index, if it keeps one; the work is that of the class and not of the city.
+    pub(super) fn of_index(
+        &self,
+        reference: &Reference,
+        reach: f64,
+        purpose: Purpose,
+        found: &mut Vec<Ranked>,
+    ) -> bool {
+        let (Target::Any(class), Some(index)) = (&reference.target, self.scene.classes()) else {
+            return false;
+        };
+        if class.is_area() {
+            return false;
+        }
+        let mut consider = |id: EntityId| {
+            let Some(entity) = self.scene.entity(id).filter(|entity| self.fits(entity, reference, purpose))
+            else {
+                return;
+            };
+            let distance = self.distance(&entity);
+            if distance <= reach {
+                found.push((distance, id));
+            }
+        };
+        class.kinds().iter().for_each(|kind| index.of_kind(*kind).for_each(&mut consider));
+        class.place().into_iter().for_each(|place| index.of_place(place).for_each(&mut consider));
+        true
     }
 
     fn spoken_of(who: Option<EntityId>, reference: &Reference) -> Result<Vec<Ranked>, PlanError> {

@@ -7,6 +7,7 @@
 
 mod checks;
 mod courier;
+mod editing;
 mod eyes;
 mod known;
 mod memory;
@@ -18,9 +19,11 @@ mod prompts;
 mod react;
 mod reasoner;
 mod relevance;
+mod scenes;
 pub mod schema;
 
 pub use courier::{CourierConfig, CourierConfigError, ModelCourier, Thinking, Waking};
+pub use editing::ModelReader;
 pub use eyes::{VisualConfig, VisualConfigError, VisualExecutor};
 pub use known::{Sight, ViewConfig, ViewConfigError};
 pub use memory::{Memory, MemoryConfig, MemoryConfigError, Record, RecordKind, RingMemory};
@@ -30,3 +33,4 @@ pub use planner::{Answered, Fallback, ModelPlanner};
 pub use prompts::{Prompt, PromptError, Prompts};
 pub use react::{Ending, ReactConfig, ReactConfigError, ReactMind, Turn};
 pub use reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
+pub use scenes::ModelSceneReader;

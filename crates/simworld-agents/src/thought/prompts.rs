@@ -39,6 +39,14 @@ pub enum Prompt {
     Consider,
     /// What a courier finds now.
     Shift,
+    /// What an editor of scenes may change.
+    Editor,
+    /// What is asked of it, and what there is.
+    Edit,
+    /// What a reader of whole scenes answers.
+    Scene,
+    /// What is asked of it.
+    Wish,
 }
 
 impl Prompt {
@@ -54,6 +62,10 @@ impl Prompt {
         Self::Courier,
         Self::Consider,
         Self::Shift,
+        Self::Editor,
+        Self::Edit,
+        Self::Scene,
+        Self::Wish,
     ];
 
     /// The name of its file, without `.jinja`.
@@ -69,6 +81,10 @@ impl Prompt {
             Self::Courier => "courier",
             Self::Consider => "consider",
             Self::Shift => "shift",
+            Self::Editor => "editor",
+            Self::Edit => "edit",
+            Self::Scene => "scene",
+            Self::Wish => "wish",
         }
     }
 
@@ -85,6 +101,10 @@ impl Prompt {
             Self::Courier => include_str!("../../prompts/courier.jinja"),
             Self::Consider => include_str!("../../prompts/consider.jinja"),
             Self::Shift => include_str!("../../prompts/shift.jinja"),
+            Self::Editor => include_str!("../../prompts/editor.jinja"),
+            Self::Edit => include_str!("../../prompts/edit.jinja"),
+            Self::Scene => include_str!("../../prompts/scene.jinja"),
+            Self::Wish => include_str!("../../prompts/wish.jinja"),
         }
     }
 
@@ -98,6 +118,9 @@ impl Prompt {
             Self::Turn => &["senses", "memories", "feelings", "messages", "turns", "left"],
             Self::Look => &["aim", "deeds", "frames", "left"],
             Self::Courier | Self::Consider => &["calls", "persona"],
+            Self::Editor | Self::Scene => &[],
+            Self::Wish => &["request"],
+            Self::Edit => &["things", "assets", "streets", "spoken", "request"],
             Self::Shift => &["oneself", "held", "open", "offers", "news", "memories", "thought"],
         }
     }

@@ -1,5 +1,6 @@
 //! What is where: the [`Scene`] seam, the [`World`] store that implements it, and the entities in it.
 
+mod classes;
 mod entity;
 mod interaction;
 mod kind;
@@ -13,6 +14,7 @@ mod world;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+pub use classes::ClassIndex;
 pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, MATERIAL, Role, Solidity, Visibility};
 pub use interaction::{
     ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, OPEN, SELLS,
@@ -135,6 +137,11 @@ pub trait Scene {
         None
     }
 
+    /// Entities by what they are, if the scene keeps an index of that; the world does.
+    fn classes(&self) -> Option<&ClassIndex> {
+        None
+    }
+
     /// The entity nearest to a point in the plane, by distance to its footprint, that passes the filter and lies
     /// within `max_distance` m. Of two at the same distance the lower id is taken.
     fn nearest(
@@ -220,6 +227,9 @@ macro_rules! forward_scene {
             }
             fn names(&self) -> Option<&NameIndex> {
                 (**self).names()
+            }
+            fn classes(&self) -> Option<&ClassIndex> {
+                (**self).classes()
             }
             fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
                 (**self).visit_attached(parent, visitor);

@@ -15,7 +15,9 @@ use slots::{check_pose, check_twist, is_called};
 pub use snapshot::WorldSnapshot;
 
 use super::quadtree::Quadtree;
-use super::{Attachment, EntityDesc, EntityInfo, EntityKind, EntityRef, NameIndex, Role, SELLS, Scene};
+use super::{
+    Attachment, ClassIndex, EntityDesc, EntityInfo, EntityKind, EntityRef, NameIndex, Role, SELLS, Scene,
+};
 use crate::action::Action;
 use crate::asset::{Asset, AssetError, Catalogue};
 use crate::clock::Clock;
@@ -66,6 +68,8 @@ pub struct World {
     tree: Quadtree,
     /// Follows from `infos`; shared between copies of a world until one of them changes it.
     names: Arc<NameIndex>,
+    /// Likewise.
+    classes: Arc<ClassIndex>,
     revision: u64,
 
     clock: Clock,
@@ -198,6 +202,7 @@ impl World {
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).remove(id, &desc.info);
         }
+        Arc::make_mut(&mut self.classes).remove(id, desc.kind, &desc.info);
         self.generations[slot] = self.generations[slot].wrapping_add(1);
         self.tree.remove(slot as u32);
         self.free.push(slot as u32);

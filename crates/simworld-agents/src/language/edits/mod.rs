@@ -15,12 +15,12 @@ mod passage;
 mod places;
 mod resolve;
 mod rows;
-mod sky;
+pub(super) mod sky;
 mod slips;
 mod stated;
 mod turn;
 mod wish;
-mod words;
+pub(super) mod words;
 
 use std::sync::Arc;
 
@@ -116,7 +116,8 @@ const EVERYWHERE: f64 = 1.0e5;
 
 /// The words of the parts, so that none is taken for a misspelling.
 fn more_words() -> impl Iterator<Item = &'static str> {
-    offsets::words()
+    stated::words()
+        .chain(offsets::words())
         .chain(passage::words())
         .chain(rows::words())
         .chain(dressed::words())

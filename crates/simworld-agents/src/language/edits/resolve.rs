@@ -335,8 +335,9 @@ impl Finder<'_> {
                 Where::Along(Anchor::Street(_, roads)) | Where::BothSides(Anchor::Street(_, roads)) => {
                     Stand::AlongRoad { roads: roads.clone() }
                 }
-                Where::BothSides(anchor) => Stand::Along { anchor: self.anchor(anchor, moved)? },
-                Where::Along(anchor) => Stand::Along { anchor: self.anchor(anchor, moved)? },
+                Where::Along(anchor) | Where::BothSides(anchor) => {
+                    Stand::Along { anchor: self.anchor(anchor, moved)? }
+                }
                 Where::Corner(anchor) => Stand::AtCornerOf { anchor: self.anchor(anchor, moved)? },
                 Where::Compass(compass, anchor) => {
                     Stand::Towards { heading: compass.heading(), anchor: self.anchor(anchor, moved)? }

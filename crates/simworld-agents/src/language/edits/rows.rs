@@ -52,7 +52,7 @@ impl Reader<'_> {
             Reader { words: self.words, lexemes: &said.rest, names: self.names, view: self.view, at: 0 };
         let stop = reader.before_politeness(0, said.rest.len());
         let wishes = reader.wish(stop).ok().filter(|_| reader.at >= stop)?;
-        wishes.into_iter().map(|readings| said.into_rows(readings)).collect()
+        wishes.into_iter().map(|readings| said.as_rows(readings)).collect()
     }
 
     /// Takes the words about distances, rows and numbers out.
@@ -75,12 +75,11 @@ impl Reader<'_> {
                     said.count = Some(count);
                     Some(words + more)
                 });
-            match words {
-                Some(words) => at += words,
-                None => {
-                    said.rest.push(rest[0].clone());
-                    at += 1;
-                }
+            if let Some(words) = words {
+                at += words;
+            } else {
+                said.rest.push(rest[0].clone());
+                at += 1;
             }
         }
         while said.rest.last().is_some_and(|last| matches!(last.token, Token::Comma | Token::Break)) {
@@ -92,7 +91,7 @@ impl Reader<'_> {
 
 impl Said {
     /// The readings of a wish as rows; nothing if a distance was named and it is none.
-    fn into_rows(&self, readings: Vec<Wish>) -> Option<Vec<Wish>> {
+    fn as_rows(&self, readings: Vec<Wish>) -> Option<Vec<Wish>> {
         let rows: Vec<Wish> = readings.into_iter().filter_map(|wish| self.row(wish)).collect();
         (!rows.is_empty()).then_some(rows)
     }
@@ -125,8 +124,9 @@ impl Said {
 fn along(place: Where) -> Option<Where> {
     match place {
         Where::Along(_) | Where::Between(..) | Where::BothSides(_) | Where::Around(_) => Some(place),
-        Where::By(anchor) | Where::Edge(anchor) => Some(Where::Along(anchor)),
-        Where::To(simworld_core::scene::Relation::NextTo, anchor) => Some(Where::Along(anchor)),
+        Where::By(anchor)
+        | Where::Edge(anchor)
+        | Where::To(simworld_core::scene::Relation::NextTo, anchor) => Some(Where::Along(anchor)),
         Where::To(simworld_core::scene::Relation::OnTopOf, anchor @ Anchor::Street(..)) => {
             Some(Where::Along(anchor))
         }

@@ -73,7 +73,7 @@ impl Reader<'_> {
 }
 
 /// "8 pm", "20:30", "half past seven in the morning", "noon".
-fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
+pub(in crate::language) fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
     const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
     const BEFORE: &[&str] = &["am", "a m", "in the morning"];
     let half = longest_phrase(lexemes, &["half past"]).unwrap_or(0);
@@ -108,7 +108,7 @@ fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
 }
 
 /// Sun and weather as they are wished for.
-pub(super) fn changed(mut now: Environment, skies: &[Sky]) -> Environment {
+pub(in crate::language) fn changed(mut now: Environment, skies: &[Sky]) -> Environment {
     let weather = &mut now.weather;
     let mut hour = None;
     for sky in skies {

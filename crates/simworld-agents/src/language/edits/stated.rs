@@ -29,6 +29,11 @@ const TRADES: &[&str] = &["should change places", "should swap places", "should 
         "should switch places", "must change places", "must swap places", "have to change places",
         "have to swap places", "ought to swap places", "should swap positions", "need to swap places"];
 
+/// That something is not there, and should be.
+#[rustfmt::skip]
+const LACKS: &[&str] = &["could use", "needs", "need", "wants", "lacks", "is missing", "deserves",
+    "should have", "should get", "must have", "has to have", "could do with", "can use", "ought to have"];
+
 impl Reader<'_> {
     /// Statements: "the truck should be blue", "it is noon", "there should be a bench".
     pub(super) fn stated(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
@@ -101,9 +106,6 @@ impl Reader<'_> {
 
     /// "The museum could use a bench out front", "give the café a tree at the back".
     pub(super) fn lacking(&mut self, start: usize, end: usize) -> Option<Wish> {
-        #[rustfmt::skip]
-    const LACKS: &[&str] = &["could use", "needs", "need", "wants", "lacks", "is missing", "deserves",
-        "should have", "should get", "must have", "has to have", "could do with", "can use", "ought to have"];
         let gives = longest_phrase(&self.lexemes[start..end], &["give", "giving"]);
         let from = start + gives.unwrap_or(0);
         for cut in from + 1..end {
@@ -171,4 +173,10 @@ impl Reader<'_> {
         }
         self.additions(end).map(Some)
     }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    let lists = OUGHT.iter().chain(GONE).chain(GOES).chain(TRADES).chain(LACKS);
+    lists.flat_map(|phrase| phrase.split(' '))
 }

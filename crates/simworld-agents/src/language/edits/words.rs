@@ -265,7 +265,7 @@ pub(super) const FACTORS: &[(&[&str], f64)] = &[
 
 /// A change of sun or weather.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Sky {
+pub(in crate::language) enum Sky {
     Rain(f64),
     Snow(f64),
     Fog(f64),
@@ -281,7 +281,7 @@ pub(super) enum Sky {
 }
 
 #[rustfmt::skip]
-pub(super) const SKIES: &[(&[&str], Sky)] = &[
+pub(in crate::language) const SKIES: &[(&[&str], Sky)] = &[
     (&["rain", "rainy", "raining", "wet", "rains", "rain weather", "shower", "showers", "drizzle", "drizzly",
         "drizzling"], Sky::Rain(4.0)),
     (&["light rain", "drizzle", "a little rain", "a bit of rain", "lightly raining", "rain lightly", "some rain",

@@ -10,7 +10,7 @@ use crate::environment::Environment;
 use crate::geometry::{Aabb, Ray};
 use crate::id::EntityId;
 use crate::net::{Aspect, RoadNetwork};
-use crate::scene::{EntityRef, NameIndex, RayCast, RayHit, Scene};
+use crate::scene::{ClassIndex, EntityRef, NameIndex, RayCast, RayHit, Scene};
 use crate::traffic::RoadLeg;
 
 impl World {
@@ -68,6 +68,10 @@ impl Scene for World {
 
     fn names(&self) -> Option<&NameIndex> {
         Some(&self.names)
+    }
+
+    fn classes(&self) -> Option<&ClassIndex> {
+        Some(&self.classes)
     }
 
     fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {

@@ -60,6 +60,7 @@ impl World {
         self.poses[index] = desc.pose;
         self.twists[index] = desc.twist;
         let id = EntityId::new(slot, self.generations[index]);
+        Arc::make_mut(&mut self.classes).insert(id, desc.kind, &desc.info);
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).insert(id, &desc.info);
         }
