@@ -7,7 +7,7 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Stands};
-use super::lexicon::longest;
+use super::lexicon::{longest, longest_phrase};
 use super::parser::Parser;
 
 /// One of eight directions, in eighths of a turn from east, counter-clockwise.
@@ -115,6 +115,24 @@ impl Parser<'_> {
     }
 
     /// "The northernmost".
+    /// "In the east", which says which of several.
+    pub(super) fn in_the_compass(&mut self) -> Option<Compass> {
+        let start = self.at;
+        let compass = if self.eat_any(&["in the"]) { longest(self.rest(), DIRECTIONS) } else { None };
+        let after = &self.rest()[compass.map_or(0, |(_, count)| count)..];
+        match compass.filter(|_| longest_phrase(after, &["of", "from", "side", "end"]).is_none()) {
+            Some((compass, count)) => {
+                self.at += count;
+                Some(compass)
+            }
+            None => {
+                self.at = start;
+                None
+            }
+        }
+    }
+
+    /// Turns "the easternmost" into which of several is meant.
     pub(super) fn compass_choice(&mut self) -> Option<Choice> {
         let (compass, count) = longest(self.rest(), MOST)?;
         self.at += count;

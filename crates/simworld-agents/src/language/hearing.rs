@@ -9,7 +9,7 @@ use super::verbs::longest_verb;
 const NEGATED: &[(&str, &str)] = &[("isnt", "is"), ("arent", "are"), ("wasnt", "was"), ("aint", "is")];
 /// Words with "'s" that stand in the tables as they are.
 const WHOLE: &[&str] =
-    &["its", "thats", "lets", "theres", "whos", "hes", "shes", "whats", "heres", "wheres", "hows", "todays"];
+    &["its", "thats", "lets", "theres", "whos", "whats", "heres", "wheres", "hows", "todays"];
 /// What somebody or something may be: before it "'s" is "is", and not whose.
 const STATES: &[&str] = &[
     "here",

@@ -124,6 +124,7 @@ impl Parser<'_> {
             }
             Verb::Follow => {
                 let whom = self.reference(0)?;
+                self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
                 one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
             }
             Verb::Take => self.take(start),
@@ -183,7 +184,17 @@ impl Parser<'_> {
                 self.eat_any(&["up", "for me"]);
                 one(Clause::Door { what, open: verb == Verb::Open })
             }
-            Verb::Photo => self.photo(1),
+            Verb::Photo => {
+                let number = numbers::count(self.rest());
+                match number.filter(|(_, count)| longest_phrase(&self.rest()[*count..], PHOTOS).is_some()) {
+                    Some((number, count)) => {
+                        self.at += count;
+                        self.eat_any(PHOTOS);
+                        self.photo(number)
+                    }
+                    None => self.photo(1),
+                }
+            }
             Verb::Faster | Verb::Slower if self.eat_any(&["to"]) => {
                 one(Clause::Speed { speed: self.speed()? })
             }

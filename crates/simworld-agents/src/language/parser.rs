@@ -12,6 +12,7 @@
 //! ```
 
 use simworld_core::action::StepDirection;
+use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Test};
@@ -96,6 +97,8 @@ pub(super) struct Parser<'a> {
     pub(super) at: usize,
     /// The class that was named last: what "the red one" is one of.
     pub(super) class: Option<&'static Category>,
+    /// Those who bear the name that was named last, if that was after the class.
+    pub(super) bearers: Option<Vec<EntityId>>,
     /// The verb of the order before, for those that leave it out.
     pub(super) verb: Option<Verb>,
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
@@ -119,7 +122,18 @@ impl<'a> Parser<'a> {
         names: &'a Names<'a>,
         view: &'a View<'a>,
     ) -> Self {
-        Self { words, lexemes, names, view, at: 0, class: None, verb: None, in_test: false, depth: 0 }
+        Self {
+            words,
+            lexemes,
+            names,
+            view,
+            at: 0,
+            class: None,
+            bearers: None,
+            verb: None,
+            in_test: false,
+            depth: 0,
+        }
     }
 
     /// All orders of the sentence, at least one.
@@ -147,6 +161,7 @@ impl<'a> Parser<'a> {
             let start = self.at;
             self.skip_fillers();
             self.at += requests::coda(self.rest());
+            self.skip_manner();
             self.skip_reason();
             let joint = self.at;
             let mut joined = self.skip_joints();

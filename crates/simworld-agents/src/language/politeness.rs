@@ -67,6 +67,12 @@ pub(super) const JOINTS: &[&str] = &[
     "step one",
     "step two",
     "step three",
+    "as soon as you have it",
+    "as soon as youve got it",
+    "once you have it",
+    "once youve got it",
+    "when you have it",
+    "when youve got it",
 ];
 
 /// Politeness around an order.
@@ -338,10 +344,32 @@ pub(super) const FILLERS: &[&str] = &[
     "whenever you have time",
     "as soon as you can",
     "when convenient",
+    "like",
+    "gimme a hand and",
+    "give me a hand and",
+    "lend me a hand and",
+    "real quick",
+    "real fast",
     "plz",
     "pls",
     "thx",
     "ta",
+];
+
+/// How something is done, at the end of an order, that says no more than the order.
+pub(super) const MANNERS: &[&str] = &[
+    "one after the other",
+    "one after another",
+    "one by one",
+    "one at a time",
+    "each in turn",
+    "in turn",
+    "the quickest way",
+    "the shortest way",
+    "the fastest way",
+    "in total",
+    "altogether",
+    "all in all",
 ];
 
 /// Sounds of hesitation; they are dropped wherever they stand.

@@ -4,7 +4,7 @@ use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Count, Reference, Side, Stands, Target};
-use super::lexer::Token;
+use super::lexer::{Lexeme, Token};
 use super::lexicon::{
     COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES, category, fits, longest, longest_phrase,
 };
@@ -41,6 +41,7 @@ const SELLING: &[&str] = &[
     "where you can buy",
     "who sells",
 ];
+const SUPERLATIVES: &[&str] = &["nearest", "closest", "farthest", "furthest"];
 const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
 /// What doors may be.
 const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
@@ -81,6 +82,9 @@ impl Parser<'_> {
             ]);
             return Ok(there);
         }
+        if self.peeks("both") && self.is_capital(self.at + 1) {
+            self.at += 1; // "both Anna and Ben" are each named
+        }
         if let Some(them) = self.somebody() {
             return Ok(them);
         }
@@ -95,16 +99,37 @@ impl Parser<'_> {
         }
         reference.target = self.noun()?;
         self.compound(&mut reference, text_at);
-        if let Target::Any(category) = &reference.target {
-            self.class = Some(category);
+        match &reference.target {
+            Target::Any(category) => self.class = Some(category),
+            Target::Named(bearers) if bearers.len() > 1 => {
+                (self.class, self.bearers) = (None, Some(bearers.clone()));
+            }
+            _ => {}
         }
         reference.text = self.text_from(text_at);
         self.described(&mut reference, depth)?;
+        self.apposition(&mut reference, depth)?;
         if reference.relation.is_some() {
             reference.text = self.text_from(text_at);
         }
         self.or_another(&reference)?;
         Ok(reference)
+    }
+
+    /// "The chair, the one by the tree".
+    fn apposition(&mut self, reference: &mut Reference, depth: u32) -> Result<(), PlanError> {
+        let start = self.at;
+        let [Lexeme { token: Token::Comma, .. }, after @ ..] = self.rest() else { return Ok(()) };
+        let Some(words) = longest_phrase(after, &["the one", "the ones", "that one"]) else { return Ok(()) };
+        self.at += 1 + words;
+        let said = self.at;
+        if reference.relation.is_none() {
+            self.described(reference, depth)?;
+        }
+        if self.at == said {
+            self.at = start;
+        }
+        Ok(())
     }
 
     /// "The bench or the chair" leaves open which.
@@ -141,7 +166,7 @@ impl Parser<'_> {
                 reference.traits.other = true;
             } else if longest_phrase(self.rest(), INDEFINITE).is_some() && self.eat_any(INDEFINITE) {
                 reference.indefinite = true;
-            } else if self.class.is_some()
+            } else if (self.class.is_some() || self.bearers.is_some())
                 && longest_phrase(self.rest(), &["one", "ones"]).is_some()
                 && category(&self.rest()[1..]).is_none()
             {
@@ -227,6 +252,10 @@ impl Parser<'_> {
                 return Ok(());
             }
             let copula = self.eat_any(COPULAS);
+            if copula && longest_phrase(self.rest().get(1..).unwrap_or_default(), SUPERLATIVES).is_some() {
+                self.eat_any(&["the"]); // "the bench that is the farthest"
+            }
+            self.eat_any(&["over there", "right there"]);
             if copula
                 && let Some((paint, words)) =
                     self.peek_paint().filter(|_| self.lexemes[start].token != Token::Word("is".to_owned()))
@@ -291,6 +320,10 @@ impl Parser<'_> {
                 }
                 let anchor = self.reference(depth + 1)?;
                 reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
+            } else if reference.choice == Choice::Open
+                && let Some(compass) = self.in_the_compass()
+            {
+                reference.choice = Choice::Compass(compass);
             } else if let Some(than) = self.comparison() {
                 reference.traits.than = Some(than);
             } else if self.eat_any(SELLING) {
@@ -363,9 +396,12 @@ impl Parser<'_> {
                 }
             }
             _ => {
-                let class = self.class;
-                match class {
-                    Some(class) if self.eat_any(&["one", "ones"]) => Ok(Target::Any(class)),
+                let spoken_of = match (self.class, &self.bearers) {
+                    (Some(class), _) => Some(Target::Any(class)),
+                    (None, bearers) => bearers.clone().map(Target::Named),
+                };
+                match spoken_of {
+                    Some(target) if self.eat_any(&["one", "ones"]) => Ok(target),
                     _ => self.misspelt(),
                 }
             }

@@ -8,6 +8,7 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::{longest, longest_phrase};
 use super::numbers;
 use super::parser::{IF, Parser};
+use super::politeness::MANNERS;
 use super::requests;
 
 /// Before where one goes in the end.
@@ -18,6 +19,21 @@ pub(super) const ON_THE_WAY: &[&str] = &[
     "on your way over to",
     "en route to",
     "along the way to",
+];
+
+/// Doing what was said last, before how often.
+const DO_SO: &[&str] = &[
+    "do it",
+    "and do it",
+    "do that",
+    "and do that",
+    "do this",
+    "and do this",
+    "and do so",
+    "repeat it",
+    "and repeat it",
+    "repeat that",
+    "and repeat that",
 ];
 
 impl Parser<'_> {
@@ -38,7 +54,7 @@ impl Parser<'_> {
             self.skip_fillers();
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
-            let goes_on = || {
+            let goes_on = comma && {
                 const AFTER_COMMA: &[&str] = &[
                     "until",
                     "till",
@@ -53,14 +69,52 @@ impl Parser<'_> {
                 ];
                 longest_phrase(&self.rest()[1..], AFTER_COMMA).is_some()
             };
-            if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
+            let again =
+                usize::from(comma) + longest_phrase(&self.rest()[usize::from(comma)..], DO_SO).unwrap_or(0);
+            if again > usize::from(comma)
+                && let Some((times, count)) = numbers::times(&self.rest()[again..])
+            {
+                self.at += again + count;
+                repeat(clauses, group, times, false);
+            } else if comma && self.but_first(clauses)? {
+            } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, if comma { whole } else { group }, times, comma);
-            } else if comma && !goes_on() || !self.tail(clauses, comma)? {
+            } else if comma && !goes_on || !self.tail(clauses, comma)? {
                 self.at = start;
                 return Ok(());
             }
         }
+    }
+
+    /// ", one after the other": how, where it makes no difference.
+    pub(super) fn skip_manner(&mut self) {
+        let comma = usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]));
+        if let Some(count) = longest_phrase(&self.rest()[comma..], MANNERS) {
+            self.at += comma + count;
+        }
+    }
+
+    /// "..., but stop at the shop first".
+    fn but_first(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        let start = self.at;
+        self.at += 1;
+        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+        let end = self.at + self.rest().iter().position(is_mark).unwrap_or(self.rest().len());
+        let is_first = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "first");
+        let said = self.eat_any(&["but"]) && self.lexemes[self.at..end].last().is_some_and(is_first);
+        if !said || clauses.is_empty() {
+            self.at = start;
+            return Ok(false);
+        }
+        let earlier = self.order()?;
+        if !self.eat_any(&["first"]) {
+            self.at = start;
+            return Ok(false);
+        }
+        let at = clauses.len() - 1;
+        clauses.splice(at..at, earlier);
+        Ok(true)
     }
 
     fn tail(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {

@@ -154,6 +154,7 @@ pub(super) fn base_form(word: &str) -> Option<String> {
     const IRREGULAR: &[(&str, &str)] = &[
         ("went", "go"),
         ("gone", "go"),
+        ("been", "go"),
         ("goes", "go"),
         ("sat", "sit"),
         ("took", "take"),

@@ -28,6 +28,8 @@ const HALFWAY: &[&str] = &[
     "half of the way",
     "half the way",
     "in the middle",
+    "right in the middle",
+    "exactly in the middle",
     "exactly halfway",
 ];
 
@@ -232,10 +234,32 @@ impl Parser<'_> {
     }
 
     /// What follows a place one goes to: by way of another, or only halfway.
+    /// "To the shop for a coffee".
+    fn for_goods(&mut self, go: &Clause) -> Option<Clause> {
+        let Clause::Go { to, .. } = go else { return None };
+        let start = self.at;
+        let goods = if self.eat_any(&["for"]) {
+            self.eat_any(&["a", "an", "some", "a cup of", "a bottle of", "a bit of"]);
+            self.names.goods(self.rest())
+        } else {
+            None
+        };
+        let Some((goods, words)) = goods else {
+            self.at = start;
+            return None;
+        };
+        self.at += words;
+        Some(Clause::Buy { goods, times: 1, at: Some(to.clone()) })
+    }
+
+    /// What is said of the way after where it leads.
     pub(super) fn after_place(&mut self, go: Clause, pace: Pace) -> Result<Vec<Clause>, PlanError> {
         if self.eat_any(&["via", "by way of", "passing by", "passing through", "going via", "through"]) {
             let over = Clause::Go { to: self.reference(0)?, side: None, pace, within: None };
             return Ok(vec![over, go]);
+        }
+        if let Some(buy) = self.for_goods(&go) {
+            return Ok(vec![buy]);
         }
         self.eat_any(&[
             "by the shortest way",

@@ -34,15 +34,20 @@ pub(crate) enum Verdict {
     WrongAnswer(String),
 }
 
+/// What is asked in a city: in its own file, and in the one that came later, if it has one.
 pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
-    let path = format!("{}/tests/edits/{city}.edits.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let families: BTreeMap<String, BTreeMap<String, String>> =
-        toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let lines = families.into_iter().flat_map(|(family, lines)| {
-        lines.into_iter().map(move |(words, meaning)| Asked { family: family.clone(), words, meaning })
-    });
-    lines.collect()
+    let folder = format!("{}/tests/edits", env!("CARGO_MANIFEST_DIR"));
+    let files = ["edits", "later.edits"].map(|set| format!("{folder}/{city}.{set}.toml"));
+    let mut asked = Vec::new();
+    for path in files.iter().filter(|path| std::path::Path::new(path).exists()) {
+        let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let families: BTreeMap<String, BTreeMap<String, String>> =
+            toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+        asked.extend(families.into_iter().flat_map(|(family, lines)| {
+            lines.into_iter().map(move |(words, meaning)| Asked { family: family.clone(), words, meaning })
+        }));
+    }
+    asked
 }
 
 /// Carries a sentence out in a copy of the city, and judges.

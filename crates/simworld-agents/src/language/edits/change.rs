@@ -51,7 +51,8 @@ impl Reader<'_> {
         let start = self.at;
         let away =
             (start..end).find(|at| longest_phrase(&self.lexemes[*at..end], &["away", "out"]).is_some());
-        if let Some(away) = away.filter(|away| away + 1 == end) {
+        let last = self.before_politeness(start, end);
+        if let Some(away) = away.filter(|away| away + 1 == last) {
             let what = self.things(start, away)?;
             self.at = end;
             return Ok(vec![vec![Wish::Remove { what }]]);
@@ -308,12 +309,19 @@ impl Reader<'_> {
                 what.target,
                 Target::Any(_) | Target::Named(_) | Target::It | Target::Them | Target::Id(_)
             ) {
-                let name = self.written(from, end);
+                let name = self.quoted(from).unwrap_or_else(|| self.written(from, end));
                 self.at = end;
                 return Ok(vec![vec![Wish::Name { what, name }]]);
             }
         }
         Err(self.not_understood("say what to name, and how"))
+    }
+
+    /// What stands between quotation marks from here on.
+    fn quoted(&self, from: usize) -> Option<String> {
+        let start = self.lexemes.get(from)?.start;
+        let mark = self.words[..start].chars().next_back().filter(|mark| ['\'', '"'].contains(mark))?;
+        self.words[start..].split_once(mark).map(|(inside, _)| inside.to_owned())
     }
 
     /// "Make the bench blue", "make the tree bigger", "let the two cars trade places", "make a bench ...".

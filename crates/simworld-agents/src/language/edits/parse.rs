@@ -118,12 +118,17 @@ impl<'a> Reader<'a> {
         let mut refused = None;
         for begin in start..end {
             let Some((verb, count)) = longest(&self.lexemes[begin..end], VERBS) else { continue };
-            if !self.may_skip(start, begin) {
+            // A place before the verb that was not read is no preamble: without it the wish would be another one.
+            if !self.may_skip(start, begin) || self.is_place_before(start, begin) {
                 break;
             }
             self.at = begin + count;
             match self.after(verb, end) {
-                Ok(wishes) => return Ok(wishes),
+                Ok(mut wishes) => {
+                    let spoken_of = self.remarked(start, begin);
+                    wishes.iter_mut().flatten().for_each(|wish| wish.is_about(&spoken_of));
+                    return Ok(wishes);
+                }
                 Err(error) => refused = refused.or(Some(error)),
             }
         }
@@ -133,6 +138,31 @@ impl<'a> Reader<'a> {
             Ok(None) => Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD))),
             Err(error) => Err(refused.unwrap_or(error)),
         }
+    }
+
+    /// The things of a remark before a wish: "the blue car is ugly, make it white".
+    fn remarked(&self, start: usize, begin: usize) -> Vec<Reference> {
+        let mut things = Vec::new();
+        let mut at = start;
+        while at < begin {
+            let is_certain =
+                longest_phrase(&self.lexemes[at..begin], &["the", "that", "this", "my", "those"]);
+            let mut parser = self.parser(at, begin);
+            match is_certain.and_then(|_| parser.reference(0).ok()) {
+                Some(thing) if parser.at > at => {
+                    things.push(thing);
+                    at = parser.at;
+                }
+                _ => at += 1,
+            }
+        }
+        things
+    }
+
+    /// Whether a place stands before a verb.
+    fn is_place_before(&self, start: usize, begin: usize) -> bool {
+        let mut reader = Reader { at: start, ..*self };
+        begin > start && self.is_place(start) && reader.places(begin).is_ok()
     }
 
     /// Whether what stands before a verb says nothing of its own, or only why: no word of it forbids.

@@ -120,11 +120,12 @@ impl Reader<'_> {
         {
             return None;
         }
-        let thing = self.new_thing(end).ok()?;
-        (self.before_politeness(self.at, end) <= self.at).then(|| {
-            self.at = end;
-            vec![vec![Wish::Add { things: vec![thing], at }]]
-        })
+        let made = self.additions(end).ok()?;
+        let placed = |wish| match wish {
+            Wish::Add { things, at: own } if own.is_empty() => Some(Wish::Add { things, at: at.clone() }),
+            _ => None,
+        };
+        made.into_iter().map(|readings| readings.into_iter().map(placed).collect()).collect()
     }
 
     fn peeks(&self, word: &str) -> bool {

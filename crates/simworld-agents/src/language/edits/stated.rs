@@ -13,7 +13,7 @@ use super::words::{ABOUT_IT, FACTORS};
 const OUGHT: &[&str] = &["should be", "must be", "ought to be", "has to be", "have to be", "needs to be",
         "need to be", "shall be", "is supposed to be", "be", "would look better", "should become", "should turn",
         "could be", "becomes", "become", "turns", "should be standing", "should stand", "should sit",
-        "should be placed", "should be moved", "would be better", "would be nicer", "should go", "must stand",
+        "should be placed", "should be moved", "would be better", "would be nicer", "should go", "must stand", "should be over", "has to be standing", "must be standing",
         "belongs", "belong", "must go", "has to go", "needs to go", "can go", "is to be", "be standing",
         "should get"];
 /// After them: that it should not be.
@@ -27,7 +27,8 @@ const GOES: &[&str] = &["should go", "must go", "has to go", "have to go", "need
 #[rustfmt::skip]
 const TRADES: &[&str] = &["should change places", "should swap places", "should trade places", "should swap",
         "should switch places", "must change places", "must swap places", "have to change places",
-        "have to swap places", "ought to swap places", "should swap positions", "need to swap places"];
+        "have to swap places", "ought to swap places", "should trade spots", "could trade spots", "could swap places", "could trade places",
+        "could change places", "could swap spots", "should swap spots", "should swap positions", "need to swap places"];
 
 /// That something is not there, and should be.
 #[rustfmt::skip]
@@ -167,11 +168,18 @@ impl Reader<'_> {
     pub(super) fn bare(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let start = self.at;
         self.at += self.polite_at(start);
-        if self.is_definite(self.at) && !self.is_bare_plural(self.at, end) {
+        if self.is_definite(self.at) && !self.is_bare(self.at, end) {
             self.at = start;
             return Ok(None);
         }
         self.additions(end).map(Some)
+    }
+
+    /// "Benches", and "bench by the fountain": no article, and a place behind a thing.
+    fn is_bare(&self, at: usize, end: usize) -> bool {
+        let rest = &self.lexemes[at.min(end)..end];
+        let noun = super::super::lexicon::category(rest);
+        self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
 }
 

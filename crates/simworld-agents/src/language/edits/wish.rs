@@ -191,6 +191,35 @@ pub(super) enum Anchor {
     Viewer,
 }
 
+impl Wish {
+    /// Takes "it" for the first of the things that a remark was about, and behind "far from" and the like for the last of
+    /// several.
+    pub(super) fn is_about(&mut self, things: &[Reference]) {
+        let Some(first) = things.first() else { return };
+        let (what, at) = match self {
+            Self::Move { what, at } => (&mut what[..], &mut at[..]),
+            Self::Remove { what }
+            | Self::Rotate { what, .. }
+            | Self::Paint { what, .. }
+            | Self::Scale { what, .. } => (&mut what[..], &mut [][..]),
+            Self::Add { at, .. } => (&mut [][..], &mut at[..]),
+            _ => return,
+        };
+        let added = what.is_empty();
+        for one in what.iter_mut().filter(|one| one.target == Target::It) {
+            *one = first.clone();
+        }
+        let other = things.last().filter(|_| added || things.len() > 1);
+        for place in at {
+            if let (Where::To(_, anchor), Some(other)) = (place, other)
+                && *anchor == Anchor::It
+            {
+                *anchor = Anchor::Thing(other.clone());
+            }
+        }
+    }
+}
+
 impl Where {
     /// Takes "it" for what was named before in the same wish, and writes down what is named here.
     pub(super) fn means(&mut self, named: &mut Option<Anchor>) {
