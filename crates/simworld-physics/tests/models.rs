@@ -68,17 +68,17 @@ fn asset(name: &str, collider: Shape, mass: f64, model: Model) -> Asset {
 }
 
 fn put(stage: &mut Stage, asset: &Asset, pose: Pose, stretch: f64) -> EntityId {
-    let id = stage.world.add_asset(asset.clone()).unwrap();
+    let id = stage.world.add_asset(asset.clone()).expect("the models here fit their colliders");
     let mut desc: EntityDesc = asset.at(id, pose);
     if let Shape::Box { size } = &mut desc.info.shape {
         *size *= stretch;
     }
-    stage.world.spawn(desc).unwrap()
+    stage.world.spawn(desc).expect("a solid in the world")
 }
 
 fn drop_in(stage: &mut Stage, at: [f64; 3], shape: Shape) -> EntityId {
     let id = stage.spawn(EntityKind::Prop, pose_facing(Point3::from(at), 0.0), shape);
-    stage.physics.add_rigid(&stage.world, id).unwrap();
+    stage.physics.add_rigid(&stage.world, id).expect("it has no body yet");
     id
 }
 
