@@ -10,12 +10,19 @@ use std::time::{Duration, Instant};
 use clap::{Parser, ValueEnum};
 use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
+<<<<<<< HEAD
 use simworld_agents::editing::SceneEditor;
 use simworld_agents::retrieval::AssetIndex;
 use simworld_citygen::{City, CityConfig};
 use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::scene::World;
 use simworld_core::seed::Seed;
+=======
+use simworld_agents::assets::{ImportConfig, Thing, export_glb, import_glb, read_glb};
+use simworld_agents::retrieval::AssetIndex;
+use simworld_core::asset::{Asset, Catalogue, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::ops;
+>>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
 use simworld_examples::{Outcome, exit_code};
 
 /// Measures the figures of worlds by words and prints each beside its bar.
@@ -38,8 +45,13 @@ struct Arguments {
 enum Part {
     /// Assets found by words.
     Retrieval,
+<<<<<<< HEAD
     /// Sentences carried out.
     Edits,
+=======
+    /// A model from a file to an asset.
+    Import,
+>>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
 }
 
 /// What is asked for: names, synonyms, descriptions, and what is not there.
@@ -69,8 +81,13 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     if wants(Part::Retrieval) {
         retrieval(arguments.assets as usize, &mut table)?;
     }
+<<<<<<< HEAD
     if wants(Part::Edits) {
         edits(arguments.things as usize, &mut table)?;
+=======
+    if wants(Part::Import) {
+        import(&mut table)?;
+>>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
     }
     println!("{table}");
     Ok(())
@@ -116,6 +133,7 @@ fn retrieval(count: usize, table: &mut Table) -> Outcome<()> {
     Ok(())
 }
 
+<<<<<<< HEAD
 /// What is asked of a large city: definite things, relations, rows, streets, colours, weather; each is taken back.
 const SENTENCES: &[&str] = &[
     "add a red sports car next to the nearest hospital",
@@ -170,10 +188,62 @@ fn edits(least: usize, table: &mut Table) -> Outcome<()> {
             micros(filed)
         ),
         "2000 µs".to_owned(),
+=======
+/// A statue of 50,000 triangles: a closed ball with dents, which takes all its convex solids.
+fn import(table: &mut Table) -> Outcome<()> {
+    let file = export_glb(&dented_ball(112));
+    let thing = Thing { name: "statue".into(), words: "a statue".into(), ..Thing::default() };
+    let config = ImportConfig::default();
+    let imported = import_glb(&file, &thing, &config)?;
+    let triangles = imported.asset.model.as_ref().map_or(0, |model| model.triangles.len());
+    let (read, both) =
+        (median(5, || read_glb(&file, &config.limits)), median(5, || import_glb(&file, &thing, &config)));
+    table.add_row([
+        format!(
+            "a GLB file of {triangles} triangles to an asset of {} convex solids, {:.2} m³",
+            imported.report.hulls, imported.report.volume
+        ),
+        format!("{:.2} s (reading {:.3} s)", both.as_secs_f64(), read.as_secs_f64()),
+        "3 s".to_owned(),
+>>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
     ]);
     Ok(())
 }
 
+<<<<<<< HEAD
+=======
+/// A closed surface of rings of twice as many steps, 2 m high, with five dents around and three from pole to pole.
+fn dented_ball(rings: u32) -> Model {
+    let around = rings * 2;
+    let vertex = |ring: u32, step: u32| {
+        let (out, up) = ops::sin_cos(std::f64::consts::PI * f64::from(ring) / f64::from(rings));
+        let turn = std::f64::consts::TAU * f64::from(step) / f64::from(around);
+        let (side, ahead) = ops::sin_cos(turn);
+        let reach = 1.0 + 0.3 * ops::sin(5.0 * turn) * out * ops::sin(3.0 * up);
+        let position = [out * ahead * reach, out * side * reach, up].map(|part| part as f32);
+        ModelVertex { position, color: [0.5; 3], ..ModelVertex::default() }
+    };
+    let mut vertices = vec![vertex(0, 0), vertex(rings, 0)];
+    vertices.extend(
+        (1..rings).flat_map(|ring| (0..around).map(move |step| (ring, step))).map(|(r, s)| vertex(r, s)),
+    );
+    let at = |ring: u32, step: u32| 2 + (ring - 1) * around + step % around;
+    let mut triangles = Vec::new();
+    for step in 0..around {
+        triangles.push([0, at(1, step), at(1, step + 1)]);
+        triangles.push([1, at(rings - 1, step + 1), at(rings - 1, step)]);
+        for ring in 1..rings - 1 {
+            let [a, b] = [at(ring, step), at(ring + 1, step)];
+            let [c, d] = [at(ring + 1, step + 1), at(ring, step + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    let parts =
+        vec![ModelPart { name: "stone".into(), triangles: triangles.len() as u32, paint: Paint::Own }];
+    Model { vertices, triangles, parts, hulls: Vec::new() }
+}
+
+>>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
 #[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
 fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let start = Instant::now();

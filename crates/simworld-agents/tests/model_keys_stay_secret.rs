@@ -188,3 +188,39 @@ fn a_variable_without_a_key_is_named() {
     let error = OpenAiChat::new(config).unwrap_err();
     assert_eq!(error, ModelError::NoKey { variable: "SIMWORLD_NO_SUCH_KEY".into() });
 }
+
+#[cfg(feature = "assets")]
+#[test]
+fn no_key_is_in_what_a_generator_of_assets_says() {
+    use simworld_agents::generation::*;
+    let Some(folder) = with_key("no_key_is_in_what_a_generator_of_assets_says") else { return };
+    let answers: Vec<Answer> = echoes()
+        .into_iter()
+        .chain([
+            status(200, "", &json!({"uid": KEY}).to_string()),
+            status(200, "", &json!({"uid": "job", "also": KEY}).to_string()),
+            status(200, "", &json!({"status": "error", "message": KEY}).to_string()),
+        ])
+        .collect();
+    let count = answers.len();
+    let server = FaultServer::answering(answers);
+    let config = HunyuanConfig {
+        base_url: server.root(),
+        key_variable: Some(VARIABLE.into()),
+        retry: RetryConfig { attempts: 1, ..RetryConfig::default() },
+        first_poll: 0.001,
+        ..HunyuanConfig::default()
+    };
+    let mut generator = HunyuanGenerator::new(config.clone()).unwrap();
+    let mut said = format!("{config:?}");
+    // The last two answers are those of one job.
+    for _ in 0..count - 1 {
+        let error = generator.generate(&AssetPrompt::new("a bench")).unwrap_err();
+        said += &format!("{error}\n{error:?}\n");
+    }
+    println!("{said}");
+    std::fs::write(folder.join("said.txt"), said).unwrap();
+    let heard = server.heard();
+    assert_eq!(heard.len(), count);
+    assert!(heard.iter().all(|heard| heard.head.contains(&format!("authorization: Bearer {KEY}"))));
+}

@@ -184,10 +184,11 @@ impl Line {
             };
         }
         // What came before the connection broke is still worth reading, and the status says enough without it.
-        let said = self.clean(&wire::said(&bytes));
+        let clean = |text: &str| self.clean(text);
+        let said = wire::said(&bytes, &clean);
         Err(match status {
             // A job's own failure comes with status 500 and is no reason to ask again.
-            500 if matches!(wire::state(&bytes, 0), Ok(wire::State::Failed(_))) => {
+            500 if matches!(wire::state(&bytes, 0, &clean), Ok(wire::State::Failed(_))) => {
                 HunyuanError::Failed { uid: String::new(), said }
             }
             408 | 429 | 500..=599 => {

@@ -152,7 +152,7 @@ impl HunyuanGenerator {
         let bounds = Bounds { bytes: SHORT, until, within: self.answer_time() };
         let answer =
             self.line.ask(&Question::Post("/send", &body), bounds, &self.config, &mut random(prompt))?;
-        let uid = wire::uid(&answer)?;
+        let uid = wire::uid(&answer, &|text| self.line.clean(text))?;
         self.pending = Some(Ticket { uid: uid.clone(), prompt: prompt.clone() });
         Ok(uid)
     }
@@ -179,12 +179,10 @@ impl HunyuanGenerator {
                 Err(HunyuanError::TooLarge { .. }) => return Err(HunyuanError::TooLarge { limit: most }),
                 answer => answer?,
             };
-            match wire::state(&answer, most)? {
+            match wire::state(&answer, most, &|text| self.line.clean(text))? {
                 State::Working => {}
                 State::Done(model) => return Ok(model),
-                State::Failed(said) => {
-                    return Err(HunyuanError::Failed { uid: uid.to_owned(), said: self.line.clean(&said) });
-                }
+                State::Failed(said) => return Err(HunyuanError::Failed { uid: uid.to_owned(), said }),
             }
         }
     }

@@ -12,6 +12,9 @@ use crate::generation::AssetPrompt;
 /// The most characters of an answer that an error keeps.
 const KEPT: usize = 200;
 
+/// The most bytes of an answer that are looked at for an error.
+const ERROR_BODY: usize = 64 * 1024;
+
 /// The most bytes of a picture.
 const LARGEST_IMAGE: usize = 16 << 20;
 
@@ -70,60 +73,65 @@ struct Status {
     message: Option<String>,
 }
 
+/// Takes secrets out of what a server says, before it is cut.
+pub(super) type Clean<'a> = &'a dyn Fn(&str) -> String;
+
 /// The job that `/send` has begun. Its name goes into an address: nothing but letters, digits and dashes.
-pub(super) fn uid(answer: &[u8]) -> Result<String, HunyuanError> {
-    let sent: Sent = read(answer)?;
+pub(super) fn uid(answer: &[u8], clean: Clean<'_>) -> Result<String, HunyuanError> {
+    let sent: Sent = read(answer, clean)?;
     let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if sent.uid.is_empty() || sent.uid.len() > 64 || !sent.uid.chars().all(is_plain) {
-        return Err(bad("its uid is no name of a job", answer));
+        return Err(bad("its uid is no name of a job", answer, clean));
     }
     Ok(sent.uid)
 }
 
 /// What `/status` says of a job whose model may have so many bytes.
-pub(super) fn state(answer: &[u8], most: u64) -> Result<State, HunyuanError> {
-    let status: Status = read(answer)?;
+pub(super) fn state(answer: &[u8], most: u64, clean: Clean<'_>) -> Result<State, HunyuanError> {
+    let status: Status = read(answer, clean)?;
     match status.word.as_str() {
         "processing" | "texturing" | "queued" => Ok(State::Working),
         "error" => {
             let said = status.message.unwrap_or_else(|| "it does not say why".to_owned());
-            Ok(State::Failed(beginning(said.as_bytes())))
+            Ok(State::Failed(beginning(&clean(&said))))
         }
         "completed" => {
-            let text =
-                status.model_base64.ok_or_else(|| bad("it is completed and has no model_base64", answer))?;
+            let text = status
+                .model_base64
+                .ok_or_else(|| bad("it is completed and has no model_base64", answer, clean))?;
             if text.len() as u64 / 4 * 3 > most + 2 {
                 return Err(HunyuanError::TooLarge { limit: most });
             }
             match STANDARD.decode(text.as_bytes()) {
                 Ok(model) => Ok(State::Done(model)),
-                Err(error) => Err(bad(&format!("model_base64 is damaged: {error}"), answer)),
+                Err(error) => Err(bad(&format!("model_base64 is damaged: {error}"), answer, clean)),
             }
         }
-        _ => Err(bad("its status is none of the protocol", answer)),
+        _ => Err(bad("its status is none of the protocol", answer, clean)),
     }
 }
 
 /// What a server says about a failure: `text` or `message` or `detail` of its JSON, or its bytes.
-pub(super) fn said(answer: &[u8]) -> String {
+pub(super) fn said(answer: &[u8], clean: Clean<'_>) -> String {
     let value: Value = serde_json::from_slice(answer).unwrap_or_default();
     let text = ["text", "message", "error", "detail"].into_iter().find_map(|name| value.get(name));
     match text {
-        Some(Value::String(text)) => beginning(text.as_bytes()),
-        Some(other) => beginning(other.to_string().as_bytes()),
-        None => beginning(answer),
+        Some(Value::String(text)) => beginning(&clean(text)),
+        Some(other) => beginning(&clean(&other.to_string())),
+        None => beginning(&clean(&String::from_utf8_lossy(answer))),
     }
 }
 
-fn read<'a, T: Deserialize<'a>>(answer: &'a [u8]) -> Result<T, HunyuanError> {
-    serde_json::from_slice(answer).map_err(|error| bad(&error.to_string(), answer))
+fn read<'a, T: Deserialize<'a>>(answer: &'a [u8], clean: Clean<'_>) -> Result<T, HunyuanError> {
+    serde_json::from_slice(answer).map_err(|error| bad(&error.to_string(), answer, clean))
 }
 
-fn bad(reason: &str, answer: &[u8]) -> HunyuanError {
-    HunyuanError::BadAnswer { reason: reason.to_owned(), begin: beginning(answer) }
+fn bad(reason: &str, answer: &[u8], clean: Clean<'_>) -> HunyuanError {
+    // Enough for what is kept, with room for a secret that is taken out of it.
+    let some = String::from_utf8_lossy(&answer[..answer.len().min(ERROR_BODY)]);
+    HunyuanError::BadAnswer { reason: beginning(&clean(reason)), begin: beginning(&clean(&some)) }
 }
 
-fn beginning(bytes: &[u8]) -> String {
-    let some = &bytes[..bytes.len().min(KEPT * 4)];
-    String::from_utf8_lossy(some).chars().filter(|c| !c.is_control()).take(KEPT).collect()
+fn beginning(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).take(KEPT).collect()
 }
