@@ -10,19 +10,14 @@ use std::time::{Duration, Instant};
 use clap::{Parser, ValueEnum};
 use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
-<<<<<<< HEAD
+use simworld_agents::assets::{ImportConfig, Thing, export_glb, import_glb, read_glb};
 use simworld_agents::editing::SceneEditor;
 use simworld_agents::retrieval::AssetIndex;
 use simworld_citygen::{City, CityConfig};
-use simworld_core::asset::{Asset, Catalogue};
-use simworld_core::scene::World;
-use simworld_core::seed::Seed;
-=======
-use simworld_agents::assets::{ImportConfig, Thing, export_glb, import_glb, read_glb};
-use simworld_agents::retrieval::AssetIndex;
 use simworld_core::asset::{Asset, Catalogue, Model, ModelPart, ModelVertex, Paint};
 use simworld_core::ops;
->>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
+use simworld_core::scene::World;
+use simworld_core::seed::Seed;
 use simworld_examples::{Outcome, exit_code};
 
 /// Measures the figures of worlds by words and prints each beside its bar.
@@ -45,13 +40,10 @@ struct Arguments {
 enum Part {
     /// Assets found by words.
     Retrieval,
-<<<<<<< HEAD
     /// Sentences carried out.
     Edits,
-=======
     /// A model from a file to an asset.
     Import,
->>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
 }
 
 /// What is asked for: names, synonyms, descriptions, and what is not there.
@@ -81,13 +73,11 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     if wants(Part::Retrieval) {
         retrieval(arguments.assets as usize, &mut table)?;
     }
-<<<<<<< HEAD
     if wants(Part::Edits) {
         edits(arguments.things as usize, &mut table)?;
-=======
+    }
     if wants(Part::Import) {
         import(&mut table)?;
->>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
     }
     println!("{table}");
     Ok(())
@@ -133,7 +123,6 @@ fn retrieval(count: usize, table: &mut Table) -> Outcome<()> {
     Ok(())
 }
 
-<<<<<<< HEAD
 /// What is asked of a large city: definite things, relations, rows, streets, colours, weather; each is taken back.
 const SENTENCES: &[&str] = &[
     "add a red sports car next to the nearest hospital",
@@ -188,7 +177,10 @@ fn edits(least: usize, table: &mut Table) -> Outcome<()> {
             micros(filed)
         ),
         "2000 µs".to_owned(),
-=======
+    ]);
+    Ok(())
+}
+
 /// A statue of 50,000 triangles: a closed ball with dents, which takes all its convex solids.
 fn import(table: &mut Table) -> Outcome<()> {
     let file = export_glb(&dented_ball(112));
@@ -205,13 +197,10 @@ fn import(table: &mut Table) -> Outcome<()> {
         ),
         format!("{:.2} s (reading {:.3} s)", both.as_secs_f64(), read.as_secs_f64()),
         "3 s".to_owned(),
->>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
     ]);
     Ok(())
 }
 
-<<<<<<< HEAD
-=======
 /// A closed surface of rings of twice as many steps, 2 m high, with five dents around and three from pole to pole.
 fn dented_ball(rings: u32) -> Model {
     let around = rings * 2;
@@ -243,7 +232,6 @@ fn dented_ball(rings: u32) -> Model {
     Model { vertices, triangles, parts, hulls: Vec::new() }
 }
 
->>>>>>> 6cbe8475 (Generators say no key; a figure of imports; models of strangers in the docs (ADR 34))
 #[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
 fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let start = Instant::now();
