@@ -114,25 +114,17 @@ impl Parser<'_> {
         Ok(Some(Stands::Compass(compass, None)))
     }
 
-    /// "The northernmost".
     /// "In the east", which says which of several.
     pub(super) fn in_the_compass(&mut self) -> Option<Compass> {
         let start = self.at;
         let compass = if self.eat_any(&["in the"]) { longest(self.rest(), DIRECTIONS) } else { None };
         let after = &self.rest()[compass.map_or(0, |(_, count)| count)..];
-        match compass.filter(|_| longest_phrase(after, &["of", "from", "side", "end"]).is_none()) {
-            Some((compass, count)) => {
-                self.at += count;
-                Some(compass)
-            }
-            None => {
-                self.at = start;
-                None
-            }
-        }
+        let said = compass.filter(|_| longest_phrase(after, &["of", "from", "side", "end"]).is_none());
+        self.at = said.map_or(start, |(_, count)| self.at + count);
+        said.map(|(compass, _)| compass)
     }
 
-    /// Turns "the easternmost" into which of several is meant.
+    /// "The northernmost".
     pub(super) fn compass_choice(&mut self) -> Option<Choice> {
         let (compass, count) = longest(self.rest(), MOST)?;
         self.at += count;

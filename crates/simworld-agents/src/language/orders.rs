@@ -185,15 +185,8 @@ impl Parser<'_> {
                 one(Clause::Door { what, open: verb == Verb::Open })
             }
             Verb::Photo => {
-                let number = numbers::count(self.rest());
-                match number.filter(|(_, count)| longest_phrase(&self.rest()[*count..], PHOTOS).is_some()) {
-                    Some((number, count)) => {
-                        self.at += count;
-                        self.eat_any(PHOTOS);
-                        self.photo(number)
-                    }
-                    None => self.photo(1),
-                }
+                let times = self.number_of_photos();
+                self.photo(times)
             }
             Verb::Faster | Verb::Slower if self.eat_any(&["to"]) => {
                 one(Clause::Speed { speed: self.speed()? })
@@ -270,6 +263,18 @@ impl Parser<'_> {
         self.eat_any(&["up", "along", "with you"]);
         let to = self.tail_place(&["to", "over to", "back to", "into"])?;
         Ok(vec![Clause::Take { what, to, grip }])
+    }
+
+    /// "Snap two photos of": two.
+    fn number_of_photos(&mut self) -> u32 {
+        let start = self.at;
+        let number = numbers::count(self.rest());
+        self.at += number.map_or(0, |(_, count)| count);
+        let Some((number, _)) = number.filter(|_| self.eat_any(PHOTOS)) else {
+            self.at = start;
+            return 1;
+        };
+        number
     }
 
     fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
