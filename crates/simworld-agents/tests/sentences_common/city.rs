@@ -109,7 +109,7 @@ fn name_streets(plan: &mut StreetPlan) {
     }
 }
 
-/// The middle of a piece of a street of the quarter: "oak_a" is the first of Oak Street, "oak_b" the second.
+/// The middle of a piece of a street of the quarter: `oak_a` is the first of Oak Street, `oak_b` the second.
 pub(crate) fn piece(key: &str) -> [f64; 2] {
     let (street, half) = key.split_once('_').unwrap_or_else(|| panic!("no piece {key}"));
     let along = if half == "a" { 50.0 } else { 150.0 };
