@@ -358,6 +358,12 @@ fn a_table_stands_on_legs() {
     let hulls = &own_model(&table).hulls;
     assert!(hulls.len() >= 5, "{} hulls", hulls.len());
     assert_eq!(table.report.hulls, hulls.len());
+    for most in [1, 4, 9, 32] {
+        let config = ImportConfig { hulls: most, ..ImportConfig::default() };
+        let count =
+            import_glb(&export(&assets_common::table()), &thing("table"), &config).unwrap().report.hulls;
+        assert!((1..=most as usize).contains(&count), "{count} of {most}");
+    }
     // Every vertex is met where it is seen.
     let voxel = 1.2 / 47.0;
     for vertex in &own_model(&table).vertices {

@@ -15,7 +15,7 @@ pub struct ImportConfig {
     pub unit: Unit,
     /// Which way it looks.
     pub facing: Facing,
-    /// The most convex solids, 1 to 64.
+    /// The most convex solids, 1 to 64: a power of two is used fully, below four there is one.
     pub hulls: u32,
     /// Voxels along the longest side, by which it is taken apart, 16 to 128. A body falls through no gap that is narrower
     /// than one.
@@ -34,7 +34,7 @@ impl Default for ImportConfig {
             limits: GlbLimits::default(),
             unit: Unit::Guess,
             facing: Facing::AsGiven,
-            hulls: 16,
+            hulls: 32,
             voxels: 48,
             weld: 1e-5,
             tangled: 0.005,

@@ -44,18 +44,21 @@ pub(super) fn decompose(points: &[Point3], triangles: &[[u32; 3]], fineness: Fin
     // parry answers a hull that it cannot find by a panic; what it may have left half done is dropped with it.
     let whole = catch_unwind(AssertUnwindSafe(|| solid(&vectors))).ok().flatten();
     let Some(whole) = whole else { return Vec::new() };
+    // A tree of cuts has a power of two of leaves, and the decomposition goes one cut deeper than it is told.
+    let leaves = 1 << fineness.hulls.max(1).ilog2();
     let is_convex = fineness.volume.is_some_and(|volume| volume > NEARLY_ALL * whole.bulk.volume);
-    if is_convex || fineness.hulls < 2 {
+    if is_convex || leaves < 4 {
         return vec![whole];
     }
-    let parts = catch_unwind(AssertUnwindSafe(|| parts(&vectors, triangles, fineness))).unwrap_or_default();
+    let parts = catch_unwind(AssertUnwindSafe(|| parts(&vectors, triangles, leaves / 2, fineness.voxels)))
+        .unwrap_or_default();
     if parts.is_empty() { vec![whole] } else { parts }
 }
 
-fn parts(points: &[Vector], triangles: &[[u32; 3]], fineness: Fineness) -> Vec<Solid> {
+fn parts(points: &[Vector], triangles: &[[u32; 3]], hulls: u32, voxels: u32) -> Vec<Solid> {
     let parameters = VHACDParameters {
-        resolution: affordable(points, triangles, fineness.voxels),
-        max_convex_hulls: fineness.hulls,
+        resolution: affordable(points, triangles, voxels),
+        max_convex_hulls: hulls,
         concavity: 0.005,
         fill_mode: FillMode::FloodFill { detect_cavities: false },
         ..VHACDParameters::default()
@@ -154,7 +157,7 @@ fn directions() -> impl Iterator<Item = Vector3> {
 mod tests {
     use super::*;
 
-    const ANY: Fineness = Fineness { hulls: 16, voxels: 32, volume: None };
+    const ANY: Fineness = Fineness { hulls: 32, voxels: 32, volume: None };
 
     fn boxes(boxes: &[([f64; 3], [f64; 3])]) -> (Vec<Point3>, Vec<[u32; 3]>) {
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
@@ -195,7 +198,11 @@ mod tests {
             leg(0.9, 0.9),
         ]);
         let solids = decompose(&points, &triangles, ANY);
-        assert!(solids.len() >= 5, "{} hulls", solids.len());
+        assert!((5..=32).contains(&solids.len()), "{} hulls", solids.len());
+        for most in [1, 3, 4, 9] {
+            let fewer = decompose(&points, &triangles, Fineness { hulls: most, ..ANY });
+            assert!((1..=most as usize).contains(&fewer.len()), "{} of {most}", fewer.len());
+        }
         let volume: f64 = solids.iter().map(|solid| solid.bulk.volume).sum();
         assert!((0.1..0.25).contains(&volume), "0.128 m³ and not {volume}");
         // The room below the top is free.
