@@ -216,7 +216,7 @@ fn no_key_is_in_what_a_generator_of_assets_says() {
     // The last two answers are those of one job.
     for _ in 0..count - 1 {
         let error = generator.generate(&AssetPrompt::new("a bench")).unwrap_err();
-        said += &format!("{error}\n{error:?}\n");
+        said.extend([error.to_string(), format!("\n{error:?}\n")]);
     }
     println!("{said}");
     std::fs::write(folder.join("said.txt"), said).unwrap();

@@ -19,10 +19,11 @@ const WATCHED: u32 = 600;
 
 fn simulation() -> Simulation {
     let mut world = World::new();
-    let network = RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default()).unwrap();
+    let network = RoadNetwork::derive(&StreetPlan::grid(3, 3, 120.0), &NetworkConfig::default())
+        .expect("a grid is sound");
     world.set_roads(Arc::new(network));
     let config = TrafficConfig { vehicles: 60, pedestrians: 0, ..TrafficConfig::default() };
-    let traffic = TrafficDynamics::new(&mut world, &config, Seed(5)).unwrap();
+    let traffic = TrafficDynamics::new(&mut world, &config, Seed(5)).expect("sound settings");
     let mut simulation = Simulation::new(world);
     simulation.add_dynamics("traffic", Box::new(traffic));
     simulation
@@ -30,12 +31,12 @@ fn simulation() -> Simulation {
 
 /// The street in the middle of the grid, both ways.
 fn legs(world: &World) -> Vec<RoadLeg> {
-    let network = world.roads().unwrap();
+    let network = world.roads().expect("the grid");
     let middle = network.roads.iter().position(|road| {
-        let ends = [road.centerline[0], *road.centerline.last().unwrap()];
+        let ends = [road.centerline[0], *road.centerline.last().expect("a road has two ends")];
         ends.iter().all(|end| end.y == 120.0) && ends.iter().any(|end| end.x == 0.0)
     });
-    let road = RoadId::from_index(middle.unwrap());
+    let road = RoadId::from_index(middle.expect("a grid of three has a middle"));
     [LaneDirection::Forward, LaneDirection::Backward].map(|direction| (road, direction)).to_vec()
 }
 
@@ -43,7 +44,7 @@ fn legs(world: &World) -> Vec<RoadLeg> {
 fn spent(simulation: &mut Simulation, steps: u32) -> u32 {
     let mut seen = 0;
     for _ in 0..steps {
-        simulation.step().unwrap();
+        simulation.step().expect("the world goes on");
         let on_it = simulation.world().iter().filter(|entity| {
             let at = entity.planar();
             (20.0..100.0).contains(&at.x) && (at.y - 120.0).abs() < 4.0

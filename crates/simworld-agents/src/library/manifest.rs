@@ -269,8 +269,8 @@ mod tests {
         let twice = "[[asset]]\nname = \"b\"\nmodel = \"b.glb\"\n".repeat(2);
         let error = Manifest::read(&format!("{HEAD}{twice}"), 3).unwrap_err();
         assert!(error.to_string().starts_with("library.toml:7:"), "{error}");
-        let many: String =
-            (0..4).map(|index| format!("[[asset]]\nname = \"b{index}\"\nmodel = \"b.glb\"\n")).collect();
+        let asset = |index| format!("[[asset]]\nname = \"b{index}\"\nmodel = \"b.glb\"\n");
+        let many = [0, 1, 2, 3].map(asset).concat();
         assert!(Manifest::read(&format!("{HEAD}{many}"), 3).unwrap_err().to_string().contains("more than 3"));
     }
 }

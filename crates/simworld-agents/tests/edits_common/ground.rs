@@ -96,25 +96,19 @@ impl Judge<'_> {
             let times = if many { (gap / step).round().max(1.0) } else { 1.0 };
             (gap - times * step).abs() <= 0.25 * step
         };
-        match every {
-            Some(step) => {
-                let room = (length / step + 1e-6).floor();
-                if (row.len() as f64) < room * 0.6 || row.len() as f64 > room + 1.0 {
-                    return Err(format!("{} where there is room for {room}", row.len()));
-                }
-                let odd = gaps.iter().find(|gap| !even(gap, step, true));
-                odd.map_or(Ok(()), |gap| {
-                    Err(format!("{gap:.1} m from one to the next, and not {step}: {row:?}"))
-                })
-            }
-            None => {
-                let mean = gaps.iter().sum::<f64>() / gaps.len().max(1) as f64;
-                let odd = gaps.iter().find(|gap| !even(gap, mean, false));
-                // A row fills what it is along.
-                let fills = mean * row.len() as f64 >= length * 0.6;
-                if odd.is_some() || !fills { Err(format!("it is uneven: {row:?}")) } else { Ok(()) }
-            }
+        let Some(step) = every else {
+            let mean = gaps.iter().sum::<f64>() / gaps.len().max(1) as f64;
+            let odd = gaps.iter().find(|gap| !even(gap, mean, false));
+            // A row fills what it is along.
+            let fills = mean * row.len() as f64 >= length * 0.6;
+            return if odd.is_some() || !fills { Err(format!("it is uneven: {row:?}")) } else { Ok(()) };
+        };
+        let room = (length / step + 1e-6).floor();
+        if (row.len() as f64) < room * 0.6 || row.len() as f64 > room + 1.0 {
+            return Err(format!("{} where there is room for {room}", row.len()));
         }
+        let odd = gaps.iter().find(|gap| !even(gap, step, true));
+        odd.map_or(Ok(()), |gap| Err(format!("{gap:.1} m from one to the next, and not {step}: {row:?}")))
     }
 
     /// How far along its line a thing stands, and how far to the left of it, m.
@@ -156,7 +150,7 @@ impl Judge<'_> {
         let ways: Vec<Vector2> = row.iter().map(|id| place_of(self.after, *id) - middle).collect();
         let (least, most) = ways
             .iter()
-            .map(|way| way.norm())
+            .map(Vector2::norm)
             .fold((f64::INFINITY, 0.0_f64), |(low, high), radius| (low.min(radius), high.max(radius)));
         let mut angles: Vec<f64> = ways.iter().map(|way| atan2(way.y, way.x)).collect();
         angles.sort_by(f64::total_cmp);
