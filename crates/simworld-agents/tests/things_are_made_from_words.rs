@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
+use simworld_agents::editing::{EditError, SceneEditor};
 use simworld_agents::generation::{
     AssetGenerator, AssetPrompt, GenerateError, KnownThing, Made, ProceduralGenerator, SizeHint,
 };
-use simworld_core::asset::{Asset, Model};
+use simworld_core::asset::{Asset, Catalogue, Model};
+use simworld_core::scene::{Scene, World};
+use simworld_core::seed::Seed;
 
 fn make(words: &str, seed: u64) -> Made {
     let prompt = AssetPrompt::new(words).seeded(seed);
@@ -276,6 +279,40 @@ fn what_was_not_understood_is_said() {
     assert!(matches!(refused(&"bench ".repeat(200)), GenerateError::TooLong { .. }));
     let pictured = AssetPrompt { image: Some(vec![1, 2]), ..AssetPrompt::new("bench") };
     assert!(matches!(ProceduralGenerator::new().generate(&pictured), Err(GenerateError::Image { .. })));
+}
+
+#[test]
+fn an_editor_makes_what_no_catalogue_has() {
+    let say = |editor: SceneEditor| {
+        let (mut editor, mut world) = (editor.with_catalogue(Catalogue::standard()), World::new());
+        let outcome = editor.say("add a tall wooden obelisk", &mut world);
+        (editor, world, outcome)
+    };
+    let (_, world, outcome) = say(SceneEditor::new(Seed(3)));
+    assert!(
+        matches!(outcome, Err(EditError::UnknownThing { .. })),
+        "only who wants a generator has one: {outcome:?}"
+    );
+    assert!(world.is_empty());
+
+    let (mut editor, mut world, outcome) =
+        say(SceneEditor::new(Seed(3)).with_generator(ProceduralGenerator::new()));
+    let done = outcome.unwrap();
+    let made = world.entity(done.made[0]).unwrap();
+    assert!(made.info.shape.size().z > 7.0, "it is tall: {:?}", made.info.shape);
+    let asset = world.assets().unwrap().get(made.info.asset.unwrap()).unwrap();
+    assert!(asset.model.is_some() && asset.material.unwrap().as_str() == "wood");
+    assert!(done.answer.unwrap().contains("generated obelisk_"), "the answer says that it was generated");
+    let (_, again, _) = say(SceneEditor::new(Seed(3)).with_generator(ProceduralGenerator::new()));
+    assert_eq!(StateHash::digest(&world), StateHash::digest(&again));
+
+    editor.undo(&mut world).unwrap();
+    assert!(world.is_empty());
+    editor.redo(&mut world).unwrap();
+    assert_eq!(world.len(), 1);
+    let refused = editor.say("add a zeppelin", &mut world);
+    assert!(matches!(refused, Err(EditError::UnknownThing { .. })), "{refused:?}");
+    assert_eq!(world.len(), 1);
 }
 
 proptest! {

@@ -17,6 +17,8 @@ use super::land::Streets;
 use super::place::Placing;
 use super::reader::{Asked, EditReader, ReadBy, Shared, is_open};
 use super::stock::Stock;
+use super::workshop::Workshop;
+use crate::generation::AssetGenerator;
 use crate::language::edits::{self, Focus, Reading};
 use crate::language::streets::StreetNames;
 
@@ -51,6 +53,7 @@ use crate::language::streets::StreetNames;
 pub struct SceneEditor {
     seed: Seed,
     stock: Arc<Stock>,
+    workshop: Option<Workshop>,
     focus: Focus,
     history: History,
     streets: Option<Streets>,
@@ -66,6 +69,7 @@ impl SceneEditor {
         Self {
             seed,
             stock: Arc::new(Stock::new(Catalogue::library())),
+            workshop: None,
             focus: Focus {
                 from: Point2::origin(),
                 who: None,
@@ -86,6 +90,14 @@ impl SceneEditor {
     #[must_use]
     pub fn with_catalogue(mut self, catalogue: Catalogue) -> Self {
         self.stock = Arc::new(Stock::new(catalogue));
+        self
+    }
+
+    /// With a generator that makes what no asset of the catalogue is; the answer then says so. A recorded run replays without
+    /// it, for the command that adds an asset carries it.
+    #[must_use]
+    pub fn with_generator(mut self, generator: impl AssetGenerator + 'static) -> Self {
+        self.workshop = Some(Workshop::new(Box::new(generator), self.seed.0));
         self
     }
 
@@ -149,11 +161,16 @@ impl SceneEditor {
     fn say_by_grammar(&mut self, words: &str, scene: &mut dyn Editable) -> Result<Edited, EditError> {
         self.learn_streets(scene.world());
         let reading = edits::read(words, scene.world(), &self.stock, &self.focus)?;
+        let notes = self.workshop.as_ref().map_or_else(Vec::new, |shop| shop.fill(&mut self.stock, &reading));
         let mut applier = self.applier(scene);
         let outcome = (0..reading.len()).try_for_each(|index| carry_out(&reading, index, &mut applier));
-        let (edited, back, memory) = applier.finish(outcome.is_ok());
+        let (mut edited, back, memory) = applier.finish(outcome.is_ok());
         self.remember(memory);
         outcome?;
+        if !notes.is_empty() {
+            let said = edited.answer.take().into_iter().chain(notes);
+            edited.answer = Some(said.collect::<Vec<_>>().join("; "));
+        }
         self.history.push(words.to_owned(), back);
         Ok(edited)
     }

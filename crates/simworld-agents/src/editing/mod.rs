@@ -25,6 +25,7 @@ mod sample;
 mod solid;
 mod stand;
 mod stock;
+mod workshop;
 
 pub use apply::Edited;
 pub use check::{Difference, Fault, faults};

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use simworld_core::asset::{Asset, Catalogue};
+use simworld_core::asset::{Asset, AssetError, Catalogue};
 use simworld_core::command::Command;
 use simworld_core::geometry::Point3;
 use simworld_core::id::AssetId;
@@ -27,6 +27,8 @@ pub(crate) struct Stock {
     words: BTreeSet<String>,
     /// Names of several words by how they look when they are written as one.
     joined: BTreeMap<String, String>,
+    /// The assets that were made for words, by those words.
+    made: BTreeMap<String, String>,
 }
 
 impl Stock {
@@ -40,7 +42,20 @@ impl Stock {
                 joined.entry(asset.name.replace('_', "")).or_insert_with(|| asset.name.clone());
             }
         }
-        Self { catalogue, index, words, joined }
+        Self { catalogue, index, words, joined, made: BTreeMap::new() }
+    }
+
+    /// Keeps an asset that was made for words; those words mean it from now on.
+    pub(super) fn keep(&mut self, words: String, asset: Asset) -> Result<(), AssetError> {
+        let name = asset.name.clone();
+        self.catalogue.add(asset)?;
+        self.made.insert(words, name);
+        Ok(())
+    }
+
+    /// The asset that was made for words.
+    pub(crate) fn made_for(&self, words: &str) -> Option<&str> {
+        self.made.get(words).map(String::as_str)
     }
 
     /// Every word of a name or a tag, in order.

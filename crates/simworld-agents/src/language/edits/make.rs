@@ -13,6 +13,9 @@ impl NewThing {
     /// The asset that the words ask for: its name or its kind is the noun, and it answers to all other words that mean
     /// something; or else the one that a search is sure of.
     pub(super) fn make(&self, stock: &Stock) -> Result<Make, EditError> {
+        if let Some(made) = stock.made_for(&self.text) {
+            return Ok(Make { name: self.name.clone(), ..Make::of(made) });
+        }
         let (season, words) = self.season();
         let mut left_over = None;
         for from in 0..words.len() {
@@ -45,6 +48,14 @@ impl NewThing {
             }
             (Choice::Unsure(hits), None) => Err(unknown(&words, near(&hits))),
         }
+    }
+
+    /// The words from which a generator may make it: without how many, and what it is called.
+    pub(super) fn prompt(&self) -> &str {
+        let text = self.text.as_str();
+        let end = [" called ", " named ", " with the name "].iter().filter_map(|word| text.find(word)).min();
+        let text = &text[..end.unwrap_or(text.len())];
+        if self.count > 1 { text.split_once(' ').map_or(text, |(_, rest)| rest) } else { text }
     }
 
     fn made_from(&self, asset: &Asset, scale: f64, season: Option<Season>) -> Make {

@@ -145,7 +145,10 @@ impl Reader<'_> {
         };
         while self.at < end {
             let rest = self.rest(end);
-            if let Some((count, words)) = numbers::count(rest).filter(|_| thing.words.is_empty()) {
+            // "A three-legged stool" is one.
+            let is_part = self.words[rest[0].end..].starts_with('-');
+            if let Some((count, words)) = numbers::count(rest).filter(|_| thing.words.is_empty() && !is_part)
+            {
                 (thing.count, self.at) = (count, self.at + words);
             } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
                 self.at += words;

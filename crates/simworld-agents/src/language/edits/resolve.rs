@@ -19,6 +19,17 @@ use crate::editing::{Edit, EditError, Stand, Stock};
 const ASKED_AROUND: f64 = 80.0;
 
 impl Reading {
+    /// New things that a stock has not: their words, and those from which one may be made.
+    pub(crate) fn lacking(&self, stock: &Stock) -> Vec<(String, String)> {
+        let things = self.wishes.iter().flatten().flat_map(|wish| match wish {
+            Wish::Add { things, .. } => things.as_slice(),
+            Wish::Replace { with, .. } => std::slice::from_ref(with),
+            _ => &[],
+        });
+        let lacking = things.filter(|thing| matches!(thing.make(stock), Err(EditError::UnknownThing { .. })));
+        lacking.map(|thing| (thing.text.clone(), thing.prompt().to_owned())).collect()
+    }
+
     /// The edits that a wish means in the scene as it is: those of its first reading whose things are there.
     pub(crate) fn resolve(
         &self,
