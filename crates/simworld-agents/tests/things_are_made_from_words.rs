@@ -8,6 +8,7 @@ use simworld_agents::generation::{
     AssetGenerator, AssetPrompt, GenerateError, KnownThing, Made, ProceduralGenerator, SizeHint,
 };
 use simworld_core::asset::{Asset, Catalogue, Model};
+use simworld_core::hash::StateHash;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 
