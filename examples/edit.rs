@@ -5,6 +5,7 @@
 //! cargo run --release --example edit -- --say "add a red sports car next to the nearest hospital" --say undo
 //! cargo run --release --example edit -- --library examples/assets/harbour --say "put a buoy next to a bench"
 //! cargo run --release --example edit -- --show-catalogue catalogue.svg
+//! cargo run --release --example edit -- --show-made made.svg
 //! ```
 
 use std::io::{BufRead, IsTerminal, Write};
@@ -23,7 +24,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 use simworld_examples::city::{Source, make};
-use simworld_examples::edit::{Plan, View, contact_sheet};
+use simworld_examples::edit::{Plan, View, contact_sheet, made_sheet};
 use simworld_examples::{Outcome, exit_code};
 
 /// Type how the scene is to change: "put two benches in front of the school", "paint them blue", "make it a foggy evening".
@@ -64,6 +65,9 @@ struct Arguments {
     /// Draws everything that can be added into a picture, and does nothing else.
     #[arg(long, value_name = "FILE.svg")]
     show_catalogue: Option<PathBuf>,
+    /// Draws one of everything that the offline generator makes from words into a picture, and does nothing else.
+    #[arg(long, value_name = "FILE.svg")]
+    show_made: Option<PathBuf>,
     /// The folder to write to.
     #[arg(long, value_name = "DIR", default_value = "out/edit")]
     out: PathBuf,
@@ -109,6 +113,11 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     if let Some(path) = &arguments.show_catalogue {
         std::fs::write(path, contact_sheet(&catalogue).to_string())?;
         println!("{} assets in {}", catalogue.len(), path.display());
+        return Ok(());
+    }
+    if let Some(path) = &arguments.show_made {
+        std::fs::write(path, made_sheet()?.to_string())?;
+        println!("What is made from words is in {}", path.display());
         return Ok(());
     }
     let source = Source::saved_or_small(arguments.city.as_ref());
