@@ -4,6 +4,7 @@
 //! cargo run --release --example edit
 //! cargo run --release --example edit -- --say "add a red sports car next to the nearest hospital" --say undo
 //! cargo run --release --example edit -- --library examples/assets/harbour --say "put a buoy next to a bench"
+//! cargo run --release --example edit -- --generator offline --say "put a tall three-legged wooden stool next to a bench"
 //! cargo run --release --example edit -- --show-catalogue catalogue.svg
 //! cargo run --release --example edit -- --show-made made.svg
 //! ```
@@ -15,6 +16,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use simworld_agents::assets::ImportConfig;
 use simworld_agents::editing::{Difference, Edited, Placing, ReadBy, SceneEditor};
+use simworld_agents::generation::{HunyuanConfig, HunyuanGenerator, ProceduralGenerator};
 use simworld_agents::library::{LOCK, Library, LibraryLimits};
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
 use simworld_agents::thought::ModelReader;
@@ -50,6 +52,10 @@ struct Arguments {
     /// The model's name, where the server has several.
     #[arg(long, value_name = "NAME", default_value = "model")]
     model_name: String,
+    /// Makes what no asset is: "offline" by a grammar of everyday things, or a server that speaks the protocol of Hunyuan3D-2 at this
+    /// address (http or https).
+    #[arg(long, value_name = "offline|URL", value_parser = maker)]
+    generator: Option<Maker>,
     /// From where the scene is looked at, m east and north: what "here" and "the nearest" mean.
     #[arg(long, value_name = "X,Y", value_parser = point, default_value = "0,0", allow_hyphen_values = true)]
     from: Point2,
@@ -71,6 +77,21 @@ struct Arguments {
     /// The folder to write to.
     #[arg(long, value_name = "DIR", default_value = "out/edit")]
     out: PathBuf,
+}
+
+/// Who makes what no asset is.
+#[derive(Clone, Debug)]
+enum Maker {
+    Offline,
+    Server(String),
+}
+
+fn maker(text: &str) -> Result<Maker, String> {
+    match text {
+        "offline" => Ok(Maker::Offline),
+        url if url.starts_with("http://") || url.starts_with("https://") => Ok(Maker::Server(url.to_owned())),
+        _ => Err("give \"offline\", or an address such as http://127.0.0.1:8081".to_owned()),
+    }
 }
 
 fn point(text: &str) -> Result<Point2, String> {
@@ -135,6 +156,14 @@ fn job(arguments: &Arguments) -> Outcome<()> {
             ..OpenAiConfig::default()
         };
         editor = editor.with_reader(ModelReader::new(Box::new(OpenAiChat::new(config)?)));
+    }
+    match &arguments.generator {
+        None => {}
+        Some(Maker::Offline) => editor = editor.with_generator(ProceduralGenerator::new()),
+        Some(Maker::Server(url)) => {
+            let config = HunyuanConfig { base_url: url.clone(), ..HunyuanConfig::default() };
+            editor = editor.with_generator(HunyuanGenerator::new(config)?);
+        }
     }
     println!("a city of {} things; type how it is to change", world.len());
     let mut desk = Desk { arguments, world, editor, view };

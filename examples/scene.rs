@@ -15,7 +15,7 @@ use simworld_agents::scenes::{GrammarSceneReader, SceneReader, SceneReading};
 use simworld_agents::thought::ModelSceneReader;
 use simworld_citygen::settlement::Settlement;
 use simworld_core::geometry::Point2;
-use simworld_core::scene::{EntityKind, Scene, World};
+use simworld_core::scene::{EntityKind, World};
 use simworld_core::seed::Seed;
 use simworld_core::spec::SceneSpec;
 use simworld_examples::edit::{Plan, View};
