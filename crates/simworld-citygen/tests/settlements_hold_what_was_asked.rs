@@ -68,6 +68,7 @@ fn patterns_trees_and_heights_are_as_asked() {
         place.city.buildings.iter().map(|building| building.storeys).collect::<Vec<_>>()
     };
     assert!(storeys(Height::Low).iter().all(|storeys| *storeys <= 2));
+    assert!(storeys(Height::Usual).iter().all(|storeys| *storeys <= 4), "forty houses are no city of towers");
     assert!(storeys(Height::High).iter().filter(|storeys| **storeys >= 6).count() > 5);
 }
 

@@ -15,8 +15,8 @@ const PARK: (f64, f64) = (46.0, 36.0);
 const ROOM: f64 = 1.0;
 /// Places for open ground are tried so far from each other, m.
 const STEP: f64 = 8.0;
-/// Between the outermost street and water, and how far water reaches, m.
-const SHORE: f64 = 14.0;
+/// Between the outermost pavement and water, and how far water reaches, m.
+const SHORE: f64 = 6.0;
 const BASIN: f64 = 80.0;
 const RIVER: f64 = 24.0;
 /// The ground's top lies so far below a sidewalk's, and open ground a hair above it, m.
@@ -144,9 +144,26 @@ fn is_open(network: &RoadNetwork, areas: &[Area], taken: &Obb) -> bool {
     })
 }
 
+/// What the streets cover: their kerbs, turning circles and sidewalks within.
+fn paved(network: &RoadNetwork) -> Option<(Point2, Point2)> {
+    let walk = network.sidewalks.iter().map(|walk| walk.width).fold(0.0, f64::max);
+    let roads = network.roads.iter().flat_map(|road| {
+        let reach = road.left_kerb.max(road.right_kerb);
+        // A road ends in corners, which lie farther out than its sides.
+        road.centerline.iter().map(move |point| (*point, reach * std::f64::consts::SQRT_2))
+    });
+    let circles = network.intersections.iter().filter_map(|place| place.turning);
+    let discs = roads.chain(circles.map(|circle| (circle.center, circle.radius)));
+    let ends = discs.map(|(point, reach)| {
+        let out = Vector2::repeat(reach + walk);
+        (point - out, point + out)
+    });
+    ends.reduce(|(low, high), (from, to)| (low.inf(&from), high.sup(&to)))
+}
+
 /// Water along one side: the first in the south, then east, north and west.
 fn shore(network: &RoadNetwork, water: Water, rank: usize) -> Option<Area> {
-    let (low, high) = network.bounds()?;
+    let (low, high) = paved(network)?;
     let (middle, size) = (Point2::from((low.coords + high.coords) * 0.5), high - low);
     let reach = if water == Water::River { RIVER } else { BASIN };
     let (along, off, turn): (f64, Vector2, f64) = match rank % 4 {

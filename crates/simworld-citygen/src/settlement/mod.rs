@@ -26,6 +26,9 @@ const TRIES: u32 = 9;
 /// Storeys of low houses at the most, and of high ones in the middle at the least.
 const LOW: u32 = 2;
 const HIGH: u32 = 6;
+/// So many houses are no city yet, and have so many storeys at the most where nothing else is said.
+const SMALL: u32 = 150;
+const SMALL_STOREYS: u32 = 4;
 /// Where the middle of a place ends, as a share of the way to its farthest house.
 const MIDDLE: f64 = 0.5;
 
@@ -110,11 +113,13 @@ impl Settlement {
             self.city.buildings.retain(|_| kept.next().unwrap_or(false));
         }
         let farthest = self.city.buildings.iter().map(away).fold(0.0, f64::max);
+        let is_small = wish.count.is_some_and(|count| count <= SMALL);
         for building in &mut self.city.buildings {
             let central = away(building) <= farthest * MIDDLE;
             building.storeys = match wish.height {
                 Height::Low => building.storeys.min(LOW),
                 Height::High if central => building.storeys.max(HIGH),
+                Height::Usual if is_small => building.storeys.min(SMALL_STOREYS),
                 Height::Usual | Height::High => building.storeys,
             };
         }
@@ -184,6 +189,8 @@ pub fn config_of(spec: &SceneSpec, streets: u32) -> CityConfig {
         Width::Narrow => {
             (roads.lane_width, roads.sidewalk_width, roads.parking_width) = (2.6, 1.8, 0.0);
             (roads.arterial_lanes, roads.highways) = (1, 0);
+            (roads.arterial_median_width, roads.arterial_cycle_width, roads.arterial_parking_width) =
+                (0.0, 0.0, 0.0);
         }
         Width::Usual => {}
         Width::Wide => (roads.lane_width, roads.sidewalk_width, roads.arterial_lanes) = (3.75, 5.0, 2),
