@@ -243,7 +243,10 @@ impl Desk<'_> {
         for id in &edited.made {
             if let Some(thing) = self.world.entity(*id) {
                 let at = thing.planar();
-                println!("  {} ({id}) at ({:.1}, {:.1})", thing.label(), at.x, at.y);
+                let asset = thing.info.asset.and_then(|asset| self.world.assets()?.get(asset));
+                let name = thing.info.name.clone().or(asset.map(|asset| asset.name.replace('_', " ")));
+                let name = name.unwrap_or_else(|| thing.label().to_owned());
+                println!("  {name} ({id}) at ({:.1}, {:.1})", at.x, at.y);
             }
         }
         let others = edited.edits.len().saturating_sub(edited.made.len());

@@ -80,7 +80,7 @@ impl Plan<'_> {
             ground = ground.add(self.tried(placing, unit));
         }
         let title = Text::new(self.title)
-            .set("x", -self.reach)
+            .set("x", -self.reach + 10.0 * unit)
             .set("y", -self.reach - 9.0 * unit)
             .set("font-size", 17.0 * unit)
             .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif")
@@ -211,7 +211,12 @@ impl Plan<'_> {
                     .set("stroke-width", 2.4 * unit),
             );
         }
-        if entity.kind == EntityKind::Building && entity.info.name.is_some() {
+        // From far off names would lie upon each other.
+        let wide = entity.label().chars().count() as f64 * 5.5 * unit;
+        if entity.kind == EntityKind::Building
+            && entity.info.name.is_some()
+            && wide < size.xy().max() * 1.6
+        {
             group = group.add(
                 Text::new(entity.label())
                     .set("x", middle_x)
