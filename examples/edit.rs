@@ -147,6 +147,22 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     city.populate(&mut world)?;
     std::fs::create_dir_all(&arguments.out)?;
     let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
+    let editor = editor(arguments, catalogue)?;
+    println!("a city of {} things; type how it is to change", world.len());
+    let mut desk = Desk { arguments, world, editor, view };
+    if arguments.say.is_empty() {
+        desk.listen()
+    } else {
+        for sentence in &arguments.say {
+            println!("> {sentence}");
+            desk.hear(sentence)?;
+        }
+        Ok(())
+    }
+}
+
+/// The editor, with who reads and who makes.
+fn editor(arguments: &Arguments, catalogue: Catalogue) -> Outcome<SceneEditor> {
     let mut editor =
         SceneEditor::new(Seed(arguments.seed)).with_catalogue(catalogue).looking_from(arguments.from);
     if let Some(url) = &arguments.model {
@@ -165,17 +181,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
             editor = editor.with_generator(HunyuanGenerator::new(config)?);
         }
     }
-    println!("a city of {} things; type how it is to change", world.len());
-    let mut desk = Desk { arguments, world, editor, view };
-    if arguments.say.is_empty() {
-        desk.listen()
-    } else {
-        for sentence in &arguments.say {
-            println!("> {sentence}");
-            desk.hear(sentence)?;
-        }
-        Ok(())
-    }
+    Ok(editor)
 }
 
 struct Desk<'a> {

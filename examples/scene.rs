@@ -125,7 +125,7 @@ fn draw(arguments: &Arguments, spec: &SceneSpec, world: &World) -> Outcome<()> {
     let plan = Plan { middle, reach, title, touched: &[], placings: &[] };
     std::fs::write(arguments.out.join("plan.svg"), plan.draw(world).to_string())?;
     match View::new() {
-        Ok(mut view) => view.write(world, middle, reach * 1.1, &arguments.out.join("scene.png"))?,
+        Ok(mut view) => view.write(world, middle, reach * 1.5, &arguments.out.join("scene.png"))?,
         Err(reason) => eprintln!("a plan alone: {reason}"),
     }
     println!("written to {}", arguments.out.display());

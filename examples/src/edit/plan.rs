@@ -158,12 +158,15 @@ impl Plan<'_> {
         let fill = entity.info.color.map_or_else(|| WALK.to_owned(), to_srgb);
         let (x, y) = self.at(entity.planar());
         let outline = Polygon::new().set("points", self.path(&entity.obb().footprint())).set("fill", fill);
+        // White on what is wide enough for it, and else readable beyond the edge too.
+        let wide = entity.label().chars().count() as f64 * 6.0 * unit;
+        let color = if wide < entity.info.shape.size().xy().max() { "#ffffff" } else { INK };
         let name = Text::new(entity.label())
             .set("x", x)
             .set("y", y)
             .set("font-size", 11.0 * unit)
             .set("text-anchor", "middle")
-            .set("fill", "#ffffff")
+            .set("fill", color)
             .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif");
         Group::new().add(outline.set("opacity", 0.75)).add(name)
     }
@@ -211,23 +214,26 @@ impl Plan<'_> {
                     .set("stroke-width", 2.4 * unit),
             );
         }
-        // From far off names would lie upon each other.
+        group.add(self.name(entity, unit))
+    }
+
+    /// The name of a building, where it has room: from far off names would lie upon each other.
+    fn name(&self, entity: &EntityRef<'_>, unit: f64) -> Group {
         let wide = entity.label().chars().count() as f64 * 5.5 * unit;
-        if entity.kind == EntityKind::Building
-            && entity.info.name.is_some()
-            && wide < size.xy().max() * 1.6
-        {
-            group = group.add(
-                Text::new(entity.label())
-                    .set("x", middle_x)
-                    .set("y", middle_y)
-                    .set("font-size", 10.0 * unit)
-                    .set("text-anchor", "middle")
-                    .set("fill", INK)
-                    .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif"),
-            );
+        let has_name = entity.kind == EntityKind::Building && entity.info.name.is_some();
+        if !has_name || wide >= entity.info.shape.size().xy().max() * 1.6 {
+            return Group::new();
         }
-        group
+        let (x, y) = self.at(entity.planar());
+        Group::new().add(
+            Text::new(entity.label())
+                .set("x", x)
+                .set("y", y)
+                .set("font-size", 10.0 * unit)
+                .set("text-anchor", "middle")
+                .set("fill", INK)
+                .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif"),
+        )
     }
 
     fn tried(&self, placing: &Placing, unit: f64) -> Group {
