@@ -57,15 +57,14 @@ fn main() -> ExitCode {
 }
 
 fn job(arguments: &Arguments) -> Outcome<()> {
-    let spec = match &arguments.spec {
-        Some(path) => toml::from_str(&std::fs::read_to_string(path)?)?,
-        None => {
-            let reading = read(arguments)?;
-            if !reading.unread.is_empty() {
-                println!("not understood: {}", reading.unread.join(", "));
-            }
-            reading.spec
+    let spec = if let Some(path) = &arguments.spec {
+        toml::from_str(&std::fs::read_to_string(path)?)?
+    } else {
+        let reading = read(arguments)?;
+        if !reading.unread.is_empty() {
+            println!("not understood: {}", reading.unread.join(", "));
         }
+        reading.spec
     };
     let place = Settlement::build(&spec, Seed(arguments.seed))?;
     std::fs::create_dir_all(&arguments.out)?;
@@ -100,7 +99,7 @@ fn tell(spec: &SceneSpec, place: &Settlement, world: &World) {
     }
     for (used_as, count) in &spec.features.places {
         let have = place.city.buildings.iter().filter(|building| building.place == *used_as).count();
-        println!("{} of {count}: {used_as}", have);
+        println!("{have} of {count}: {used_as}");
     }
     let trees = world.iter().filter(|entity| entity.kind == EntityKind::Tree).count();
     let weather = spec.environment.weather;
