@@ -122,7 +122,8 @@ impl Driver {
         let arc = atan2(2.0 * self.wheelbase * crate::ops::sin(bearing), target.norm().max(1.0));
         // Before its begin one is as far beside the path as beside its first piece made longer.
         let (point, heading) = polyline::at(path, near.station);
-        let aside = direction(heading).perp(&(here - point));
+        let is_before = near.station <= 0.0;
+        let aside = if is_before { direction(heading).perp(&(here - point)) } else { near.lateral };
         let correction = self.wheel.update(-aside, dt) / (1.0 + speed);
         (arc + correction).clamp(-self.lock, self.lock)
     }

@@ -267,7 +267,7 @@ mod tests {
         let found = findings(&trials(3, |rank| (0.3 + 0.5 * rank, 0.05), lowest, the_busy, 5));
         assert!(found.iter().all(|finding| finding.verdict == Verdict::Undecided));
         assert!(
-            findings(&trials(1, alike, lowest, the_same, 6))[5]
+            findings(&trials(1, alike, lowest, the_same, 6))[4]
                 .evidence
                 .contains("of all 24 couriers were paid")
         );

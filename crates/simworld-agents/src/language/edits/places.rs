@@ -146,8 +146,9 @@ impl Reader<'_> {
         while self.at < end {
             let rest = self.rest(end);
             // "A three-legged stool" is one.
-            let is_part = self.words[rest[0].end..].starts_with('-');
-            if let Some((count, words)) = numbers::count(rest).filter(|_| thing.words.is_empty() && !is_part)
+            let is_part = |words: usize| self.words[rest[words - 1].end..].starts_with('-');
+            if let Some((count, words)) =
+                numbers::count(rest).filter(|(_, words)| thing.words.is_empty() && !is_part(*words))
             {
                 (thing.count, self.at) = (count, self.at + words);
             } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
