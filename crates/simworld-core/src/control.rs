@@ -103,7 +103,9 @@ impl Driver {
             return Action::Brake { level: 1.0 };
         }
         // What drag takes grows with the speed: a foot that held a speed lets go of the pedal when one is to roll to a line.
-        self.pedals.cap(self.pedals.windup * (wanted / FULL_DRAG).clamp(0.0, 1.0));
+        if speed > wanted {
+            self.pedals.cap(self.pedals.windup * (wanted / FULL_DRAG).clamp(0.0, 1.0));
+        }
         let demand = self.pedals.update(wanted - speed, dt);
         if demand < -DEAD_BAND {
             Action::Brake { level: (-demand).min(1.0) }

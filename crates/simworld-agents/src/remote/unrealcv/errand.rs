@@ -150,8 +150,8 @@ impl Following {
         match &mut self.manner {
             Manner::Walking(last) => walk(body.pose, *point - at, self.speed, last, who, told),
             Manner::Driving(driver) => {
-                // Of a way that crosses itself the part ahead counts.
-                let ahead = &self.way[self.next - 1..(self.next + 3).min(self.way.len())];
+                // Of a way that crosses itself the part around counts; points are passed before one is there.
+                let ahead = &self.way[self.next.saturating_sub(2)..(self.next + 3).min(self.way.len())];
                 let actions = driver.drive(body.pose, body.twist.ground_speed(), ahead, self.speed, dt);
                 told.extend(actions.map(|action| (who, action)));
             }
