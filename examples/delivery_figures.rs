@@ -5,8 +5,6 @@
 //! cargo run --release --example delivery_figures -- --only scale --couriers 20 --couriers 200
 //! ```
 
-use std::time::{Duration, Instant};
-
 use clap::{Parser, ValueEnum};
 use rayon::prelude::*;
 use serde_json::json;
@@ -18,6 +16,7 @@ use simworld_examples::delivery::{
     Brain, RunConfig, Thinkers, Watch, assemble, assemble_with, make_city, run_seed,
 };
 use simworld_examples::experiment::{Preset, at_scale};
+use simworld_examples::timing::timed;
 
 /// Measures the delivery economy and prints its figures beside their bars.
 #[derive(Parser)]
@@ -86,13 +85,6 @@ fn main() -> Result<(), Fault> {
         seeds(&name, &arms[0].config, 180.0)?;
     }
     Ok(())
-}
-
-#[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
-fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let start = Instant::now();
-    let result = work();
-    (result, start.elapsed())
 }
 
 /// Couriers in a city of their size, with traffic: what a step takes, s.

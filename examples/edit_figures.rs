@@ -5,7 +5,6 @@
 //! ```
 
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
 
 use clap::{Parser, ValueEnum};
 use comfy_table::Table;
@@ -18,6 +17,7 @@ use simworld_core::asset::{Asset, Catalogue, Model, ModelPart, ModelVertex, Pain
 use simworld_core::ops;
 use simworld_core::scene::World;
 use simworld_core::seed::Seed;
+use simworld_examples::timing::{median, micros, timed};
 use simworld_examples::{Outcome, exit_code};
 
 /// Measures the figures of worlds by words and prints each beside its bar.
@@ -230,22 +230,4 @@ fn dented_ball(rings: u32) -> Model {
     let parts =
         vec![ModelPart { name: "stone".into(), triangles: triangles.len() as u32, paint: Paint::Own }];
     Model { vertices, triangles, parts, hulls: Vec::new() }
-}
-
-#[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
-fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let start = Instant::now();
-    let result = work();
-    (result, start.elapsed())
-}
-
-/// The median of some times of the same work.
-fn median<T>(times: usize, mut work: impl FnMut() -> T) -> Duration {
-    let mut all: Vec<Duration> = (0..times).map(|_| timed(|| std::hint::black_box(work())).1).collect();
-    all.sort_unstable();
-    all[times / 2]
-}
-
-fn micros(time: Duration) -> String {
-    format!("{:.1} µs", time.as_secs_f64() * 1e6)
 }

@@ -5,13 +5,13 @@
 //! ```
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use clap::Parser;
 use simworld_citygen::{City, CityConfig};
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{RunConfig, Watch, make_city, run_seed};
+use simworld_examples::timing::timed;
 use simworld_traffic::{Traffic, TrafficConfig};
 
 /// Measures the figures that the project claims and prints them beside their bars.
@@ -31,13 +31,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     city()?;
     traffic()?;
     Ok(())
-}
-
-#[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
-fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let start = Instant::now();
-    let result = work();
-    (result, start.elapsed())
 }
 
 fn delivery(steps: u64) -> Result<(), Box<dyn std::error::Error>> {

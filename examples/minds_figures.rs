@@ -7,7 +7,7 @@
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::{Parser, ValueEnum};
 use comfy_table::Table;
@@ -22,6 +22,7 @@ use simworld_core::intent::Intent;
 use simworld_core::seam::{EnvError, Observer, Options, Planner, SpaceValue};
 use simworld_core::seed::Seed;
 use simworld_examples::minds::{Bodies, Crowd, Dawdler, Promenade, SENTENCES, Speaker};
+use simworld_examples::timing::{median, micros, timed};
 use simworld_examples::wayfinding::{Field, Wayfinding};
 use simworld_examples::{Outcome, exit_code};
 
@@ -86,24 +87,6 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     }
     println!("{table}");
     Ok(())
-}
-
-#[expect(clippy::disallowed_methods, reason = "measuring is what this example is for")]
-fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let start = Instant::now();
-    let result = work();
-    (result, start.elapsed())
-}
-
-/// The median of some times of the same work.
-fn median<T>(times: usize, mut work: impl FnMut() -> T) -> Duration {
-    let mut all: Vec<Duration> = (0..times).map(|_| timed(|| std::hint::black_box(work())).1).collect();
-    all.sort_unstable();
-    all[times / 2]
-}
-
-fn micros(time: Duration) -> String {
-    format!("{:.1} µs", time.as_secs_f64() * 1e6)
 }
 
 fn language(table: &mut Table) -> Outcome<()> {

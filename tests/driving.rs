@@ -8,15 +8,15 @@ use simworld_core::command::Command;
 use simworld_core::geometry::{Aabb, Obb, Point2, Point3, direction, yaw_of};
 use simworld_core::id::{EntityId, LaneId};
 use simworld_core::kinematic::{KinematicDynamics, KinematicVehicle};
-use simworld_core::net::{Aspect, Control, RoadNetwork, StreetPlan, polyline};
+use simworld_core::net::{Aspect, Control, RoadNetwork, polyline};
 use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
 use simworld_core::seam::{Dynamics, Executor, Goal, Plan, PlanStep, Progress};
 use simworld_core::seed::{Seed, StreamRng};
 use simworld_core::simulation::Simulation;
 use simworld_physics::{PhysicsConfig, PhysicsDynamics, VehicleClass};
-use simworld_traffic::vehicle::VehicleKind;
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 
+use crate::minded::{choose, with_stop_signs};
 use crate::traffic::lane_kilometres;
 
 const DT: f64 = 0.1;
@@ -393,47 +393,6 @@ impl Driver {
         }
         self.pending = None;
     }
-}
-
-/// Stop signs at every second junction of three streets; grown streets have none.
-fn with_stop_signs(mut plan: StreetPlan) -> StreetPlan {
-    let mut ends = vec![0; plan.nodes.len()];
-    for street in &plan.streets {
-        ends[street.from] += 1;
-        ends[street.to] += 1;
-    }
-    let of_three = ends.iter().enumerate().filter(|(_, ends)| **ends == 3).map(|(node, _)| node);
-    plan.controls.extend(of_three.step_by(2).map(|node| (node, Control::Stop)));
-    plan
-}
-
-/// Cars, and of rolling wheels bicycles, motorcycles and trucks as well, with some road before them.
-fn choose(traffic: &TrafficDynamics, network: &RoadNetwork, rush: &Rush) -> Vec<EntityId> {
-    let own = traffic.traffic();
-    let mut fitting: Vec<(u32, VehicleKind)> = own
-        .stations()
-        .filter(|(_, track, s, _)| {
-            let lane = network.lanes.get(*track as usize);
-            lane.is_some_and(|lane| lane.is_driven() && *s > 15.0 && *s < lane.length - 15.0)
-        })
-        .filter_map(|(id, ..)| Some((id, own.vehicle(id)?.kind)))
-        .filter(|(_, kind)| match rush.wheels {
-            Wheels::Tyres => *kind == VehicleKind::Car,
-            Wheels::Rolling => *kind != VehicleKind::Scooter && *kind != VehicleKind::Emergency,
-        })
-        .collect();
-    fitting.sort_by_key(|(id, _)| *id);
-    // One of each kind first, then cars.
-    let mut chosen: Vec<u32> = Vec::new();
-    if rush.wheels == Wheels::Rolling {
-        for kind in [VehicleKind::Bicycle, VehicleKind::Motorcycle, VehicleKind::Truck] {
-            chosen.extend(fitting.iter().find(|(_, other)| *other == kind).map(|(id, _)| *id));
-        }
-        chosen.truncate(rush.minds / 2);
-    }
-    let cars = fitting.iter().filter(|(_, kind)| *kind == VehicleKind::Car).map(|(id, _)| *id);
-    chosen.extend(cars.take(rush.minds - chosen.len()));
-    chosen.iter().map(|id| traffic.vehicles()[*id as usize]).collect()
 }
 
 fn solid(entity: &EntityRef<'_>) -> Obb {

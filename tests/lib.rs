@@ -1,6 +1,7 @@
 //! What several tests of the whole share.
 
 pub mod driving;
+mod minded;
 pub mod traffic;
 
 use simworld_citygen::City;

@@ -17,6 +17,7 @@ pub mod experiment;
 pub mod minds;
 pub mod report;
 pub mod served;
+pub mod timing;
 pub mod traffic;
 pub mod wayfinding;
 

@@ -69,11 +69,10 @@ fn everything_is_closed_and_stands_on_the_ground() {
 /// Every edge is as often there one way as the other, and the triangles look outwards.
 fn is_closed(model: &Model, words: &str) {
     let place = |vertex: u32| model.vertices[vertex as usize].position.map(f32::to_bits);
-    let mut first = 0;
-    for part in &model.parts {
+    for (part, triangles) in model.runs() {
         let mut edges: BTreeMap<([u32; 3], [u32; 3]), i32> = BTreeMap::new();
         let mut volume = 0.0;
-        for triangle in &model.triangles[first..first + part.triangles as usize] {
+        for triangle in triangles {
             for (from, to) in [(0, 1), (1, 2), (2, 0)] {
                 let (a, b) = (place(triangle[from]), place(triangle[to]));
                 *edges.entry(if a < b { (a, b) } else { (b, a) }).or_default() += if a < b { 1 } else { -1 };
@@ -88,7 +87,6 @@ fn is_closed(model: &Model, words: &str) {
                 part.name
             );
         }
-        first += part.triangles as usize;
         assert!(edges.values().all(|balance| *balance == 0), "{words}: {} is open", part.name);
         assert!(volume > 0.0, "{words}: {} is inside out, {volume} m³", part.name);
     }

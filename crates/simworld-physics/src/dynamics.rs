@@ -30,8 +30,8 @@ const MOST_SUBSTEPS: f64 = 1000.0;
 
 /// The bodies of a world under the laws of physics.
 ///
-/// Solid things that do not move by themselves become fixed colliders, by the hulls of their asset's model if it has one; traffic near a body of this physics becomes
-/// a moving obstacle; the entities that were given a body here are moved by it. A saved state
+/// Solid things that do not move by themselves become fixed colliders, by the hulls of their asset's model if it has
+/// one; traffic near a body of this physics becomes a moving obstacle; the entities that were given a body here are moved by it. A saved state
 /// is taken up by a physics with the same settings in which the same entities have bodies of the same kinds.
 ///
 /// ```

@@ -77,16 +77,7 @@ impl Held {
         if largest > limit {
             return Err(RenderError::Model { name: asset.name.clone(), bytes: largest, limit });
         }
-        let buffer = |usage, bytes: &[u8]| {
-            let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("model"),
-                size: bytes.len() as u64,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
-            gpu.queue.write_buffer(&buffer, 0, bytes);
-            buffer
-        };
+        let buffer = |usage, bytes: &[u8]| gpu.upload("model", usage, bytes);
         Ok(Self {
             model: Arc::clone(model),
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
@@ -102,14 +93,11 @@ fn vertices_of(asset: &Asset, model: &Model) -> Vec<Vertex> {
     let size = asset.collider.size();
     let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
     let mut paints = vec![Paint::Own; model.vertices.len()];
-    let mut first = 0;
-    for part in &model.parts {
-        let end = first + part.triangles as usize;
+    for (part, triangles) in model.runs() {
         // Who shares a vertex between parts of unlike paint gives it the later one's.
-        for vertex in model.triangles[first..end].as_flattened() {
+        for vertex in triangles.as_flattened() {
             paints[*vertex as usize] = part.paint;
         }
-        first = end;
     }
     let vertex = |(vertex, paint): (&simworld_core::asset::ModelVertex, &Paint)| Vertex {
         anchor: std::array::from_fn(|axis| vertex.position[axis] / size[axis]),

@@ -232,16 +232,7 @@ impl Renderer {
 
 impl Meshes {
     fn upload(gpu: &Gpu, library: MeshLibrary) -> Self {
-        let buffer = |usage, bytes: &[u8]| {
-            let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("meshes"),
-                size: bytes.len() as u64,
-                usage: usage | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
-            gpu.queue.write_buffer(&buffer, 0, bytes);
-            buffer
-        };
+        let buffer = |usage, bytes: &[u8]| gpu.upload("meshes", usage, bytes);
         Self {
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&library.vertices)),
             indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&library.indices)),

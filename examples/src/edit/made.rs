@@ -84,10 +84,9 @@ fn cell(name: &str, asset: &Asset, (left, top): (f64, f64)) -> Group {
 /// The triangles that look towards the eye, the farthest first.
 fn triangles(model: &Model, color: Option<[f32; 3]>) -> Vec<Seen> {
     let body = color.unwrap_or([0.6; 3]);
-    let (mut seen, mut first) = (Vec::new(), 0);
-    for part in &model.parts {
-        let last = first + part.triangles as usize;
-        for triangle in &model.triangles[first..last] {
+    let mut seen = Vec::new();
+    for (part, triangles) in model.runs() {
+        for triangle in triangles {
             let corners =
                 triangle.map(|index| Vector3::from(model.vertices[index as usize].position.map(f64::from)));
             let own = model.vertices[triangle[0] as usize].color;
@@ -97,7 +96,6 @@ fn triangles(model: &Model, color: Option<[f32; 3]>) -> Vec<Seen> {
             };
             seen.extend(look(corners, painted));
         }
-        first = last;
     }
     seen.sort_by(|a, b| a.near.total_cmp(&b.near));
     seen

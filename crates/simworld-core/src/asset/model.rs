@@ -140,6 +140,16 @@ impl Model {
         }))
     }
 
+    /// Its parts with the triangles of each.
+    pub fn runs(&self) -> impl Iterator<Item = (&ModelPart, &[[u32; 3]])> {
+        let mut left = &self.triangles[..];
+        self.parts.iter().map(move |part| {
+            let (own, rest) = left.split_at((part.triangles as usize).min(left.len()));
+            left = rest;
+            (part, own)
+        })
+    }
+
     /// Checks that it is a model, and one that stands in a collider of that size (length, width, height, m).
     ///
     /// # Errors
@@ -216,6 +226,16 @@ mod tests {
         assert_eq!(wedge().validate(Vector3::new(1.0, 1.0, 1.0)), Ok(()));
         let error = wedge().validate(Vector3::new(1.0, 1.0, 2.0)).unwrap_err();
         assert!(matches!(error, ModelError::Size { .. }), "{error}");
+    }
+
+    #[test]
+    fn every_triangle_is_in_the_run_of_its_part() {
+        let part = |name: &str, triangles| ModelPart { name: name.to_owned(), triangles, paint: Paint::Own };
+        let model = Model { parts: vec![part("front", 1), part("none", 0), part("rest", 3)], ..wedge() };
+        let runs: Vec<(&str, &[[u32; 3]])> =
+            model.runs().map(|(part, triangles)| (part.name.as_str(), triangles)).collect();
+        let all = &model.triangles;
+        assert_eq!(runs, [("front", &all[..1]), ("none", &[][..]), ("rest", &all[1..])]);
     }
 
     #[test]

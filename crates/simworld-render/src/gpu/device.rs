@@ -62,6 +62,18 @@ impl Gpu {
         self.check()
     }
 
+    /// A buffer with these bytes, to be drawn from.
+    pub(crate) fn upload(&self, label: &str, usage: wgpu::BufferUsages, bytes: &[u8]) -> wgpu::Buffer {
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: bytes.len() as u64,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    }
+
     /// The largest picture, pixels each way.
     pub(crate) fn largest_picture(&self) -> u32 {
         self.device.limits().max_texture_dimension_2d

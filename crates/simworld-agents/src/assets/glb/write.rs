@@ -30,10 +30,8 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
         accessors.push(accessor);
     }
     let (mut primitives, mut materials) = (Vec::new(), Vec::new());
-    let mut first = 0;
-    for part in model.parts.iter().filter(|part| part.triangles > 0) {
-        let last = first + part.triangles as usize;
-        let corners = model.triangles[first..last].as_flattened();
+    for (part, triangles) in model.runs().filter(|(_, triangles)| !triangles.is_empty()) {
+        let corners = triangles.as_flattened();
         let view = append(&mut bytes, &mut views, 34_963, corners.iter().flat_map(|x| x.to_le_bytes()));
         accessors.push(
             json!({"bufferView": view, "componentType": 5125, "count": corners.len(), "type": "SCALAR"}),
@@ -46,7 +44,6 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
         let [indices, material] = [accessors.len() - 1, materials.len() - 1];
         primitives
             .push(json!({"attributes": attributes, "indices": indices, "material": material, "mode": 4}));
-        first = last;
     }
     let document = json!({
         "asset": {"version": "2.0", "generator": concat!("simworld ", env!("CARGO_PKG_VERSION"))},
