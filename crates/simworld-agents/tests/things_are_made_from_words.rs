@@ -311,6 +311,7 @@ fn an_editor_makes_what_no_catalogue_has() {
     assert_eq!(world.len(), 1);
     let refused = editor.say("add a zeppelin", &mut world);
     assert!(matches!(refused, Err(EditError::UnknownThing { .. })), "{refused:?}");
+    assert!(refused.unwrap_err().to_string().contains("not generated: "), "it says why nothing was made");
     assert_eq!(world.len(), 1);
 }
 

@@ -166,7 +166,7 @@ impl SceneEditor {
         let outcome = (0..reading.len()).try_for_each(|index| carry_out(&reading, index, &mut applier));
         let (mut edited, back, memory) = applier.finish(outcome.is_ok());
         self.remember(memory);
-        outcome?;
+        outcome.map_err(|error| error.noting(&notes))?;
         if !notes.is_empty() {
             let said = edited.answer.take().into_iter().chain(notes);
             edited.answer = Some(said.collect::<Vec<_>>().join("; "));

@@ -77,6 +77,18 @@ pub enum EditError {
     Refused(#[from] CommandError),
 }
 
+impl EditError {
+    /// With what a generator said of what it was to make and could not.
+    pub(super) fn noting(self, notes: &[String]) -> Self {
+        match self {
+            Self::UnknownThing { wanted, near } if !notes.is_empty() => {
+                Self::UnknownThing { wanted, near: format!("{near}; {}", notes.join("; ")) }
+            }
+            other => other,
+        }
+    }
+}
+
 fn list(candidates: &[(EntityId, String)]) -> String {
     let shown: Vec<String> = candidates.iter().take(8).map(|(id, label)| format!("{label} ({id})")).collect();
     let more = candidates.len().saturating_sub(shown.len());
