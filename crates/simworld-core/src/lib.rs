@@ -11,6 +11,7 @@ pub mod control;
 pub mod environment;
 pub mod evaluation;
 pub mod event;
+pub mod exertion;
 pub mod geometry;
 pub mod grid;
 pub mod hash;

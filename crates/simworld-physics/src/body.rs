@@ -7,10 +7,11 @@ use rapier3d_f64::prelude::{
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Vector3};
 use simworld_core::id::EntityId;
-use simworld_core::scene::Role;
+use simworld_core::scene::{Role, World, WorldError};
 use simworld_core::seam::{BodyState, Embodiment};
 
 use crate::PhysicsConfig;
+use crate::humanoid::Shove;
 use crate::surface::Conditions;
 
 /// How finely a body is to move.
@@ -101,6 +102,24 @@ pub trait PhysicsBody: Embodiment + Send {
     /// the entity's body frame; colliders carry the entity's mark ([`collider_for`](crate::collider_for) sets it).
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle;
 
+    /// The rigid bodies that it has in the engine beside the first; none for most bodies. They have the entity's mark, and are
+    /// its own business: it puts them in and takes them out.
+    fn parts(&self) -> &[RigidBodyHandle] {
+        &[]
+    }
+
+    /// Draws itself together into its first rigid body, without parts, because it is about to be carried, moved from
+    /// outside or taken away.
+    fn gather(&mut self, _physics: &mut PhysicsWorld, _rigid: RigidBodyHandle) {}
+
+    /// Tells the world, once a step, what is to be seen of it beside pose and velocity; nothing by default.
+    ///
+    /// # Errors
+    /// The world refuses.
+    fn report(&mut self, _id: EntityId, _world: &mut World) -> Result<(), WorldError> {
+        Ok(())
+    }
+
     /// Learns what it is tied to, once a step before it moves; of no interest to most bodies.
     fn bind(&mut self, _bonds: Bonds) {}
 
@@ -134,6 +153,10 @@ pub struct Surroundings<'a> {
     pub(crate) config: &'a PhysicsConfig,
     pub(crate) conditions: &'a Conditions,
     pub(crate) detail: Detail,
+    /// The greatest speed of anything that moves, m/s.
+    pub(crate) fastest: f64,
+    /// Who pushed whom in the last substep.
+    pub(crate) shoves: &'a [Shove],
 }
 
 impl Surroundings<'_> {
@@ -194,6 +217,7 @@ pub struct BodyContext<'a> {
     pub(crate) conditions: &'a Conditions,
     pub(crate) detail: Detail,
     pub(crate) claims: &'a mut Vec<Claim>,
+    pub(crate) shoves: &'a mut Vec<Shove>,
 }
 
 impl BodyContext<'_> {

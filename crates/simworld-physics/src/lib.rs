@@ -25,7 +25,7 @@ pub use body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
 pub use config::PhysicsConfig;
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;
-pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture};
+pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture, Surefootedness};
 /// The physics engine underneath, for bodies of one's own: its types appear in [`PhysicsBody`].
 pub use rapier3d_f64 as rapier;
 pub use rigid::Rigid;

@@ -14,12 +14,13 @@ use simworld_core::seam::{BodyState, Embodiment};
 use crate::body::{Bonds, Detail};
 use crate::convert::{from_pose, from_vector};
 use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::humanoid::Shove;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// The mark of this crate's saved state and its version.
-const MARK: [u8; 8] = *b"swphys03";
+const MARK: [u8; 8] = *b"swphys04";
 
 /// What is written, by reference.
 #[derive(Serialize)]
@@ -30,6 +31,7 @@ struct Written<'a> {
     touching: &'a [(EntityId, EntityId)],
     conditions: Conditions,
     interest: &'a [Point3],
+    shoves: &'a [Shove],
     bodies: Vec<SavedBody>,
 }
 
@@ -42,6 +44,7 @@ struct Read {
     touching: Vec<(EntityId, EntityId)>,
     conditions: Conditions,
     interest: Vec<Point3>,
+    shoves: Vec<Shove>,
     bodies: Vec<SavedBody>,
 }
 
@@ -78,6 +81,7 @@ impl PhysicsDynamics {
             touching: &self.contacts.touching,
             conditions: self.conditions,
             interest: &self.interest,
+            shoves: &self.shoves,
             bodies: self.bodies.iter().map(save).collect(),
         };
         let rest = postcard::to_allocvec(&written).map_err(|error| saved_error(error.to_string()))?;
@@ -120,6 +124,7 @@ impl PhysicsDynamics {
         self.contacts.touching = read.touching;
         self.conditions = read.conditions;
         self.interest = read.interest;
+        self.shoves = read.shoves;
         Ok(())
     }
 
@@ -130,10 +135,12 @@ impl PhysicsDynamics {
         for owned in &self.bodies {
             let inner = owned.body.save();
             hasher.u64(owned.id.into()).u64(inner.len() as u64).bytes(&inner);
-            let Some(rigid) = self.physics.bodies.get(owned.rigid) else { continue };
-            hasher.pose(&from_pose(rigid.position()));
-            hasher.vector(&from_vector(rigid.linvel())).vector(&from_vector(rigid.angvel()));
-            hasher.u64(u64::from(rigid.is_sleeping())).f64(rigid.activation().time_since_can_sleep);
+            for handle in std::iter::once(&owned.rigid).chain(owned.body.parts()) {
+                let Some(rigid) = self.physics.bodies.get(*handle) else { continue };
+                hasher.pose(&from_pose(rigid.position()));
+                hasher.vector(&from_vector(rigid.linvel())).vector(&from_vector(rigid.angvel()));
+                hasher.u64(u64::from(rigid.is_sleeping())).f64(rigid.activation().time_since_can_sleep);
+            }
         }
         for pair in self.physics.contact_pairs() {
             for point in pair.manifolds().iter().flat_map(|manifold| &manifold.points) {
@@ -143,6 +150,9 @@ impl PhysicsDynamics {
         hasher.u64(self.interest.len() as u64);
         for point in &self.interest {
             hasher.point(point);
+        }
+        for shove in &self.shoves {
+            hasher.u64(shove.whom.into()).f64(shove.velocity.x).f64(shove.velocity.y);
         }
         hasher.u64(self.contacts.touching.len() as u64);
         for (a, b) in &self.contacts.touching {
