@@ -18,6 +18,7 @@ pub mod hash;
 pub mod id;
 pub mod intent;
 pub mod kinematic;
+pub mod limbs;
 pub mod net;
 pub mod ops;
 pub mod passage;

@@ -103,6 +103,16 @@ fn who_runs_into_a_wall_is_stopped_and_stays_up_and_so_does_who_begins_to_run_at
 }
 
 #[test]
+fn who_is_put_where_somebody_stands_comes_out_and_stays_up() {
+    let mut stage = Stage::new();
+    let (first, second) = (stage.person(at(0.0, 0.0, 0.0)), stage.person(at(0.1, 0.05, 0.0)));
+    stage.tell(second, Action::MoveForward { speed: 1.2 });
+    stage.run(30);
+    assert_eq!((falls(&stage, first), falls(&stage, second)), (vec![], vec![]));
+    assert!(stage.position(second).x > 2.0);
+}
+
+#[test]
 fn who_is_unfailing_never_falls() {
     let mut stage = Stage::new();
     stage.building(12.0, 0.0, (10.0, 8.0, 0.4));

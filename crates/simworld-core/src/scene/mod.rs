@@ -33,6 +33,7 @@ use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::geometry::{Aabb, Point2, Ray, Vector3};
 use crate::id::EntityId;
+use crate::limbs::JointAngles;
 use crate::net::{Aspect, RoadNetwork};
 use crate::traffic::RoadLeg;
 
@@ -134,6 +135,11 @@ pub trait Scene {
         false
     }
 
+    /// How somebody holds its limbs, if whoever moves it says so.
+    fn joints(&self, _id: EntityId) -> Option<&JointAngles> {
+        None
+    }
+
     /// What everything is called, if the scene keeps an index of names; the world does.
     fn names(&self) -> Option<&NameIndex> {
         None
@@ -226,6 +232,9 @@ macro_rules! forward_scene {
             }
             fn is_closed(&self, leg: RoadLeg) -> bool {
                 (**self).is_closed(leg)
+            }
+            fn joints(&self, id: EntityId) -> Option<&JointAngles> {
+                (**self).joints(id)
             }
             fn names(&self) -> Option<&NameIndex> {
                 (**self).names()

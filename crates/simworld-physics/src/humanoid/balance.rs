@@ -189,18 +189,28 @@ impl Humanoid {
     }
 }
 
+/// What is under a point.
+pub(super) struct Underfoot {
+    pub(super) normal: Vector3,
+    /// As a share of that of dry asphalt.
+    pub(super) grip: f64,
+    /// m.
+    pub(super) height: f64,
+}
+
 /// Looks straight down for what somebody stands on.
 pub(super) fn look_down(
     feet: Vector,
     reach: f64,
     around: &Surroundings<'_>,
     queries: &QueryPipeline<'_>,
-) -> Option<(Vector3, f64)> {
+) -> Option<Underfoot> {
     let ray = parry3d_f64::query::Ray::new(feet + Vector::new(0.0, 0.0, reach), -Vector::Z);
     let (handle, hit) = queries.cast_ray_and_get_normal(&ray, 2.0 * reach, true)?;
     let collider = around.physics.colliders.get(handle)?;
     let normal = from_vector(hit.normal);
     let grip = around.conditions().road.grip(crate::shape::material_of(collider.user_data));
     // From inside there is no normal.
-    (normal.z > 0.1).then_some((normal, grip))
+    let height = feet.z + reach - hit.time_of_impact;
+    (normal.z > 0.1).then_some(Underfoot { normal, grip, height })
 }

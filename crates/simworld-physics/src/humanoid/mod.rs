@@ -3,6 +3,7 @@
 
 mod actions;
 mod balance;
+mod gait;
 mod pace;
 mod physics_body;
 mod push;
@@ -14,6 +15,7 @@ pub(crate) use push::Shove;
 pub(crate) use walk::SKIN;
 
 use balance::Balance;
+use gait::Gait;
 use pace::Pace;
 use push::Push;
 use ragdoll::Build;
@@ -22,6 +24,7 @@ use recovery::Recovery;
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
 use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing, yaw_of};
+use simworld_core::limbs::JointAngles;
 use simworld_core::scene::{EntityKind, EntityRef, FallCause, Footing, Shape};
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
@@ -163,12 +166,16 @@ pub struct Humanoid {
 struct Plan {
     /// Where the controller leads, world frame, m.
     way: Vector3,
+    /// The part of that by which it is only put out of what shares its room, m: feet have no share in it.
+    shifted: Vector3,
     /// What it stands on.
     stand: Stand,
     /// Why it loses its footing.
     upset: Option<FallCause>,
     /// What is in the way.
     pushes: Vec<Push>,
+    /// How its limbs lie while it is limp.
+    limp: Option<JointAngles>,
     /// What it has to tell at the end of the step: why it fell, and whether it stands again.
     fell: Option<FallCause>,
     got_up: bool,
@@ -207,6 +214,7 @@ struct Motion {
     support: Option<ColliderHandle>,
     balance: Balance,
     pace: Pace,
+    gait: Gait,
     /// How it fares since it fell.
     recovery: Recovery,
 }
@@ -238,6 +246,7 @@ impl Humanoid {
                 support: None,
                 balance: Balance::default(),
                 pace: Pace::default(),
+                gait: Gait::default(),
                 recovery: Recovery::default(),
             },
             plan: Plan::default(),

@@ -8,7 +8,7 @@ use simworld_core::scene::{FOOTING, Footing, Role, Scene, World, WorldError};
 use simworld_core::seam::BodyState;
 
 use super::ragdoll::{Ragdoll, dressed};
-use super::{Humanoid, Pace, Posture, Recovery};
+use super::{Gait, Humanoid, Pace, Posture, Recovery};
 use crate::body::{BodyContext, Bonds, PhysicsBody, Surroundings};
 use crate::convert::{from_pose, to_pose};
 use crate::shape::walker_mark;
@@ -98,12 +98,16 @@ impl PhysicsBody for Humanoid {
         self.motion.support = None;
         self.motion.balance.momentum = Vector2::zeros();
         self.motion.pace = Pace::default();
+        self.motion.gait = Gait::default();
     }
 
     fn report(&mut self, id: EntityId, world: &mut World) -> Result<(), WorldError> {
         let footing = self.footing();
         if world.entity(id).is_some_and(|entity| entity.footing() != footing) {
             world.set_attribute(id, FOOTING, footing.to_attribute())?;
+        }
+        if let Some(joints) = self.joints() {
+            world.set_joints(id, joints)?;
         }
         if let Some(cause) = self.plan.fell.take() {
             world.emit(EventKind::Fell { who: id, cause });

@@ -1,8 +1,8 @@
 //! Pushing what is in the way, making room for who pushes, and being carried by what one stands on.
 //!
 //! Somebody pushes with both hands in line with the middle of a thing, so that nothing turns or tips over, and leaves alone
-//! what friction holds against all of the force. Two people who lean against one another share their speed by their
-//! masses, as in a plastic impact; who walks holds his own.
+//! what friction holds against all of the force. Who stands steps back and aside as fast as somebody comes who walks; who
+//! walks holds his own.
 
 use parry3d_f64::query::contact;
 use parry3d_f64::shape::Shape;
@@ -26,6 +26,8 @@ pub(super) struct Push {
     collider: ColliderHandle,
     /// Towards it, in the plane, unit length.
     direction: Vector2,
+    /// To the side of the way on which it is, in the plane, unit length.
+    aside: Vector2,
     /// The speed at which one would go there, m/s.
     speed: f64,
 }
@@ -60,9 +62,10 @@ impl Humanoid {
             };
             let Some(direction) = from_vector(touch.normal1).xy().try_normalize(0.5) else { continue };
             let speed = wish.xy().dot(&direction) / dt;
-            if speed > 0.0 {
-                self.plan.pushes.push(Push { collider: *handle, direction, speed });
-            }
+            let Some(ahead) = wish.xy().try_normalize(1e-9).filter(|_| speed > 0.0) else { continue };
+            let left = Vector2::new(-ahead.y, ahead.x);
+            let aside = if direction.dot(&left) > 0.0 { left } else { -left };
+            self.plan.pushes.push(Push { collider: *handle, direction, aside, speed });
         }
     }
 
@@ -72,7 +75,8 @@ impl Humanoid {
             let Some(collider) = context.physics.colliders.get(push.collider) else { continue };
             if is_walker(collider.user_data) {
                 let Some(whom) = BodyTag::from_user_data(collider.user_data).entity() else { continue };
-                context.shoves.push(Shove { whom, velocity: push.direction * (push.speed * 0.5) });
+                let way = (push.direction + push.aside) * std::f64::consts::FRAC_1_SQRT_2;
+                context.shoves.push(Shove { whom, velocity: way * push.speed });
                 continue;
             }
             let ground = context.conditions.road.friction(context.config.ground);

@@ -14,6 +14,8 @@ use rapier3d_f64::prelude::{
 };
 use serde::{Deserialize, Serialize};
 use simworld_core::asset::Material;
+use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
+use simworld_core::ops;
 
 /// What clothes are made of: it decides how far somebody slides.
 const CLOTHES: Material = Material::Fabric;
@@ -166,6 +168,34 @@ impl Ragdoll {
             limbs.push(handle);
         }
         Self { limbs }
+    }
+
+    /// How the limbs lie, seen from what they hang on.
+    pub(super) fn angles(&self, physics: &PhysicsWorld, trunk: RigidBodyHandle) -> JointAngles {
+        // Backwards about the axis to the left, of a hanging limb.
+        let turn = |limb: usize| {
+            let parent = LIMBS[limb].parent.map_or(trunk, |index| self.limbs[index]);
+            let (parent, child) = (physics.bodies.get(parent), physics.bodies.get(self.limbs[limb]));
+            let (Some(parent), Some(child)) = (parent, child) else { return 0.0 };
+            let between = parent.rotation().inverse() * *child.rotation();
+            2.0 * ops::atan2(between.y * between.w.signum(), between.w.abs())
+        };
+        let arm = |first: usize| ArmAngles {
+            shoulder_flexion: -turn(first),
+            elbow_flexion: (-turn(first + 1)).max(0.0),
+        };
+        let leg = |first: usize| LegAngles {
+            hip_flexion: -turn(first),
+            knee_flexion: turn(first + 1).max(0.0),
+            ankle_dorsiflexion: 0.0,
+        };
+        JointAngles {
+            left_arm: arm(1),
+            left_leg: leg(3),
+            right_arm: arm(5),
+            right_leg: leg(7),
+            hip_drop: 0.0,
+        }
     }
 
     /// Takes the limbs out of the engine.

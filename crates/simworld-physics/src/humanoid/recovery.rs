@@ -95,6 +95,7 @@ impl Humanoid {
     /// What it does while it is not upright; the limbs do the rest.
     pub(super) fn recover(&mut self, context: &mut BodyContext<'_>, dt: f64) {
         let (physics, trunk) = (&mut *context.physics, context.rigid);
+        self.plan.limp = self.motion.recovery.limbs().map(|limbs| limbs.angles(physics, trunk));
         match std::mem::take(&mut self.motion.recovery) {
             Recovery::Falling { limbs, resting } => {
                 let resting = if rests(physics, trunk, &limbs) { resting + dt } else { 0.0 };

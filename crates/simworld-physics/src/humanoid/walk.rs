@@ -17,7 +17,7 @@ use super::balance::look_down;
 use super::{ColliderForm, Humanoid, Posture, Stand};
 use crate::body::{BodyContext, Claim, Surroundings};
 use crate::convert::{from_vector, to_pose, to_vector};
-use crate::shape::{BodyTag, body_from, upright};
+use crate::shape::{BodyTag, body_from, is_walker, upright};
 
 /// The gap that people keep to solids, m.
 pub(crate) const SKIN: f64 = 0.02;
@@ -204,6 +204,7 @@ impl Humanoid {
     pub(super) fn look_around(&mut self, around: &Surroundings<'_>, dt: f64) {
         self.plan.pushes.clear();
         self.plan.upset = None;
+        self.plan.shifted = Vector3::zeros();
         let (carried, turned) = self.carry(around, dt);
         self.motion.yaw = wrap_angle(self.motion.yaw + turned);
         let wish = self.intend(around.config().gravity, dt) + self.give_way(around, dt);
@@ -226,10 +227,11 @@ impl Humanoid {
         } else {
             self.find_way(&wish, &carried, company, around, dt);
         }
-        let velocity = self.plan.way.xy() / dt;
+        let velocity = (self.plan.way - self.plan.shifted).xy() / dt;
         if self.slips(velocity, around, dt) {
             self.plan.upset = self.plan.upset.or(Some(FallCause::Slipped));
         }
+        self.tread(&carried, around, dt);
     }
 
     /// Lets the character controller find the way among solids.
@@ -256,7 +258,9 @@ impl Humanoid {
         let mut moved = to_vector(carried);
         if company == Company::Overlapping {
             // Without a wish the controller pushes itself out of what has run into it.
-            moved += walk(moved, Vector::ZERO).translation;
+            let out = walk(moved, Vector::ZERO).translation;
+            self.plan.shifted = from_vector(out);
+            moved += out;
         }
         let result = walk(moved, to_vector(wish));
         moved += result.translation;
@@ -274,7 +278,7 @@ impl Humanoid {
             moved.z = moved.z.max(-self.feet().z);
         }
         self.stand_on(support, start.translation + moved, around, &queries);
-        let own = from_vector(moved) - carried;
+        let own = from_vector(moved) - carried - self.plan.shifted;
         if was_grounded && self.motion.grounded {
             self.motion.pace.go(own.xy().norm(), own.z);
         }
@@ -296,13 +300,14 @@ impl Humanoid {
     ) {
         let moves = |handle: &ColliderHandle| {
             let collider = around.physics.colliders.get(*handle);
-            collider.is_some_and(|collider| collider.parent().is_some())
+            // Who steps on somebody's feet is not carried by it.
+            collider.is_some_and(|collider| collider.parent().is_some() && !is_walker(collider.user_data))
         };
         self.motion.support = support.filter(moves);
         // The sole is level and the middle of it over the slope.
         let reach = around.config().step_height.max(self.radius);
         self.plan.stand = match look_down(feet, reach, around, queries) {
-            Some((normal, grip)) => Stand { normal, grip },
+            Some(under) => Stand { normal: under.normal, grip: under.grip },
             None => Stand::default(),
         };
     }
