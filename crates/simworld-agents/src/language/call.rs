@@ -120,7 +120,7 @@ impl Call<'_> {
             "face" => Clause::Face { what: self.thing("what")? },
             "pick_up" => Clause::Take { what: self.thing("item")?, to: None, grip: Grip::Lift },
             "give" => Clause::Give { what: self.optional_thing("item")?, to: self.thing("to")? },
-            "buy" => Clause::Buy { goods: self.text("goods")?, times: 1, at: self.optional_thing("at")? },
+            "buy" => Clause::Buy { goods: self.text("goods")?, times: 1, at: self.optional_thing("at")?, whom: None },
             "ride_scooter" => Clause::Board { what: self.thing("scooter")?, to: None },
             "enter_car" => Clause::Board { what: self.thing("car")?, to: None },
             "open_door" => Clause::Door { what: self.optional_thing("door")?, open: true },

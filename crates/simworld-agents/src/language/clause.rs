@@ -34,8 +34,10 @@ pub(super) enum Clause {
     Drop { what: Option<Reference>, at: Option<Reference>, manner: Manner },
     /// Hands something over.
     Give { what: Option<Reference>, to: Reference },
-    /// Buys something, where it is sold or at a place.
-    Buy { goods: String, times: u32, at: Option<Reference> },
+    /// Buys something, where it is sold or at a place, and gives it to somebody if one is named.
+    Buy { goods: String, times: u32, at: Option<Reference>, whom: Option<Reference> },
+    /// Speaks of something that later words stand for, and does nothing.
+    Mention { what: Reference },
     /// Sits down, on the nearest free seat if none is named.
     Sit { on: Option<Reference> },
     /// Gets up.
@@ -137,10 +139,10 @@ pub(super) enum Lights {
 /// Where beside a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spot {
-    /// On a side of it as it stands.
-    Beside(Relation),
-    /// On a side of it by the compass.
-    Compass(Compass),
+    /// On a side of it as it stands, with so much room between, m.
+    Beside(Relation, Option<f64>),
+    /// On a side of it by the compass, so far from its middle, m.
+    Compass(Compass, Option<f64>),
 }
 
 /// In which direction one goes.
@@ -201,6 +203,8 @@ pub(super) enum Vehicle {
 pub(super) struct Reference {
     pub(super) target: Target,
     pub(super) choice: Choice,
+    /// The place in the order of the choice, from 1: the second tallest is 2.
+    pub(super) place: u32,
     pub(super) count: Count,
     pub(super) traits: Traits,
     /// How it stands to something else.
@@ -232,6 +236,8 @@ pub(super) enum Stands {
     Within(f64, Box<Reference>),
     /// In a direction from a thing or, without one, from the agent.
     Compass(Compass, Option<Box<Reference>>),
+    /// In all of these ways.
+    All(Vec<Self>),
 }
 
 /// A side of the agent, as it will be turned by then.
@@ -247,6 +253,8 @@ pub(super) enum Side {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Traits {
     pub(super) paint: Option<Paint>,
+    /// The colours that it does not have.
+    pub(super) unlike: Vec<Paint>,
     pub(super) free: bool,
     pub(super) parked: bool,
     /// An attribute of doors that is set or not.
@@ -295,6 +303,10 @@ pub(super) enum Choice {
     Compass(Compass),
     /// The one with the most or, with `false`, the least of a measure.
     Most(Measure, bool),
+    /// The one farthest to a side of the agent.
+    Side(Side),
+    /// The one in the middle of an odd number.
+    Middle,
 }
 
 /// What can be compared.
@@ -318,6 +330,7 @@ impl Reference {
         Self {
             target,
             choice: Choice::Open,
+            place: 1,
             count: Count::One,
             traits: Traits::default(),
             relation: None,

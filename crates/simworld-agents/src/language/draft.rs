@@ -14,6 +14,7 @@ use super::compass::Compass;
 use super::lexicon::{class, is_animate};
 use super::relate::spot_on_side;
 use super::resolve::{Purpose, View};
+use super::sequence;
 
 /// How near one comes to a thing, or to its door, m: well within reach of an arm.
 const AT_THING: f64 = 1.0;
@@ -65,7 +66,7 @@ pub(super) struct Draft<'a> {
     pub(super) beside: Option<EntityId>,
     there: Option<(Goal, f64)>,
     /// What was let go of last, and to whom it was given: "carry it there and leave it" says one thing twice.
-    pub(super) delivered: Option<(EntityId, Option<EntityId>)>,
+    pub(super) delivered: Option<(Load, Option<EntityId>)>,
     /// What one is in or on.
     pub(super) mount: Option<EntityId>,
 }
@@ -102,7 +103,13 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn add_all(&mut self, clauses: &[Clause]) -> Result<(), PlanError> {
-        clauses.iter().try_for_each(|clause| self.add(clause))
+        for (at, clause) in clauses.iter().enumerate() {
+            match sequence::in_view_of(clause, &clauses[at + 1..]) {
+                Some(instead) => instead.iter().try_for_each(|clause| self.add(clause))?,
+                None => self.add(clause)?,
+            }
+        }
+        Ok(())
     }
 
     /// Adds the steps of one order, once for each thing that it is about.
@@ -140,7 +147,8 @@ impl<'a> Draft<'a> {
             Clause::Take { what, to, grip } => self.take_to(what, to.as_ref(), *grip),
             Clause::Drop { what, at, manner } => self.drop(what.as_ref(), at.as_ref(), *manner),
             Clause::Give { what, to } => self.give(what.as_ref(), to),
-            Clause::Buy { goods, times, at } => self.buy(goods, *times, at.as_ref()),
+            Clause::Buy { goods, times, at, whom } => self.buy(goods, *times, at.as_ref(), whom.as_ref()),
+            Clause::Mention { what } => self.speak_of(what),
             Clause::Sit { on } => self.sit(on.as_ref()),
             Clause::StandUp => {
                 self.posture = Posture::Standing;
@@ -209,6 +217,7 @@ impl<'a> Draft<'a> {
                 self.push(PlanStep::Until { condition, steps });
                 Ok(())
             }
+            Clause::Repeat { times: 1, body } => self.add_all(body),
             Clause::Repeat { times, body } => {
                 let steps = self.block(body)?;
                 self.push(PlanStep::Repeat { times: *times, steps });
@@ -287,6 +296,16 @@ impl<'a> Draft<'a> {
         let found = self.view.find(reference, purpose)?;
         self.mention(&found);
         Ok(found)
+    }
+
+    /// Later words stand for it: "there" leads to it.
+    fn speak_of(&mut self, what: &Reference) -> Result<(), PlanError> {
+        if what.count != super::clause::Count::One {
+            return self.view.find_all(what, Purpose::Any).map(|_| ());
+        }
+        let found = self.find(what, Purpose::Any)?;
+        self.there = Some((Goal::Entity(found.id), reach_of(&found)));
+        Ok(())
     }
 
     /// Remembers what was spoken of.
@@ -387,7 +406,9 @@ impl<'a> Draft<'a> {
         if way.norm() > 1e-6 {
             self.view.heading = heading(&way);
         }
-        self.push(PlanStep::Face { to });
+        if !matches!(self.last_step(), Some(PlanStep::Face { to: last }) if *last == to) {
+            self.push(PlanStep::Face { to });
+        }
         Ok(())
     }
 

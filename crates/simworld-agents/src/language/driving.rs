@@ -230,7 +230,7 @@ impl Parser<'_> {
             "ahead",
         ]);
         if self.at > start
-            && let Some((nth, lights)) = self.junction()
+            && let Some((nth, lights)) = self.junction_passed().or_else(|| self.junction())
         {
             return Some(vec![Clause::TurnAt { turn: Turn::Straight, nth, lights }]);
         }
@@ -253,7 +253,7 @@ impl Parser<'_> {
         if self.eat_any(KERB) {
             return Ok(vec![Clause::Park { at: None }]);
         }
-        let side = self.side().map(Spot::Beside);
+        let side = self.side().map(|side| Spot::Beside(side, None));
         if side.is_none() && self.ends_clause() {
             return Ok(vec![Clause::Park { at: None }]);
         }

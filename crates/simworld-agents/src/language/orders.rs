@@ -4,14 +4,19 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Count, Grip, Manner, Pace, Reference, Stands, Target, Vehicle};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{RELATIONS, category, longest, longest_phrase};
+use super::lexicon::{RELATIONS, category, fits, longest, longest_phrase};
 use super::numbers;
 use super::parser::{Parser, UNDERSTOOD};
 use super::verbs::{Verb, longest_verb};
 
 /// What people take photos with their words of.
-const PHOTOS: &[&str] =
-    &["photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
+pub(super) const PHOTOS: &[&str] =
+    &["snaps", "snap", "photograph", "shot", "selfie", "pic", "snapshot", "photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
+
+/// What leads to where something is brought.
+const BRINGS: &[&str] = &[
+    "to", "over to", "back to", "into", "up to", "down to", "across to", "along to", "out to", "round to", "off to", "all the way to", "straight to", "right to", "back over to",
+];
 
 impl Parser<'_> {
     /// An order; several if one verb says several things.
@@ -29,7 +34,7 @@ impl Parser<'_> {
             return self.order();
         }
         self.at += count;
-        self.verb = Some(verb);
+        self.previous = self.verb.replace(verb);
         // "Wave twice at Carol"; at the end of an order it may be about more than this one.
         let mut times = numbers::times(self.rest());
         self.at += times.map_or(0, |(_, count)| count);
@@ -51,7 +56,7 @@ impl Parser<'_> {
         // Names come last: the index of a large city takes time.
         is_go
             && longest_verb(after).is_some()
-            && longest_phrase(after, PLACES).is_none()
+            && (longest_phrase(after, PLACES).is_none() || longest_phrase(after, &["point at", "point to", "point out"]).is_some())
             && longest(after, RELATIONS).is_none()
             && category(after).is_none()
             && self.names.exact(after).is_none()
@@ -70,23 +75,30 @@ impl Parser<'_> {
                 verb,
                 Verb::StandUp
                     | Verb::Stop
-                    | Verb::Sit
                     | Verb::Wait
+                    | Verb::Count
                     | Verb::Faster
                     | Verb::Slower
                     | Verb::Alight
             )
         };
+        if let Some(clauses) = self.counted_deeds()? {
+            return Ok(clauses);
+        }
         // "... and then on to the taxi" goes on going, whatever was done in between.
         let moves = longest_phrase(
             self.rest(),
             &["on to", "onto", "over to", "back to", "across to", "back here", "back"],
         )
         .is_some();
-        let last = if moves { Some(Verb::Go) } else { self.verb };
+        let leads = longest_phrase(self.rest(), &["to", "off to", "over to"]).is_some();
+        let last = if moves { Some(Verb::Go) } else { self.verb.or(leads.then_some(Verb::Go)) };
         let Some(verb) = last.filter(has_objects) else { return Err(refused) };
         let is_phrase = moves || longest_phrase(self.rest(), BEGINNINGS).is_some();
         let start = self.at;
+        if verb == Verb::Sit && longest_phrase(self.rest(), &["on", "in", "at"]).is_none() {
+            return Err(refused);
+        }
         self.eat_any(match verb {
             Verb::Look | Verb::Wave | Verb::Point => &["at", "to"][..],
             Verb::Talk | Verb::Greet => &["to", "with"],
@@ -94,12 +106,46 @@ impl Parser<'_> {
         });
         match self.objects(verb, start) {
             Ok(clauses) if self.at > start => Ok(clauses),
-            Err(error) if is_phrase => Err(error),
+            Err(error) if is_phrase && !self.may_be_nominal(start) => Err(error),
             _ => {
                 self.at = start;
                 Err(refused)
             }
         }
+    }
+
+    /// Whether what a phrase means ever moves.
+    fn moves_about(&self, what: &Reference) -> bool {
+        match &what.target {
+            Target::Any(class) => class.kinds().iter().any(|kind| kind.is_mobile()),
+            Target::Named(ids) => ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| entity.kind.is_mobile())),
+            _ => true,
+        }
+    }
+
+    /// Whether what stands there is an order in nouns: "a coffee, please".
+    fn may_be_nominal(&mut self, start: usize) -> bool {
+        self.at = start;
+        let nominal = matches!(self.nominal(), Ok(Some(_)));
+        self.at = start;
+        nominal
+    }
+
+    /// "Cross to the red bench" leads there; "cross the road" and "cross to the other side" lead across.
+    fn leads_across(&self) -> bool {
+        const SIDES: &[&str] = &["to the other side", "to the other", "over to the other side", "to the opposite side", "over to the opposite side", "to the far side"];
+        longest_phrase(self.rest(), &["to", "over to", "towards", "over towards"]).is_some() && longest_phrase(self.rest(), SIDES).is_none()
+    }
+
+    /// "Count to ten", "count ten seconds": a second for each.
+    fn count_up(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["up to", "to", "slowly to", "from one to", "from 1 to", "off"]);
+        let seconds = numbers::duration(self.rest()).or_else(|| numbers::number(self.rest()));
+        let Some((seconds, words)) = seconds.filter(|(seconds, _)| (1.0..=1000.0).contains(seconds)) else {
+            return Err(self.not_understood("say to how many, as in \"count to ten\""));
+        };
+        self.at += words;
+        Ok(vec![Clause::Wait { seconds }])
     }
 
     fn objects(&mut self, verb: Verb, start: usize) -> Result<Vec<Clause>, PlanError> {
@@ -115,6 +161,13 @@ impl Parser<'_> {
             Verb::Go => self.go(Pace::Usual, start),
             Verb::Run => self.go(Pace::Run, start),
             Verb::Stroll => self.go(Pace::Slow, start),
+            Verb::Cross if self.leads_across() => self.go(Pace::Usual, start),
+            Verb::Shuttle => {
+                self.eat_any(&["back and forth", "to and fro", "up and down", "backwards and forwards"]);
+                self.eat_any(&["between", "in between", "from"]);
+                self.back_and_forth(Pace::Usual)
+            }
+            Verb::Count => self.count_up(),
             Verb::Cross => {
                 self.eat_any(&["the", "this", "over"]);
                 self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
@@ -122,8 +175,17 @@ impl Parser<'_> {
                 self.eat_any(&["of the street", "of the road", "of the crossing"]);
                 one(Clause::Cross)
             }
+            Verb::Follow if self.ends_clause() && self.view.speaker.is_some() => {
+                let whom = self.view.speaker.map(|speaker| Reference::to(Target::Id(speaker), "me".to_owned()));
+                whom.map(|whom| vec![Clause::Follow { whom, pace: Pace::Usual }]).ok_or_else(|| self.not_understood("say whom"))
+            }
             Verb::Follow => {
                 let whom = self.reference(0)?;
+                // "Stay close to the statue" is about staying.
+                let stays = ["stay", "keep", "stick", "remain"].iter().any(|word| fits(&self.lexemes[start..], word).is_some());
+                if stays && !self.moves_about(&whom) {
+                    return one(Clause::Go { to: whom, side: None, pace: Pace::Usual, within: None });
+                }
                 self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
                 one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
             }
@@ -164,11 +226,24 @@ impl Parser<'_> {
             Verb::Turn => self.turn().map(|turn| vec![turn]),
             Verb::Look => self.look().map(|look| vec![look]),
             Verb::Face => self.face().map(|face| vec![face]),
-            Verb::Point => one(Clause::Point { at: self.reference(0)? }),
+            Verb::Point => {
+                self.eat_any(&["at", "to", "towards", "out", "over at", "over to", "your finger at", "up at", "in the direction of", "out to me", "me to"]);
+                one(Clause::Point { at: self.reference(0)? })
+            }
             Verb::Wave => {
                 self.eat_any(&[
                     "at",
                     "to",
+                    "over at",
+                    "over to",
+                    "hello to",
+                    "goodbye to",
+                    "hi to",
+                    "across to",
+                    "back at",
+                    "hello at",
+                    "towards",
+                    "in the direction of",
                     "your hand at",
                     "your hand to",
                     "hand to",
@@ -186,6 +261,11 @@ impl Parser<'_> {
             }
             Verb::Photo => {
                 let times = self.number_of_photos();
+                let shoots = fits(&self.lexemes[start..self.at], "shoot").is_some();
+                if shoots && times == 0 {
+                    return Err(self.not_understood("say what to take a photo of"));
+                }
+                let times = times.max(1);
                 self.photo(times)
             }
             Verb::Faster | Verb::Slower if self.eat_any(&["to"]) => {
@@ -221,7 +301,10 @@ impl Parser<'_> {
             "to the east",
             "to the west",
         ];
-        longest(self.rest(), RELATIONS).is_some() || longest_phrase(self.rest(), PLACES).is_some()
+        longest(self.rest(), RELATIONS).is_some()
+            || longest_phrase(self.rest(), PLACES).is_some()
+            || self.peeks_halfway()
+            || numbers::walked(self.rest()).is_some()
     }
 
     fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
@@ -251,7 +334,24 @@ impl Parser<'_> {
             self.at += count + words;
             return self.photo(number as u32);
         }
+        self.eat_any(&["up", "over", "back"]);
+        if let Some(photo) = self.portrait()? {
+            return Ok(photo);
+        }
         let start = self.at;
+        // "Fetch Gus a newspaper", "fetch Hana the letter".
+        if let Some(whom) = self.somebody_here() {
+            let at = self.at;
+            if let Some(goods) = self.goods() {
+                return self.purchase(goods, Some(whom));
+            }
+            self.at = at;
+            let named = !self.ends_clause() && (longest_phrase(self.rest(), &["the", "a", "that", "his", "her", "my"]).is_some() || category(self.rest()).is_some());
+            if named && let Ok(what) = self.reference(0) {
+                return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
+            }
+            self.at = start;
+        }
         let what = match self.reference(0) {
             Ok(what) => what,
             // "Get two bottles of water": what nobody has to hand over is bought.
@@ -260,19 +360,61 @@ impl Parser<'_> {
                 return self.buy().map_err(|_| error);
             }
         };
-        self.eat_any(&["up", "along", "with you"]);
-        let to = self.tail_place(&["to", "over to", "back to", "into"])?;
+        self.eat_any(&["up", "along", "with you", "over", "across", "back", "off"]);
+        let to = self.tail_place(BRINGS)?;
+        if to.is_none()
+            && self.peeks("for")
+            && let Some(whom) = self.for_whom()
+        {
+            return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
+        }
         Ok(vec![Clause::Take { what, to, grip }])
     }
 
-    /// "Snap two photos of": two.
+    /// "Take its picture", "take Anna's photo".
+    fn portrait(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        const WHOSE: &[(&[&str], Target)] =
+            &[(&["its", "their"], Target::It), (&["his", "her"], Target::Them)];
+        let start = self.at;
+        for (words, target) in WHOSE {
+            if self.eat_any(words) && self.eat_any(PHOTOS) {
+                let of = Some(Reference::to(target.clone(), self.text_from(start)));
+                return Ok(Some(vec![Clause::Photo { of, times: 1 }]));
+            }
+            self.at = start;
+        }
+        let whose = (1..4).find(|at| self.rest().get(*at).is_some_and(|_| longest_phrase(&self.rest()[*at..], PHOTOS).is_some()));
+        let possessive = whose.filter(|at| {
+            let last = &self.rest()[at - 1];
+            self.words[last.start..last.end].ends_with("'s") || self.words[last.start..last.end].ends_with("’s")
+        });
+        let Some(words) = possessive else { return Ok(None) };
+        let mut owner: Vec<Lexeme> = self.rest()[..words].to_vec();
+        if let Some(Lexeme { token: Token::Word(word), .. }) = owner.last_mut() {
+            word.pop();
+        }
+        let mut named = Parser::new(self.words, &owner, self.names, self.view);
+        let of = named.reference(0)?;
+        self.at += words;
+        self.eat_any(PHOTOS);
+        Ok(Some(vec![Clause::Photo { of: Some(of), times: 1 }]))
+    }
+
+    /// "Snap two photos of": two; none if no photo is spoken of.
     fn number_of_photos(&mut self) -> u32 {
         let start = self.at;
         let number = numbers::count(self.rest());
         self.at += number.map_or(0, |(_, count)| count);
-        let Some((number, _)) = number.filter(|_| self.eat_any(PHOTOS)) else {
-            self.at = start;
+        if number.is_none() {
+            self.eat_any(&["a", "an", "another", "some"]);
+        }
+        let said = self.eat_any(PHOTOS);
+        if said && number.is_none() {
             return 1;
+        }
+        let Some((number, _)) = number.filter(|_| said) else {
+            self.at = start;
+            return 0;
         };
         number
     }
@@ -284,17 +426,48 @@ impl Parser<'_> {
     }
 
     fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(&["me", "us"]);
+        if let Some(clauses) = self.gesture_to()? {
+            return Ok(clauses);
+        }
+        let somebody = self.somebody_here();
+        if let Some(goods) = self.goods() {
+            return self.purchase(goods, somebody);
+        }
+        self.at = start;
         let first = self.reference(0)?;
         if let Some(clauses) = self.gesture(&first) {
             return Ok(clauses);
         }
-        if self.eat_any(&["to", "over to"]) {
+        let over = self.eat_any(&["over", "back"]);
+        if over && self.ends_clause() {
+            let to = Reference::to(Target::Them, "them".to_owned());
+            return Ok(vec![Clause::Give { what: Some(first), to }]);
+        }
+        if self.eat_any(&["to", "over to", "back to", "on to", "up to", "across to"]) {
             return Ok(vec![Clause::Give { what: Some(first), to: self.reference(0)? }]);
         }
         if self.ends_clause() {
             return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
         }
         Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
+    }
+
+    /// "Give a wave to Ben", "give three waves to Anna".
+    fn gesture_to(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
+        self.at += number.map_or(0, |(_, count)| count);
+        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
+        let waves = number.is_some() && self.eat_any(&["wave", "waves", "wave of your hand"]) && self.eat_any(&["to", "at", "for", "over to", "towards"]);
+        let Some((number, _)) = number.filter(|_| waves) else {
+            self.at = start;
+            return Ok(None);
+        };
+        let wave = Clause::Wave { to: self.reference(0)? };
+        let times = number as u32;
+        Ok(Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }]))
     }
 
     /// "Give Ben a wave".
@@ -313,7 +486,18 @@ impl Parser<'_> {
     }
 
     fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
-        let places = ["at", "to", "in", "on", "into", "over to", "back to", "onto", "with"];
+        let places = [
+            "at", "to", "in", "on", "into", "over to", "back to", "onto", "with", "up to", "down to", "across to", "over at", "by", "along to", "out to", "round to", "off at",
+            "down at", "down by", "down on", "down in", "outside", "straight to",
+        ];
+        let start = self.at;
+        if manner == Manner::Deliver {
+            let whom = self.receiver();
+            if let Some(goods) = self.goods() {
+                return self.purchase(goods, whom);
+            }
+            self.at = start;
+        }
         self.eat_any(&[
             "what you hold",
             "what youre holding",
@@ -332,7 +516,7 @@ impl Parser<'_> {
         } else {
             Some(self.reference(0)?)
         };
-        self.eat_any(&["down", "off", "up"]);
+        self.eat_any(&["down", "off", "up", "over", "across", "back"]);
         let mut at = self.tail_place(&places)?;
         let what = what.map(|mut what| {
             // "Put the cone next to the bin" says where to, and not which cone.
@@ -346,6 +530,11 @@ impl Parser<'_> {
             at = Some(Reference::to(Target::Here, "here".to_owned()));
         }
         if manner == Manner::Deliver && at.is_none() {
+            let over = self.lexemes[self.at - 1].token == Token::Word("over".to_owned());
+            if over && self.ends_clause() {
+                let to = Reference::to(Target::Them, "them".to_owned());
+                return Ok(vec![Clause::Give { what, to }]);
+            }
             if !self.ends_clause()
                 && let Some(to) = what
             {
@@ -360,6 +549,8 @@ impl Parser<'_> {
     pub(super) fn tail_place(&mut self, words: &[&str]) -> Result<Option<Reference>, PlanError> {
         let side = longest(self.rest(), RELATIONS).map(|(_, count)| count);
         match longest_phrase(self.rest(), words).max(side) {
+            // "... to get to the clinic" says what for.
+            Some(count) if longest_verb(&self.rest()[count..]).is_some() && category(&self.rest()[count..]).is_none() => Ok(None),
             Some(count) => {
                 self.at += count;
                 self.reference(0).map(Some)
@@ -382,12 +573,14 @@ impl Parser<'_> {
         } else {
             self.reference(0)?
         };
-        Ok(vec![Clause::Board { what, to: self.tail_place(&["to", "over to", "back to"])? }])
+        self.eat_any(&["over", "up", "down", "across", "back"]);
+        Ok(vec![Clause::Board { what, to: self.tail_place(BRINGS)? }])
     }
 
     fn alight(&mut self) -> Clause {
         self.eat_any(&["the", "of the", "of"]);
-        let cars = ["car", "bus", "truck", "taxi", "van", "vehicle", "cab", "lorry"];
+        self.eat_any(&["white", "black", "red", "blue", "green", "yellow", "orange"]);
+        let cars = ["bicycle", "bike", "motorcycle", "car", "bus", "truck", "taxi", "van", "vehicle", "cab", "lorry"];
         let from = if self.peeks("scooter") {
             Vehicle::Scooter
         } else if longest_phrase(self.rest(), &cars).is_some() {

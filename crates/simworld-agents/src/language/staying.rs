@@ -7,6 +7,7 @@ use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
 use super::lexicon::{Category, RELATIONS, fits, longest};
 use super::numbers::{self, MOMENT};
 use super::parser::Parser;
+use super::verbs::Verb;
 
 /// The longest wait, s.
 pub(super) const LONGEST_WAIT: f64 = 86_400.0;
@@ -51,6 +52,10 @@ impl Parser<'_> {
             let to = self.reference(0)?;
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
         }
+        let moved = matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive));
+        if moved && self.eat_any(&["there", "right there"]) {
+            return Ok(Vec::new()); // one stops where one went
+        }
         self.eat_any(&[
             "moving",
             "walking",
@@ -91,7 +96,7 @@ impl Parser<'_> {
             self.at += count;
             let to = self.reference(0)?;
             let side = Some(relation);
-            clauses.push(Clause::Go { to, side: side.map(Spot::Beside), pace: Pace::Usual, within: None });
+            clauses.push(Clause::Go { to, side: side.map(|side| Spot::Beside(side, None)), pace: Pace::Usual, within: None });
         }
         let is_for = self.eat_any(&["for", "for about", "for at least"]);
         self.eat_any(&["about"]);

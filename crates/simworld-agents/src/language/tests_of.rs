@@ -4,7 +4,7 @@ use simworld_core::net::Aspect;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Target, Test};
-use super::lexer::Token;
+use super::lexer::{Lexeme, Token};
 use super::lexicon::{fits, longest, longest_phrase};
 use super::numbers;
 use super::paint::PAINTS;
@@ -46,6 +46,21 @@ const BECOMES: &[&str] = &[
     "switches to",
     "gets",
     "has turned",
+    "has gone",
+    "has changed to",
+    "has become",
+    "is on",
+    "jumps to",
+    "has switched to",
+    "stays",
+    "to turn",
+    "to change to",
+    "to go",
+    "to become",
+    "to be",
+    "goes to",
+    "gets to",
+    "turns into",
     "is showing",
     "change to",
     "turn",
@@ -53,10 +68,10 @@ const BECOMES: &[&str] = &[
 
 const STATES: &[(&[&str], State)] = &[
     (
-        &["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use"],
+        &["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use", "not busy", "free again", "no longer taken", "no longer occupied", "untaken", "clear"],
         State::Free,
     ),
-    (&["taken", "occupied", "in use", "not free", "busy", "full"], State::InUse),
+    (&["taken", "occupied", "in use", "not free", "busy", "full", "not empty", "not available", "no longer free", "used"], State::InUse),
     (&["open", "not closed", "opened", "unlocked"], State::Open),
     (&["closed", "shut", "not open"], State::Closed),
     (
@@ -76,7 +91,7 @@ const STATES: &[(&[&str], State)] = &[
         ],
         State::Next,
     ),
-    (&["visible", "in sight", "in view"], State::Seen),
+    (&["visible", "in sight", "in view", "to be seen", "seen", "within sight"], State::Seen),
 ];
 const ARRIVES: &[&str] = &[
     "arrives",
@@ -108,6 +123,25 @@ const ARRIVES: &[&str] = &[
     "gets to you",
     "reach you",
     "comes over",
+    "is back again",
+    "gets back",
+    "has come back",
+    "has returned",
+    "has shown up",
+    "has turned up",
+    "approaches",
+    "walks over",
+    "draws near",
+    "gets close",
+    "gets near you",
+    "gets close to you",
+    "comes close to you",
+    "walks up to you",
+    "comes by",
+    "drops by",
+    "passes by",
+    "has reached you",
+    "has joined you",
     "has come",
     "joins you",
 ];
@@ -136,18 +170,31 @@ impl Parser<'_> {
     }
 
     fn tests(&mut self) -> Result<Test, PlanError> {
-        let mut test = self.simple_test()?;
+        self.eat_any(&["either", "both"]);
+        let neither = self.eat_any(&["it is neither", "its neither"]);
+        let first = if neither { self.weather_again() } else { None };
+        let mut test = match first {
+            Some(test) => Test::Not(Box::new(test)),
+            None => self.simple_test()?,
+        };
         loop {
             let start = self.at;
-            let (and, or) = (self.peeks("and"), self.peeks("or"));
+            let nor = self.peeks("nor");
+            let (and, or) = (self.peeks("and") || self.peeks("but") || nor, self.peeks("or"));
             if !and && !or {
                 return Ok(test);
             }
             self.at += 1;
-            let Ok(other) = self.simple_test() else {
+            self.eat_any(&["if", "when", "while", "that", "also"]);
+            let again = self.at;
+            let Some(other) = self.weather_again().or_else(|| {
+                self.at = again;
+                self.simple_test().ok()
+            }) else {
                 self.at = start;
                 return Ok(test);
             };
+            let other = if nor { Test::Not(Box::new(other)) } else { other };
             let (one, other) = (Box::new(test), Box::new(other));
             test = if and { Test::Both(one, other) } else { Test::Either(one, other) };
         }
@@ -181,51 +228,49 @@ impl Parser<'_> {
         if !self.eat_any(LIGHTS) {
             return None;
         }
+        self.adverbs();
         if !self.eat_any(BECOMES) {
             return None;
         }
-        let not = self.eat_any(&["not", "no longer", "not yet"]);
+        self.adverbs();
+        let not = self.eat_any(&["not", "no longer", "not yet", "anything but"]);
+        self.adverbs();
         let (shows, count) = longest(self.rest(), ASPECTS)?;
         self.at += count;
         let test = Test::Light { light: None, shows };
         Some(if not { Test::Not(Box::new(test)) } else { test })
     }
 
+    /// Who is told, or who speaks to him and goes along: "you", "we".
+    fn subject(&mut self) -> bool {
+        const WITH_HAVE: &[&str] = &["youve", "weve", "ive", "you have", "we have", "i have", "youll have", "you had"];
+        if let Some(words) = longest_phrase(self.rest(), WITH_HAVE) {
+            // "You have the letter" is about holding it.
+            let participle = self.rest().get(words).is_some_and(|lexeme| lexeme.lemma.is_some() || is_participle(lexeme));
+            self.at += if participle { words } else { 0 };
+            if participle {
+                return true;
+            }
+        }
+        let found = self.eat_any(&["you", "we", "i", "youre", "were", "im", "you are", "we are", "i am", "you will", "youll", "one", "you can", "we can", "you should",
+            "you happen to", "you could", "you manage to", "you are able to", "your eyes", "you ever", "we should"]);
+        self.adverbs();
+        found
+    }
+
     fn seen(&mut self) -> Result<Option<Test>, PlanError> {
         const SEE: &[&str] = &[
-            "you see",
-            "you have spotted",
-            "youve seen",
-            "youve spotted",
-            "you catch a glimpse of",
-            "you get to see",
-            "you should see",
-            "you happen to see",
-            "you make out",
-            "you can make out",
-            "you can spot",
-            "you sight",
-            "you can see",
-            "you spot",
-            "you notice",
-            "you find",
-            "you catch sight of",
-            "see",
-            "seeing",
-            "you have seen",
-            "you are able to see",
-            "you encounter",
-            "you come across",
+            "see", "spot", "notice", "find", "catch a glimpse of", "catch sight of", "get to see", "make out", "sight", "seen", "spotted", "encounter", "come across",
+            "happen to see", "seeing", "spotting", "noticed", "found", "can see", "can spot", "can make out", "have seen", "have spotted", "are able to see", "glimpse",
+            "get a glimpse of", "run into", "bump into", "set eyes on", "lay eyes on", "have in sight", "get sight of", "discover", "sighted", "come upon", "have in view",
         ];
         const BLIND: &[&str] = &[
-            "you dont see",
-            "you cannot see",
-            "you cant see",
-            "you do not see",
-            "you no longer see",
-            "you lose sight of",
+            "dont see", "cannot see", "cant see", "do not see", "no longer see", "lose sight of", "dont spot", "cant find", "cannot find", "dont find", "cant spot",
+            "do not spot", "havent seen", "have not seen", "no longer spot", "are not able to see", "can no longer see", "cant make out", "dont notice",
         ];
+        self.subject();
         if self.eat_any(BLIND) {
+            self.adverbs();
             return Ok(Some(Test::Not(Box::new(Test::Sees(self.reference(0)?)))));
         }
         if !self.eat_any(SEE) {
@@ -237,7 +282,7 @@ impl Parser<'_> {
     /// "Somebody is sitting on the bench", "nobody is in the chair".
     fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
         const SOMEBODY: &[&str] =
-            &["somebody", "someone", "anybody", "anyone", "a person", "some person", "another person"];
+            &["somebody", "someone", "anybody", "anyone", "a person", "some person", "another person", "anyone at all"];
         const NOBODY: &[&str] = &["nobody", "no one", "noone", "nobody else", "no person"];
         self.eat_any(&["there is", "theres"]);
         let nobody = self.eat_any(NOBODY);
@@ -245,18 +290,24 @@ impl Parser<'_> {
             return Ok(None);
         }
         self.eat_any(&["else"]);
-        self.eat_any(&["is", "is already"]);
+        self.adverbs();
+        self.eat_any(&["is"]);
+        self.adverbs();
         let not = self.eat_any(&["not"]);
         self.eat_any(&["sitting", "seated", "sits", "sat", "already sitting"]);
-        if !self.eat_any(&["on", "in", "using"]) {
+        let said = self.eat_any(&["on", "in", "using", "uses", "occupying", "has taken", "has"]);
+        let taken = if said {
+            Test::InUse(self.reference(0)?)
+        } else if self.lexemes[self.at - 1].lemma.as_deref() == Some("sit") && self.eat_any(&["there", "there already"]) {
+            Test::InUse(Reference::to(Target::It, "it".to_owned()))
+        } else {
             return Ok(None);
-        }
-        let taken = Test::InUse(self.reference(0)?);
+        };
         Ok(Some(if nobody == not { taken } else { Test::Not(Box::new(taken)) }))
     }
 
     fn there_is(&mut self) -> Result<Option<Test>, PlanError> {
-        const IS: &[&str] = &["there is", "theres", "there are", "you find that there is"];
+        const IS: &[&str] = &["there is", "theres", "there are", "you find that there is", "there should be", "there happens to be", "there is still"];
         const NOT: &[&str] = &[
             "there is no",
             "theres no",
@@ -294,58 +345,44 @@ impl Parser<'_> {
 
     /// About the agent itself.
     fn mine(&mut self) -> Result<Option<Test>, PlanError> {
-        const HOLD: &[&str] = &[
-            "you are holding",
-            "you hold",
-            "you have",
-            "you are carrying",
-            "you carry",
-            "youre holding",
-            "youve got",
-        ];
+        const HOLD: &[&str] = &["holding", "hold", "have", "carrying", "carry", "got", "have got", "in possession of", "in hold of", "possess", "have picked up", "have taken"];
         const EMPTY: &[&str] = &[
-            "your hands are empty",
-            "you are holding nothing",
-            "your hand is empty",
-            "you hold nothing",
-            "your hands are free",
-            "you have nothing in your hands",
-            "you carry nothing",
+            "your hands are empty", "your hand is empty", "your hands are free", "your hand is free", "holding nothing", "hold nothing", "have nothing in your hands",
+            "carry nothing", "carrying nothing", "have nothing", "have got nothing", "got nothing", "empty handed", "have your hands free", "have a free hand",
+            "have both hands free", "dont have anything", "arent holding anything", "are not holding anything", "not holding anything", "not carrying anything",
+            "have nothing in your hand", "got nothing in your hands", "have got nothing in your hands",
         ];
-        const SIT: &[&str] =
-            &["you are sitting", "you are seated", "you sit", "youre sitting", "youre seated"];
-        const STAND: &[&str] = &["you are standing", "you stand", "youre standing", "you are not sitting"];
+        const SIT: &[&str] = &["sitting", "seated", "sit", "sitting down", "in a seat", "are sitting", "are seated"];
+        const STAND: &[&str] = &["standing", "stand", "not sitting", "on your feet", "not seated", "standing up", "not sitting down", "up"];
         const REACH: &[&str] = &[
-            "you are near",
-            "you are next to",
-            "you are at",
-            "you reach",
-            "you get to",
-            "you arrive at",
-            "you are close to",
-            "you come to",
-            "youre near",
-            "youre at",
-            "you are beside",
-            "you are by",
-            "you have reached",
-            "you get near",
-            "you stand next to",
-            "you are in front of",
-            "youre next to",
-            "reaching",
-            "you arrive in",
-            "you are within reach of",
+            "near", "next to", "at", "reach", "get to", "arrive at", "close to", "come to", "beside", "by", "reached", "get near", "stand next to", "in front of",
+            "reaching", "arrive in", "within reach of", "got to", "arrived at", "come near", "get close to", "come close to", "pass", "come up to", "approach",
+            "are near", "are at", "outside", "stand at", "stand by", "stand beside", "arriving at", "getting to", "make it to", "made it to", "are next to",
         ];
-        const FAR: &[&str] = &["you are far from", "you are away from", "you are not near", "you leave"];
+        const FAR: &[&str] = &["far from", "away from", "not near", "leave", "not at", "far away from", "not close to", "not next to", "have left"];
+        let start = self.at;
         if self.eat_any(EMPTY) {
             return Ok(Some(Test::Not(Box::new(Test::Holds(None)))));
         }
-        if self.eat_any(SIT) {
-            return Ok(Some(Test::Seated));
+        let subject = self.subject();
+        if !subject && longest_phrase(self.rest(), &["reaching", "arriving at", "getting to"]).is_none() {
+            self.at = start;
+            return Ok(None);
+        }
+        if self.eat_any(EMPTY) {
+            return Ok(Some(Test::Not(Box::new(Test::Holds(None)))));
+        }
+        let not_holding = self.eat_any(&["dont have", "do not have", "havent got", "have not got", "not holding", "not carrying", "dont hold", "are not holding", "dont carry"]);
+        if not_holding || self.eat_any(HOLD) {
+            let holds = self.held()?;
+            return Ok(Some(if not_holding { Test::Not(Box::new(holds)) } else { holds }));
         }
         if self.eat_any(STAND) {
             return Ok(Some(Test::Not(Box::new(Test::Seated))));
+        }
+        if self.eat_any(SIT) {
+            self.eat_any(&["down"]);
+            return Ok(Some(Test::Seated));
         }
         if self.eat_any(FAR) {
             let what = self.reference(0)?;
@@ -354,13 +391,19 @@ impl Parser<'_> {
         if self.eat_any(REACH) {
             return Ok(Some(Test::Near { what: self.reference(0)?, within: NEXT_TO_ME }));
         }
-        if self.eat_any(HOLD) {
-            if self.eat_any(&["something", "anything"]) {
-                return Ok(Some(Test::Holds(None)));
-            }
-            return Ok(Some(Test::Holds(Some(self.reference(0)?))));
-        }
         Ok(None)
+    }
+
+    /// What is in hand: "something", "the letter with you".
+    fn held(&mut self) -> Result<Test, PlanError> {
+        const WITH_YOU: &[&str] = &["in your hand", "in your hands", "with you", "on you", "in hand", "in the hand", "in your arms", "already"];
+        if self.eat_any(&["something", "anything"]) {
+            self.eat_any(WITH_YOU);
+            return Ok(Test::Holds(None));
+        }
+        let what = self.reference(0)?;
+        self.eat_any(WITH_YOU);
+        Ok(Test::Holds(Some(what)))
     }
 
     /// "Ten seconds have passed".
@@ -371,6 +414,14 @@ impl Parser<'_> {
         let passed = self.eat_any(&[
             "have passed",
             "has passed",
+            "have elapsed",
+            "has elapsed",
+            "are up",
+            "is up",
+            "has gone by",
+            "passes",
+            "went by",
+            "have gone",
             "pass",
             "are over",
             "is over",
@@ -383,6 +434,7 @@ impl Parser<'_> {
     /// About a thing: "the chair is free", "Anna arrives".
     fn thing_is(&mut self) -> Result<Option<Test>, PlanError> {
         let what = self.reference(0)?;
+        self.adverbs();
         if self.eat_any(ARRIVES) {
             return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));
         }
@@ -400,25 +452,24 @@ impl Parser<'_> {
         if let Some(test) = self.light_of(&what) {
             return Ok(Some(test));
         }
-        if !self.eat_any(&[
-            "is",
-            "are",
-            "gets",
-            "stands",
-            "becomes",
-            "be",
-            "should be",
-            "happens to be",
-            "has become",
-        ]) {
+        const BE: &[&str] =
+            &["is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become", "remains", "stays", "sits", "turns out to be", "comes"];
+        if !self.eat_any(BE) {
             return Ok(None);
         }
+        Ok(self.state_of(what))
+    }
+
+    /// Behind "the chair is".
+    pub(super) fn state_of(&mut self, what: Reference) -> Option<Test> {
+        self.adverbs();
         // "Is not free" is a state of its own, "is not near you" is not.
         let negated =
             longest(self.rest(), STATES).is_none() && self.eat_any(&["not", "no longer", "not yet"]);
-        let Some((state, count)) = longest(self.rest(), STATES) else { return Ok(None) };
-        self.at += count;
+        self.adverbs();
         let not = |test: Test| Test::Not(Box::new(test));
+        let (state, count) = longest(self.rest(), STATES)?;
+        self.at += count;
         let test = match state {
             State::Free => not(Test::InUse(what)),
             State::InUse => Test::InUse(what),
@@ -428,7 +479,8 @@ impl Parser<'_> {
             State::Next => Test::Near { what, within: NEXT_TO_ME },
             State::Seen => Test::Sees(what),
         };
-        Ok(Some(if negated { not(test) } else { test }))
+        self.adverbs();
+        Some(if negated { not(test) } else { test })
     }
 
     /// "The light at the bus stop is green".
@@ -443,12 +495,64 @@ impl Parser<'_> {
         Some(Test::Light { light: Some(what.clone()), shows })
     }
 
+    /// "Is the door still open?": a question as a condition.
+    pub(super) fn asked(&mut self) -> Option<Test> {
+        let start = self.at;
+        let (verb, words) = longest(self.rest(), &[
+            (&["is", "are"][..], true),
+            (&["does", "do", "can", "has", "have", "did"], false),
+        ])?;
+        self.at += words;
+        let outer = std::mem::replace(&mut self.in_test, true);
+        let test = if verb && self.peeks("it") {
+            self.at += 1;
+            self.adverbs();
+            self.weather_again()
+        } else if verb && self.eat_any(&["there"]) {
+            self.reference(0).ok().map(|what| Test::There { free: what.traits.free, what: Reference { indefinite: true, choice: Choice::Open, ..what } })
+        } else if verb && longest_phrase(self.rest(), &["anybody", "anyone", "somebody", "someone"]).is_some() {
+            self.sat_on().ok().flatten()
+        } else if verb {
+            // In "is the door open" the door is all that the noun phrase takes.
+            let what = self.reference(0).ok();
+            what.and_then(|what| self.asked_state(what))
+        } else {
+            self.simple_test().ok()
+        };
+        self.in_test = outer;
+        self.eat_any(&["nearby", "near here", "around", "here"]);
+        let asked = test.filter(|_| self.mark() == Some('?'));
+        if asked.is_none() {
+            self.at = start;
+        }
+        asked
+    }
+
+    /// The state of a thing, also where the noun phrase took it for what the thing is like.
+    fn asked_state(&mut self, mut what: Reference) -> Option<Test> {
+        if let Some((key, set)) = what.traits.state.take() {
+            let open = Test::Open(what);
+            return (key == simworld_core::scene::OPEN).then(|| if set { open } else { Test::Not(Box::new(open)) });
+        }
+        if what.traits.free {
+            what.traits.free = false;
+            return Some(Test::Not(Box::new(Test::InUse(what))));
+        }
+        self.state_of(what)
+    }
+
     /// A colour at the cursor that says what a thing is like and not what a light shows.
     pub(super) fn peek_paint(&self) -> Option<(super::paint::Paint, usize)> {
         let found = longest(self.rest(), PAINTS)?;
         let is_word = matches!(self.rest().first()?.token, Token::Word(_));
         (is_word && fits(self.rest(), "dark").is_none()).then_some(found)
     }
+}
+
+/// Whether a word says what was done: "seen", "reached".
+fn is_participle(lexeme: &Lexeme) -> bool {
+    matches!(&lexeme.token, Token::Word(word)
+        if ["seen", "spotted", "reached", "arrived", "sighted", "noticed", "found", "picked", "made", "left", "sat", "come"].contains(&word.as_str()))
 }
 
 #[derive(Clone, Copy)]

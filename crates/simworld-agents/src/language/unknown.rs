@@ -3,7 +3,7 @@
 use simworld_core::seam::PlanError;
 
 use super::clause::Target;
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
@@ -36,9 +36,14 @@ impl<'a> Parser<'a> {
                 self.at += phrase.len();
                 Ok(Target::Named(ids))
             }
-            Guess::Category(category) => {
+            Guess::Category(category, word) => {
                 self.at += phrase.len();
-                Ok(Target::Any(category))
+                // "The dinner" is the one that is called a diner.
+                let is_synonym = category.is_place() && word != category.words[0];
+                match if is_synonym { self.names.part(&lex(word)) } else { None } {
+                    Some(Guess::Named(ids)) => Ok(Target::Named(ids)),
+                    _ => Ok(Target::Any(category)),
+                }
             }
             Guess::Ambiguous(labels) => {
                 let near = format!("it could be {}: say which", labels.join(" or "));

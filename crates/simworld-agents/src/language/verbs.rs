@@ -48,6 +48,10 @@ pub(super) enum Verb {
     Park,
     Pass,
     Circle,
+    /// To and fro between places.
+    Shuttle,
+    /// To a number, a second for each.
+    Count,
 }
 
 impl Verb {
@@ -91,6 +95,8 @@ impl Verb {
         (Self::Park, "Park"),
         (Self::Pass, "Pass"),
         (Self::Circle, "Circle"),
+        (Self::Shuttle, "Shuttle"),
+        (Self::Count, "Count"),
     ];
 }
 
@@ -165,6 +171,20 @@ pub(super) fn base_form(word: &str) -> Option<String> {
         ("gave", "give"),
         ("given", "give"),
         ("got", "get"),
+        ("had", "have"),
+        ("shown", "show"),
+        ("seen", "see"),
+        ("swung", "swing"),
+        ("caught", "catch"),
+        ("laid", "lay"),
+        ("shook", "shake"),
+        ("hung", "hang"),
+        ("began", "begin"),
+        ("drew", "draw"),
+        ("drawn", "draw"),
+        ("thrown", "throw"),
+        ("threw", "throw"),
+        ("sent", "send"),
         ("gotten", "get"),
         ("told", "tell"),
         ("said", "say"),
@@ -183,7 +203,7 @@ pub(super) fn base_form(word: &str) -> Option<String> {
         ("held", "hold"),
         ("lying", "lie"),
     ];
-    if word == "lets" {
+    if ["lets", "has", "being"].contains(&word) {
         return None; // "let us"
     }
     let is_verb = |stem: &str| VERBS.contains_key(stem);
