@@ -69,6 +69,9 @@ pub(super) const WHEN: &[&str] = &[
     "upon reaching",
     "upon arriving at",
     "upon arrival at",
+    "arriving at",
+    "reaching",
+    "on your arrival at",
 ];
 /// What begins an order that goes on.
 pub(super) const GOES_ON: &[&str] = &[
@@ -166,6 +169,22 @@ impl Parser<'_> {
             let body = self.statement()?;
             return Ok(Some(vec![over_and_over(body, seconds)]));
         }
+        if let Some((seconds, count)) = self.peek_span() {
+            self.at += count;
+            self.skip_joints();
+            let body = self.orders(Extent::Group)?;
+            return Ok(Some(vec![Clause::Until { test: Test::Elapsed(seconds), body }]));
+        }
+        if self.eat_any(&["at", "by"]) {
+            let test = self.weather();
+            if let Some(test) = test.filter(|_| self.ends_at_mark() || longest_verb(self.rest()).is_some()) {
+                self.skip_joints();
+                let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
+                clauses.extend(self.statement()?);
+                return Ok(Some(clauses));
+            }
+            return Ok(None);
+        }
         if self.eat_any(&["after", "in", "within"])
             && let Some((seconds, count)) = numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0)
             && longest_phrase(&self.rest()[count..], &["have passed", "has passed", "have gone by", "pass", "passes", "are over", "have elapsed"]).is_none()
@@ -178,6 +197,17 @@ impl Parser<'_> {
             return Ok(Some(clauses));
         }
         Ok(None)
+    }
+
+    /// "For ten seconds", "for the next minute", before what is done so long.
+    fn peek_span(&self) -> Option<(f64, usize)> {
+        let words = longest_phrase(self.rest(), &["for", "for the next", "over the next", "during the next", "for the space of", "for a period of"])?;
+        let (seconds, count) = numbers::duration(&self.rest()[words..]).filter(|(seconds, _)| *seconds > 0.0).or_else(|| {
+            // "For the next minute".
+            let one = [Lexeme { token: Token::Word("one".to_owned()), lemma: None, start: 0, end: 0 }, self.rest().get(words)?.clone()];
+            numbers::duration(&one).map(|(seconds, count)| (seconds, count - 1))
+        })?;
+        (seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
     }
 
     /// "At the next light", "on the way to the museum".
@@ -210,6 +240,11 @@ impl Parser<'_> {
             "end with",
             "finish with",
         ]) {
+            if longest_verb(self.rest()).is_none()
+                && let Some(clauses) = self.visited()
+            {
+                return Ok(Some(clauses));
+            }
             return self.statement().map(Some);
         }
         Ok(None)
@@ -270,7 +305,9 @@ impl Parser<'_> {
     /// "Keep waving", "repeat three times".
     fn repeated(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
-        if self.eat_any(GOES_ON) && !self.ends_clause() && longest_verb(self.rest()).is_some() {
+        // "Keep close to Hana" is a verb of its own.
+        let is_verb = longest_verb(self.rest()).is_some_and(|(_, words)| words > 2);
+        if !is_verb && self.eat_any(GOES_ON) && !self.ends_clause() && longest_verb(self.rest()).is_some() {
             return self.keep().map(Some);
         }
         self.at = start;
@@ -283,7 +320,11 @@ impl Parser<'_> {
             self.eat_any(&["do the following", "do this"]);
             let colon = self.skip_joints() && matches!(self.lexemes[self.at - 1].token, Token::Break) || colon;
             let extent = if colon { Extent::Sentence } else { Extent::Group };
-            return Ok(Some(vec![Clause::Repeat { times, body: self.orders(extent)? }]));
+            let body = self.orders(extent)?;
+            if body.is_empty() {
+                return Err(self.not_understood("say what to do so often"));
+            }
+            return Ok(Some(vec![Clause::Repeat { times, body }]));
         }
         Ok(None)
     }

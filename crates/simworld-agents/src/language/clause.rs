@@ -127,6 +127,23 @@ pub(super) enum Test {
     Either(Box<Self>, Box<Self>),
 }
 
+impl Test {
+    /// Whether a pronoun in it stands for what the order is about: "unless it is taken".
+    pub(super) fn is_about_it(&self) -> bool {
+        match self {
+            Self::Sees(what)
+            | Self::Near { what, .. }
+            | Self::There { what, .. }
+            | Self::InUse(what)
+            | Self::Open(what)
+            | Self::Holds(Some(what)) => matches!(what.target, Target::It | Target::Them),
+            Self::Not(test) => test.is_about_it(),
+            Self::Both(one, other) | Self::Either(one, other) => one.is_about_it() || other.is_about_it(),
+            _ => false,
+        }
+    }
+}
+
 /// Which junctions count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lights {
@@ -367,6 +384,27 @@ impl Clause {
             return if let Self::Stay { body, .. } = self { body.plural() } else { None };
         };
         (what.count != Count::One).then_some(what)
+    }
+
+    /// The thing that an order is about, if it is about one.
+    pub(super) const fn about(&self) -> Option<&Reference> {
+        match self {
+            Self::Go { to: what, .. }
+            | Self::Take { what, .. }
+            | Self::Wave { to: what }
+            | Self::Say { to: what, .. }
+            | Self::Face { what }
+            | Self::Point { at: what }
+            | Self::Argue { with: what }
+            | Self::Follow { whom: what, .. }
+            | Self::Board { what, .. }
+            | Self::Drive { to: what, .. }
+            | Self::Buy { at: Some(what), .. }
+            | Self::Door { what: Some(what), .. }
+            | Self::Sit { on: Some(what) }
+            | Self::Photo { of: Some(what), .. } => Some(what),
+            _ => None,
+        }
     }
 
     /// Whether doing it twice in a row is doing something twice: waving is, sitting down is not.

@@ -231,8 +231,15 @@ impl<'a> Draft<'a> {
         let (held, carried, posture, beside, there) =
             (self.held, self.carried, self.posture, self.beside, self.there);
         let (from, heading) = (self.view.from, self.view.heading);
-        if let Condition::Holds(Some(item)) = &condition {
-            self.held.get_or_insert(Load::Thing(*item));
+        match &condition {
+            Condition::Holds(Some(item)) => {
+                self.held.get_or_insert(Load::Thing(*item));
+            }
+            // Whatever it is.
+            Condition::Holds(None) => {
+                self.held.get_or_insert(Load::Bought);
+            }
+            _ => {}
         }
         let spoken_of = self.view.it;
         let then = self.block(then)?;

@@ -155,6 +155,11 @@ impl Parser<'_> {
             None
         };
         let said = nth.is_some() || turning || self.at > start + 1;
+        if let Some(turn) = turn.filter(|_| nth.is_none() && !turning)
+            && let Some((nth, lights)) = self.junction()
+        {
+            return Some(vec![Clause::TurnAt { turn, nth, lights }]);
+        }
         let turn = turn.filter(|_| said && self.ends_clause());
         if turn.is_none() {
             self.at = start;
@@ -182,7 +187,8 @@ impl Parser<'_> {
         let pace = self.pace(Pace::Usual)?;
         if self.eat_any(TO) {
             let to = self.reference(0)?;
-            return Ok(vec![Clause::Drive { to, pace: self.pace(pace)? }]);
+            let pace = self.pace(pace)?;
+            return self.after_place(Clause::Drive { to, pace }, pace);
         }
         if let Some(clauses) = self.straight_at_junction() {
             return Ok(clauses);

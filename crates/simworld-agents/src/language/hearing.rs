@@ -214,6 +214,11 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
             lexemes.get(at..end).is_some_and(|said| said.iter().zip(name).all(|(a, b)| a.token == b.token));
         let is_mark = |at: usize| matches!(lexemes[at].token, Token::Comma | Token::Break);
         let begins = at == 0 || is_mark(at - 1) || is_polite(&lexemes[..at]);
+        let called = at > 0
+            && end >= lexemes.len()
+            && matches!(&lexemes[at - 1].token, Token::Word(word)
+                if ["me", "here", "please", "now", "boy", "girl", "down", "still", "it", "back", "home", "there"].contains(&word.as_str()));
+        let begins = begins || called;
         let ends = end >= lexemes.len() || is_mark(end) || at == 0 && longest_verb(&lexemes[end..]).is_some();
         if same && begins && ends && lexemes.len() > name.len() {
             let between = at > 0 && end < lexemes.len() && is_comma(lexemes, at - 1) && is_comma(lexemes, end);

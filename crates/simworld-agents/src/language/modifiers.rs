@@ -2,7 +2,7 @@
 
 use super::clause::{Choice, Reference, Side, Stands};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{DETERMINERS, FARTHEST, MOSTS, NEAREST, category, longest, longest_phrase};
+use super::lexicon::{DETERMINERS, FARTHEST, MOSTS, NEAREST, category, fits, longest, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
 use super::reference::DOOR_STATES;
@@ -63,6 +63,9 @@ impl Parser<'_> {
         }
         if self.eat_any(INDEFINITE) {
             reference.indefinite = true;
+            if self.at > 1 && fits(&self.lexemes[self.at - 2..], "of the").is_some() {
+                self.at += numbers::count(self.rest()).map_or(0, |(_, words)| words); // "one of the two trees"
+            }
             return true;
         }
         self.eat_any(DETERMINERS)
@@ -70,10 +73,14 @@ impl Parser<'_> {
 
     /// Which of several.
     fn selection(&mut self, reference: &mut Reference) -> bool {
-        if let Some(nth) = self.peek_ordinal() {
+        if let Some((place, words)) = longest(self.rest(), FROM_BEHIND).filter(|(place, _)| *place > 1) {
+            reference.choose(Choice::Farthest);
+            reference.place = reference.place.max(place);
+            self.at += words;
+        } else if let Some(nth) = self.peek_ordinal() {
             reference.choose(Choice::Nth(nth));
             self.at += 1;
-        } else if self.eat_any(NEAREST) {
+        } else if self.eat_any(NEAREST) || longest_phrase(self.rest(), &["next"]).is_some_and(|words| self.noun_follows(words)) && self.eat_any(&["next"]) {
             reference.choose(Choice::Nearest);
         } else if let Some((place, words)) = longest(self.rest(), FROM_BEHIND) {
             reference.choose(Choice::Farthest);
@@ -151,7 +158,9 @@ impl Parser<'_> {
     /// Whether nothing, or "of the three", follows so many words.
     fn ends_after(&self, words: usize) -> bool {
         let after = self.rest().get(words..).unwrap_or_default();
-        !matches!(after.first(), Some(Lexeme { token: Token::Word(_), .. })) || longest_phrase(after, OF_SEVERAL).is_some()
+        !matches!(after.first(), Some(Lexeme { token: Token::Word(_), .. }))
+            || longest_phrase(after, OF_SEVERAL).is_some()
+            || longest_phrase(after, &["one of the", "one of these", "one of those"]).is_some()
     }
 
     fn noun_follows(&self, words: usize) -> bool {

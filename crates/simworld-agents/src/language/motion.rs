@@ -136,6 +136,7 @@ const SENSES: &[(&[&str], Sense)] = &[
 
 impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["first", "then", "next", "finally"]);
         let pace = self.pace(pace)?;
         let apart = self.apart();
         if apart.is_none()
@@ -450,6 +451,9 @@ impl Parser<'_> {
         let back = longest_phrase(self.rest(), &["back"]).is_some()
             && numbers::number(&self.rest()[1..])
                 .is_some_and(|(_, count)| longest_phrase(&self.rest()[1 + count..], LENGTHS).is_some());
+        if self.peeks_halfway() || longest_phrase(self.rest(), &["right up", "right in", "right at", "right over", "right to", "right by", "right next", "right beside", "right behind"]).is_some() {
+            return false;
+        }
         let on = self.peeks("for") && numbers::walked(&self.rest()[1..]).is_some();
         in_digits
             || on
@@ -564,6 +568,9 @@ impl Parser<'_> {
         if self.eat_any(&["the right", "your right", "right"]) {
             return Ok(Clause::Turn { angle: -FRAC_PI_2 });
         }
+        if self.eat_any(&["the other way", "the opposite way", "the other direction", "the opposite direction", "backwards", "the other way round"]) {
+            return Ok(Clause::Turn { angle: PI });
+        }
         if let Some(compass) = self.compass() {
             return Ok(Clause::FaceCompass(compass));
         }
@@ -586,6 +593,9 @@ impl Parser<'_> {
         }
         if self.eat_any(&["behind you", "behind yourself", "over your shoulder", "back over your shoulder"]) {
             return Ok(Clause::Turn { angle: PI });
+        }
+        if let Some(speaker) = self.view.speaker.filter(|_| self.eat_any(&["here", "over here", "up here", "this way"])) {
+            return Ok(Clause::Face { what: Reference::to(Target::Id(speaker), "here".to_owned()) });
         }
         if longest(self.rest(), SENSES).is_some() {
             return self.turn();

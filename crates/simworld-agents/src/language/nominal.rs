@@ -24,7 +24,7 @@ impl Parser<'_> {
     pub(super) fn nominal(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
         self.skip_fillers();
-        for rule in [Self::counted_deeds, Self::turning, Self::measured_way, Self::up_and_down, Self::wanted_goods, Self::destination] {
+        for rule in [Self::counted_deeds, Self::turning, Self::measured_way, Self::up_and_down, Self::rounds, Self::wanted_goods, Self::destination] {
             let at = self.at;
             if let Some(clauses) = rule(self)? {
                 return Ok(Some(clauses));
@@ -123,6 +123,17 @@ impl Parser<'_> {
         Ok(said.then(|| vec![step]))
     }
 
+    /// "Once around the block".
+    fn rounds(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let Some((times, words)) = numbers::times(self.rest()) else { return Ok(None) };
+        self.at += words;
+        if !self.eat_any(&["around", "round", "all around", "all round"]) {
+            return Ok(None);
+        }
+        let body = self.round(Pace::Usual)?;
+        Ok(Some(if times == 1 { body } else { vec![Clause::Repeat { times, body }] }))
+    }
+
     /// "Down and up again": to sit and to stand.
     fn up_and_down(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let clause = if self.eat_any(&["down", "down again", "back down"]) {
@@ -145,7 +156,8 @@ impl Parser<'_> {
 
     /// "The hospital, please": a building, or where one was going before.
     fn destination(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        self.eat_any(&["next stop", "destination", "the destination is", "your destination is", "the next stop is", "our destination is", "first stop", "last stop"]);
+        let told = self.eat_any(&["next stop", "destination", "the destination is", "your destination is", "the next stop is", "our destination is", "first stop", "last stop",
+            "your next stop is", "your first stop is", "your last stop is", "your next destination is", "how about", "what about"]);
         if matches!(self.mark(), Some(':')) {
             self.at += 1;
         }
@@ -158,7 +170,7 @@ impl Parser<'_> {
             }),
             _ => false,
         };
-        if !is_building || !self.ends_clause() {
+        if !is_building && !told || !self.ends_clause() {
             return Ok(None);
         }
         self.verb = Some(Verb::Go);

@@ -114,6 +114,16 @@ impl Parser<'_> {
         }
     }
 
+    /// "Move the letter to the clinic" is about the letter.
+    fn moves_thing(&mut self, start: usize) -> bool {
+        let moves = ["move", "shift", "relocate"].iter().any(|word| fits(&self.lexemes[start..self.at], word).is_some());
+        let at = self.at;
+        let thing = moves && longest_phrase(self.rest(), &["the", "that", "this", "it", "my", "a"]).is_some() && self.reference(0).is_ok();
+        let leads = thing && longest_phrase(self.rest(), BRINGS).is_some();
+        self.at = at;
+        leads
+    }
+
     /// Whether what a phrase means ever moves.
     fn moves_about(&self, what: &Reference) -> bool {
         match &what.target {
@@ -158,6 +168,7 @@ impl Parser<'_> {
             return self.after_place(Clause::Go { to, side: None, pace, within: None }, pace);
         }
         match verb {
+            Verb::Go if self.moves_thing(start) => self.drop(Manner::Deliver),
             Verb::Go => self.go(Pace::Usual, start),
             Verb::Run => self.go(Pace::Run, start),
             Verb::Stroll => self.go(Pace::Slow, start),
@@ -256,7 +267,8 @@ impl Parser<'_> {
             Verb::Talk | Verb::Greet | Verb::Say | Verb::Tell | Verb::Argue => self.speak(verb),
             Verb::Open | Verb::Close => {
                 let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
-                self.eat_any(&["up", "for me"]);
+                let what = what.map(Reference::but_behind);
+                self.eat_any(&["up", "for me", "again", "behind you"]);
                 one(Clause::Door { what, open: verb == Verb::Open })
             }
             Verb::Photo => {
@@ -287,6 +299,9 @@ impl Parser<'_> {
     fn is_place(&self) -> bool {
         const PLACES: &[&str] = &[
             "at",
+            "on the",
+            "in the",
+            "by",
             "between",
             "in between",
             "halfway",
@@ -308,6 +323,9 @@ impl Parser<'_> {
     }
 
     fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
+        if self.eat_any(&["me up at", "us up at", "me up from", "us up from", "me up by", "me up in front of", "me up outside", "me at"]) {
+            return self.go(Pace::Usual, start);
+        }
         if self.eat_any(&["me to", "us to", "yourself to", "me over to", "us over to", "yourself over to"]) {
             return self.go(Pace::Usual, start);
         }
@@ -361,6 +379,10 @@ impl Parser<'_> {
             }
         };
         self.eat_any(&["up", "along", "with you", "over", "across", "back", "off"]);
+        let mut what = what;
+        if what.relation.is_none() && self.eat_any(&["from"]) {
+            what.relation = Some(Stands::Of(Box::new(self.reference(0)?)));
+        }
         let to = self.tail_place(BRINGS)?;
         if to.is_none()
             && self.peeks("for")
@@ -437,6 +459,10 @@ impl Parser<'_> {
         }
         self.at = start;
         let first = self.reference(0)?;
+        if let Some((seconds, words)) = numbers::duration(self.rest()).filter(|(seconds, words)| first.target == Target::It && *words > 1 && *seconds > 0.0) {
+            self.at += words;
+            return Ok(vec![Clause::Wait { seconds }]); // "give it ten seconds"
+        }
         if let Some(clauses) = self.gesture(&first) {
             return Ok(clauses);
         }

@@ -40,6 +40,11 @@ const HEADINGS: &[&str] = &[
     "quick", "new", "your", "the", "a", "my", "our", "and", "here", "it", "goes", "todo", "to", "do", "list", "important", "urgent", "favour", "favor", "small",
     "little", "thing", "things", "following", "first", "second", "third", "last", "item", "assignment", "challenge", "exercise", "game", "for", "you", "today",
 ];
+/// What begins as politeness does, and says something.
+const MORE_THAN_FILLERS: &[&str] = &[
+    "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits", "there stands", "there lies", "here is", "over there is",
+    "over there are", "there and back", "up there is", "here are",
+];
 /// How often a statement is tried in other words, in one sentence.
 const MOST_TRIES: u32 = 24;
 
@@ -106,6 +111,9 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_joints();
+        if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
+            self.at += 2;
+        }
         if self.skip_remark() {
             self.skip_joints();
         }
@@ -144,6 +152,9 @@ impl<'a> Parser<'a> {
 
     /// Passes what stands between two orders; whether a sentence ends there.
     fn joint(&mut self) -> Result<bool, PlanError> {
+        if self.skip_purpose() {
+            return Ok(false);
+        }
         self.skip_fillers();
         self.at += requests::coda(self.rest());
         self.skip_manner();
@@ -231,6 +242,12 @@ impl<'a> Parser<'a> {
             return Ok(clauses);
         }
         let start = self.at;
+        if longest_phrase(self.rest(), &["see that", "see to it", "make sure", "ensure"]).is_some() {
+            if let Some(clauses) = self.somebody_gets() {
+                return Ok(clauses);
+            }
+            self.at = start;
+        }
         let refused = match self.plain_statement() {
             Ok(clauses) => return Ok(clauses),
             Err(refused) => refused,
@@ -360,12 +377,12 @@ impl<'a> Parser<'a> {
 
     /// "1. ... 2. ...": the number of an item of a list.
     fn item_mark(&self) -> usize {
-        let begins = self.at == 0 || matches!(self.lexemes[self.at - 1].token, Token::Comma | Token::Break);
-        match self.rest() {
+        let step = usize::from(longest_phrase(self.rest(), &["step", "number", "task", "item"]).is_some());
+        match &self.rest()[step..] {
             [Lexeme { token: Token::Number(number), .. }, Lexeme { token: Token::Break | Token::Close, .. }, ..]
-                if begins && number.fract() == 0.0 && (1.0..20.0).contains(number) =>
+                if number.fract() == 0.0 && (1.0..20.0).contains(number) =>
             {
-                2
+                step + 2
             }
             _ => 0,
         }
@@ -384,7 +401,9 @@ impl<'a> Parser<'a> {
     /// Passes politeness, unless the words begin an order.
     pub(super) fn skip_fillers(&mut self) {
         while let Some(count) = longest_phrase(self.rest(), FILLERS) {
-            if longest_verb(self.rest()).is_some_and(|(_, words)| words >= count) {
+            let is_verb = longest_verb(self.rest()).is_some_and(|(_, words)| words >= count);
+            let is_more = longest_phrase(self.rest(), MORE_THAN_FILLERS).is_some_and(|words| words > count);
+            if is_verb || is_more {
                 return;
             }
             self.at += count;

@@ -10,6 +10,8 @@ use super::verbs::Verb;
 
 /// What one says where no words are given.
 const HELLO: &str = "hello";
+/// What is said to whoever was spoken of.
+const HELLOS: &[&str] = &["hello", "hi", "goodbye", "good morning", "good evening", "good afternoon", "good night", "thanks", "thank you", "bye", "sorry", "good day"];
 /// The most that is said at once, in characters.
 const LONGEST_SPEECH: usize = 500;
 
@@ -71,6 +73,12 @@ impl Parser<'_> {
         }
         self.at = start;
         let Some((to_at, after, to)) = whom else {
+            let words = self.speech(self.lexemes.len())?;
+            if HELLOS.contains(&words.to_lowercase().as_str()) {
+                // "Go to Hana and say hello".
+                return Ok(Clause::Say { to: Reference::to(Target::Them, "them".to_owned()), words: Self::greeting(words) });
+            }
+            self.at = start;
             return Err(self.not_understood("say to whom, as in \"say hello to Anna\""));
         };
         let words = Self::greeting(self.speech(to_at)?);

@@ -4,7 +4,7 @@ use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
-use super::lexicon::{Category, RELATIONS, fits, longest};
+use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
 use super::numbers::{self, MOMENT};
 use super::parser::Parser;
 use super::verbs::Verb;
@@ -98,7 +98,21 @@ impl Parser<'_> {
             let side = Some(relation);
             clauses.push(Clause::Go { to, side: side.map(|side| Spot::Beside(side, None)), pace: Pace::Usual, within: None });
         }
+        if clauses.is_empty() && longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).is_some() {
+            let seated = self.peeks("on");
+            self.at += longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).unwrap_or(0);
+            let to = self.reference(0)?;
+            let seats = seated && matches!(&to.target, super::clause::Target::Any(class) if class.kinds().iter().any(|kind| kind.is_seat()));
+            clauses.push(if seats { Clause::Sit { on: Some(to) } } else { Clause::Go { to, side: None, pace: Pace::Usual, within: None } });
+            if seats && self.peek_time().is_none() && longest_phrase(self.rest(), &["for"]).is_none() {
+                return Ok(clauses);
+            }
+        }
         let is_for = self.eat_any(&["for", "for about", "for at least"]);
+        if !clauses.is_empty() && is_for && self.peek_time().is_none() {
+            clauses.extend(self.wait_for()?); // "wait at the statue for Hana"
+            return Ok(clauses);
+        }
         self.eat_any(&["about"]);
         let number_at = self.at;
         let Some((seconds, count)) = self.peek_time() else {
@@ -135,7 +149,25 @@ impl Parser<'_> {
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         self.at = start;
+        if let Some(test) = self.light_to_turn() {
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = start;
         let what = self.reference(0)?;
+        let at = self.at;
+        if self.eat_any(&["to be", "to become", "to get"])
+            && let Some(test) = self.state_of(what.clone())
+        {
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = at;
+        for (words, open) in [("to open", true), ("to close", false), ("to shut", false)] {
+            if self.eat_any(&[words]) {
+                let test = Test::Open(what);
+                let test = if open { test } else { Test::Not(Box::new(test)) };
+                return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+            }
+        }
         self.eat_any(&["to arrive", "to come", "to come here", "to get here", "to reach you"]);
         let test = Test::Near { what, within: super::tests_of::NEXT_TO_ME };
         Ok(vec![Clause::Until { test, body: Vec::new() }])

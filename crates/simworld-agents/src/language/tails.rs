@@ -78,17 +78,18 @@ impl Parser<'_> {
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
             let goes_on = comma && self.tail_follows();
-            let again =
-                usize::from(comma) + longest_phrase(&self.rest()[usize::from(comma)..], DO_SO).unwrap_or(0);
-            if again > usize::from(comma)
+            let mark = usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
+            let again = mark + longest_phrase(&self.rest()[mark..], DO_SO).unwrap_or(0);
+            if again > mark
                 && let Some((times, count)) = numbers::times(&self.rest()[again..])
             {
                 let all = self.rest()[..again].iter().any(|lexeme| {
-                    matches!(&lexeme.token, Token::Word(word) if word == "all" || word == "whole")
+                    let Token::Word(word) = &lexeme.token else { return lexeme.token == Token::Break };
+                    ["all", "whole", "that", "this", "repeat"].contains(&word.as_str())
                 });
                 self.at += again + count;
                 repeat(clauses, if all { whole } else { group }, times, all);
-            } else if comma && self.but_first(clauses)? {
+            } else if self.but_first(clauses, comma)? {
             } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, if comma { whole } else { group }, times, comma);
@@ -121,9 +122,9 @@ impl Parser<'_> {
     }
 
     /// "..., but stop at the shop first".
-    fn but_first(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+    fn but_first(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {
         let start = self.at;
-        self.at += 1;
+        self.at += usize::from(comma);
         let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
         let end = self.at + self.rest().iter().position(is_mark).unwrap_or(self.rest().len());
         let is_first = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "first");
@@ -132,7 +133,8 @@ impl Parser<'_> {
             self.at = start;
             return Ok(false);
         }
-        let earlier = self.order()?;
+        let mut earlier = self.order()?;
+        self.for_a_while(&mut earlier);
         if !self.eat_any(&["first"]) {
             self.at = start;
             return Ok(false);
@@ -178,12 +180,26 @@ impl Parser<'_> {
             return Ok(true);
         }
         let test = if self.eat_any(UNTIL) {
-            self.test()?
+            let start = self.at;
+            match (self.test(), clauses.last()) {
+                (Ok(test), _) => test,
+                // "Straight on until the fountain".
+                (Err(error), Some(Clause::Forward | Clause::Step { .. } | Clause::Until { .. } | Clause::FaceCompass(_))) => {
+                    self.at = start;
+                    let what = self.reference(0).map_err(|_| error)?;
+                    Test::Near { what, within: super::tests_of::NEXT_TO_ME }
+                }
+                (Err(error), _) => return Err(error),
+            }
         } else if self.eat_any(WHILE) {
             Test::Not(Box::new(self.test()?))
         } else {
             return Ok(false);
         };
+        let spoken_of = clauses.last().filter(|_| test.is_about_it()).and_then(Clause::about).cloned();
+        if let Some(what) = spoken_of {
+            clauses.insert(clauses.len() - 1, Clause::Mention { what });
+        }
         if let Some(Clause::Until { test: never @ Test::Never, .. }) = clauses.last_mut() {
             *never = test;
             return Ok(true);
@@ -217,9 +233,11 @@ impl Parser<'_> {
         } else {
             return Ok(false);
         };
-        let then = clauses.pop().into_iter().collect();
+        let last = clauses.pop();
+        let spoken_of = last.as_ref().filter(|_| test.is_about_it()).and_then(Clause::about).cloned();
         let otherwise = self.alternative()?;
-        clauses.push(Clause::If { test, then, otherwise });
+        clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
+        clauses.push(Clause::If { test, then: last.into_iter().collect(), otherwise });
         Ok(true)
     }
 
@@ -241,11 +259,8 @@ impl Parser<'_> {
         if !self.eat_any(&["or if", "but if", "or in case", "or when"]) {
             return Ok(false);
         }
-        let Some(last) = clauses.last_mut() else { return Ok(false) };
-        let spoken_of = match last {
-            Clause::Sit { on: Some(what) } | Clause::Go { to: what, .. } | Clause::Take { what, .. } => Some(what.clone()),
-            _ => None,
-        };
+        let Some(last) = clauses.last() else { return Ok(false) };
+        let spoken_of = last.about().cloned();
         let Ok(test) = self.test() else {
             self.at = start;
             return Ok(false);
@@ -283,6 +298,7 @@ impl Parser<'_> {
             }
             self.eat_any(&["youve", "you have", "you had", "having", "you are done", "youre done", "you", "a visit to", "a stop at"]);
             let mut earlier = self.earlier()?;
+            self.for_a_while(&mut earlier);
             while self.eat_any(&["and then", "then"]) {
                 earlier.extend(self.order()?);
             }

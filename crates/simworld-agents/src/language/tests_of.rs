@@ -75,7 +75,7 @@ const STATES: &[(&[&str], State)] = &[
     (&["open", "not closed", "opened", "unlocked"], State::Open),
     (&["closed", "shut", "not open"], State::Closed),
     (
-        &["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by"],
+        &["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by", "around", "about", "anywhere near"],
         State::Near,
     ),
     (
@@ -224,6 +224,16 @@ impl Parser<'_> {
         ))
     }
 
+    /// "The light to turn green".
+    pub(super) fn light_to_turn(&mut self) -> Option<Test> {
+        self.eat_any(&["the", "a"]);
+        let said = self.eat_any(&["light", "lights", "traffic light", "traffic lights", "signal"])
+            && self.eat_any(&["to turn", "to change to", "to go", "to be", "to become", "to switch to", "to show", "to turn to", "to get", "to change into"]);
+        let (shows, words) = longest(self.rest(), ASPECTS).filter(|_| said)?;
+        self.at += words;
+        Some(Test::Light { light: None, shows })
+    }
+
     fn light(&mut self) -> Option<Test> {
         if !self.eat_any(LIGHTS) {
             return None;
@@ -237,6 +247,8 @@ impl Parser<'_> {
         self.adverbs();
         let (shows, count) = longest(self.rest(), ASPECTS)?;
         self.at += count;
+        self.adverbs();
+        self.eat_any(&["again"]);
         let test = Test::Light { light: None, shows };
         Some(if not { Test::Not(Box::new(test)) } else { test })
     }
@@ -433,7 +445,11 @@ impl Parser<'_> {
 
     /// About a thing: "the chair is free", "Anna arrives".
     fn thing_is(&mut self) -> Result<Option<Test>, PlanError> {
-        let what = self.reference(0)?;
+        let speaker = self.view.speaker.filter(|_| self.eat_any(&["i", "we"]));
+        let what = match speaker {
+            Some(speaker) => Reference::to(Target::Id(speaker), "me".to_owned()),
+            None => self.reference(0)?,
+        };
         self.adverbs();
         if self.eat_any(ARRIVES) {
             return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));

@@ -26,6 +26,9 @@ impl<'a> Draft<'a> {
             return to.map_or(Ok(()), |to| self.drop(Some(what), Some(to), Manner::Deliver));
         }
         let item = self.find(what, Purpose::Item)?;
+        if item.kind == EntityKind::Bench && grip == Grip::LiftOrRide && to.is_none() {
+            return self.sit(Some(what)); // "take the blue bench"
+        }
         if item.kind == EntityKind::Person && self.drives() {
             self.go_beside(&item)?; // a driver picks people up
             return self.go_on_to(to);

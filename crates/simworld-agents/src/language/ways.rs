@@ -118,6 +118,11 @@ impl Parser<'_> {
         self.eat_any(&["point", "spot", "place", "position", "space", "gap"]);
         self.eat_any(&["that is", "thats", "which is"]);
         self.eat_any(EXACTLY);
+        let middle = longest_phrase(self.rest(), &["middle", "midpoint", "centre", "center"]);
+        if let Some(words) = middle.filter(|words| longest_phrase(&self.rest()[*words..], &["between", "of the way", "in between"]).is_some()) {
+            self.at += words;
+            return self.halfway(pace).map(Some);
+        }
         if longest_phrase(self.rest(), HALFWAY).is_none() && longest_phrase(&self.lexemes[at..], HALFWAY).is_some() {
             self.at = at;
         }
@@ -273,6 +278,17 @@ impl Parser<'_> {
         Some(Clause::Buy { goods: goods.name, times: goods.times, at, whom: None })
     }
 
+    /// "To the fountain for a photo".
+    fn for_photo(&mut self, go: &Clause) -> Option<Clause> {
+        let Clause::Go { to, .. } = go else { return None };
+        let start = self.at;
+        let said = self.eat_any(&["for a", "for a quick", "for another", "for a nice"]) && self.eat_any(super::orders::PHOTOS);
+        if !said {
+            self.at = start;
+        }
+        said.then(|| Clause::Photo { of: Some(to.clone()), times: 1 })
+    }
+
     /// What is said of the way after where it leads.
     pub(super) fn after_place(&mut self, go: Clause, pace: Pace) -> Result<Vec<Clause>, PlanError> {
         if self.eat_any(&["via", "by way of", "passing by", "passing through", "going via", "through", "going through", "and go via", "by going via"]) {
@@ -281,6 +297,9 @@ impl Parser<'_> {
         }
         if let Some(buy) = self.for_goods(&go) {
             return Ok(vec![buy]);
+        }
+        if let Some(photo) = self.for_photo(&go) {
+            return Ok(vec![go, photo]);
         }
         self.eat_any(&[
             "by the shortest way",

@@ -120,6 +120,9 @@ impl Parser<'_> {
         self.eat_any(&["has been"]);
         let not = self.eat_any(&["does not", "doesnt", "has not", "hasnt"]);
         self.adverbs();
+        if is && self.eat_any(ENDS) {
+            return self.eat(VERBS).map(|sky| (sky, not)); // "it's stopped raining"
+        }
         if is || self.eat_any(BE) {
             self.adverbs();
             let not = self.eat_any(NOT) || not;
