@@ -3,7 +3,7 @@
 use simworld_core::action::StepDirection;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Pace, Reference, Target, Test};
+use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{fits, longest_phrase};
 use super::numbers;
@@ -12,124 +12,64 @@ use super::tails::{ON_THE_WAY, over_and_over};
 use super::verbs::longest_verb;
 
 /// What begins a condition.
+#[rustfmt::skip]
 pub(super) const IF: &[&str] = &[
-    "if",
-    "in case",
-    "in case of",
-    "in the case of",
-    "provided that",
-    "provided",
-    "providing",
-    "in the event that",
-    "in the event",
-    "in the event of",
-    "assuming",
-    "assuming that",
-    "supposing",
-    "supposing that",
-    "on condition that",
-    "only if",
-    "but only if",
-    "if and only if",
-    "if it should happen that",
-    "if it so happens that",
-    "if it turns out that",
-    "if it happens that",
-    "given that",
-    "seeing that",
-    "if you find that",
-    "if you notice that",
-    "if you see that",
+    "if", "in case", "in case of", "in the case of", "provided that", "provided", "providing",
+    "in the event that", "in the event", "in the event of", "assuming", "assuming that", "supposing",
+    "supposing that", "on condition that", "only if", "but only if", "if and only if",
+    "if it should happen that", "if it so happens that", "if it turns out that", "if it happens that",
+    "given that", "seeing that", "if you find that", "if you notice that", "if you see that",
 ];
-pub(super) const UNLESS: &[&str] = &["unless", "if not", "except if", "except when", "but not if", "so long as not"];
-pub(super) const UNTIL: &[&str] = &["until", "till", "up until", "til", "up to when", "right until", "until such time as", "until the moment"];
-pub(super) const WHILE: &[&str] = &["while", "as long as", "so long as", "for as long as", "for so long as", "whilst", "all the while"];
+pub(super) const UNLESS: &[&str] =
+    &["unless", "if not", "except if", "except when", "but not if", "so long as not"];
+pub(super) const UNTIL: &[&str] = &[
+    "until",
+    "till",
+    "up until",
+    "til",
+    "up to when",
+    "right until",
+    "until such time as",
+    "until the moment",
+];
+pub(super) const WHILE: &[&str] =
+    &["while", "as long as", "so long as", "for as long as", "for so long as", "whilst", "all the while"];
+#[rustfmt::skip]
 pub(super) const WHEN: &[&str] = &[
-    "when",
-    "whenever",
-    "once",
-    "as soon as",
-    "after",
-    "upon",
-    "the moment",
-    "right after",
-    "immediately after",
-    "the instant",
-    "the minute",
-    "directly after",
-    "just after",
-    "straight after",
-    "as soon as ever",
-    "every time",
-    "each time",
-    "on reaching",
-    "on arriving at",
-    "on getting to",
-    "on arrival at",
-    "upon reaching",
-    "upon arriving at",
-    "upon arrival at",
-    "arriving at",
-    "reaching",
-    "on your arrival at",
+    "when", "whenever", "once", "as soon as", "after", "upon", "the moment", "right after", "immediately after",
+    "the instant", "the minute", "directly after", "just after", "straight after", "as soon as ever",
+    "every time", "each time", "on reaching", "on arriving at", "on getting to", "on arrival at",
+    "upon reaching", "upon arriving at", "upon arrival at", "arriving at", "reaching", "on your arrival at",
 ];
 /// What begins an order that goes on.
+#[rustfmt::skip]
 pub(super) const GOES_ON: &[&str] = &[
-    "keep",
-    "keep on",
-    "continue",
-    "continue to",
-    "go on",
-    "carry on",
-    "dont stop",
-    "do not stop",
-    "never stop",
-    "dont quit",
-    "keep up",
-    "dont cease",
+    "keep", "keep on", "continue", "continue to", "go on", "carry on", "dont stop", "do not stop", "never stop",
+    "dont quit", "keep up", "dont cease",
 ];
 /// Being somewhere, which one has to go to first: "once you are at the bench, sit down".
+#[rustfmt::skip]
 const REACHING: &[&str] = &[
-    "you reach",
-    "you have reached",
-    "youve reached",
-    "you get to",
-    "you have got to",
-    "youve got to",
-    "you are at",
-    "youre at",
-    "you arrive at",
-    "you have arrived at",
-    "youve arrived at",
-    "you come to",
-    "you are next to",
-    "youre next to",
-    "you are beside",
-    "youre beside",
-    "you are near",
-    "youre near",
-    "you make it to",
-    "reaching",
-    "arriving at",
-    "getting to",
-    "at",
-    "you are by",
-    "you get there to",
-    "reach",
-    "arrival at",
-    "you stand at",
-    "we reach",
-    "we get to",
-    "were at",
+    "you reach", "you have reached", "youve reached", "you get to", "you have got to", "youve got to",
+    "you are at", "youre at", "you arrive at", "you have arrived at", "youve arrived at", "you come to",
+    "you are next to", "youre next to", "you are beside", "youre beside", "you are near", "youre near",
+    "you make it to", "reaching", "arriving at", "getting to", "at", "you are by", "you get there to", "reach",
+    "arrival at", "you stand at", "we reach", "we get to", "were at",
 ];
 /// What begins what else is done, and what says so of the condition itself.
-const ELSE: &[&str] = &["otherwise", "else", "or else", "if not", "or", "failing that", "if that fails", "in any other case", "in all other cases",
-    "should that not be so", "and if not", "but if not", "and otherwise", "but otherwise", "if thats not the case", "if that is not the case", "in the other case"];
+#[rustfmt::skip]
+const ELSE: &[&str] = &[
+    "otherwise", "else", "or else", "if not", "or", "failing that", "if that fails", "in any other case",
+    "in all other cases", "should that not be so", "and if not", "but if not", "and otherwise", "but otherwise",
+    "if thats not the case", "if that is not the case", "in the other case",
+];
 
 impl Parser<'_> {
     /// A block, if one begins here.
     pub(super) fn block(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        for rule in [Self::conditional, Self::timed, Self::placed, Self::lasting, Self::sequential, Self::repeated] {
+        for rule in
+            [Self::conditional, Self::timed, Self::placed, Self::lasting, Self::sequential, Self::repeated]
+        {
             let start = self.at;
             if let Some(clauses) = rule(self)? {
                 return Ok(Some(clauses));
@@ -150,8 +90,29 @@ impl Parser<'_> {
         }
         if let Some(test) = self.asked() {
             self.skip_joints();
-            const SO: &[&str] = &["if so", "if yes", "in that case", "if it is", "if they are", "if he is", "if she is", "then", "if there is", "if it does"];
-            const NOT_SO: &[&str] = &["if not", "if it isnt", "if it is not", "if its not", "if no", "if there isnt", "if there is not", "if he isnt", "if she isnt"];
+            const SO: &[&str] = &[
+                "if so",
+                "if yes",
+                "in that case",
+                "if it is",
+                "if they are",
+                "if he is",
+                "if she is",
+                "then",
+                "if there is",
+                "if it does",
+            ];
+            const NOT_SO: &[&str] = &[
+                "if not",
+                "if it isnt",
+                "if it is not",
+                "if its not",
+                "if no",
+                "if there isnt",
+                "if there is not",
+                "if he isnt",
+                "if she isnt",
+            ];
             let not = self.eat_any(NOT_SO);
             if not || self.eat_any(SO) {
                 let test = if not { Test::Not(Box::new(test)) } else { test };
@@ -186,8 +147,13 @@ impl Parser<'_> {
             return Ok(None);
         }
         if self.eat_any(&["after", "in", "within"])
-            && let Some((seconds, count)) = numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0)
-            && longest_phrase(&self.rest()[count..], &["have passed", "has passed", "have gone by", "pass", "passes", "are over", "have elapsed"]).is_none()
+            && let Some((seconds, count)) =
+                numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0)
+            && longest_phrase(
+                &self.rest()[count..],
+                &["have passed", "has passed", "have gone by", "pass", "passes", "are over", "have elapsed"],
+            )
+            .is_none()
         {
             self.at += count;
             self.eat_any(&["time", "from now"]);
@@ -197,17 +163,6 @@ impl Parser<'_> {
             return Ok(Some(clauses));
         }
         Ok(None)
-    }
-
-    /// "For ten seconds", "for the next minute", before what is done so long.
-    fn peek_span(&self) -> Option<(f64, usize)> {
-        let words = longest_phrase(self.rest(), &["for", "for the next", "over the next", "during the next", "for the space of", "for a period of"])?;
-        let (seconds, count) = numbers::duration(&self.rest()[words..]).filter(|(seconds, _)| *seconds > 0.0).or_else(|| {
-            // "For the next minute".
-            let one = [Lexeme { token: Token::Word("one".to_owned()), lemma: None, start: 0, end: 0 }, self.rest().get(words)?.clone()];
-            numbers::duration(&one).map(|(seconds, count)| (seconds, count - 1))
-        })?;
-        (seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
     }
 
     /// "At the next light", "on the way to the museum".
@@ -224,22 +179,24 @@ impl Parser<'_> {
         }
         // "Having a look at it" is an order of its own.
         let has = self.peeks("having") && longest_verb(self.rest()).is_some_and(|(_, words)| words > 1);
-        if !has && self.eat_any(&[
-            "having",
-            "start by",
-            "begin by",
-            "start off by",
-            "start with",
-            "begin with",
-            "finish by",
-            "end by",
-            "finish off by",
-            "continue by",
-            "start out by",
-            "kick off by",
-            "end with",
-            "finish with",
-        ]) {
+        if !has
+            && self.eat_any(&[
+                "having",
+                "start by",
+                "begin by",
+                "start off by",
+                "start with",
+                "begin with",
+                "finish by",
+                "end by",
+                "finish off by",
+                "continue by",
+                "start out by",
+                "kick off by",
+                "end with",
+                "finish with",
+            ])
+        {
             if longest_verb(self.rest()).is_none()
                 && let Some(clauses) = self.visited()
             {
@@ -261,8 +218,19 @@ impl Parser<'_> {
             let test = Test::Not(Box::new(self.test()?));
             self.skip_joints();
             let start = self.at;
-            if self.eat_any(&["wait", "stop", "stand still", "stay", "wait here", "stand", "stay put", "stay where you are", "stay here", "dont move", "remain where you are"])
-                && self.ends_clause()
+            if self.eat_any(&[
+                "wait",
+                "stop",
+                "stand still",
+                "stay",
+                "wait here",
+                "stand",
+                "stay put",
+                "stay where you are",
+                "stay here",
+                "dont move",
+                "remain where you are",
+            ]) && self.ends_clause()
             {
                 return Ok(Some(vec![Clause::Until { test, body: Vec::new() }]));
             }
@@ -311,14 +279,26 @@ impl Parser<'_> {
             return self.keep().map(Some);
         }
         self.at = start;
-        self.eat_any(&["repeat", "repeat this", "do this", "do the following", "repeat the following", "do it", "do all this", "do all of this", "do the next thing", "do the same"]);
+        self.eat_any(&[
+            "repeat",
+            "repeat this",
+            "do this",
+            "do the following",
+            "repeat the following",
+            "do it",
+            "do all this",
+            "do all of this",
+            "do the next thing",
+            "do the same",
+        ]);
         if let Some((times, count)) = numbers::times(self.rest()) {
             self.at += count;
             // "Repeat three times: ..." is about all that follows.
             let colon = matches!(self.rest(), [Lexeme { token: Token::Break, .. }, ..]);
             self.skip_joints();
             self.eat_any(&["do the following", "do this"]);
-            let colon = self.skip_joints() && matches!(self.lexemes[self.at - 1].token, Token::Break) || colon;
+            let colon =
+                self.skip_joints() && matches!(self.lexemes[self.at - 1].token, Token::Break) || colon;
             let extent = if colon { Extent::Sentence } else { Extent::Group };
             let body = self.orders(extent)?;
             if body.is_empty() {
@@ -345,7 +325,8 @@ impl Parser<'_> {
         let end = self.at;
         self.skip_joints();
         let mut otherwise = Vec::new();
-        if self.eat_any(ELSE) || self.denied() {
+        let negative = matches!(test, Test::Not(_));
+        if self.eat_any(ELSE) || self.denied() || negative && self.affirmed() {
             self.skip_joints();
             otherwise = self.orders(Extent::Group)?;
         } else {
@@ -359,11 +340,45 @@ impl Parser<'_> {
         let start = self.at;
         self.eat_any(&["and", "but"]);
         let subject = self.eat_any(&["if", "when", "in case"])
-            && self.eat_any(&["it", "he", "she", "they", "there", "you", "that", "its", "this", "shes", "hes", "theyre", "youre"]);
+            && self.eat_any(&[
+                "it", "he", "she", "they", "there", "you", "that", "its", "this", "shes", "hes", "theyre",
+                "youre",
+            ]);
         let denied = subject
-            && self.eat_any(&["doesnt", "does not", "isnt", "is not", "not", "arent", "are not", "dont", "do not", "cant", "cannot", "hasnt", "has not", "havent", "wont", "aint"]);
+            && self.eat_any(&[
+                "doesnt", "does not", "isnt", "is not", "not", "arent", "are not", "dont", "do not", "cant",
+                "cannot", "hasnt", "has not", "havent", "wont", "aint",
+            ]);
         self.eat_any(&["so", "there", "the case", "any"]);
         if denied && self.ends_at_mark() || denied && longest_verb(self.rest()).is_some() {
+            return true;
+        }
+        self.at = start;
+        false
+    }
+
+    /// "If it is", after "if it isn't raining".
+    fn affirmed(&mut self) -> bool {
+        let start = self.at;
+        self.eat_any(&["and", "but"]);
+        let yes = self.eat_any(&[
+            "if so",
+            "if it is",
+            "if it does",
+            "if they are",
+            "if there is",
+            "if he is",
+            "if she is",
+            "if you do",
+            "if you can",
+            "if it has",
+            "if you are",
+            "if yes",
+            "if its",
+            "when it does",
+            "when it is",
+        ]);
+        if yes && (self.ends_at_mark() || longest_verb(self.rest()).is_some()) {
             return true;
         }
         self.at = start;
@@ -389,35 +404,24 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         self.at = start;
-        self.eat_any(&["you", "you have", "youve", "you are", "you had", "having", "being", "youre", "we have", "weve", "you get", "being done"]);
+        self.eat_any(&[
+            "you",
+            "you have",
+            "youve",
+            "you are",
+            "you had",
+            "having",
+            "being",
+            "youre",
+            "we have",
+            "weve",
+            "you get",
+            "being done",
+        ]);
         if let Some(there) = self.visited() {
             return Ok(there);
         }
         self.statement()
-    }
-
-    /// "After the school": a place where one was before.
-    fn visited(&mut self) -> Option<Vec<Clause>> {
-        let start = self.at;
-        let names_place = longest_verb(self.rest()).is_none();
-        let to = if names_place { self.reference(0).ok() } else { None };
-        let is_place = to.as_ref().is_some_and(|to| !matches!(to.target, Target::It | Target::Them | Target::Here | Target::There));
-        let Some(to) = to.filter(|_| is_place) else {
-            self.at = start;
-            return None;
-        };
-        self.skip_joints();
-        let mut clauses = vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }];
-        match self.statement() {
-            Ok(more) => {
-                clauses.extend(more);
-                Some(clauses)
-            }
-            Err(_) => {
-                self.at = start;
-                None
-            }
-        }
     }
 
     /// After "keep": an order that goes on.
@@ -427,45 +431,5 @@ impl Parser<'_> {
             body = vec![Clause::Forward];
         }
         Ok(body)
-    }
-
-    fn word_before(&self) -> &str {
-        match self.at.checked_sub(1).map(|at| &self.lexemes[at].token) {
-            Some(Token::Word(word)) => word,
-            _ => "",
-        }
-    }
-
-    /// "At the statue, turn left", "on the red bench: ...": where one goes for what follows.
-    pub(super) fn fronted_place(&mut self) -> Option<Vec<Clause>> {
-        const PLACED: &[&str] = &[
-            "at", "on", "in", "by", "near", "next to", "beside", "inside", "outside", "in front of", "over at", "down at", "up at", "over by", "from", "under",
-            "opposite", "close to", "behind", "over to", "off to", "to", "up to", "down to", "across to", "back to", "away to", "into", "back at",
-        ];
-        let start = self.at;
-        if !self.eat_any(PLACED) {
-            return None;
-        }
-        let to: Option<Reference> = self.reference(0).ok();
-        let marked = to.is_some() && (self.ends_at_mark() || longest_verb(self.rest()).is_some());
-        if marked {
-            let mark = self.at;
-            let heads = matches!(self.rest().first(), Some(Lexeme { token: Token::Break, .. }));
-            self.skip_joints();
-            if self.at < self.lexemes.len()
-                && let Ok(more) = self.statement()
-            {
-                if heads {
-                    self.at = mark; // what follows a colon is a list of its own
-                    return to.map(|to| vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
-                }
-                let mut clauses: Vec<Clause> =
-                    to.into_iter().map(|to| Clause::Go { to, side: None, pace: Pace::Usual, within: None }).collect();
-                clauses.extend(more);
-                return Some(clauses);
-            }
-        }
-        self.at = start;
-        None
     }
 }

@@ -10,33 +10,12 @@ use super::politeness::NEGATIONS;
 use super::verbs::longest_verb;
 
 /// What says that the order before was a slip.
+#[rustfmt::skip]
 const CORRECTIONS: &[&str] = &[
-    "no wait",
-    "wait no",
-    "no sorry",
-    "sorry no",
-    "sorry i mean",
-    "sorry i meant",
-    "no i mean",
-    "no i meant",
-    "i mean",
-    "i meant",
-    "or rather",
-    "make that",
-    "no make that",
-    "actually make that",
-    "actually no",
-    "no actually",
-    "scratch that",
-    "strike that",
-    "correction",
-    "on second thoughts",
-    "on second thought",
-    "change of plan",
-    "no hang on",
-    "hang on no",
-    "forget that",
-    "better still",
+    "no wait", "wait no", "no sorry", "sorry no", "sorry i mean", "sorry i meant", "no i mean", "no i meant",
+    "i mean", "i meant", "or rather", "make that", "no make that", "actually make that", "actually no",
+    "no actually", "scratch that", "strike that", "correction", "on second thoughts", "on second thought",
+    "change of plan", "no hang on", "hang on no", "forget that", "better still",
 ];
 /// What is not to be done, behind what is.
 const INSTEAD: &[&str] = &["instead of", "rather than", "and not", "not", "in place of", "as opposed to"];
@@ -49,7 +28,9 @@ impl Parser<'_> {
             self.at += 1;
         }
         let marked = self.at > start;
-        let lone_no = marked && self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. }));
+        let lone_no = marked
+            && self.peeks("no")
+            && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. }));
         if lone_no {
             self.at += 1;
         } else if !self.eat_any(CORRECTIONS) {
@@ -73,12 +54,16 @@ impl Parser<'_> {
         if self.eat_any(INSTEAD) {
             self.eat_any(&["to", "at", "on", "in", "from", "with", "into"]);
             let at = self.at;
-            let named = longest_verb(self.rest()).is_none() && self.reference(0).is_ok() && self.ends_clause();
+            let named =
+                longest_verb(self.rest()).is_none() && self.reference(0).is_ok() && self.ends_clause();
             if named {
                 return true;
             }
             self.at = at;
-            if self.lexemes.get(at).is_some_and(|lexeme| lexeme.lemma.is_some()) && self.order().is_ok() && self.ends_clause() {
+            if self.lexemes.get(at).is_some_and(|lexeme| lexeme.lemma.is_some())
+                && self.order().is_ok()
+                && self.ends_clause()
+            {
                 return true;
             }
         }
@@ -98,9 +83,15 @@ impl Parser<'_> {
                 self.eat_any(&["to", "at"]);
                 self.reference(0).is_ok()
             };
-            let mark = matches!(self.rest().first().map(|lexeme| &lexeme.token), Some(Token::Comma | Token::Break))
-                || longest_phrase(self.rest(), &["but"]).is_some();
-            if understood && mark && self.skip_joints() && self.at < self.lexemes.len() && longest_phrase(self.rest(), NEGATIONS).is_none() {
+            let mark =
+                matches!(self.rest().first().map(|lexeme| &lexeme.token), Some(Token::Comma | Token::Break))
+                    || longest_phrase(self.rest(), &["but"]).is_some();
+            if understood
+                && mark
+                && self.skip_joints()
+                && self.at < self.lexemes.len()
+                && longest_phrase(self.rest(), NEGATIONS).is_none()
+            {
                 return Some(());
             }
         }

@@ -6,139 +6,90 @@ use simworld_core::seam::PlanError;
 use super::clause::{Choice, Count, Reference, Side, Stands, Target};
 use super::lexer::Token;
 use super::lexicon::{
-    COPULAS, DETERMINERS, RELATIONS, SIDES, category, fits, longest, longest_phrase,
+    COPULAS, DETERMINERS, MOSTS, RELATIONS, SIDES, category, fits, longest, longest_phrase,
 };
 use super::modifiers::FREE;
 use super::parser::Parser;
 use super::reference::{DEEPEST, DOOR_STATES};
 
 /// What is said of anything that is about.
+#[rustfmt::skip]
 const YOU_SEE: &[&str] = &[
-    "you see",
-    "that you see",
-    "you can see",
-    "that you can see",
-    "you find",
-    "that you find",
-    "you can find",
-    "you come to",
-    "you come across",
-    "you spot",
-    "there is",
-    "in sight",
-    "in view",
-    "in the area",
-    "there are",
-    "that there is",
-    "that there are",
-    "lying about",
-    "lying around",
-    "standing about",
-    "standing around",
+    "you see", "that you see", "you can see", "that you can see", "you find", "that you find", "you can find",
+    "you come to", "you come across", "you spot", "there is", "in sight", "in view", "in the area", "there are",
+    "that there is", "that there are", "lying about", "lying around", "standing about", "standing around",
     "around here",
 ];
 /// Before what is sold somewhere.
+#[rustfmt::skip]
 const SELLING: &[&str] = &[
-    "that sells",
-    "which sells",
-    "selling",
-    "that sell",
-    "where they sell",
-    "where you can buy",
-    "where you can get",
-    "where you get",
-    "where i can get",
-    "where i can buy",
-    "who sells",
-    "that has",
+    "that sells", "which sells", "selling", "that sell", "where they sell", "where you can buy",
+    "where you can get", "where you get", "where i can get", "where i can buy", "who sells", "that has",
     "which has",
 ];
 /// Nobody uses it.
+#[rustfmt::skip]
 const UNUSED: &[&str] = &[
-    "where nobody sits",
-    "where nobody is sitting",
-    "where no one sits",
-    "where no one is sitting",
-    "that nobody is sitting on",
-    "that no one is sitting on",
-    "nobody is sitting on",
-    "no one is sitting on",
-    "that nobody uses",
-    "that nobody is using",
-    "nobody is using",
-    "with nobody on it",
-    "with no one on it",
+    "where nobody sits", "where nobody is sitting", "where no one sits", "where no one is sitting",
+    "that nobody is sitting on", "that no one is sitting on", "nobody is sitting on", "no one is sitting on",
+    "that nobody uses", "that nobody is using", "nobody is using", "with nobody on it", "with no one on it",
     "without anybody on it",
 ];
 const IN_USE: &[&str] = &["taken", "occupied", "in use", "used"];
 /// The least distance, with nothing or "to" something behind it.
+#[rustfmt::skip]
 const NEAR_MOST: &[&str] = &[
-    "nearest",
-    "closest",
-    "nearest you",
-    "closest to you",
-    "nearest to you",
-    "near you",
-    "close to you",
-    "nearby",
-    "close by",
-    "closest to me",
-    "nearest to me",
-    "near me",
-    "near here",
-    "nearer",
-    "closer",
-    "nearer to you",
-    "closer to you",
-    "next to you",
-    "beside you",
-    "by you",
+    "nearest", "closest", "nearest you", "closest to you", "nearest to you", "near you", "close to you",
+    "nearby", "close by", "closest to me", "nearest to me", "near me", "near here", "nearer", "closer",
+    "nearer to you", "closer to you", "next to you", "beside you", "by you", "closest to here",
+    "nearest to here", "nearest here", "closest to where you are", "nearest to where you are",
+    "closest to where you stand", "nearest to where you stand", "closest to your position",
+    "nearest to your position", "nearer to here", "closer to here",
 ];
 /// The greatest.
+#[rustfmt::skip]
 const FAR_MOST: &[&str] = &[
-    "farthest away",
-    "furthest away",
-    "farthest from you",
-    "furthest from you",
-    "most distant",
-    "farthest",
-    "furthest",
-    "farthest away from you",
-    "farthest from here",
-    "furthest from here",
-    "farthest from me",
-    "furthest from me",
-    "farthest away from here",
-    "furthest away from here",
-    "furthest away from you",
-    "farther",
-    "further",
-    "farther away",
-    "further away",
-    "farther off",
-    "further off",
-    "furthest off",
-    "farthest off",
-    "most distant from you",
+    "farthest away", "furthest away", "farthest from you", "furthest from you", "most distant", "farthest",
+    "furthest", "farthest away from you", "farthest from here", "furthest from here", "farthest from me",
+    "furthest from me", "farthest away from here", "furthest away from here", "furthest away from you",
+    "farther", "further", "farther away", "further away", "farther off", "further off", "furthest off",
+    "farthest off", "most distant from you",
 ];
 const SUPERLATIVES: &[&str] =
     &["nearest", "closest", "farthest", "furthest", "nearer", "closer", "farther", "further", "most distant"];
 /// Sides farthest out, behind the noun.
+#[rustfmt::skip]
 const OUTERMOST: &[(&[&str], Side)] = &[
-    (&["on the far left", "furthest to the left", "farthest to the left", "furthest left", "most to the left"], Side::Left),
-    (&["on the far right", "furthest to the right", "farthest to the right", "furthest right", "most to the right"], Side::Right),
+    (&["on the far left", "furthest to the left", "farthest to the left", "furthest left", "most to the left"],
+    Side::Left),
+    (&["on the far right", "furthest to the right", "farthest to the right", "furthest right",
+    "most to the right"], Side::Right),
 ];
 /// What makes a place no more exact.
+#[rustfmt::skip]
 const LOOSELY: &[&str] = &[
-    "right", "just", "directly", "over", "up", "down", "still", "currently", "back", "out", "all the way", "somewhere", "over there", "right there",
-    "up there", "down there", "out there", "back there", "immediately", "straight",
+    "right", "just", "directly", "over", "up", "down", "still", "currently", "back", "out", "all the way",
+    "somewhere", "over there", "right there", "up there", "down there", "out there", "back there",
+    "immediately", "straight",
 ];
 /// What begins with "by" and the like, and names nothing beside which something stands.
-const WAYS: &[&str] =
-    &["by way of", "by the shortest", "by the quickest", "by the fastest", "by the most direct", "by car", "by foot", "by bus", "by taxi",
-      "by scooter", "by bike", "by bicycle", "by cab"];
+#[rustfmt::skip]
+const WAYS: &[&str] = &[
+    "by way of", "by the shortest", "by the quickest", "by the fastest", "by the most direct", "by car",
+    "by foot", "by bus", "by taxi", "by scooter", "by bike", "by bicycle", "by cab",
+];
 /// Which are not meant.
-const EXCEPT: &[&str] = &["except", "except for", "other than", "apart from", "excluding", "but not", "save for", "with the exception of", "besides"];
+const EXCEPT: &[&str] = &[
+    "except",
+    "except for",
+    "other than",
+    "apart from",
+    "excluding",
+    "but not",
+    "save for",
+    "with the exception of",
+    "besides",
+];
 
 impl Reference {
     /// The door that one closes behind oneself is behind nobody yet.
@@ -166,7 +117,8 @@ impl Parser<'_> {
             if copula && longest_phrase(self.rest().get(1..).unwrap_or_default(), SUPERLATIVES).is_some() {
                 self.eat_any(&["the"]); // "the bench that is the farthest"
             }
-            let likeness = copula && !plain_is && self.likeness_behind(reference);
+            let likeness = copula && !plain_is && self.likeness_behind(reference)
+                || copula && !self.in_test && self.most_behind(reference);
             if likeness
                 || self.use_behind(reference)
                 || self.nearest_behind(reference, start, depth)?
@@ -233,6 +185,19 @@ impl Parser<'_> {
         false
     }
 
+    /// "... that is the shortest".
+    fn most_behind(&mut self, reference: &mut Reference) -> bool {
+        let start = self.at;
+        self.eat_any(&["the"]);
+        if let Some(((measure, most), words)) = longest(self.rest(), MOSTS).filter(|_| self.at > start) {
+            self.at += words;
+            reference.choose(Choice::Most(measure, most));
+            return true;
+        }
+        self.at = start;
+        false
+    }
+
     fn use_behind(&mut self, reference: &mut Reference) -> bool {
         let unused = self.eat_any(UNUSED);
         reference.traits.free |= unused;
@@ -241,11 +206,18 @@ impl Parser<'_> {
     }
 
     /// "... nearest to the museum", "... nearby".
-    fn nearest_behind(&mut self, reference: &mut Reference, start: usize, depth: u32) -> Result<bool, PlanError> {
+    fn nearest_behind(
+        &mut self,
+        reference: &mut Reference,
+        start: usize,
+        depth: u32,
+    ) -> Result<bool, PlanError> {
         if !self.eat_any(NEAR_MOST) {
             return Ok(false);
         }
-        let bare = ["nearest", "closest", "nearer", "closer"].iter().any(|word| fits(&self.lexemes[self.at - 1..], word).is_some());
+        let bare = ["nearest", "closest", "nearer", "closer"]
+            .iter()
+            .any(|word| fits(&self.lexemes[self.at - 1..], word).is_some());
         if bare
             && self.at > start
             && let Some(anchor) = self.bare_anchor(depth)
@@ -274,6 +246,11 @@ impl Parser<'_> {
         if !self.eat_any(FAR_MOST) {
             return Ok(false);
         }
+        self.eat_any(&["to the", "in the"]);
+        if let Some(compass) = self.compass() {
+            reference.choose(Choice::Compass(compass));
+            return Ok(true);
+        }
         if self.eat_any(&["from", "away from"]) {
             let anchor = self.reference(depth + 1)?;
             reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
@@ -299,7 +276,9 @@ impl Parser<'_> {
             reference.choose(Choice::Middle);
             return true;
         }
-        if reference.choice != Choice::Open && self.eat_any(&["of all", "of them all", "of the lot", "of them", "of all of them"]) {
+        if reference.choice != Choice::Open
+            && self.eat_any(&["of all", "of them all", "of the lot", "of them", "of all of them"])
+        {
             return true;
         }
         let than = self.comparison();
@@ -364,7 +343,14 @@ impl Parser<'_> {
             Ok(Some(found)) => Some(found),
             Ok(None) => self.right_at(reference, depth),
             // What follows "and" may be an order of its own.
-            Err(_) if self.lexemes.get(start).is_some_and(|lexeme| lexeme.token == Token::Word("and".to_owned())) => None,
+            Err(_)
+                if self
+                    .lexemes
+                    .get(start)
+                    .is_some_and(|lexeme| lexeme.token == Token::Word("and".to_owned())) =>
+            {
+                None
+            }
             Err(error) => return Err(error),
         };
         let Some(found) = found else {
@@ -386,12 +372,17 @@ impl Parser<'_> {
     fn right_at(&mut self, reference: &Reference, depth: u32) -> Option<Stands> {
         const BROUGHT: &[EntityKind] = &[EntityKind::Parcel, EntityKind::Prop, EntityKind::Cone];
         let Target::Any(class) = &reference.target else { return None };
-        if self.view.streets.is_some() || class.is_place() || class.is_area() || class.kinds().iter().any(|kind| BROUGHT.contains(kind)) {
+        if self.view.streets.is_some()
+            || class.is_place()
+            || class.is_area()
+            || class.kinds().iter().any(|kind| BROUGHT.contains(kind))
+        {
             return None;
         }
         let start = self.at;
         let person = class.kinds().contains(&EntityKind::Person);
-        let at = self.eat_any(&["at", "over at", "up at", "down at", "outside of"]) || person && self.eat_any(&["on", "in", "sitting on", "with"]);
+        let at = self.eat_any(&["at", "over at", "up at", "down at", "outside of"])
+            || person && self.eat_any(&["on", "in", "sitting on", "with"]);
         let anchor = if at { self.bare_anchor(depth) } else { None };
         if anchor.is_none() {
             self.at = start;
@@ -425,7 +416,8 @@ impl Parser<'_> {
             return Ok(Some(stands));
         }
         let side = longest(self.rest(), SIDES);
-        let relation = longest(self.rest(), RELATIONS).filter(|_| longest_phrase(self.rest(), WAYS).is_none());
+        let relation =
+            longest(self.rest(), RELATIONS).filter(|_| longest_phrase(self.rest(), WAYS).is_none());
         if let Some((side, count)) =
             side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words))
         {

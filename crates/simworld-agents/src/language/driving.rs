@@ -10,6 +10,7 @@ use simworld_core::seam::{Goal, PlanError, PlanStep};
 
 use super::clause::{Clause, Course, Lights, Pace, Reference, Spot};
 use super::draft::{AT_POINT, Draft, Posture};
+use super::lexer::Token;
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
@@ -40,21 +41,11 @@ impl Parser<'_> {
             "signals",
             "set of traffic lights",
         ];
+        #[rustfmt::skip]
         const JUNCTIONS: &[&str] = &[
-            "junction",
-            "intersection",
-            "crossroads",
-            "crossroad",
-            "corner",
-            "crossing",
-            "turning",
-            "turn",
-            "street corner",
-            "side street",
-            "street",
-            "road",
-            "opportunity",
-            "turnoff",
+            "junction", "intersection", "crossroads", "crossroad", "corner", "crossing", "turning", "turn",
+            "street corner", "side street", "street", "road", "opportunity", "turnoff", "one", "one after",
+            "one after that", "one after it",
         ];
         let start = self.at;
         if !self.eat_any(&[
@@ -169,20 +160,10 @@ impl Parser<'_> {
 
     /// After "drive".
     pub(super) fn drive(&mut self) -> Result<Vec<Clause>, PlanError> {
+        #[rustfmt::skip]
         const TO: &[&str] = &[
-            "to",
-            "over to",
-            "towards",
-            "back to",
-            "up to",
-            "down to",
-            "all the way to",
-            "straight to",
-            "on to",
-            "as far as",
-            "me to",
-            "us to",
-            "yourself to",
+            "to", "over to", "towards", "back to", "up to", "down to", "all the way to", "straight to", "on to",
+            "as far as", "me to", "us to", "yourself to",
         ];
         let pace = self.pace(Pace::Usual)?;
         if self.eat_any(TO) {
@@ -239,6 +220,14 @@ impl Parser<'_> {
             && let Some((nth, lights)) = self.junction_passed().or_else(|| self.junction())
         {
             return Some(vec![Clause::TurnAt { turn: Turn::Straight, nth, lights }]);
+        }
+        let drives = self.view.scene.entity(self.view.who).is_some_and(|me| me.kind.is_vehicle());
+        let from = start.saturating_sub(2);
+        let straight = self.lexemes[from..self.at]
+            .iter()
+            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "straight"));
+        if drives && straight && self.ends_clause() && !self.goes_on() && self.peek_interval().is_none() {
+            return Some(vec![Clause::TurnAt { turn: Turn::Straight, nth: 1, lights: Lights::Any }]);
         }
         self.at = start;
         None

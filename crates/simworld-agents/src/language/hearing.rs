@@ -2,89 +2,31 @@
 
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{category, longest_phrase};
-use super::politeness::{FILLERS, HESITATIONS};
+use super::politeness::{HESITATIONS, filler};
 use super::verbs::longest_verb;
 
 /// Contractions of a verb and "not".
-const NEGATED: &[(&str, &str)] =
-    &[("isnt", "is"), ("arent", "are"), ("wasnt", "was"), ("aint", "is"), ("hasnt", "has"), ("doesnt", "does")];
+const NEGATED: &[(&str, &str)] = &[
+    ("isnt", "is"),
+    ("arent", "are"),
+    ("wasnt", "was"),
+    ("aint", "is"),
+    ("hasnt", "has"),
+    ("doesnt", "does"),
+];
 /// Words with "'s" that stand in the tables as they are.
 const WHOLE: &[&str] =
     &["its", "thats", "lets", "theres", "whos", "whats", "heres", "wheres", "hows", "todays"];
 /// What somebody or something may be: before it "'s" is "is", and not whose.
+#[rustfmt::skip]
 const STATES: &[&str] = &[
-    "here",
-    "there",
-    "green",
-    "red",
-    "yellow",
-    "amber",
-    "free",
-    "taken",
-    "occupied",
-    "empty",
-    "open",
-    "closed",
-    "shut",
-    "near",
-    "nearby",
-    "close",
-    "next",
-    "visible",
-    "in sight",
-    "in view",
-    "in use",
-    "available",
-    "busy",
-    "locked",
-    "unlocked",
-    "not",
-    "arrived",
-    "back",
-    "sitting",
-    "standing",
-    "gone",
-    "been",
-    "got",
-    "waiting",
-    "coming",
-    "lonely",
-    "sad",
-    "late",
-    "hungry",
-    "thirsty",
-    "bored",
-    "tired",
-    "ill",
-    "ready",
-    "alone",
-    "lost",
-    "in",
-    "on",
-    "at",
-    "by",
-    "behind",
-    "over",
-    "still",
-    "already",
-    "about",
-    "around",
-    "feeling",
-    "looking",
-    "asking",
-    "lying",
-    "parked",
-    "stopped",
-    "turned",
-    "become",
-    "come",
-    "dark",
-    "raining",
-    "snowing",
-    "dry",
-    "wet",
-    "closest",
-    "nearest",
+    "here", "there", "green", "red", "yellow", "amber", "free", "taken", "occupied", "empty", "open", "closed",
+    "shut", "near", "nearby", "close", "next", "visible", "in sight", "in view", "in use", "available", "busy",
+    "locked", "unlocked", "not", "arrived", "back", "sitting", "standing", "gone", "been", "got", "waiting",
+    "coming", "lonely", "sad", "late", "hungry", "thirsty", "bored", "tired", "ill", "ready", "alone", "lost",
+    "in", "on", "at", "by", "behind", "over", "still", "already", "about", "around", "feeling", "looking",
+    "asking", "lying", "parked", "stopped", "turned", "become", "come", "dark", "raining", "snowing", "dry",
+    "wet", "closest", "nearest",
 ];
 
 /// The tokens of what is said to somebody of that name.
@@ -177,7 +119,10 @@ fn in_full(lexemes: &[Lexeme], text: &str) -> Vec<Lexeme> {
             full.push(lexeme.clone());
             continue;
         };
-        let parts = if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
+        let written = &text[lexeme.start..lexeme.end];
+        let parts = if written.eq_ignore_ascii_case("we're") || written.eq_ignore_ascii_case("we’re") {
+            Some(("we".to_owned(), "are"))
+        } else if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
             Some(((*verb).to_owned(), "not"))
         } else {
             owner(word, lexeme, text).filter(|_| is_state(&lexemes[at + 1..])).map(|owner| (owner, "is"))
@@ -221,7 +166,8 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
         let begins = begins || called;
         let ends = end >= lexemes.len() || is_mark(end) || at == 0 && longest_verb(&lexemes[end..]).is_some();
         if same && begins && ends && lexemes.len() > name.len() {
-            let between = at > 0 && end < lexemes.len() && is_comma(lexemes, at - 1) && is_comma(lexemes, end);
+            let between =
+                at > 0 && end < lexemes.len() && is_comma(lexemes, at - 1) && is_comma(lexemes, end);
             lexemes.drain(at..end + usize::from(between));
         } else {
             at += 1;
@@ -231,7 +177,7 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
 
 /// Whether the words are politeness alone: "come on Rex, ...".
 fn is_polite(mut lexemes: &[Lexeme]) -> bool {
-    while let Some(count) = longest_phrase(lexemes, FILLERS) {
+    while let Some(count) = filler(lexemes) {
         lexemes = &lexemes[count..];
     }
     lexemes.is_empty()

@@ -8,12 +8,28 @@ use super::parser::Parser;
 use super::reference::DOOR_STATES;
 
 /// Between a superlative and what it chooses from.
-const OF_SEVERAL: &[&str] = &["of the", "of these", "of those", "of all the", "of all", "out of the", "among the"];
+const OF_SEVERAL: &[&str] =
+    &["of the", "of these", "of those", "of all the", "of all", "out of the", "among the"];
 pub(super) const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
-const INDEFINITE: &[&str] = &["a", "an", "any", "some", "one of the", "one of", "another", "either of the", "either", "any of the", "any one of the"];
+const INDEFINITE: &[&str] = &[
+    "a",
+    "an",
+    "any",
+    "some",
+    "one of the",
+    "one of",
+    "another",
+    "either of the",
+    "either",
+    "any of the",
+    "any one of the",
+];
 /// From the end of a row.
 const FROM_BEHIND: &[(&[&str], u32)] = &[
-    (&["last but one", "second to last", "second last", "next to last", "penultimate", "second from last"], 2),
+    (
+        &["last but one", "second to last", "second last", "next to last", "penultimate", "second from last"],
+        2,
+    ),
     (&["last but two", "third to last", "third last", "third from last"], 3),
     (&["last", "final", "very last", "endmost"], 1),
 ];
@@ -27,12 +43,15 @@ const OUTERMOST: &[(&[&str], Side)] = &[
 const HANDS: &[(&[&str], Side)] =
     &[(&["left hand", "left", "lefthand"], Side::Left), (&["right hand", "right", "righthand"], Side::Right)];
 /// What tells nothing from anything else of its class.
-const IDLE: &[&str] = &["very", "same", "said", "nice", "lovely", "dear", "good old", "absolute", "absolutely", "single"];
+const IDLE: &[&str] =
+    &["very", "same", "said", "nice", "lovely", "dear", "good old", "absolute", "absolutely", "single"];
 
 impl Parser<'_> {
     /// Articles, numbers, colours and superlatives before a noun.
     pub(super) fn modifiers(&mut self, reference: &mut Reference) {
-        while !self.stands_for_noun() && (self.quantity(reference) || self.selection(reference) || self.likeness(reference)) {}
+        while !self.stands_for_noun()
+            && (self.quantity(reference) || self.selection(reference) || self.likeness(reference))
+        {}
     }
 
     /// "The white one": no modifier, but what stands for a noun.
@@ -78,9 +97,14 @@ impl Parser<'_> {
             reference.place = reference.place.max(place);
             self.at += words;
         } else if let Some(nth) = self.peek_ordinal() {
-            reference.choose(Choice::Nth(nth));
             self.at += 1;
-        } else if self.eat_any(NEAREST) || longest_phrase(self.rest(), &["next"]).is_some_and(|words| self.noun_follows(words)) && self.eat_any(&["next"]) {
+            // "The first two doors" are the nearest.
+            let several = nth == 1 && numbers::count(self.rest()).is_some();
+            reference.choose(if several { Choice::Nearest } else { Choice::Nth(nth) });
+        } else if self.eat_any(NEAREST)
+            || longest_phrase(self.rest(), &["next"]).is_some_and(|words| self.noun_follows(words))
+                && self.eat_any(&["next"])
+        {
             reference.choose(Choice::Nearest);
         } else if let Some((place, words)) = longest(self.rest(), FROM_BEHIND) {
             reference.choose(Choice::Farthest);
@@ -96,14 +120,16 @@ impl Parser<'_> {
         } else if let Some((side, words)) = longest(self.rest(), OUTERMOST) {
             reference.choose(Choice::Side(side));
             self.at += words;
-        } else if let Some(words) = longest_phrase(self.rest(), MIDDLE).filter(|words| self.noun_follows(*words) || self.ends_after(*words)) {
+        } else if let Some(words) = longest_phrase(self.rest(), MIDDLE)
+            .filter(|words| self.noun_follows(*words) || self.ends_after(*words))
+        {
             reference.choose(Choice::Middle);
             self.at += words;
         } else if let Some(((measure, most), words)) = longest(self.rest(), MOSTS) {
             reference.choose(Choice::Most(measure, most));
             self.at += words;
-        } else if let Some((side, words)) =
-            longest(self.rest(), HANDS).filter(|(_, words)| self.noun_follows(*words) && reference.relation.is_none())
+        } else if let Some((side, words)) = longest(self.rest(), HANDS)
+            .filter(|(_, words)| self.noun_follows(*words) && reference.relation.is_none())
         {
             reference.relation = Some(Stands::Side(side));
             self.at += words;
@@ -166,7 +192,8 @@ impl Parser<'_> {
     fn noun_follows(&self, words: usize) -> bool {
         let after = self.rest().get(words..).unwrap_or_default();
         category(after).is_some()
-            || (self.class.is_some() || self.bearers.is_some()) && longest_phrase(after, &["one", "ones"]).is_some()
+            || (self.class.is_some() || self.bearers.is_some())
+                && longest_phrase(after, &["one", "ones"]).is_some()
     }
 
     /// Whether a name begins here with what else would be an adjective: "Blue Spoon", "Little Italy".

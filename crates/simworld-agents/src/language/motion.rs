@@ -23,102 +23,35 @@ pub(super) const LENGTHS: &[&str] = &[
     "a step",
 ];
 
+#[rustfmt::skip]
 const DIRECTIONS: &[(&[&str], StepDirection)] = &[
-    (
-        &[
-            "forward",
-            "forwards",
-            "ahead",
-            "straight ahead",
-            "straight",
-            "straight on",
-            "onward",
-            "onwards",
-            "straight forward",
-        ],
-        StepDirection::Forward,
-    ),
+    (&["forward", "forwards", "ahead", "straight ahead", "straight", "straight on", "onward", "onwards",
+    "straight forward"], StepDirection::Forward),
     (&["backward", "backwards", "to the rear"], StepDirection::Backward),
-    (&["left", "to the left", "to your left", "leftwards", "over to the left", "to the left side"], StepDirection::Left),
-    (&["right", "to the right", "to your right", "rightwards", "over to the right", "to the right side"], StepDirection::Right),
+    (&["left", "to the left", "to your left", "leftwards", "over to the left", "to the left side"],
+    StepDirection::Left),
+    (&["right", "to the right", "to your right", "rightwards", "over to the right", "to the right side"],
+    StepDirection::Right),
 ];
 
 /// What leads to a place.
+#[rustfmt::skip]
 const TOWARDS: &[&str] = &[
-    "to",
-    "too",
-    "towards",
-    "toward",
-    "up to",
-    "over to",
-    "into",
-    "in",
-    "onto",
-    "on",
-    "at",
-    "for",
-    "back to",
-    "down to",
-    "through",
-    "out to",
-    "right up to",
-    "straight to",
-    "as far as",
-    "all the way to",
-    "all the way up to",
-    "by",
-    "round to",
-    "along to",
-    "across to",
-    "off to",
-    "back into",
-    "inside",
-    "with",
-    "until",
-    "until you reach",
-    "until you get to",
-    "over at",
-    "over by",
-    "up at",
-    "down at",
-    "in on",
-    "in at",
-    "on over to",
-    "back over to",
-    "away to",
-    "home to",
-    "over towards",
-    "right over to",
-    "round by",
-    "round at",
-    "over into",
-    "down by",
-    "up by",
-    "out at",
-    "right to",
-    "back at",
-    "on",
-    "near to",
+    "to", "too", "towards", "toward", "up to", "over to", "into", "in", "onto", "on", "at", "for", "back to",
+    "down to", "through", "out to", "right up to", "straight to", "as far as", "all the way to",
+    "all the way up to", "by", "round to", "along to", "across to", "off to", "back into", "inside", "with",
+    "until", "until you reach", "until you get to", "over at", "over by", "up at", "down at", "in on", "in at",
+    "on over to", "back over to", "away to", "home to", "over towards", "right over to", "round by", "round at",
+    "over into", "down by", "up by", "out at", "right to", "back at", "on", "near to",
 ];
 
 /// Going between two places again and again.
+#[rustfmt::skip]
 const TO_AND_FRO: &[&str] = &[
-    "back and forth between",
-    "to and fro between",
-    "back and forth from",
-    "and forth between",
-    "and forth from",
-    "up and down between",
-    "and down between",
-    "backwards and forwards between",
-    "backward and forward between",
-    "and forwards between",
-    "to and fro from",
-    "back and forward between",
-    "backwards and forwards from",
-    "up and down from",
-    "back and fro between",
-    "hither and thither between",
+    "back and forth between", "to and fro between", "back and forth from", "and forth between",
+    "and forth from", "up and down between", "and down between", "backwards and forwards between",
+    "backward and forward between", "and forwards between", "to and fro from", "back and forward between",
+    "backwards and forwards from", "up and down from", "back and fro between", "hither and thither between",
 ];
 
 #[derive(Clone, Copy)]
@@ -252,7 +185,8 @@ impl Parser<'_> {
         let start = self.at;
         self.at += words;
         self.eat_any(&["to the", "away"]);
-        let side = longest(self.rest(), RELATIONS).is_some() || self.compass().is_some() && longest_phrase(self.rest(), &["of", "from"]).is_some();
+        let side = longest(self.rest(), RELATIONS).is_some()
+            || self.compass().is_some() && longest_phrase(self.rest(), &["of", "from"]).is_some();
         self.at = if side { start + words } else { start };
         side.then_some(length)
     }
@@ -281,6 +215,9 @@ impl Parser<'_> {
         }
         let other = self.reference(0)?;
         let begins_here = one.target == Target::Here;
+        if self.eat_any(&["and back again", "and back"]) {
+            return Ok(Some(vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }]));
+        }
         Ok(Some(if begins_here { vec![go(other)] } else { vec![go(one), go(other)] }))
     }
 
@@ -336,108 +273,6 @@ impl Parser<'_> {
         Ok(vec![Clause::Repeat { times: times.map_or(1, |(times, _)| times), body }])
     }
 
-    /// Words of speed.
-    pub(super) fn pace(&mut self, usual: Pace) -> Result<Pace, PlanError> {
-        const FAST: &[&str] = &[
-            "quickly",
-            "fast",
-            "in a hurry",
-            "as fast as you can",
-            "as quickly as possible",
-            "as fast as possible",
-            "rapidly",
-            "at a run",
-            "at full speed",
-            "at top speed",
-            "as quick as you can",
-            "as quickly as you can",
-            "at a jog",
-            "at speed",
-            "swiftly",
-            "speedily",
-            "very fast",
-            "very quickly",
-            "really fast",
-            "real fast",
-            "at a trot",
-            "in haste",
-            "hurriedly",
-            "double quick",
-        ];
-        const SLOW: &[&str] = &[
-            "slowly", "at a slow pace", "leisurely", "calmly", "carefully", "at a leisurely pace", "at a stroll", "very slowly", "nice and slowly", "unhurriedly", "at your leisure",
-            "slow", "without hurry", "without hurrying", "without haste", "at a gentle pace", "at an easy pace", "slowly and carefully", "in slow motion",
-        ];
-        if self.eat_any(SLOW) {
-            return Ok(Pace::Slow);
-        }
-        if self.eat_any(FAST) {
-            return Ok(Pace::Run);
-        }
-        let start = self.at;
-        if self.eat_any(&["at a speed of", "at a pace of", "with a speed of", "doing", "at about", "at"])
-            && numbers::number(self.rest()).is_some_and(|(_, words)| matches!(self.rest().get(words).map(|unit| &unit.token), Some(Token::Word(_))))
-        {
-            let in_digits = matches!(self.rest()[0].token, Token::Number(_));
-            match self.speed() {
-                Ok(speed) if in_digits || self.said_unit() => return Ok(Pace::At(speed)),
-                Err(error) if in_digits => return Err(error),
-                _ => {}
-            }
-        }
-        self.at = start;
-        Ok(usual)
-    }
-
-    /// Whether a unit of speed was said last.
-    fn said_unit(&self) -> bool {
-        let last = self.at.checked_sub(1).and_then(|at| self.lexemes.get(at));
-        matches!(last.map(|lexeme| &lexeme.token), Some(Token::Word(word))
-            if ["s", "h", "mps", "kmh", "kph", "second", "hour", "sec"].contains(&word.as_str()))
-    }
-
-    /// A speed, m/s.
-    pub(super) fn speed(&mut self) -> Result<f64, PlanError> {
-        let number_at = self.at;
-        if let Some((number, count)) = numbers::number(self.rest()) {
-            self.at += count;
-            let hourly = self.eat_any(&[
-                "km / h",
-                "kmh",
-                "kph",
-                "kilometres per hour",
-                "kilometers per hour",
-                "kilometres an hour",
-                "kilometers an hour",
-                "km an hour",
-                "km per hour",
-                "k an hour",
-                "ks an hour",
-            ]);
-            let _ = hourly
-                || self.eat_any(&[
-                    "m / s",
-                    "mps",
-                    "metres per second",
-                    "meters per second",
-                    "metres a second",
-                    "meters a second",
-                    "m a second",
-                    "m per second",
-                    "metre per second",
-                    "metre a second",
-                    "meter per second",
-                    "m / sec",
-                ]);
-            let speed = if hourly { number / 3.6 } else { number };
-            if (0.1..=50.0).contains(&speed) {
-                return Ok(speed);
-            }
-            self.at = number_at;
-        }
-        Err(self.not_understood("give a speed from 0.1 to 50 m/s"))
-    }
-
     /// "next to", "behind" and so on before a place.
     pub(super) fn side(&mut self) -> Option<Relation> {
         let (relation, count) = longest(self.rest(), RELATIONS)?;
@@ -451,7 +286,23 @@ impl Parser<'_> {
         let back = longest_phrase(self.rest(), &["back"]).is_some()
             && numbers::number(&self.rest()[1..])
                 .is_some_and(|(_, count)| longest_phrase(&self.rest()[1 + count..], LENGTHS).is_some());
-        if self.peeks_halfway() || longest_phrase(self.rest(), &["right up", "right in", "right at", "right over", "right to", "right by", "right next", "right beside", "right behind"]).is_some() {
+        if self.peeks_halfway()
+            || longest_phrase(
+                self.rest(),
+                &[
+                    "right up",
+                    "right in",
+                    "right at",
+                    "right over",
+                    "right to",
+                    "right by",
+                    "right next",
+                    "right beside",
+                    "right behind",
+                ],
+            )
+            .is_some()
+        {
             return false;
         }
         let on = self.peeks("for") && numbers::walked(&self.rest()[1..]).is_some();
@@ -489,7 +340,9 @@ impl Parser<'_> {
             measured = numbers::length(self.rest()).is_some();
             self.at += words;
             distance = length;
-        } else if let Some((number, words)) = numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none()) {
+        } else if let Some((number, words)) =
+            numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none())
+        {
             self.at += words;
             distance = number;
         } else {
@@ -568,7 +421,14 @@ impl Parser<'_> {
         if self.eat_any(&["the right", "your right", "right"]) {
             return Ok(Clause::Turn { angle: -FRAC_PI_2 });
         }
-        if self.eat_any(&["the other way", "the opposite way", "the other direction", "the opposite direction", "backwards", "the other way round"]) {
+        if self.eat_any(&[
+            "the other way",
+            "the opposite way",
+            "the other direction",
+            "the opposite direction",
+            "backwards",
+            "the other way round",
+        ]) {
             return Ok(Clause::Turn { angle: PI });
         }
         if let Some(compass) = self.compass() {
@@ -594,7 +454,9 @@ impl Parser<'_> {
         if self.eat_any(&["behind you", "behind yourself", "over your shoulder", "back over your shoulder"]) {
             return Ok(Clause::Turn { angle: PI });
         }
-        if let Some(speaker) = self.view.speaker.filter(|_| self.eat_any(&["here", "over here", "up here", "this way"])) {
+        if let Some(speaker) =
+            self.view.speaker.filter(|_| self.eat_any(&["here", "over here", "up here", "this way"]))
+        {
             return Ok(Clause::Face { what: Reference::to(Target::Id(speaker), "here".to_owned()) });
         }
         if longest(self.rest(), SENSES).is_some() {

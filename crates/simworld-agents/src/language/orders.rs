@@ -2,7 +2,7 @@
 
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Count, Grip, Manner, Pace, Reference, Stands, Target, Vehicle};
+use super::clause::{Clause, Count, Manner, Pace, Reference, Target, Vehicle};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{RELATIONS, category, fits, longest, longest_phrase};
 use super::numbers;
@@ -10,12 +10,17 @@ use super::parser::{Parser, UNDERSTOOD};
 use super::verbs::{Verb, longest_verb};
 
 /// What people take photos with their words of.
-pub(super) const PHOTOS: &[&str] =
-    &["snaps", "snap", "photograph", "shot", "selfie", "pic", "snapshot", "photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
+#[rustfmt::skip]
+pub(super) const PHOTOS: &[&str] = &[
+    "snaps", "snap", "photograph", "shot", "selfie", "pic", "snapshot", "photos", "photo", "pictures",
+    "picture", "photographs", "snapshots", "shots", "selfies", "pics",
+];
 
 /// What leads to where something is brought.
-const BRINGS: &[&str] = &[
-    "to", "over to", "back to", "into", "up to", "down to", "across to", "along to", "out to", "round to", "off to", "all the way to", "straight to", "right to", "back over to",
+#[rustfmt::skip]
+pub(super) const BRINGS: &[&str] = &[
+    "to", "over to", "back to", "into", "up to", "down to", "across to", "along to", "out to", "round to",
+    "off to", "all the way to", "straight to", "right to", "back over to",
 ];
 
 impl Parser<'_> {
@@ -31,6 +36,19 @@ impl Parser<'_> {
         };
         if self.goes_to_do(count) {
             self.at += count;
+            self.eat_any(&[
+                "out and",
+                "over and",
+                "along and",
+                "off and",
+                "down and",
+                "up and",
+                "on and",
+                "round and",
+                "out to",
+                "off to",
+                "and",
+            ]);
             return self.order();
         }
         self.at += count;
@@ -53,10 +71,35 @@ impl Parser<'_> {
         const PLACES: &[&str] = &["back", "past", "round", "around", "point", "report"];
         let is_go = count == 1 && (self.peeks("go") || self.peeks("come"));
         let after = &self.rest()[count.min(self.rest().len())..];
+        let moves = longest_verb(self.rest()).is_some_and(|(verb, _)| matches!(verb, Verb::Go | Verb::Run));
+        let out = longest_phrase(
+            after,
+            &[
+                "out and",
+                "over and",
+                "along and",
+                "off and",
+                "down and",
+                "up and",
+                "on and",
+                "round and",
+                "out to",
+                "off to",
+                "and",
+            ],
+        );
+        if moves
+            && out.is_some_and(|words| {
+                longest_verb(&after[words..]).is_some_and(|(verb, _)| verb != Verb::Shuttle)
+            })
+        {
+            return true;
+        }
         // Names come last: the index of a large city takes time.
         is_go
             && longest_verb(after).is_some()
-            && (longest_phrase(after, PLACES).is_none() || longest_phrase(after, &["point at", "point to", "point out"]).is_some())
+            && (longest_phrase(after, PLACES).is_none()
+                || longest_phrase(after, &["point at", "point to", "point out"]).is_some())
             && longest(after, RELATIONS).is_none()
             && category(after).is_none()
             && self.names.exact(after).is_none()
@@ -114,21 +157,13 @@ impl Parser<'_> {
         }
     }
 
-    /// "Move the letter to the clinic" is about the letter.
-    fn moves_thing(&mut self, start: usize) -> bool {
-        let moves = ["move", "shift", "relocate"].iter().any(|word| fits(&self.lexemes[start..self.at], word).is_some());
-        let at = self.at;
-        let thing = moves && longest_phrase(self.rest(), &["the", "that", "this", "it", "my", "a"]).is_some() && self.reference(0).is_ok();
-        let leads = thing && longest_phrase(self.rest(), BRINGS).is_some();
-        self.at = at;
-        leads
-    }
-
     /// Whether what a phrase means ever moves.
     fn moves_about(&self, what: &Reference) -> bool {
         match &what.target {
             Target::Any(class) => class.kinds().iter().any(|kind| kind.is_mobile()),
-            Target::Named(ids) => ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| entity.kind.is_mobile())),
+            Target::Named(ids) => {
+                ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| entity.kind.is_mobile()))
+            }
             _ => true,
         }
     }
@@ -143,8 +178,16 @@ impl Parser<'_> {
 
     /// "Cross to the red bench" leads there; "cross the road" and "cross to the other side" lead across.
     fn leads_across(&self) -> bool {
-        const SIDES: &[&str] = &["to the other side", "to the other", "over to the other side", "to the opposite side", "over to the opposite side", "to the far side"];
-        longest_phrase(self.rest(), &["to", "over to", "towards", "over towards"]).is_some() && longest_phrase(self.rest(), SIDES).is_none()
+        const SIDES: &[&str] = &[
+            "to the other side",
+            "to the other",
+            "over to the other side",
+            "to the opposite side",
+            "over to the opposite side",
+            "to the far side",
+        ];
+        longest_phrase(self.rest(), &["to", "over to", "towards", "over towards"]).is_some()
+            && longest_phrase(self.rest(), SIDES).is_none()
     }
 
     /// "Count to ten", "count ten seconds": a second for each.
@@ -187,13 +230,17 @@ impl Parser<'_> {
                 one(Clause::Cross)
             }
             Verb::Follow if self.ends_clause() && self.view.speaker.is_some() => {
-                let whom = self.view.speaker.map(|speaker| Reference::to(Target::Id(speaker), "me".to_owned()));
-                whom.map(|whom| vec![Clause::Follow { whom, pace: Pace::Usual }]).ok_or_else(|| self.not_understood("say whom"))
+                let whom =
+                    self.view.speaker.map(|speaker| Reference::to(Target::Id(speaker), "me".to_owned()));
+                whom.map(|whom| vec![Clause::Follow { whom, pace: Pace::Usual }])
+                    .ok_or_else(|| self.not_understood("say whom"))
             }
             Verb::Follow => {
                 let whom = self.reference(0)?;
                 // "Stay close to the statue" is about staying.
-                let stays = ["stay", "keep", "stick", "remain"].iter().any(|word| fits(&self.lexemes[start..], word).is_some());
+                let stays = ["stay", "keep", "stick", "remain"]
+                    .iter()
+                    .any(|word| fits(&self.lexemes[start..], word).is_some());
                 if stays && !self.moves_about(&whom) {
                     return one(Clause::Go { to: whom, side: None, pace: Pace::Usual, within: None });
                 }
@@ -238,7 +285,19 @@ impl Parser<'_> {
             Verb::Look => self.look().map(|look| vec![look]),
             Verb::Face => self.face().map(|face| vec![face]),
             Verb::Point => {
-                self.eat_any(&["at", "to", "towards", "out", "over at", "over to", "your finger at", "up at", "in the direction of", "out to me", "me to"]);
+                self.eat_any(&[
+                    "at",
+                    "to",
+                    "towards",
+                    "out",
+                    "over at",
+                    "over to",
+                    "your finger at",
+                    "up at",
+                    "in the direction of",
+                    "out to me",
+                    "me to",
+                ]);
                 one(Clause::Point { at: self.reference(0)? })
             }
             Verb::Wave => {
@@ -297,278 +356,20 @@ impl Parser<'_> {
 
     /// "Stand behind the statue", "stand halfway between": where to stand, and not to get up.
     fn is_place(&self) -> bool {
+        #[rustfmt::skip]
         const PLACES: &[&str] = &[
-            "at",
-            "on the",
-            "in the",
-            "by",
-            "between",
-            "in between",
-            "halfway",
-            "midway",
-            "half way",
-            "north",
-            "south",
-            "east",
-            "west",
-            "to the north",
-            "to the south",
-            "to the east",
-            "to the west",
+            "at", "on the", "in the", "by", "between", "in between", "halfway", "midway", "half way", "north",
+            "south", "east", "west", "to the north", "to the south", "to the east", "to the west",
         ];
+        let exactly =
+            longest_phrase(self.rest(), &["exactly", "precisely", "directly", "just", "right"]).unwrap_or(0);
         longest(self.rest(), RELATIONS).is_some()
             || longest_phrase(self.rest(), PLACES).is_some()
+            || exactly > 0
+                && longest_phrase(&self.rest()[exactly..], &["between", "in between", "at", "on", "in"])
+                    .is_some()
             || self.peeks_halfway()
             || numbers::walked(self.rest()).is_some()
-    }
-
-    fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&["me up at", "us up at", "me up from", "us up from", "me up by", "me up in front of", "me up outside", "me at"]) {
-            return self.go(Pace::Usual, start);
-        }
-        if self.eat_any(&["me to", "us to", "yourself to", "me over to", "us over to", "yourself over to"]) {
-            return self.go(Pace::Usual, start);
-        }
-        let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
-        if brings_me && self.eat_any(&["to", "over to", "back to"]) {
-            return self.go(Pace::Usual, start); // "bring me to the school"
-        }
-        if let Some(clauses) = self.turn_to_take() {
-            return Ok(clauses);
-        }
-        let taken = self.lexemes[start..self.at].iter().map(|lexeme| &lexeme.token);
-        let grip = if taken.eq([&Token::Word("take".to_owned())]) { Grip::LiftOrRide } else { Grip::Lift };
-        self.eat_any(&["me", "us", "yourself"]);
-        if self.counts_steps() {
-            if let Some(clauses) = self.by_the_compass(Pace::Usual)? {
-                return Ok(clauses);
-            }
-            return self.step().map(|step| vec![step]);
-        }
-        let photos = numbers::number(self.rest()).filter(|(number, _)| *number >= 1.0 && *number <= 100.0);
-        if let Some((number, count)) = photos
-            && let Some(words) = longest_phrase(&self.rest()[count..], PHOTOS)
-        {
-            self.at += count + words;
-            return self.photo(number as u32);
-        }
-        self.eat_any(&["up", "over", "back"]);
-        if let Some(photo) = self.portrait()? {
-            return Ok(photo);
-        }
-        let start = self.at;
-        // "Fetch Gus a newspaper", "fetch Hana the letter".
-        if let Some(whom) = self.somebody_here() {
-            let at = self.at;
-            if let Some(goods) = self.goods() {
-                return self.purchase(goods, Some(whom));
-            }
-            self.at = at;
-            let named = !self.ends_clause() && (longest_phrase(self.rest(), &["the", "a", "that", "his", "her", "my"]).is_some() || category(self.rest()).is_some());
-            if named && let Ok(what) = self.reference(0) {
-                return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
-            }
-            self.at = start;
-        }
-        let what = match self.reference(0) {
-            Ok(what) => what,
-            // "Get two bottles of water": what nobody has to hand over is bought.
-            Err(error) => {
-                self.at = start;
-                return self.buy().map_err(|_| error);
-            }
-        };
-        self.eat_any(&["up", "along", "with you", "over", "across", "back", "off"]);
-        let mut what = what;
-        if what.relation.is_none() && self.eat_any(&["from"]) {
-            what.relation = Some(Stands::Of(Box::new(self.reference(0)?)));
-        }
-        let to = self.tail_place(BRINGS)?;
-        if to.is_none()
-            && self.peeks("for")
-            && let Some(whom) = self.for_whom()
-        {
-            return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
-        }
-        Ok(vec![Clause::Take { what, to, grip }])
-    }
-
-    /// "Take its picture", "take Anna's photo".
-    fn portrait(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        const WHOSE: &[(&[&str], Target)] =
-            &[(&["its", "their"], Target::It), (&["his", "her"], Target::Them)];
-        let start = self.at;
-        for (words, target) in WHOSE {
-            if self.eat_any(words) && self.eat_any(PHOTOS) {
-                let of = Some(Reference::to(target.clone(), self.text_from(start)));
-                return Ok(Some(vec![Clause::Photo { of, times: 1 }]));
-            }
-            self.at = start;
-        }
-        let whose = (1..4).find(|at| self.rest().get(*at).is_some_and(|_| longest_phrase(&self.rest()[*at..], PHOTOS).is_some()));
-        let possessive = whose.filter(|at| {
-            let last = &self.rest()[at - 1];
-            self.words[last.start..last.end].ends_with("'s") || self.words[last.start..last.end].ends_with("’s")
-        });
-        let Some(words) = possessive else { return Ok(None) };
-        let mut owner: Vec<Lexeme> = self.rest()[..words].to_vec();
-        if let Some(Lexeme { token: Token::Word(word), .. }) = owner.last_mut() {
-            word.pop();
-        }
-        let mut named = Parser::new(self.words, &owner, self.names, self.view);
-        let of = named.reference(0)?;
-        self.at += words;
-        self.eat_any(PHOTOS);
-        Ok(Some(vec![Clause::Photo { of: Some(of), times: 1 }]))
-    }
-
-    /// "Snap two photos of": two; none if no photo is spoken of.
-    fn number_of_photos(&mut self) -> u32 {
-        let start = self.at;
-        let number = numbers::count(self.rest());
-        self.at += number.map_or(0, |(_, count)| count);
-        if number.is_none() {
-            self.eat_any(&["a", "an", "another", "some"]);
-        }
-        let said = self.eat_any(PHOTOS);
-        if said && number.is_none() {
-            return 1;
-        }
-        let Some((number, _)) = number.filter(|_| said) else {
-            self.at = start;
-            return 0;
-        };
-        number
-    }
-
-    fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
-        let named = self.eat_any(&["of"]) || !self.ends_clause();
-        let of = if named { Some(self.reference(0)?) } else { None };
-        Ok(vec![Clause::Photo { of, times }])
-    }
-
-    fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let start = self.at;
-        self.eat_any(&["me", "us"]);
-        if let Some(clauses) = self.gesture_to()? {
-            return Ok(clauses);
-        }
-        let somebody = self.somebody_here();
-        if let Some(goods) = self.goods() {
-            return self.purchase(goods, somebody);
-        }
-        self.at = start;
-        let first = self.reference(0)?;
-        if let Some((seconds, words)) = numbers::duration(self.rest()).filter(|(seconds, words)| first.target == Target::It && *words > 1 && *seconds > 0.0) {
-            self.at += words;
-            return Ok(vec![Clause::Wait { seconds }]); // "give it ten seconds"
-        }
-        if let Some(clauses) = self.gesture(&first) {
-            return Ok(clauses);
-        }
-        let over = self.eat_any(&["over", "back"]);
-        if over && self.ends_clause() {
-            let to = Reference::to(Target::Them, "them".to_owned());
-            return Ok(vec![Clause::Give { what: Some(first), to }]);
-        }
-        if self.eat_any(&["to", "over to", "back to", "on to", "up to", "across to"]) {
-            return Ok(vec![Clause::Give { what: Some(first), to: self.reference(0)? }]);
-        }
-        if self.ends_clause() {
-            return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
-        }
-        Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
-    }
-
-    /// "Give a wave to Ben", "give three waves to Anna".
-    fn gesture_to(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        let start = self.at;
-        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
-        self.at += number.map_or(0, |(_, count)| count);
-        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
-        let waves = number.is_some() && self.eat_any(&["wave", "waves", "wave of your hand"]) && self.eat_any(&["to", "at", "for", "over to", "towards"]);
-        let Some((number, _)) = number.filter(|_| waves) else {
-            self.at = start;
-            return Ok(None);
-        };
-        let wave = Clause::Wave { to: self.reference(0)? };
-        let times = number as u32;
-        Ok(Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }]))
-    }
-
-    /// "Give Ben a wave".
-    fn gesture(&mut self, to: &Reference) -> Option<Vec<Clause>> {
-        let start = self.at;
-        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
-        self.at += number.map_or(0, |(_, count)| count);
-        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
-        if number.is_none() || !self.eat_any(&["wave", "waves", "wave of your hand"]) {
-            self.at = start;
-            return None;
-        }
-        let wave = Clause::Wave { to: to.clone() };
-        let times = number.map_or(1, |(number, _)| number as u32);
-        Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])
-    }
-
-    fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
-        let places = [
-            "at", "to", "in", "on", "into", "over to", "back to", "onto", "with", "up to", "down to", "across to", "over at", "by", "along to", "out to", "round to", "off at",
-            "down at", "down by", "down on", "down in", "outside", "straight to",
-        ];
-        let start = self.at;
-        if manner == Manner::Deliver {
-            let whom = self.receiver();
-            if let Some(goods) = self.goods() {
-                return self.purchase(goods, whom);
-            }
-            self.at = start;
-        }
-        self.eat_any(&[
-            "what you hold",
-            "what youre holding",
-            "what you are holding",
-            "what you have",
-            "what you are carrying",
-            "what youre carrying",
-            "what you carry",
-            "whatever you hold",
-            "whatever youre holding",
-            "whatever you are holding",
-            "everything",
-        ]);
-        let what = if self.ends_clause() || longest_phrase(self.rest(), &places).is_some() {
-            None
-        } else {
-            Some(self.reference(0)?)
-        };
-        self.eat_any(&["down", "off", "up", "over", "across", "back"]);
-        let mut at = self.tail_place(&places)?;
-        let what = what.map(|mut what| {
-            // "Put the cone next to the bin" says where to, and not which cone.
-            match what.relation.take() {
-                Some(Stands::To(_, anchor)) if at.is_none() => at = Some(*anchor),
-                relation => what.relation = relation,
-            }
-            what
-        });
-        if at.is_none() && self.eat_any(&["here", "back", "back here"]) {
-            at = Some(Reference::to(Target::Here, "here".to_owned()));
-        }
-        if manner == Manner::Deliver && at.is_none() {
-            let over = self.lexemes[self.at - 1].token == Token::Word("over".to_owned());
-            if over && self.ends_clause() {
-                let to = Reference::to(Target::Them, "them".to_owned());
-                return Ok(vec![Clause::Give { what, to }]);
-            }
-            if !self.ends_clause()
-                && let Some(to) = what
-            {
-                return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
-            }
-            return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
-        }
-        Ok(vec![Clause::Drop { what, at, manner }])
     }
 
     /// A place after one of these words.
@@ -576,7 +377,12 @@ impl Parser<'_> {
         let side = longest(self.rest(), RELATIONS).map(|(_, count)| count);
         match longest_phrase(self.rest(), words).max(side) {
             // "... to get to the clinic" says what for.
-            Some(count) if longest_verb(&self.rest()[count..]).is_some() && category(&self.rest()[count..]).is_none() => Ok(None),
+            Some(count)
+                if longest_verb(&self.rest()[count..]).is_some()
+                    && category(&self.rest()[count..]).is_none() =>
+            {
+                Ok(None)
+            }
             Some(count) => {
                 self.at += count;
                 self.reference(0).map(Some)
@@ -606,7 +412,19 @@ impl Parser<'_> {
     fn alight(&mut self) -> Clause {
         self.eat_any(&["the", "of the", "of"]);
         self.eat_any(&["white", "black", "red", "blue", "green", "yellow", "orange"]);
-        let cars = ["bicycle", "bike", "motorcycle", "car", "bus", "truck", "taxi", "van", "vehicle", "cab", "lorry"];
+        let cars = [
+            "bicycle",
+            "bike",
+            "motorcycle",
+            "car",
+            "bus",
+            "truck",
+            "taxi",
+            "van",
+            "vehicle",
+            "cab",
+            "lorry",
+        ];
         let from = if self.peeks("scooter") {
             Vehicle::Scooter
         } else if longest_phrase(self.rest(), &cars).is_some() {

@@ -14,14 +14,14 @@
 use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Reference};
 use super::blocks::{GOES_ON, IF, UNLESS, UNTIL, WHEN, WHILE};
+use super::clause::{Clause, Pace, Reference, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase};
 use super::motion::LENGTHS;
 use super::names::Names;
 use super::numbers;
-use super::politeness::{FILLERS, JOINTS, NEGATIONS};
+use super::politeness::{NEGATIONS, filler, joint};
 use super::requests;
 use super::resolve::View;
 use super::tails::ON_THE_WAY;
@@ -33,17 +33,12 @@ pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop o
      \"and\" or \"then\"";
 /// How deep conditions and repetitions may nest.
 const DEEPEST: u32 = 4;
-/// Words of headings that say nothing of what is to be done.
-const HEADINGS: &[&str] = &[
-    "task", "order", "orders", "job", "mission", "run", "delivery", "errand", "errands", "action", "plan", "next", "step", "number", "one", "two", "three",
-    "request", "command", "commands", "instruction", "instructions", "drop", "off", "pick", "up", "ok", "okay", "listen", "attention", "note", "reminder",
-    "quick", "new", "your", "the", "a", "my", "our", "and", "here", "it", "goes", "todo", "to", "do", "list", "important", "urgent", "favour", "favor", "small",
-    "little", "thing", "things", "following", "first", "second", "third", "last", "item", "assignment", "challenge", "exercise", "game", "for", "you", "today",
-];
 /// What begins as politeness does, and says something.
+#[rustfmt::skip]
 const MORE_THAN_FILLERS: &[&str] = &[
-    "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits", "there stands", "there lies", "here is", "over there is",
-    "over there are", "there and back", "up there is", "here are",
+    "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
+    "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "up there is",
+    "go on to", "go on over to", "go on towards", "come on over", "here are",
 ];
 /// How often a statement is tried in other words, in one sentence.
 const MOST_TRIES: u32 = 24;
@@ -173,8 +168,18 @@ impl<'a> Parser<'a> {
 
     /// "To" before what is done there: "go to the kiosk to buy water".
     fn skip_purpose(&mut self) -> bool {
-        const PURPOSES: &[&str] =
-            &["to", "in order to", "so as to", "so you can", "so that you can", "so you could", "where you can", "where you", "there to", "and there"];
+        const PURPOSES: &[&str] = &[
+            "to",
+            "in order to",
+            "so as to",
+            "so you can",
+            "so that you can",
+            "so you could",
+            "where you can",
+            "where you",
+            "there to",
+            "and there",
+        ];
         let purpose = longest_phrase(self.rest(), PURPOSES)
             .filter(|words| longest_verb(self.rest().get(*words..).unwrap_or_default()).is_some());
         self.at += purpose.unwrap_or(0);
@@ -199,7 +204,20 @@ impl<'a> Parser<'a> {
 
     /// Whether "and if not" follows, which belongs to the condition around.
     fn denies(&self) -> bool {
-        longest_phrase(self.rest(), &["and if not", "and otherwise", "and else", "and if it", "and if he", "and if she", "and if they", "and if there"]).is_some()
+        longest_phrase(
+            self.rest(),
+            &[
+                "and if not",
+                "and otherwise",
+                "and else",
+                "and if it",
+                "and if he",
+                "and if she",
+                "and if they",
+                "and if there",
+            ],
+        )
+        .is_some()
     }
 
     /// Whether the words from a place to here are "and" alone.
@@ -211,25 +229,10 @@ impl<'a> Parser<'a> {
     }
 
     fn begins_block(&self) -> bool {
+        #[rustfmt::skip]
         const BLOCKS: &[&str] = &[
-            "if",
-            "unless",
-            "when",
-            "until",
-            "keep",
-            "repeat",
-            "before",
-            "after",
-            "while",
-            "every",
-            "having",
-            "should",
-            "at the next",
-            "dont stop",
-            "as soon as",
-            "as long as",
-            "once",
-            "till",
+            "if", "unless", "when", "until", "keep", "repeat", "before", "after", "while", "every", "having",
+            "should", "at the next", "dont stop", "as soon as", "as long as", "once", "till",
         ];
         longest_phrase(self.rest(), BLOCKS).is_some()
     }
@@ -272,7 +275,15 @@ impl<'a> Parser<'a> {
         let start = self.at;
         let kept = (self.class, self.bearers.clone(), self.verb, self.scope.clone());
         let mut found = None;
-        for rule in [Self::instead, Self::fronted_place, Self::in_nouns, Self::somebody_gets, Self::on_topic, Self::headed] {
+        for rule in [
+            Self::instead,
+            Self::fronted_place,
+            Self::in_nouns,
+            Self::wants_one,
+            Self::somebody_gets,
+            Self::on_topic,
+            Self::headed,
+        ] {
             found = rule(self);
             if found.is_some() {
                 break;
@@ -281,6 +292,28 @@ impl<'a> Parser<'a> {
             (self.class, self.bearers, self.verb, self.scope) = kept.clone();
         }
         found
+    }
+
+    /// "Don't put it down until you get to the museum": later, and not now.
+    fn not_until(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(NEGATIONS);
+        let later = self.order();
+        if let Ok(later) = later
+            && self.eat_any(UNTIL)
+            && let Ok(test) = self.test()
+        {
+            let mut clauses = vec![match test {
+                Test::Near { what, .. } => {
+                    Clause::Go { to: what, side: None, pace: Pace::Usual, within: None }
+                }
+                test => Clause::Until { test, body: Vec::new() },
+            }];
+            clauses.extend(later);
+            return Ok(clauses);
+        }
+        self.at = start;
+        Err(self.not_understood("that says what not to do: say what to do"))
     }
 
     fn instead(&mut self) -> Option<Vec<Clause>> {
@@ -292,32 +325,27 @@ impl<'a> Parser<'a> {
         self.nominal().ok().flatten()
     }
 
+    /// "Carol wants a tea, get one": a topic, since what follows takes it up.
+    fn wants_one(&mut self) -> Option<Vec<Clause>> {
+        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+        let after = self.rest().iter().position(is_mark)?;
+        let takes_up = self.rest()[after..].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them", "one", "some"].contains(&word.as_str()))
+        });
+        if takes_up { self.on_topic() } else { None }
+    }
+
     fn on_topic(&mut self) -> Option<Vec<Clause>> {
         let mut clauses = self.topic()?;
         clauses.extend(self.statement().ok()?);
         Some(clauses)
     }
 
-    /// "New task: ...": a heading that says nothing.
-    fn headed(&mut self) -> Option<Vec<Clause>> {
-        let end = self.rest().iter().take(6).position(|lexeme| lexeme.token == Token::Break)?;
-        let is_idle = |lexeme: &Lexeme| {
-            matches!(&lexeme.token, Token::Word(word) if HEADINGS.contains(&word.as_str())) || matches!(lexeme.token, Token::Number(_))
-        };
-        let colon = self.words[self.rest()[end].start..].starts_with([':', '!', '.']);
-        if end == 0 || !colon || !self.rest()[..end].iter().all(is_idle) {
-            return None;
-        }
-        self.at += end;
-        self.skip_joints();
-        self.statement().ok()
-    }
-
     fn plain_statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         let goes_on = longest_phrase(self.rest(), GOES_ON).is_some();
         if !goes_on && longest_phrase(self.rest(), NEGATIONS).is_some() && longest_verb(self.rest()).is_none()
         {
-            return Err(self.not_understood("that says what not to do: say what to do"));
+            return self.not_until();
         }
         if self.depth >= DEEPEST {
             return Err(self.not_understood("put at most four conditions and repetitions into one another"));
@@ -349,9 +377,23 @@ impl<'a> Parser<'a> {
     }
 
     pub(super) fn ends_clause(&self) -> bool {
-        const TAILS: &[&str] = &["before", "after", "for", "because", "instead of", "rather than", "in order to", "so that", "so as to", "forever", "or if"];
+        const TAILS: &[&str] = &[
+            "before",
+            "after",
+            "for",
+            "because",
+            "instead of",
+            "rather than",
+            "in order to",
+            "so that",
+            "so as to",
+            "forever",
+            "or if",
+        ];
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
-            || [JOINTS, FILLERS, TAILS, ON_THE_WAY, UNTIL, WHILE, IF, UNLESS, &WHEN[..3]]
+            || joint(self.rest()).is_some()
+            || filler(self.rest()).is_some()
+            || [TAILS, ON_THE_WAY, UNTIL, WHILE, IF, UNLESS, &WHEN[..3]]
                 .iter()
                 .any(|words| longest_phrase(self.rest(), words).is_some())
             || numbers::times(self.rest()).is_some()
@@ -369,7 +411,7 @@ impl<'a> Parser<'a> {
                 matches!(self.rest().first(), Some(l) if matches!(l.token, Token::Comma | Token::Break));
             if mark {
                 self.at += 1;
-            } else if self.counts_a_step() || !self.eat_any(JOINTS) {
+            } else if self.counts_a_step() || !self.eat_joint() {
                 return self.at > start;
             }
         }
@@ -379,11 +421,11 @@ impl<'a> Parser<'a> {
     fn item_mark(&self) -> usize {
         let step = usize::from(longest_phrase(self.rest(), &["step", "number", "task", "item"]).is_some());
         match &self.rest()[step..] {
-            [Lexeme { token: Token::Number(number), .. }, Lexeme { token: Token::Break | Token::Close, .. }, ..]
-                if number.fract() == 0.0 && (1.0..20.0).contains(number) =>
-            {
-                step + 2
-            }
+            [
+                Lexeme { token: Token::Number(number), .. },
+                Lexeme { token: Token::Break | Token::Close, .. },
+                ..,
+            ] if number.fract() == 0.0 && (1.0..20.0).contains(number) => step + 2,
             _ => 0,
         }
     }
@@ -398,9 +440,15 @@ impl<'a> Parser<'a> {
         })
     }
 
+    fn eat_joint(&mut self) -> bool {
+        let words = joint(self.rest());
+        self.at += words.unwrap_or(0);
+        words.is_some()
+    }
+
     /// Passes politeness, unless the words begin an order.
     pub(super) fn skip_fillers(&mut self) {
-        while let Some(count) = longest_phrase(self.rest(), FILLERS) {
+        while let Some(count) = filler(self.rest()) {
             let is_verb = longest_verb(self.rest()).is_some_and(|(_, words)| words >= count);
             let is_more = longest_phrase(self.rest(), MORE_THAN_FILLERS).is_some_and(|words| words > count);
             if is_verb || is_more {

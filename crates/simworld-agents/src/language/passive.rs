@@ -6,58 +6,20 @@ use super::lexicon::longest_phrase;
 use super::verbs::longest_verb;
 
 /// What says that something is to be done, before the verb.
+#[rustfmt::skip]
 const MODALS: &[&str] = &[
-    "should be",
-    "must be",
-    "has to be",
-    "have to be",
-    "needs to be",
-    "need to be",
-    "is to be",
-    "are to be",
-    "ought to be",
-    "shall be",
-    "can be",
-    "could be",
-    "may be",
-    "might be",
-    "will be",
-    "wants to be",
-    "would like to be",
-    "should get",
-    "must get",
-    "needs to get",
-    "has got to be",
-    "is supposed to be",
-    "is meant to be",
-    "had better be",
+    "should be", "must be", "has to be", "have to be", "needs to be", "need to be", "is to be", "are to be",
+    "ought to be", "shall be", "can be", "could be", "may be", "might be", "will be", "wants to be",
+    "would like to be", "should get", "must get", "needs to get", "has got to be", "is supposed to be",
+    "is meant to be", "had better be",
 ];
 /// Before who or what the verb is about: "I want the door closed".
+#[rustfmt::skip]
 const CAUSES: &[&str] = &[
-    "i want",
-    "i need",
-    "i would like",
-    "id like",
-    "id love",
-    "we want",
-    "we need",
-    "get",
-    "have",
-    "i want to see",
-    "id like to see",
-    "id like to have",
-    "i want to have",
-    "make sure",
-    "make sure that",
-    "see that",
-    "see to it that",
-    "see to it",
-    "ensure",
-    "ensure that",
-    "be sure that",
-    "i would like to have",
-    "i would like to see",
-    "let",
+    "i want", "i need", "i would like", "id like", "id love", "we want", "we need", "get", "have",
+    "i want to see", "id like to see", "id like to have", "i want to have", "make sure", "make sure that",
+    "see that", "see to it that", "see to it", "ensure", "ensure that", "be sure that", "i would like to have",
+    "i would like to see", "let",
 ];
 /// A question for the same: "could the door be opened?".
 const ASKING: &[&str] = &["could", "can", "should", "must", "may", "might", "would", "shall", "will"];
@@ -109,14 +71,15 @@ fn active(said: &[Lexeme]) -> Option<Vec<Lexeme>> {
         })?;
         return in_order(&behind[..at], &behind[at + is_be(at).unwrap_or(0)..]);
     }
-    let (at, modal) = (1..said.len().min(LONGEST)).find_map(|at| Some((at, longest_phrase(&said[at..], MODALS)?)))?;
+    let (at, modal) =
+        (1..said.len().min(LONGEST)).find_map(|at| Some((at, longest_phrase(&said[at..], MODALS)?)))?;
     begins_noun(said).then(|| in_order(&said[..at], &said[at + modal..])).flatten()
 }
 
 /// The verb, then who or what it is about, then the rest.
 fn in_order(about: &[Lexeme], rest: &[Lexeme]) -> Option<Vec<Lexeme>> {
     let (verb, words) = verb(rest)?;
-    const OTHERS: &[&str] = &["if", "you", "to", "that", "when", "i", "we", "because", "who", "which", "it's"];
+    const OTHERS: &[&str] = &["if", "you", "that", "when", "i", "we", "because", "who", "which", "it's"];
     if about.is_empty() || about.iter().any(|lexeme| OTHERS.iter().any(|word| is_word(lexeme, word))) {
         return None;
     }
@@ -162,13 +125,15 @@ fn begins_noun(said: &[Lexeme]) -> bool {
         Some(Token::Id(_)) => return true,
         _ => return false,
     };
-    !["you", "to", "me", "us", "i", "we", "that", "there", "a", "if", "when", "while", "until", "it's"].contains(&first)
+    !["you", "to", "me", "us", "i", "we", "that", "there", "a", "if", "when", "while", "until", "it's"]
+        .contains(&first)
         && longest_verb(said).is_none_or(|_| ["the", "this", "that", "my", "it"].contains(&first))
 }
 
 /// Whether the verb at that place is none that says what a thing is like: "the closed door".
 fn ends_noun(said: &[Lexeme], at: usize) -> bool {
-    let article = ["the", "a", "an", "this", "that", "my", "any", "every", "each", "all", "nearest", "next", "first"];
+    let article =
+        ["the", "a", "an", "this", "that", "my", "any", "every", "each", "all", "nearest", "next", "first"];
     let before = &said[at - 1].token;
     let after = super::lexicon::category(&said[(at + 1).min(said.len())..]);
     !matches!(before, Token::Word(word) if article.contains(&word.as_str())) && after.is_none()

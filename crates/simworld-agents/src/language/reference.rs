@@ -19,21 +19,10 @@ pub(super) const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
     (&["closed", "shut"], (OPEN, false)),
 ];
 /// What somebody or something does at a place.
+#[rustfmt::skip]
 const IS_THERE: &[&str] = &[
-    "is",
-    "are",
-    "stands",
-    "sits",
-    "waits",
-    "lies",
-    "is standing",
-    "is sitting",
-    "is waiting",
-    "is lying",
-    "happens to be",
-    "is parked",
-    "is now",
-    "is right now",
+    "is", "are", "stands", "sits", "waits", "lies", "is standing", "is sitting", "is waiting", "is lying",
+    "happens to be", "is parked", "is now", "is right now",
 ];
 
 impl Parser<'_> {
@@ -41,7 +30,9 @@ impl Parser<'_> {
     pub(super) fn reference(&mut self, depth: u32) -> Result<Reference, PlanError> {
         self.eat_any(&["the point", "point", "the position", "position", "coordinates", "the coordinates"]);
         let start = self.at;
-        if !self.peeks_place() && self.eat_any(&["where", "wherever", "the place where", "the spot where", "to where"]) {
+        if !self.peeks_place()
+            && self.eat_any(&["where", "wherever", "the place where", "the spot where", "to where"])
+        {
             let there = self.reference(depth)?;
             self.eat_any(IS_THERE);
             return Ok(there);
@@ -169,8 +160,12 @@ impl Parser<'_> {
 
     /// "The second closest", "the other": a choice without a noun, out of what was spoken of.
     fn spoken_of(&self, reference: &Reference) -> Option<Target> {
-        let chosen = reference.choice != Choice::Open || reference.traits.other || self.scope.is_some() && self.said_one();
-        let is_bare = self.ends_clause() || longest_phrase(self.rest(), &["on the", "to the", "from", "in the", "that", "there"]).is_some();
+        let chosen = reference.choice != Choice::Open
+            || reference.traits.other
+            || self.scope.is_some() && self.said_one();
+        let is_bare = self.ends_clause()
+            || longest_phrase(self.rest(), &["on the", "to the", "from", "in the", "that", "there"])
+                .is_some();
         self.mentioned().filter(|_| chosen && is_bare)
     }
 
@@ -211,12 +206,10 @@ impl Parser<'_> {
                     _ => Ok(Target::Any(category)),
                 }
             }
-            _ => {
-                match self.mentioned() {
-                    Some(target) if self.eat_any(&["one", "ones"]) => Ok(target),
-                    _ => self.misspelt(),
-                }
-            }
+            _ => match self.mentioned() {
+                Some(target) if self.eat_any(&["one", "ones"]) => Ok(target),
+                _ => self.misspelt(),
+            },
         }
     }
 

@@ -49,9 +49,10 @@ impl View<'_> {
                 for one in all {
                     let fits = self.related(&any, one, purpose)?;
                     found = Some(match found {
-                        Some(so_far) => {
-                            so_far.into_iter().filter(|(_, id)| fits.iter().any(|(_, other)| other == id)).collect()
-                        }
+                        Some(so_far) => so_far
+                            .into_iter()
+                            .filter(|(_, id)| fits.iter().any(|(_, other)| other == id))
+                            .collect(),
                         None => fits,
                     });
                 }
@@ -90,6 +91,12 @@ impl View<'_> {
                     relation.holds(entity, anchor)
                         || *relation == Relation::InFrontOf && is_before_door(entity, anchor)
                 })?;
+                if strict.is_empty() && matches!(relation, Relation::Behind | Relation::InFrontOf) {
+                    let from = self.from;
+                    return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                        is_seen_so(from, entity, anchor, *relation)
+                    });
+                }
                 if strict.is_empty() && *relation == Relation::NextTo {
                     return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
                         let in_a_row = entity.kind.is_vehicle() && anchor.kind.is_vehicle();
@@ -279,6 +286,16 @@ impl View<'_> {
         sort(&mut found);
         found
     }
+}
+
+/// Whether it stands behind or before a thing for whoever looks from a place: what has no front of its own, or nothing
+/// there, is seen so.
+fn is_seen_so(from: Point2, entity: &EntityRef<'_>, anchor: &EntityRef<'_>, relation: Relation) -> bool {
+    let (sight, way) = (anchor.planar() - from, entity.planar() - anchor.planar());
+    let along = sight.dot(&way);
+    let is_near = gap(anchor, entity) <= RELATED * 0.5;
+    let aligned = along.abs() >= sight.norm() * way.norm() * AHEAD && way.norm() > 1e-6;
+    is_near && aligned && if relation == Relation::Behind { along > 0.0 } else { along < 0.0 }
 }
 
 /// Whether it stands on the side of a house where its door is: that is the front of the house for whoever looks at it.

@@ -272,7 +272,9 @@ impl<'a> View<'a> {
         let mut reach = first.min(self.range);
         loop {
             let found = self.within(reach, reference, purpose);
-            let about = reach >= ALL_WITHIN && !found.is_empty() && matches!(reference.choice, Choice::Side(_) | Choice::Middle);
+            let about = reach >= ALL_WITHIN
+                && !found.is_empty()
+                && matches!(reference.choice, Choice::Side(_) | Choice::Middle);
             if found.len() >= enough || reach >= self.range || reference.count == Count::All || about {
                 let asks = self.policy == AmbiguityPolicy::Ask && reference.choice == Choice::Open;
                 let wider =
@@ -351,7 +353,8 @@ impl<'a> View<'a> {
             && entity.id != self.who
             && !(traits.other && (self.it == Some(entity.id) || self.them == Some(entity.id)))
             && traits.paint.is_none_or(|paint| entity.info.color.map(Paint::of) == Some(paint))
-            && (traits.unlike.is_empty() || entity.info.color.is_none_or(|color| !traits.unlike.contains(&Paint::of(color))))
+            && (traits.unlike.is_empty()
+                || entity.info.color.is_none_or(|color| !traits.unlike.contains(&Paint::of(color))))
             && traits.state.is_none_or(|(key, set)| {
                 entity.info.attributes.get(key).is_some_and(|value| *value == true.into()) == set
             })

@@ -13,13 +13,16 @@ use super::parser::{Parser, shortened};
 const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller", "vendor", "place"];
 /// In what goods come, before "of".
 const VESSELS: &[&str] = &[
-    "bottle", "cup", "piece", "loaf", "bowl", "can", "slice", "glass", "portion", "bag", "copy", "carton", "mug", "plate", "packet", "bit",
-    "helping", "box", "tin", "jar", "pint", "litre", "liter", "bunch", "pair", "spot", "drop", "scoop", "serving", "sip", "mouthful", "edition",
+    "bottle", "cup", "piece", "loaf", "bowl", "can", "slice", "glass", "portion", "bag", "copy", "carton",
+    "mug", "plate", "packet", "bit", "helping", "box", "tin", "jar", "pint", "litre", "liter", "bunch",
+    "pair", "spot", "drop", "scoop", "serving", "sip", "mouthful", "edition",
 ];
 /// What is said of goods, and makes them no others.
+#[rustfmt::skip]
 const ADJECTIVES: &[&str] = &[
-    "nice", "hot", "cold", "fresh", "good", "quick", "delicious", "tasty", "lovely", "proper", "another", "more", "little", "small", "big",
-    "large", "new", "warm", "cool", "decent", "strong", "today", "todays", "own", "bit of", "cool", "yummy",
+    "nice", "hot", "cold", "fresh", "good", "quick", "delicious", "tasty", "lovely", "proper", "another",
+    "more", "little", "small", "big", "large", "new", "warm", "cool", "decent", "strong", "today", "todays",
+    "own", "bit of", "cool", "yummy",
 ];
 
 /// What is bought, and how many times.
@@ -39,7 +42,11 @@ impl Parser<'_> {
     }
 
     /// What is said behind goods: where, how many times and for whom.
-    pub(super) fn purchase(&mut self, goods: Goods, mut whom: Option<Reference>) -> Result<Vec<Clause>, PlanError> {
+    pub(super) fn purchase(
+        &mut self,
+        goods: Goods,
+        mut whom: Option<Reference>,
+    ) -> Result<Vec<Clause>, PlanError> {
         let mut at = None;
         let mut times = goods.times;
         loop {
@@ -47,7 +54,10 @@ impl Parser<'_> {
                 && let Some(receiver) = self.for_whom()
             {
                 whom = Some(receiver);
-            } else if at.is_none() && longest_phrase(self.rest(), &["at", "from", "in", "inside", "over at", "down at", "up at"]).is_some() {
+            } else if at.is_none()
+                && longest_phrase(self.rest(), &["at", "from", "in", "inside", "over at", "down at", "up at"])
+                    .is_some()
+            {
                 at = self.tail_place(&["at", "from", "in", "inside", "over at", "down at", "up at"])?;
             } else if let Some((more, words)) = numbers::times(self.rest()) {
                 self.at += words;
@@ -92,7 +102,9 @@ impl Parser<'_> {
             self.at += words;
         }
         let one = self.peeks("one") || self.peeks("some");
-        while self.eat_any(&["a", "an", "the", "some", "one", "any", "my", "your", "his", "her"]) || self.eat_any(ADJECTIVES) {}
+        while self.eat_any(&["a", "an", "the", "some", "one", "any", "my", "your", "his", "her"])
+            || self.eat_any(ADJECTIVES)
+        {}
         if let Some(words) = self.vessel() {
             self.at += words;
             while self.eat_any(ADJECTIVES) {}
@@ -103,7 +115,8 @@ impl Parser<'_> {
                 self.at += words;
                 return Some(Goods { name, times });
             }
-        } else if one && self.ends_clause_or_place()
+        } else if one
+            && self.ends_clause_or_place()
             && let Some(name) = self.wanted.clone()
         {
             return Some(Goods { name, times });
@@ -162,8 +175,7 @@ impl Parser<'_> {
             || self.names.exact(rest).is_some_and(|(ids, _)| {
                 ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
             })
-            || longest_phrase(rest, DETERMINERS).is_some()
-                && (1..rest.len().min(NEAR)).any(is_class)
+            || longest_phrase(rest, DETERMINERS).is_some() && (1..rest.len().min(NEAR)).any(is_class)
             || matches!(rest.first(), Some(lexeme) if matches!(lexeme.token, Token::Id(_)))
     }
 
@@ -182,7 +194,8 @@ impl Parser<'_> {
 
     /// Whether a phrase means a person, a dog or a robot.
     pub(super) fn is_somebody(&self, reference: &Reference) -> bool {
-        let is_animate_id = |id: &EntityId| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind));
+        let is_animate_id =
+            |id: &EntityId| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind));
         match &reference.target {
             Target::Them => true,
             Target::Id(id) => is_animate_id(id),

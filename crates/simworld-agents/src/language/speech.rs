@@ -11,7 +11,11 @@ use super::verbs::Verb;
 /// What one says where no words are given.
 const HELLO: &str = "hello";
 /// What is said to whoever was spoken of.
-const HELLOS: &[&str] = &["hello", "hi", "goodbye", "good morning", "good evening", "good afternoon", "good night", "thanks", "thank you", "bye", "sorry", "good day"];
+#[rustfmt::skip]
+const HELLOS: &[&str] = &[
+    "hello", "hi", "goodbye", "good morning", "good evening", "good afternoon", "good night", "thanks",
+    "thank you", "bye", "sorry", "good day",
+];
 /// The most that is said at once, in characters.
 const LONGEST_SPEECH: usize = 500;
 
@@ -76,7 +80,10 @@ impl Parser<'_> {
             let words = self.speech(self.lexemes.len())?;
             if HELLOS.contains(&words.to_lowercase().as_str()) {
                 // "Go to Hana and say hello".
-                return Ok(Clause::Say { to: Reference::to(Target::Them, "them".to_owned()), words: Self::greeting(words) });
+                return Ok(Clause::Say {
+                    to: Reference::to(Target::Them, "them".to_owned()),
+                    words: Self::greeting(words),
+                });
             }
             self.at = start;
             return Err(self.not_understood("say to whom, as in \"say hello to Anna\""));
@@ -126,7 +133,8 @@ impl Parser<'_> {
         // An apostrophe inside a word closes nothing.
         let mut marks = text.match_indices(closes).map(|(at, _)| at);
         let ends_word = |at: &usize| {
-            !is_apostrophe || !text[at + closes.len_utf8()..].chars().next().is_some_and(char::is_alphanumeric)
+            !is_apostrophe
+                || !text[at + closes.len_utf8()..].chars().next().is_some_and(char::is_alphanumeric)
         };
         let end = first.start + marks.find(ends_word)?;
         let count = said.iter().take_while(|lexeme| lexeme.end <= end).count();

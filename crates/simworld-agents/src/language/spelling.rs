@@ -55,9 +55,18 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
 
 /// "Go bye one": a word that sounds like a verb where an order begins and a quantity follows.
 fn sound_words(lexemes: &mut [Lexeme]) {
-    const SAME: &[(&str, &str)] = &[("bye", "buy"), ("by", "buy"), ("git", "get"), ("wright", "write"), ("weight", "wait"), ("rite", "right"), ("waite", "wait")];
+    const SAME: &[(&str, &str)] = &[
+        ("bye", "buy"),
+        ("by", "buy"),
+        ("git", "get"),
+        ("wright", "write"),
+        ("weight", "wait"),
+        ("rite", "right"),
+        ("waite", "wait"),
+    ];
     const BEFORE: &[&str] = &["go", "and", "then", "to", "please", "first", "you"];
-    const BEHIND: &[&str] = &["a", "an", "one", "some", "two", "three", "on", "in", "for", "the", "me", "off", "out", "up"];
+    const BEHIND: &[&str] =
+        &["a", "an", "one", "some", "two", "three", "on", "in", "for", "the", "me", "off", "out", "up"];
     for at in 0..lexemes.len() {
         let begins = at == 0
             || match &lexemes[at - 1].token {
@@ -67,19 +76,25 @@ fn sound_words(lexemes: &mut [Lexeme]) {
             };
         let goes_on = matches!(lexemes.get(at + 1).map(|next| &next.token), Some(Token::Word(word)) if BEHIND.contains(&word.as_str()));
         let Token::Word(word) = &lexemes[at].token else { continue };
-        let Some((_, right)) = SAME.iter().find(|(said, _)| said == word).filter(|_| begins && goes_on) else { continue };
+        let Some((_, right)) = SAME.iter().find(|(said, _)| said == word).filter(|_| begins && goes_on)
+        else {
+            continue;
+        };
         // "By the museum" is a place.
-        let is_place = word == "by" && matches!(&lexemes[at + 1].token, Token::Word(next) if next == "the" || next == "two");
+        let is_place = word == "by"
+            && matches!(&lexemes[at + 1].token, Token::Word(next) if next == "the" || next == "two");
         if !is_place {
-            lexemes[at] = Lexeme { token: Token::Word((*right).to_owned()), lemma: None, ..lexemes[at].clone() };
+            lexemes[at] =
+                Lexeme { token: Token::Word((*right).to_owned()), lemma: None, ..lexemes[at].clone() };
         }
     }
 }
 
 /// What is meant rather than a rarer word as near.
 const FREQUENT: &[&str] = &[
-    "the", "then", "and", "to", "it", "at", "on", "with", "from", "for", "turn", "take", "get", "there", "this", "that", "go", "sit", "pick", "walk", "second", "door",
-    "parcel", "wait", "left", "right", "first", "bench", "chair", "please",
+    "the", "then", "and", "to", "it", "at", "on", "with", "from", "for", "turn", "take", "get", "there",
+    "this", "that", "go", "sit", "pick", "walk", "second", "door", "parcel", "wait", "left", "right",
+    "first", "bench", "chair", "please",
 ];
 
 /// Words so frequent that a blank slips into them.
@@ -317,7 +332,8 @@ impl<'a> Said<'a> {
 fn said_alike(word: &str, candidate: &str) -> bool {
     let heard = |word: &str| {
         let mut heard: Vec<char> = sounds(word).collect();
-        let silent = heard.len() > 2 && heard.last() == Some(&'e') && heard[heard.len() - 3].is_ascii_uppercase();
+        let silent =
+            heard.len() > 2 && heard.last() == Some(&'e') && heard[heard.len() - 3].is_ascii_uppercase();
         heard.truncate(heard.len() - usize::from(silent));
         heard
     };
@@ -369,9 +385,11 @@ fn sounds(word: &str) -> impl Iterator<Item = char> {
 
 /// The first sound of some letters, and how many of them make it; long vowels are capital letters.
 fn sound(letters: &[char]) -> (Option<char>, usize) {
+    #[rustfmt::skip]
     const PAIRS: &[(&str, char)] = &[
-        ("ph", 'f'), ("ck", 'k'), ("wh", 'w'), ("ai", 'A'), ("ay", 'A'), ("ei", 'A'), ("ee", 'E'), ("ea", 'E'), ("ie", 'E'), ("oa", 'O'), ("oe", 'O'), ("oo", 'U'),
-        ("ue", 'U'), ("ui", 'U'), ("gh", 'h'), ("kn", 'n'), ("wr", 'r'), ("sc", 's'), ("qu", 'q'),
+        ("ph", 'f'), ("ck", 'k'), ("wh", 'w'), ("ai", 'A'), ("ay", 'A'), ("ei", 'A'), ("ee", 'E'), ("ea", 'E'),
+        ("ie", 'E'), ("oa", 'O'), ("oe", 'O'), ("oo", 'U'), ("ue", 'U'), ("ui", 'U'), ("gh", 'h'), ("kn", 'n'),
+        ("wr", 'r'), ("sc", 's'), ("qu", 'q'),
     ];
     let is_vowel = |letter: &char| "aeiou".contains(*letter);
     if let [first, second, ..] = letters {
@@ -386,7 +404,9 @@ fn sound(letters: &[char]) -> (Option<char>, usize) {
     }
     match letters {
         // "Wate": the silent letter at the end makes the vowel long.
-        [vowel, between, 'e'] if is_vowel(vowel) && !is_vowel(between) => (Some(vowel.to_ascii_uppercase()), 1),
+        [vowel, between, 'e'] if is_vowel(vowel) && !is_vowel(between) => {
+            (Some(vowel.to_ascii_uppercase()), 1)
+        }
         ['e'] => (Some('e'), 1),
         [letter, ..] => (Some(*letter), 1),
         [] => (None, 1),

@@ -4,6 +4,7 @@ use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
+use super::lexer::Token;
 use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
 use super::numbers::{self, MOMENT};
 use super::parser::Parser;
@@ -28,7 +29,21 @@ impl Parser<'_> {
             let seat = Reference { choice: super::clause::Choice::Open, relation: beside, text, ..seat };
             return Ok(vec![Clause::Sit { on: Some(seat) }]);
         }
-        Ok(vec![Clause::Sit { on: self.tail_place(&["on", "in", "onto", "upon", "down on"])? }])
+        Ok(vec![Clause::Sit {
+            on: self.tail_place(&[
+                "on",
+                "in",
+                "onto",
+                "upon",
+                "down on",
+                "into",
+                "down in",
+                "down into",
+                "back on",
+                "back down on",
+                "over on",
+            ])?,
+        }])
     }
 
     pub(super) fn stop(&mut self) -> Result<Vec<Clause>, PlanError> {
@@ -53,7 +68,8 @@ impl Parser<'_> {
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
         }
         let moved = matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive));
-        if moved && self.eat_any(&["there", "right there"]) {
+        let there = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("there".to_owned());
+        if moved && (self.eat_any(&["there", "right there"]) || there && self.ends_clause()) {
             return Ok(Vec::new()); // one stops where one went
         }
         self.eat_any(&[
@@ -96,14 +112,27 @@ impl Parser<'_> {
             self.at += count;
             let to = self.reference(0)?;
             let side = Some(relation);
-            clauses.push(Clause::Go { to, side: side.map(|side| Spot::Beside(side, None)), pace: Pace::Usual, within: None });
+            clauses.push(Clause::Go {
+                to,
+                side: side.map(|side| Spot::Beside(side, None)),
+                pace: Pace::Usual,
+                within: None,
+            });
         }
-        if clauses.is_empty() && longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).is_some() {
+        if clauses.is_empty()
+            && longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).is_some()
+        {
             let seated = self.peeks("on");
-            self.at += longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).unwrap_or(0);
+            self.at +=
+                longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).unwrap_or(0);
             let to = self.reference(0)?;
-            let seats = seated && matches!(&to.target, super::clause::Target::Any(class) if class.kinds().iter().any(|kind| kind.is_seat()));
-            clauses.push(if seats { Clause::Sit { on: Some(to) } } else { Clause::Go { to, side: None, pace: Pace::Usual, within: None } });
+            let seats = seated
+                && matches!(&to.target, super::clause::Target::Any(class) if class.kinds().iter().any(|kind| kind.is_seat()));
+            clauses.push(if seats {
+                Clause::Sit { on: Some(to) }
+            } else {
+                Clause::Go { to, side: None, pace: Pace::Usual, within: None }
+            });
             if seats && self.peek_time().is_none() && longest_phrase(self.rest(), &["for"]).is_none() {
                 return Ok(clauses);
             }
@@ -149,7 +178,7 @@ impl Parser<'_> {
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         self.at = start;
-        if let Some(test) = self.light_to_turn() {
+        if let Some(test) = self.sky_to().or_else(|| self.light_to_turn()) {
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         self.at = start;

@@ -6,12 +6,12 @@ use simworld_core::seam::PlanError;
 use super::blocks::{IF, UNLESS, UNTIL, WHILE};
 use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{longest, longest_phrase};
+use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::{Extent, Parser};
-use super::verbs::longest_verb;
 use super::politeness::MANNERS;
 use super::requests;
+use super::verbs::longest_verb;
 
 /// Before where one goes in the end.
 pub(super) const ON_THE_WAY: &[&str] = &[
@@ -24,39 +24,14 @@ pub(super) const ON_THE_WAY: &[&str] = &[
 ];
 
 /// Doing what was said last, before how often.
+#[rustfmt::skip]
 const DO_SO: &[&str] = &[
-    "and do all that",
-    "and do all of that",
-    "do all that",
-    "do all of that",
-    "and do all this",
-    "do all this",
-    "and repeat all that",
-    "and repeat all of that",
-    "repeat all that",
-    "and again",
-    "and repeat this",
-    "repeat this",
-    "repeat the whole thing",
-    "and repeat the whole thing",
-    "and repeat",
-    "repeat",
-    "and do the whole thing",
-    "do the whole thing",
-    "do so",
-    "all of that",
-    "all that",
-    "do it",
-    "and do it",
-    "do that",
-    "and do that",
-    "do this",
-    "and do this",
-    "and do so",
-    "repeat it",
-    "and repeat it",
-    "repeat that",
-    "and repeat that",
+    "and do all that", "and do all of that", "do all that", "do all of that", "and do all this", "do all this",
+    "and repeat all that", "and repeat all of that", "repeat all that", "and again", "and repeat this",
+    "repeat this", "repeat the whole thing", "and repeat the whole thing", "and repeat", "repeat",
+    "and do the whole thing", "do the whole thing", "do so", "all of that", "all that", "do it", "and do it",
+    "do that", "and do that", "do this", "and do this", "and do so", "repeat it", "and repeat it",
+    "repeat that", "and repeat that",
 ];
 
 impl Parser<'_> {
@@ -78,7 +53,8 @@ impl Parser<'_> {
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
             let goes_on = comma && self.tail_follows();
-            let mark = usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
+            let mark =
+                usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
             let again = mark + longest_phrase(&self.rest()[mark..], DO_SO).unwrap_or(0);
             if again > mark
                 && let Some((times, count)) = numbers::times(&self.rest()[again..])
@@ -102,12 +78,16 @@ impl Parser<'_> {
 
     /// Whether what follows the comma belongs to the order before it.
     fn tail_follows(&self) -> bool {
+        #[rustfmt::skip]
         const AFTER_COMMA: &[&str] = &[
-            "until", "till", "unless", "but first", "but before that", "but only if", "only if", "if and only if", "but not if", "but not before", "or if", "or in case",
-            "provided", "provided that", "with", "run", "sprint", "at", "but only when", "only when", "forever", "for ever", "for ever and ever", "but go via", "stopping at",
-            "with a stop at", "but before you do", "but via", "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed", "in a hurry",
-            "but only after", "stopping off at", "stopping by", "but go by way of", "but stop off at", "but pass by", "pausing", "waiting",
-            "but only once", "but not until", "at the double", "on the double", "and wait", "leaving",
+            "until", "till", "unless", "but first", "but before that", "but only if", "only if",
+            "if and only if", "but not if", "but not before", "or if", "or in case", "provided",
+            "provided that", "with", "run", "sprint", "at", "but only when", "only when", "forever", "for ever",
+            "for ever and ever", "but go via", "stopping at", "with a stop at", "but before you do", "but via",
+            "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
+            "in a hurry", "but only after", "stopping off at", "stopping by", "but go by way of",
+            "but stop off at", "but pass by", "pausing", "waiting", "but only once", "but not until",
+            "at the double", "on the double", "and wait", "leaving",
         ];
         let after = self.rest().get(1..).unwrap_or_default();
         longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after)
@@ -127,7 +107,7 @@ impl Parser<'_> {
         self.at += usize::from(comma);
         let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
         let end = self.at + self.rest().iter().position(is_mark).unwrap_or(self.rest().len());
-        let is_first = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "first");
+        let is_first = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "first" || word == "beforehand");
         let said = self.eat_any(&["but"]) && self.lexemes[self.at..end].last().is_some_and(is_first);
         if !said || clauses.is_empty() {
             self.at = start;
@@ -135,7 +115,7 @@ impl Parser<'_> {
         }
         let mut earlier = self.order()?;
         self.for_a_while(&mut earlier);
-        if !self.eat_any(&["first"]) {
+        if !self.eat_any(&["first", "beforehand"]) {
             self.at = start;
             return Ok(false);
         }
@@ -165,10 +145,13 @@ impl Parser<'_> {
 
     /// "Until it is dark", "while it rains", "for ever".
     fn lasts(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        #[rustfmt::skip]
         const FOR_EVER: &[&str] = &[
-            "forever", "for ever", "for ever and ever", "endlessly", "for good", "indefinitely", "without end", "non stop", "nonstop", "forever and ever",
-            "without stopping", "the whole time", "all the time", "all day", "all day long", "until i say stop", "until i tell you to stop", "continuously",
-            "constantly", "until further notice", "and never stop", "for all eternity", "till i say stop", "until i say so",
+            "forever", "for ever", "for ever and ever", "endlessly", "for good", "indefinitely", "without end",
+            "non stop", "nonstop", "forever and ever", "without stopping", "the whole time", "all the time",
+            "all day", "all day long", "until i say stop", "until i tell you to stop", "continuously",
+            "constantly", "until further notice", "and never stop", "for all eternity", "till i say stop",
+            "until i say so",
         ];
         if self.eat_any(FOR_EVER) {
             self.eat_any(&["and never stop", "and dont stop"]);
@@ -184,7 +167,12 @@ impl Parser<'_> {
             match (self.test(), clauses.last()) {
                 (Ok(test), _) => test,
                 // "Straight on until the fountain".
-                (Err(error), Some(Clause::Forward | Clause::Step { .. } | Clause::Until { .. } | Clause::FaceCompass(_))) => {
+                (
+                    Err(error),
+                    Some(
+                        Clause::Forward | Clause::Step { .. } | Clause::Until { .. } | Clause::FaceCompass(_),
+                    ),
+                ) => {
                     self.at = start;
                     let what = self.reference(0).map_err(|_| error)?;
                     Test::Near { what, within: super::tests_of::NEXT_TO_ME }
@@ -225,8 +213,20 @@ impl Parser<'_> {
             Test::Not(Box::new(self.test()?))
         } else if self.eat_any(IF) {
             self.test()?
-        } else if self.eat_any(&["when", "whenever", "once", "as soon as", "the moment", "the instant", "but only when", "only when", "but not before", "but not until",
-            "only once", "but only once"]) {
+        } else if self.eat_any(&[
+            "when",
+            "whenever",
+            "once",
+            "as soon as",
+            "the moment",
+            "the instant",
+            "but only when",
+            "only when",
+            "but not before",
+            "but not until",
+            "only once",
+            "but only once",
+        ]) {
             let test = self.test()?;
             clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
             return Ok(true);
@@ -279,24 +279,68 @@ impl Parser<'_> {
         if self.eat_any(ON_THE_WAY) {
             let to = self.reference(0)?;
             clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
-        } else if self.eat_any(&["but go via", "but go by way of", "but via", "going via", "going by way of", "but by way of", "but pass by", "stopping at", "stopping off at",
-            "with a stop at", "stopping by", "calling at", "with a stopover at", "but stop at the", "but stop off at"]) {
+        } else if self.eat_any(&[
+            "but go via",
+            "but go by way of",
+            "but via",
+            "going via",
+            "going by way of",
+            "but by way of",
+            "but pass by",
+            "stopping at",
+            "stopping off at",
+            "with a stop at",
+            "stopping by",
+            "calling at",
+            "with a stopover at",
+            "but stop at the",
+            "but stop off at",
+        ]) {
             let the = self.lexemes[self.at - 1].token == Token::Word("the".to_owned());
             self.at -= usize::from(the);
             let to = self.reference(0)?;
-            self.eat_any(&["on the way", "along the way", "on your way", "first", "en route", "on the way there"]);
+            self.eat_any(&[
+                "on the way",
+                "along the way",
+                "on your way",
+                "first",
+                "en route",
+                "on the way there",
+            ]);
             clauses.insert(last, Clause::Go { to, side: None, pace: Pace::Usual, within: None });
         } else if self.eat_any(&["before"]) {
             self.eat_any(&["you"]);
             clauses.extend(self.order()?);
-        } else if self.eat_any(&["after", "but first", "but before that", "but first of all", "but beforehand", "but before you do", "but before you do that", "but only after",
-            "right after", "straight after"]) {
-            if let Some((seconds, count)) = numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0) {
+        } else if self.eat_any(&[
+            "after",
+            "but first",
+            "but before that",
+            "but first of all",
+            "but beforehand",
+            "but before you do",
+            "but before you do that",
+            "but only after",
+            "right after",
+            "straight after",
+        ]) {
+            if let Some((seconds, count)) =
+                numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0)
+            {
                 self.at += count;
                 clauses.insert(last, Clause::Wait { seconds });
                 return Ok(true);
             }
-            self.eat_any(&["youve", "you have", "you had", "having", "you are done", "youre done", "you", "a visit to", "a stop at"]);
+            self.eat_any(&[
+                "youve",
+                "you have",
+                "you had",
+                "having",
+                "you are done",
+                "youre done",
+                "you",
+                "a visit to",
+                "a stop at",
+            ]);
             let mut earlier = self.earlier()?;
             self.for_a_while(&mut earlier);
             while self.eat_any(&["and then", "then"]) {
@@ -320,122 +364,11 @@ impl Parser<'_> {
         self.at = start;
         self.order()
     }
-
-    /// "For ten seconds".
-    fn for_a_while(&mut self, clauses: &mut Vec<Clause>) -> bool {
-        let Some((seconds, count)) = self.peek_for() else { return false };
-        // "Towards the museum for ten seconds" is on the way; "to the museum for ten seconds" is there.
-        let earlier = &self.lexemes[self.at.saturating_sub(6)..self.at];
-        let towards = earlier
-            .iter()
-            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
-        let rests = !towards
-            && matches!(clauses.last(), Some(Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop | Clause::Park { .. }));
-        self.at += count;
-        if let Some(Clause::Until { test: test @ Test::Never, .. }) = clauses.last_mut() {
-            *test = Test::Elapsed(seconds);
-        } else if rests && clauses.last_mut().is_some_and(|last| last.plural().is_some()) {
-            let body = clauses.pop().map(Box::new);
-            clauses.extend(body.map(|body| Clause::Stay { body, seconds }));
-        } else if rests {
-            clauses.push(Clause::Wait { seconds });
-        } else {
-            let body = body_of(clauses.pop());
-            clauses.push(Clause::Until { test: Test::Elapsed(seconds), body });
-        }
-        true
-    }
-
-    /// "..., with five seconds after each shot".
-    fn with_pauses(&mut self, clauses: &mut Vec<Clause>) -> bool {
-        let start = self.at;
-        let pause = if self.eat_any(&["with", "and wait", "waiting", "pausing", "and pause", "and leave", "leaving", "with a pause of", "with a break of", "at intervals of"]) {
-            self.eat_any(&["a pause of", "a break of", "for"]);
-            numbers::duration(self.rest())
-        } else {
-            None
-        };
-        if let Some((seconds, count)) = pause {
-            self.at += count;
-            self.eat_any(&["pause", "break", "rest"]);
-            let each = self.eat_any(&["after each", "after every", "between each", "in between", "between them", "each time", "after each one", "between", "every time",
-                "between two", "between the"]);
-            self.eat_any(&["shot", "photo", "picture", "time", "one", "wave", "turn", "round", "lap", "shots", "photos", "pictures", "waves", "go", "of them"]);
-            if each && let Some(paused) = clauses.pop() {
-                clauses.extend(pausing(paused, seconds));
-                return true;
-            }
-        }
-        self.at = start;
-        false
-    }
-
-    /// "..., at twelve metres a second", "..., run!".
-    fn at_a_pace(&mut self, clauses: &mut [Clause]) -> Result<bool, PlanError> {
-        let start = self.at;
-        let Some(Clause::Go { pace, .. } | Clause::Drive { pace, .. } | Clause::Follow { pace, .. }) = clauses.last_mut() else {
-            return Ok(false);
-        };
-        if *pace != Pace::Usual {
-            return Ok(false);
-        }
-        let run = self.eat_any(&["run", "running", "sprint", "at the double", "on the double", "at full speed", "full speed", "as fast as your legs can carry you"]);
-        let found = if run { Pace::Run } else { self.pace(Pace::Usual)? };
-        if found == Pace::Usual || !self.ends_clause() {
-            self.at = start;
-            return Ok(false);
-        }
-        *pace = found;
-        Ok(true)
-    }
-
-    /// "For ten seconds".
-    fn peek_for(&self) -> Option<(f64, usize)> {
-        let words = longest_phrase(self.rest(), &["for", "for about", "during", "for at least"])?;
-        let (seconds, count) = numbers::duration(&self.rest()[words..])?;
-        (seconds > 0.0 && seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
-    }
-
-    /// "Every five seconds", "once a minute".
-    pub(super) fn peek_interval(&self) -> Option<(f64, usize)> {
-        const UNITS: &[(&[&str], f64)] =
-            &[(&["second"], 1.0), (&["minute"], 60.0), (&["hour"], 3600.0), (&["half minute"], 30.0)];
-        const EVERY: &[&str] =
-            &["every", "once every", "each", "once each", "at intervals of", "once a", "once an", "once per"];
-        let words = longest_phrase(self.rest(), EVERY)?;
-        let after = &self.rest()[words..];
-        let (seconds, count) = match longest(after, UNITS) {
-            Some(unit) => unit,
-            // "Every bit" is no time, and a bare number is no interval.
-            None => numbers::duration(after).filter(|(_, count)| *count > 1)?,
-        };
-        (seconds > 0.0 && seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
-    }
 }
 
 /// "For ten seconds", behind a comma.
 fn numbers_for(lexemes: &[Lexeme]) -> bool {
     longest_phrase(lexemes, &["for"]).is_some_and(|words| numbers::duration(&lexemes[words..]).is_some())
-}
-
-/// What was to be done several times, with a pause after each.
-fn pausing(clause: Clause, seconds: f64) -> Vec<Clause> {
-    match clause {
-        Clause::Photo { of, times } => {
-            let face = of.map(|what| Clause::Face { what });
-            let body = vec![Clause::Photo { of: None, times: 1 }, Clause::Wait { seconds }];
-            face.into_iter().chain([Clause::Repeat { times, body }]).collect()
-        }
-        Clause::Repeat { times, mut body } => {
-            body.push(Clause::Wait { seconds });
-            vec![Clause::Repeat { times, body }]
-        }
-        Clause::Until { test, mut body } => {
-            body.push(Clause::Wait { seconds });
-            vec![Clause::Until { test, body }]
-        }
-        other => vec![other, Clause::Wait { seconds }],
-    }
 }
 
 /// The last order, or all of the group if the last one is not a thing that one does twice in a row.
@@ -454,7 +387,7 @@ fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
 }
 
 /// What goes on until something happens: waiting needs no order, and a step forward is the first of many.
-fn body_of(clause: Option<Clause>) -> Vec<Clause> {
+pub(super) fn body_of(clause: Option<Clause>) -> Vec<Clause> {
     match clause {
         None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
         Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],

@@ -4,7 +4,7 @@ use simworld_core::net::Aspect;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Target, Test};
-use super::lexer::{Lexeme, Token};
+use super::lexer::Token;
 use super::lexicon::{fits, longest, longest_phrase};
 use super::numbers;
 use super::paint::PAINTS;
@@ -34,116 +34,37 @@ const LIGHTS: &[&str] = &[
     "traffic light",
     "the traffic lights",
 ];
+#[rustfmt::skip]
 const BECOMES: &[&str] = &[
-    "is",
-    "are",
-    "turns",
-    "goes",
-    "changes to",
-    "becomes",
-    "shows",
-    "turns to",
-    "switches to",
-    "gets",
-    "has turned",
-    "has gone",
-    "has changed to",
-    "has become",
-    "is on",
-    "jumps to",
-    "has switched to",
-    "stays",
-    "to turn",
-    "to change to",
-    "to go",
-    "to become",
-    "to be",
-    "goes to",
-    "gets to",
-    "turns into",
-    "is showing",
-    "change to",
-    "turn",
+    "is", "are", "turns", "goes", "changes to", "becomes", "shows", "turns to", "switches to", "gets",
+    "has turned", "has gone", "has changed to", "has become", "is on", "jumps to", "has switched to", "stays",
+    "to turn", "to change to", "to go", "to become", "to be", "goes to", "gets to", "turns into", "is showing",
+    "change to", "turn",
 ];
 
+#[rustfmt::skip]
 const STATES: &[(&[&str], State)] = &[
-    (
-        &["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use", "not busy", "free again", "no longer taken", "no longer occupied", "untaken", "clear"],
-        State::Free,
-    ),
-    (&["taken", "occupied", "in use", "not free", "busy", "full", "not empty", "not available", "no longer free", "used"], State::InUse),
+    (&["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use",
+    "not busy", "free again", "no longer taken", "no longer occupied", "untaken", "clear"], State::Free),
+    (&["taken", "occupied", "in use", "not free", "busy", "full", "not empty", "not available",
+    "no longer free", "used"], State::InUse),
     (&["open", "not closed", "opened", "unlocked"], State::Open),
     (&["closed", "shut", "not open"], State::Closed),
-    (
-        &["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by", "around", "about", "anywhere near"],
-        State::Near,
-    ),
-    (
-        &[
-            "next to you",
-            "here",
-            "beside you",
-            "by your side",
-            "there",
-            "at your side",
-            "in front of you",
-            "with you",
-        ],
-        State::Next,
-    ),
+    (&["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by", "around",
+    "about", "anywhere near"], State::Near),
+    (&["next to you", "here", "beside you", "by your side", "there", "at your side", "in front of you",
+    "with you"], State::Next),
     (&["visible", "in sight", "in view", "to be seen", "seen", "within sight"], State::Seen),
 ];
+#[rustfmt::skip]
 const ARRIVES: &[&str] = &[
-    "arrives",
-    "comes",
-    "gets here",
-    "comes near",
-    "arrives here",
-    "comes here",
-    "is here",
-    "comes close",
-    "reaches you",
-    "has arrived",
-    "comes back",
-    "comes to you",
-    "turns up",
-    "shows up",
-    "comes near you",
-    "arrive",
-    "come",
-    "turn up",
-    "show up",
-    "come back",
-    "come near",
-    "returns",
-    "return",
-    "is back",
-    "walks up",
-    "comes up to you",
-    "gets to you",
-    "reach you",
-    "comes over",
-    "is back again",
-    "gets back",
-    "has come back",
-    "has returned",
-    "has shown up",
-    "has turned up",
-    "approaches",
-    "walks over",
-    "draws near",
-    "gets close",
-    "gets near you",
-    "gets close to you",
-    "comes close to you",
-    "walks up to you",
-    "comes by",
-    "drops by",
-    "passes by",
-    "has reached you",
-    "has joined you",
-    "has come",
-    "joins you",
+    "arrives", "comes", "gets here", "comes near", "arrives here", "comes here", "is here", "comes close",
+    "reaches you", "has arrived", "comes back", "comes to you", "turns up", "shows up", "comes near you",
+    "arrive", "come", "turn up", "show up", "come back", "come near", "returns", "return", "is back",
+    "walks up", "comes up to you", "gets to you", "reach you", "comes over", "is back again", "gets back",
+    "has come back", "has returned", "has shown up", "has turned up", "approaches", "walks over", "draws near",
+    "gets close", "gets near you", "gets close to you", "comes close to you", "walks up to you", "comes by",
+    "drops by", "passes by", "has reached you", "has joined you", "has come", "joins you",
 ];
 const APPEARS: &[&str] = &[
     "comes into view",
@@ -200,7 +121,7 @@ impl Parser<'_> {
         }
     }
 
-    fn simple_test(&mut self) -> Result<Test, PlanError> {
+    pub(super) fn simple_test(&mut self) -> Result<Test, PlanError> {
         let start = self.at;
         for rule in [Self::weather, Self::light, Self::passed] {
             if let Some(test) = rule(self) {
@@ -228,7 +149,18 @@ impl Parser<'_> {
     pub(super) fn light_to_turn(&mut self) -> Option<Test> {
         self.eat_any(&["the", "a"]);
         let said = self.eat_any(&["light", "lights", "traffic light", "traffic lights", "signal"])
-            && self.eat_any(&["to turn", "to change to", "to go", "to be", "to become", "to switch to", "to show", "to turn to", "to get", "to change into"]);
+            && self.eat_any(&[
+                "to turn",
+                "to change to",
+                "to go",
+                "to be",
+                "to become",
+                "to switch to",
+                "to show",
+                "to turn to",
+                "to get",
+                "to change into",
+            ]);
         let (shows, words) = longest(self.rest(), ASPECTS).filter(|_| said)?;
         self.at += words;
         Some(Test::Light { light: None, shows })
@@ -253,48 +185,18 @@ impl Parser<'_> {
         Some(if not { Test::Not(Box::new(test)) } else { test })
     }
 
-    /// Who is told, or who speaks to him and goes along: "you", "we".
-    fn subject(&mut self) -> bool {
-        const WITH_HAVE: &[&str] = &["youve", "weve", "ive", "you have", "we have", "i have", "youll have", "you had"];
-        if let Some(words) = longest_phrase(self.rest(), WITH_HAVE) {
-            // "You have the letter" is about holding it.
-            let participle = self.rest().get(words).is_some_and(|lexeme| lexeme.lemma.is_some() || is_participle(lexeme));
-            self.at += if participle { words } else { 0 };
-            if participle {
-                return true;
-            }
-        }
-        let found = self.eat_any(&["you", "we", "i", "youre", "were", "im", "you are", "we are", "i am", "you will", "youll", "one", "you can", "we can", "you should",
-            "you happen to", "you could", "you manage to", "you are able to", "your eyes", "you ever", "we should"]);
-        self.adverbs();
-        found
-    }
-
-    fn seen(&mut self) -> Result<Option<Test>, PlanError> {
-        const SEE: &[&str] = &[
-            "see", "spot", "notice", "find", "catch a glimpse of", "catch sight of", "get to see", "make out", "sight", "seen", "spotted", "encounter", "come across",
-            "happen to see", "seeing", "spotting", "noticed", "found", "can see", "can spot", "can make out", "have seen", "have spotted", "are able to see", "glimpse",
-            "get a glimpse of", "run into", "bump into", "set eyes on", "lay eyes on", "have in sight", "get sight of", "discover", "sighted", "come upon", "have in view",
-        ];
-        const BLIND: &[&str] = &[
-            "dont see", "cannot see", "cant see", "do not see", "no longer see", "lose sight of", "dont spot", "cant find", "cannot find", "dont find", "cant spot",
-            "do not spot", "havent seen", "have not seen", "no longer spot", "are not able to see", "can no longer see", "cant make out", "dont notice",
-        ];
-        self.subject();
-        if self.eat_any(BLIND) {
-            self.adverbs();
-            return Ok(Some(Test::Not(Box::new(Test::Sees(self.reference(0)?)))));
-        }
-        if !self.eat_any(SEE) {
-            return Ok(None);
-        }
-        self.reference(0).map(|what| Some(Test::Sees(what)))
-    }
-
     /// "Somebody is sitting on the bench", "nobody is in the chair".
-    fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
-        const SOMEBODY: &[&str] =
-            &["somebody", "someone", "anybody", "anyone", "a person", "some person", "another person", "anyone at all"];
+    pub(super) fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
+        const SOMEBODY: &[&str] = &[
+            "somebody",
+            "someone",
+            "anybody",
+            "anyone",
+            "a person",
+            "some person",
+            "another person",
+            "anyone at all",
+        ];
         const NOBODY: &[&str] = &["nobody", "no one", "noone", "nobody else", "no person"];
         self.eat_any(&["there is", "theres"]);
         let nobody = self.eat_any(NOBODY);
@@ -310,7 +212,9 @@ impl Parser<'_> {
         let said = self.eat_any(&["on", "in", "using", "uses", "occupying", "has taken", "has"]);
         let taken = if said {
             Test::InUse(self.reference(0)?)
-        } else if self.lexemes[self.at - 1].lemma.as_deref() == Some("sit") && self.eat_any(&["there", "there already"]) {
+        } else if self.lexemes[self.at - 1].lemma.as_deref() == Some("sit")
+            && self.eat_any(&["there", "there already"])
+        {
             Test::InUse(Reference::to(Target::It, "it".to_owned()))
         } else {
             return Ok(None);
@@ -319,7 +223,15 @@ impl Parser<'_> {
     }
 
     fn there_is(&mut self) -> Result<Option<Test>, PlanError> {
-        const IS: &[&str] = &["there is", "theres", "there are", "you find that there is", "there should be", "there happens to be", "there is still"];
+        const IS: &[&str] = &[
+            "there is",
+            "theres",
+            "there are",
+            "you find that there is",
+            "there should be",
+            "there happens to be",
+            "there is still",
+        ];
         const NOT: &[&str] = &[
             "there is no",
             "theres no",
@@ -338,6 +250,19 @@ impl Parser<'_> {
         what.indefinite = true;
         what.choice = Choice::Open; // "nearby" is what one asks
         self.eat_any(&[
+            "anywhere about",
+            "anywhere around",
+            "anywhere near",
+            "anywhere nearby",
+            "anywhere near you",
+            "anywhere",
+            "somewhere",
+            "somewhere about",
+            "somewhere near",
+            "about",
+            "in the area",
+            "to be seen",
+            "in view",
             "nearby",
             "here",
             "around",
@@ -353,69 +278,6 @@ impl Parser<'_> {
         let free = what.traits.free;
         let test = Test::There { what, free };
         Ok(Some(if not { Test::Not(Box::new(test)) } else { test }))
-    }
-
-    /// About the agent itself.
-    fn mine(&mut self) -> Result<Option<Test>, PlanError> {
-        const HOLD: &[&str] = &["holding", "hold", "have", "carrying", "carry", "got", "have got", "in possession of", "in hold of", "possess", "have picked up", "have taken"];
-        const EMPTY: &[&str] = &[
-            "your hands are empty", "your hand is empty", "your hands are free", "your hand is free", "holding nothing", "hold nothing", "have nothing in your hands",
-            "carry nothing", "carrying nothing", "have nothing", "have got nothing", "got nothing", "empty handed", "have your hands free", "have a free hand",
-            "have both hands free", "dont have anything", "arent holding anything", "are not holding anything", "not holding anything", "not carrying anything",
-            "have nothing in your hand", "got nothing in your hands", "have got nothing in your hands",
-        ];
-        const SIT: &[&str] = &["sitting", "seated", "sit", "sitting down", "in a seat", "are sitting", "are seated"];
-        const STAND: &[&str] = &["standing", "stand", "not sitting", "on your feet", "not seated", "standing up", "not sitting down", "up"];
-        const REACH: &[&str] = &[
-            "near", "next to", "at", "reach", "get to", "arrive at", "close to", "come to", "beside", "by", "reached", "get near", "stand next to", "in front of",
-            "reaching", "arrive in", "within reach of", "got to", "arrived at", "come near", "get close to", "come close to", "pass", "come up to", "approach",
-            "are near", "are at", "outside", "stand at", "stand by", "stand beside", "arriving at", "getting to", "make it to", "made it to", "are next to",
-        ];
-        const FAR: &[&str] = &["far from", "away from", "not near", "leave", "not at", "far away from", "not close to", "not next to", "have left"];
-        let start = self.at;
-        if self.eat_any(EMPTY) {
-            return Ok(Some(Test::Not(Box::new(Test::Holds(None)))));
-        }
-        let subject = self.subject();
-        if !subject && longest_phrase(self.rest(), &["reaching", "arriving at", "getting to"]).is_none() {
-            self.at = start;
-            return Ok(None);
-        }
-        if self.eat_any(EMPTY) {
-            return Ok(Some(Test::Not(Box::new(Test::Holds(None)))));
-        }
-        let not_holding = self.eat_any(&["dont have", "do not have", "havent got", "have not got", "not holding", "not carrying", "dont hold", "are not holding", "dont carry"]);
-        if not_holding || self.eat_any(HOLD) {
-            let holds = self.held()?;
-            return Ok(Some(if not_holding { Test::Not(Box::new(holds)) } else { holds }));
-        }
-        if self.eat_any(STAND) {
-            return Ok(Some(Test::Not(Box::new(Test::Seated))));
-        }
-        if self.eat_any(SIT) {
-            self.eat_any(&["down"]);
-            return Ok(Some(Test::Seated));
-        }
-        if self.eat_any(FAR) {
-            let what = self.reference(0)?;
-            return Ok(Some(Test::Not(Box::new(Test::Near { what, within: NEARBY }))));
-        }
-        if self.eat_any(REACH) {
-            return Ok(Some(Test::Near { what: self.reference(0)?, within: NEXT_TO_ME }));
-        }
-        Ok(None)
-    }
-
-    /// What is in hand: "something", "the letter with you".
-    fn held(&mut self) -> Result<Test, PlanError> {
-        const WITH_YOU: &[&str] = &["in your hand", "in your hands", "with you", "on you", "in hand", "in the hand", "in your arms", "already"];
-        if self.eat_any(&["something", "anything"]) {
-            self.eat_any(WITH_YOU);
-            return Ok(Test::Holds(None));
-        }
-        let what = self.reference(0)?;
-        self.eat_any(WITH_YOU);
-        Ok(Test::Holds(Some(what)))
     }
 
     /// "Ten seconds have passed".
@@ -468,8 +330,11 @@ impl Parser<'_> {
         if let Some(test) = self.light_of(&what) {
             return Ok(Some(test));
         }
-        const BE: &[&str] =
-            &["is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become", "remains", "stays", "sits", "turns out to be", "comes"];
+        #[rustfmt::skip]
+        const BE: &[&str] = &[
+            "is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become",
+            "remains", "stays", "sits", "turns out to be", "comes",
+        ];
         if !self.eat_any(BE) {
             return Ok(None);
         }
@@ -511,64 +376,12 @@ impl Parser<'_> {
         Some(Test::Light { light: Some(what.clone()), shows })
     }
 
-    /// "Is the door still open?": a question as a condition.
-    pub(super) fn asked(&mut self) -> Option<Test> {
-        let start = self.at;
-        let (verb, words) = longest(self.rest(), &[
-            (&["is", "are"][..], true),
-            (&["does", "do", "can", "has", "have", "did"], false),
-        ])?;
-        self.at += words;
-        let outer = std::mem::replace(&mut self.in_test, true);
-        let test = if verb && self.peeks("it") {
-            self.at += 1;
-            self.adverbs();
-            self.weather_again()
-        } else if verb && self.eat_any(&["there"]) {
-            self.reference(0).ok().map(|what| Test::There { free: what.traits.free, what: Reference { indefinite: true, choice: Choice::Open, ..what } })
-        } else if verb && longest_phrase(self.rest(), &["anybody", "anyone", "somebody", "someone"]).is_some() {
-            self.sat_on().ok().flatten()
-        } else if verb {
-            // In "is the door open" the door is all that the noun phrase takes.
-            let what = self.reference(0).ok();
-            what.and_then(|what| self.asked_state(what))
-        } else {
-            self.simple_test().ok()
-        };
-        self.in_test = outer;
-        self.eat_any(&["nearby", "near here", "around", "here"]);
-        let asked = test.filter(|_| self.mark() == Some('?'));
-        if asked.is_none() {
-            self.at = start;
-        }
-        asked
-    }
-
-    /// The state of a thing, also where the noun phrase took it for what the thing is like.
-    fn asked_state(&mut self, mut what: Reference) -> Option<Test> {
-        if let Some((key, set)) = what.traits.state.take() {
-            let open = Test::Open(what);
-            return (key == simworld_core::scene::OPEN).then(|| if set { open } else { Test::Not(Box::new(open)) });
-        }
-        if what.traits.free {
-            what.traits.free = false;
-            return Some(Test::Not(Box::new(Test::InUse(what))));
-        }
-        self.state_of(what)
-    }
-
     /// A colour at the cursor that says what a thing is like and not what a light shows.
     pub(super) fn peek_paint(&self) -> Option<(super::paint::Paint, usize)> {
         let found = longest(self.rest(), PAINTS)?;
         let is_word = matches!(self.rest().first()?.token, Token::Word(_));
         (is_word && fits(self.rest(), "dark").is_none()).then_some(found)
     }
-}
-
-/// Whether a word says what was done: "seen", "reached".
-fn is_participle(lexeme: &Lexeme) -> bool {
-    matches!(&lexeme.token, Token::Word(word)
-        if ["seen", "spotted", "reached", "arrived", "sighted", "noticed", "found", "picked", "made", "left", "sat", "come"].contains(&word.as_str()))
 }
 
 #[derive(Clone, Copy)]

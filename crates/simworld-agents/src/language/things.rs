@@ -22,6 +22,9 @@ impl<'a> Draft<'a> {
         if self.is_mount(what) {
             return self.go_on_to(to); // "take the car: drive it to the museum"
         }
+        if let Some(other) = self.another(what) {
+            return self.take_to(&other, to, grip); // "pick up the letter and the parcel"
+        }
         if self.is_in_hand(what) {
             return to.map_or(Ok(()), |to| self.drop(Some(what), Some(to), Manner::Deliver));
         }
@@ -39,6 +42,19 @@ impl<'a> Draft<'a> {
         }
         self.take(what)?;
         to.map_or(Ok(()), |to| self.bring(to, Manner::PutDown))
+    }
+
+    /// Another thing of a class than the one in hand, which nobody takes twice.
+    fn another(&self, what: &Reference) -> Option<Reference> {
+        let is_class = matches!(what.target, Target::Any(_)) && what.relation.is_none();
+        let held = match self.held {
+            Some(Load::Thing(id)) if is_class => id,
+            _ => return None,
+        };
+        let found = self.view.candidates(what, Purpose::Item).ok()?;
+        let is_first = found.first().is_some_and(|(_, id)| *id == held);
+        let (_, other) = found.iter().find(|(_, id)| *id != held).filter(|_| is_first)?;
+        Some(Reference::to(Target::Id(*other), what.text.clone()))
     }
 
     /// Whether the words stand for what one sits in or rides.
@@ -196,11 +212,7 @@ impl<'a> Draft<'a> {
             Load::Thing(item) => self.view.it == Some(item),
             Load::Bought => self.view.it.is_none(),
         };
-        self.held.is_none()
-            && self.carried.is_none()
-            && same
-            && spoken_of
-            && (to.is_none() || to == receiver)
+        self.held.is_none() && self.carried.is_none() && same && spoken_of && (to.is_none() || to == receiver)
     }
 
     fn nothing_in_hand(&self, wanted: &str) -> PlanError {
@@ -259,7 +271,9 @@ impl<'a> Draft<'a> {
                     self.view.scene.nearest(vehicle.planar(), PART, &|at| at.kind == EntityKind::Building);
                 return self.go_beside(&house.unwrap_or(vehicle)); // "go in"
             }
-            EntityKind::Building | EntityKind::Door | EntityKind::Crosswalk => return self.go_beside(&vehicle),
+            EntityKind::Building | EntityKind::Door | EntityKind::Crosswalk => {
+                return self.go_beside(&vehicle);
+            }
             other => {
                 let near = format!(
                     "a {other} cannot be; scooters, bicycles, motorcycles, cars, trucks and buses can"
@@ -334,7 +348,11 @@ impl<'a> Draft<'a> {
 
     /// The house whose door was spoken of last.
     fn house_of_door(&self) -> Option<EntityRef<'a>> {
-        let door = self.view.it.and_then(|id| self.view.scene.entity(id)).filter(|it| it.kind == EntityKind::Door)?;
+        let door = self
+            .view
+            .it
+            .and_then(|id| self.view.scene.entity(id))
+            .filter(|it| it.kind == EntityKind::Door)?;
         self.view.scene.nearest(door.planar(), PART, &|at| at.kind == EntityKind::Building)
     }
 

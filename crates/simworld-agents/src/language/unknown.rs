@@ -7,7 +7,7 @@ use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
-use super::politeness::{FILLERS, JOINTS};
+use super::politeness::{filler, joint};
 
 /// Words that end a phrase whose words are not known.
 const BOUNDARIES: &[&str] = &[
@@ -62,7 +62,8 @@ impl<'a> Parser<'a> {
 
     /// Whether an order could go on or end here, so that no noun does.
     fn ends_phrase(&self) -> bool {
-        [JOINTS, BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
+        joint(self.rest()).is_some()
+            || [BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
     }
 
     /// The words up to where something known goes on.
@@ -71,9 +72,9 @@ impl<'a> Parser<'a> {
         let ends = |at: &usize| {
             let here = &rest[*at..];
             !matches!(here[0].token, Token::Word(_) | Token::Number(_))
-                || [JOINTS, FILLERS, BOUNDARIES, COPULAS]
-                    .iter()
-                    .any(|words| longest_phrase(here, words).is_some())
+                || joint(here).is_some()
+                || filler(here).is_some()
+                || [BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(here, words).is_some())
                 || longest(here, RELATIONS).is_some()
         };
         let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());

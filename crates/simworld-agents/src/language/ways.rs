@@ -19,29 +19,25 @@ const LONGEST_WALK: f64 = 10_000.0;
 /// How far before a thing one stops short of it where nothing else is said, m.
 const SHORT_OF: f64 = 3.0;
 
+#[rustfmt::skip]
 const HALFWAY: &[&str] = &[
-    "halfway",
-    "half way",
-    "midway",
-    "mid way",
-    "half of the way",
-    "half the way",
-    "in the middle",
-    "half the distance",
-    "half of the distance",
-    "half way along",
-    "at the midpoint",
-    "at the middle",
-    "in the centre",
-    "in the center",
-    "the middle",
-    "the midpoint",
-    "the centre",
-    "the center",
-    "equidistant",
+    "halfway", "half way", "midway", "mid way", "half of the way", "half the way", "in the middle",
+    "half the distance", "half of the distance", "half way along", "at the midpoint", "at the middle",
+    "in the centre", "in the center", "the middle", "the midpoint", "the centre", "the center", "equidistant",
 ];
 /// How exactly something is meant, which changes nothing.
-const EXACTLY: &[&str] = &["right", "exactly", "precisely", "just", "about", "roughly", "somewhere", "directly", "squarely", "smack"];
+const EXACTLY: &[&str] = &[
+    "right",
+    "exactly",
+    "precisely",
+    "just",
+    "about",
+    "roughly",
+    "somewhere",
+    "directly",
+    "squarely",
+    "smack",
+];
 
 impl Parser<'_> {
     /// So many metres in a direction of the compass, in either order; a direction without a length only where one goes
@@ -56,7 +52,11 @@ impl Parser<'_> {
         };
         let number_at = self.at;
         let of_thing = longest_phrase(self.rest(), &["of", "from"]).is_some()
-            && longest_phrase(self.rest(), &["of here", "from here", "of you", "from where you are", "of where you are"]).is_none();
+            && longest_phrase(
+                self.rest(),
+                &["of here", "from here", "of you", "from where you are", "of where you are"],
+            )
+            .is_none();
         if of_thing {
             self.at = start; // "two metres north of the hydrant" is a place
             return Ok(None);
@@ -114,16 +114,32 @@ impl Parser<'_> {
         self.at = start;
         self.eat_any(EXACTLY);
         let at = self.at;
-        self.eat_any(&["to a", "to the", "at a", "at the", "to", "at", "into", "in"]);
+        self.eat_any(&[
+            "to a",
+            "to the",
+            "at a",
+            "at the",
+            "to",
+            "at",
+            "into",
+            "in",
+            "the exact",
+            "the",
+            "a",
+        ]);
         self.eat_any(&["point", "spot", "place", "position", "space", "gap"]);
         self.eat_any(&["that is", "thats", "which is"]);
         self.eat_any(EXACTLY);
         let middle = longest_phrase(self.rest(), &["middle", "midpoint", "centre", "center"]);
-        if let Some(words) = middle.filter(|words| longest_phrase(&self.rest()[*words..], &["between", "of the way", "in between"]).is_some()) {
+        if let Some(words) = middle.filter(|words| {
+            longest_phrase(&self.rest()[*words..], &["between", "of the way", "in between"]).is_some()
+        }) {
             self.at += words;
             return self.halfway(pace).map(Some);
         }
-        if longest_phrase(self.rest(), HALFWAY).is_none() && longest_phrase(&self.lexemes[at..], HALFWAY).is_some() {
+        if longest_phrase(self.rest(), HALFWAY).is_none()
+            && longest_phrase(&self.lexemes[at..], HALFWAY).is_some()
+        {
             self.at = at;
         }
         if self.eat_any(HALFWAY) {
@@ -282,7 +298,8 @@ impl Parser<'_> {
     fn for_photo(&mut self, go: &Clause) -> Option<Clause> {
         let Clause::Go { to, .. } = go else { return None };
         let start = self.at;
-        let said = self.eat_any(&["for a", "for a quick", "for another", "for a nice"]) && self.eat_any(super::orders::PHOTOS);
+        let said = self.eat_any(&["for a", "for a quick", "for another", "for a nice"])
+            && self.eat_any(super::orders::PHOTOS);
         if !said {
             self.at = start;
         }
@@ -291,7 +308,17 @@ impl Parser<'_> {
 
     /// What is said of the way after where it leads.
     pub(super) fn after_place(&mut self, go: Clause, pace: Pace) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&["via", "by way of", "passing by", "passing through", "going via", "through", "going through", "and go via", "by going via"]) {
+        if self.eat_any(&[
+            "via",
+            "by way of",
+            "passing by",
+            "passing through",
+            "going via",
+            "through",
+            "going through",
+            "and go via",
+            "by going via",
+        ]) {
             let over = Clause::Go { to: self.reference(0)?, side: None, pace, within: None };
             return Ok(vec![over, go]);
         }

@@ -16,16 +16,25 @@ enum Sky {
 }
 
 /// As what "it is" has behind it.
+#[rustfmt::skip]
 const STATES: &[(&[&str], Sky)] = &[
-    (&["raining", "rainy", "wet", "pouring", "pouring down", "drizzling", "raining outside", "bucketing down"], Sky::Rain),
+    (&["raining", "rainy", "wet", "pouring", "pouring down", "drizzling", "raining outside", "bucketing down"],
+    Sky::Rain),
     (&["snowing", "snowy", "snowing outside"], Sky::Snow),
-    (&["dark", "night", "nighttime", "night time", "dark outside", "after dark", "after sunset", "pitch dark", "dusk"], Sky::Dark),
+    (&["dark", "night", "nighttime", "night time", "dark outside", "after dark", "after sunset", "pitch dark",
+    "dusk"], Sky::Dark),
     (&["light", "day", "daytime", "bright", "daylight", "morning", "light outside", "day time"], Sky::Light),
     (&["dry"], Sky::Dry),
 ];
 /// As verbs, and behind "starts to" and "stops".
 const VERBS: &[(&[&str], Sky)] = &[
-    (&["rains", "rain", "raining", "to rain", "pours", "rained", "pouring", "to pour", "drizzles", "the rain"], Sky::Rain),
+    (
+        &[
+            "rains", "rain", "raining", "to rain", "pours", "rained", "pouring", "to pour", "drizzles",
+            "the rain",
+        ],
+        Sky::Rain,
+    ),
     (&["snows", "snow", "snowing", "to snow", "snowed"], Sky::Snow),
 ];
 /// As nouns, of which something is said.
@@ -33,28 +42,32 @@ const NOUNS: &[(&[&str], Sky)] = &[
     (&["the rain", "rain", "the downpour", "the shower", "the drizzle"], Sky::Rain),
     (&["the snow", "snow", "the snowfall"], Sky::Snow),
 ];
+#[rustfmt::skip]
 const BE: &[&str] = &[
-    "is", "be", "gets", "get", "becomes", "become", "has got", "has become", "has gotten", "turns", "grows", "is getting", "should be", "has turned", "was",
-    "gets to be", "goes",
+    "is", "be", "gets", "get", "becomes", "become", "has got", "has become", "has gotten", "turns", "grows",
+    "is getting", "should be", "has turned", "was", "gets to be", "goes",
 ];
-const BEGINS: &[&str] = &["starts", "begins", "start", "begin", "has started", "has begun", "comes", "should start", "started", "is here", "sets in", "comes on"];
+#[rustfmt::skip]
+const BEGINS: &[&str] = &[
+    "starts", "begins", "start", "begin", "has started", "has begun", "comes", "should start", "started",
+    "is here", "sets in", "comes on",
+];
+#[rustfmt::skip]
 const ENDS: &[&str] = &[
-    "stops", "has stopped", "stop", "is over", "ends", "lets up", "has let up", "has ended", "eases", "eases off", "passes", "has passed", "is gone",
-    "has gone", "dies down", "stopped", "ceases", "has ceased", "clears", "clears up", "has eased", "has cleared", "has finished", "finishes", "quits",
+    "stops", "has stopped", "stop", "is over", "ends", "lets up", "has let up", "has ended", "eases",
+    "eases off", "passes", "has passed", "is gone", "has gone", "dies down", "stopped", "ceases", "has ceased",
+    "clears", "clears up", "has eased", "has cleared", "has finished", "finishes", "quits",
 ];
 /// Whole sayings of the day.
+#[rustfmt::skip]
 const SAYINGS: &[(&[&str], Sky)] = &[
-    (
-        &["night falls", "night has fallen", "darkness falls", "darkness has fallen", "the sun sets", "the sun has set", "the sun goes down",
-          "the sun has gone down", "the sun is down", "the sun is gone", "nightfall", "sunset", "dusk", "dark", "the evening", "evening comes",
-          "the day is over", "it gets late", "the lights go out", "night comes", "the sun is setting"],
-        Sky::Dark,
-    ),
-    (
-        &["the sun rises", "the sun has risen", "the sun comes up", "the sun is up", "the sun has come up", "day breaks", "sunrise", "dawn", "daybreak",
-          "morning comes", "the morning", "first light", "daylight", "the sun is out"],
-        Sky::Light,
-    ),
+    (&["night falls", "night has fallen", "darkness falls", "darkness has fallen", "the sun sets",
+    "the sun has set", "the sun goes down", "the sun has gone down", "the sun is down", "the sun is gone",
+    "nightfall", "sunset", "dusk", "dark", "the evening", "evening comes", "the day is over", "it gets late",
+    "the lights go out", "night comes", "the sun is setting"], Sky::Dark),
+    (&["the sun rises", "the sun has risen", "the sun comes up", "the sun is up", "the sun has come up",
+    "day breaks", "sunrise", "dawn", "daybreak", "morning comes", "the morning", "first light", "daylight",
+    "the sun is out"], Sky::Light),
 ];
 const NOT: &[&str] = &["not", "no longer", "not yet", "neither"];
 
@@ -64,7 +77,17 @@ impl Parser<'_> {
         let found = self.of_sky();
         match found {
             Some((sky, holds)) => {
-                self.eat_any(&["outside", "any more", "anymore", "any longer", "again", "out", "out there", "already", "yet"]);
+                self.eat_any(&[
+                    "outside",
+                    "any more",
+                    "anymore",
+                    "any longer",
+                    "again",
+                    "out",
+                    "out there",
+                    "already",
+                    "yet",
+                ]);
                 Some(test(sky, holds))
             }
             None => {
@@ -114,6 +137,16 @@ impl Parser<'_> {
         self.eat_any(BEGINS).then_some((sky, !not))
     }
 
+    /// "It to get dark", behind "wait for".
+    pub(super) fn sky_to(&mut self) -> Option<Test> {
+        let start = self.at;
+        let found = if self.eat_any(&["it to", "it to have"]) { self.it_does(false) } else { None };
+        if found.is_none() {
+            self.at = start;
+        }
+        found.map(|(sky, holds)| test(sky, holds))
+    }
+
     /// Behind "it".
     fn it_does(&mut self, is: bool) -> Option<(Sky, bool)> {
         self.adverbs();
@@ -145,10 +178,38 @@ impl Parser<'_> {
 
     /// "Already", "still": when, which a condition says anyway.
     pub(super) fn adverbs(&mut self) {
-        while let Some(words) = longest_phrase(self.rest(), &[
-            "already", "still", "now", "really", "finally", "actually", "currently", "just", "also", "yet", "at last", "at the moment", "right now", "even",
-            "by now", "indeed", "all", "completely", "properly", "only", "ever", "in fact", "happen to", "happens to", "suddenly", "by then", "by any chance",
-        ]) {
+        while let Some(words) = longest_phrase(
+            self.rest(),
+            &[
+                "already",
+                "still",
+                "now",
+                "really",
+                "finally",
+                "actually",
+                "currently",
+                "just",
+                "also",
+                "yet",
+                "at last",
+                "at the moment",
+                "right now",
+                "even",
+                "by now",
+                "indeed",
+                "all",
+                "completely",
+                "properly",
+                "only",
+                "ever",
+                "in fact",
+                "happen to",
+                "happens to",
+                "suddenly",
+                "by then",
+                "by any chance",
+            ],
+        ) {
             self.at += words;
         }
     }
