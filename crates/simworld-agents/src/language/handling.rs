@@ -8,26 +8,32 @@ use super::orders::{BRINGS, PHOTOS};
 use super::parser::Parser;
 use simworld_core::seam::PlanError;
 
+/// Who is to be driven, before where to.
+#[rustfmt::skip]
+const ME_TO: &[&str] = &[
+    "me up at", "us up at", "me up from", "us up from", "me up by", "me up in front of",
+    "me up outside", "me at", "me to", "us to", "yourself to", "me over to", "us over to",
+    "yourself over to",
+];
+/// What is in hand, whatever it is.
+#[rustfmt::skip]
+const WHAT_YOU_HOLD: &[&str] = &[
+    "what you hold", "what youre holding", "what you are holding", "what you have",
+    "what you are carrying", "what youre carrying", "what you carry", "whatever you hold",
+    "whatever youre holding", "whatever you are holding", "everything",
+];
+/// What leads to where something is put.
+#[rustfmt::skip]
+const PLACES: &[&str] = &[
+    "at", "to", "in", "on", "into", "over to", "back to", "onto", "with", "up to", "down to",
+    "across to", "over at", "by", "along to", "out to", "round to", "off at", "down at", "down by",
+    "down on", "down in", "outside", "straight to",
+];
+
 impl Parser<'_> {
     pub(super) fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&[
-            "me up at",
-            "us up at",
-            "me up from",
-            "us up from",
-            "me up by",
-            "me up in front of",
-            "me up outside",
-            "me at",
-        ]) {
+        if self.takes_me() {
             return self.go(Pace::Usual, start);
-        }
-        if self.eat_any(&["me to", "us to", "yourself to", "me over to", "us over to", "yourself over to"]) {
-            return self.go(Pace::Usual, start);
-        }
-        let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
-        if brings_me && self.eat_any(&["to", "over to", "back to"]) {
-            return self.go(Pace::Usual, start); // "bring me to the school"
         }
         if let Some(clauses) = self.turn_to_take() {
             return Ok(clauses);
@@ -52,22 +58,10 @@ impl Parser<'_> {
         if let Some(photo) = self.portrait()? {
             return Ok(photo);
         }
-        let start = self.at;
-        // "Fetch Gus a newspaper", "fetch Hana the letter".
-        if let Some(whom) = self.somebody_here() {
-            let at = self.at;
-            if let Some(goods) = self.goods() {
-                return self.purchase(goods, Some(whom));
-            }
-            self.at = at;
-            let named = !self.ends_clause()
-                && (longest_phrase(self.rest(), &["the", "a", "that", "his", "her", "my"]).is_some()
-                    || category(self.rest()).is_some());
-            if named && let Ok(what) = self.reference(0) {
-                return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
-            }
-            self.at = start;
+        if let Some(clauses) = self.fetched_for()? {
+            return Ok(clauses);
         }
+        let start = self.at;
         let what = match self.reference(0) {
             Ok(what) => what,
             // "Get two bottles of water": what nobody has to hand over is bought.
@@ -89,6 +83,31 @@ impl Parser<'_> {
             return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
         }
         Ok(vec![Clause::Take { what, to, grip }])
+    }
+
+    /// "Take me to the school", "pick me up at the café": who is driven says where to.
+    fn takes_me(&mut self) -> bool {
+        let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
+        self.eat_any(ME_TO) || brings_me && self.eat_any(&["to", "over to", "back to"])
+    }
+
+    /// "Fetch Gus a newspaper", "fetch Hana the letter".
+    fn fetched_for(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        let Some(whom) = self.somebody_here() else { return Ok(None) };
+        let at = self.at;
+        if let Some(goods) = self.goods() {
+            return self.purchase(goods, Some(whom)).map(Some);
+        }
+        self.at = at;
+        let named = !self.ends_clause()
+            && (longest_phrase(self.rest(), &["the", "a", "that", "his", "her", "my"]).is_some()
+                || category(self.rest()).is_some());
+        if named && let Ok(what) = self.reference(0) {
+            return Ok(Some(vec![Clause::Give { what: Some(what), to: whom }]));
+        }
+        self.at = start;
+        Ok(None)
     }
 
     /// "Take its picture", "take Anna's photo".
@@ -217,32 +236,6 @@ impl Parser<'_> {
     }
 
     pub(super) fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
-        let places = [
-            "at",
-            "to",
-            "in",
-            "on",
-            "into",
-            "over to",
-            "back to",
-            "onto",
-            "with",
-            "up to",
-            "down to",
-            "across to",
-            "over at",
-            "by",
-            "along to",
-            "out to",
-            "round to",
-            "off at",
-            "down at",
-            "down by",
-            "down on",
-            "down in",
-            "outside",
-            "straight to",
-        ];
         let start = self.at;
         if manner == Manner::Deliver {
             let whom = self.receiver();
@@ -251,26 +244,14 @@ impl Parser<'_> {
             }
             self.at = start;
         }
-        self.eat_any(&[
-            "what you hold",
-            "what youre holding",
-            "what you are holding",
-            "what you have",
-            "what you are carrying",
-            "what youre carrying",
-            "what you carry",
-            "whatever you hold",
-            "whatever youre holding",
-            "whatever you are holding",
-            "everything",
-        ]);
-        let what = if self.ends_clause() || longest_phrase(self.rest(), &places).is_some() {
+        self.eat_any(WHAT_YOU_HOLD);
+        let what = if self.ends_clause() || longest_phrase(self.rest(), PLACES).is_some() {
             None
         } else {
             Some(self.reference(0)?)
         };
         self.eat_any(&["down", "off", "up", "over", "across", "back"]);
-        let mut at = self.tail_place(&places)?;
+        let mut at = self.tail_place(PLACES)?;
         let what = what.map(|mut what| {
             // "Put the cone next to the bin" says where to, and not which cone.
             match what.relation.take() {
@@ -283,19 +264,24 @@ impl Parser<'_> {
             at = Some(Reference::to(Target::Here, "here".to_owned()));
         }
         if manner == Manner::Deliver && at.is_none() {
-            let over = self.lexemes[self.at - 1].token == Token::Word("over".to_owned());
-            if over && self.ends_clause() {
-                let to = Reference::to(Target::Them, "them".to_owned());
-                return Ok(vec![Clause::Give { what, to }]);
-            }
-            if !self.ends_clause()
-                && let Some(to) = what
-            {
-                return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
-            }
-            return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
+            return self.delivered_to_somebody(what);
         }
         Ok(vec![Clause::Drop { what, at, manner }])
+    }
+
+    /// "Bring Anna the parcel", "bring it over": no place follows.
+    fn delivered_to_somebody(&mut self, what: Option<Reference>) -> Result<Vec<Clause>, PlanError> {
+        let over = self.lexemes[self.at - 1].token == Token::Word("over".to_owned());
+        if over && self.ends_clause() {
+            let to = Reference::to(Target::Them, "them".to_owned());
+            return Ok(vec![Clause::Give { what, to }]);
+        }
+        if !self.ends_clause()
+            && let Some(to) = what
+        {
+            return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
+        }
+        return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
     }
 
     /// "Move the letter to the clinic" is about the letter.

@@ -37,7 +37,8 @@ const DEEPEST: u32 = 4;
 #[rustfmt::skip]
 const MORE_THAN_FILLERS: &[&str] = &[
     "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
-    "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "up there is",
+    "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "when you can see", "as soon as you can see", "whenever you can see", "when you can spot",
+    "as soon as you can spot", "when you can make out", "as soon as you can make out", "up there is",
     "go on to", "go on over to", "go on towards", "come on over", "here are",
 ];
 /// How often a statement is tried in other words, in one sentence.

@@ -42,22 +42,7 @@ impl View<'_> {
         purpose: Purpose,
     ) -> Result<Vec<Ranked>, PlanError> {
         match relation {
-            Stands::All(all) => {
-                // Whichever stand so in every way, the nearest first.
-                let any = Reference { choice: Choice::Nearest, ..reference.clone() };
-                let mut found: Option<Vec<Ranked>> = None;
-                for one in all {
-                    let fits = self.related(&any, one, purpose)?;
-                    found = Some(match found {
-                        Some(so_far) => so_far
-                            .into_iter()
-                            .filter(|(_, id)| fits.iter().any(|(_, other)| other == id))
-                            .collect(),
-                        None => fits,
-                    });
-                }
-                Ok(found.unwrap_or_default())
-            }
+            Stands::All(all) => self.in_all_ways(reference, all, purpose),
             Stands::Side(side) => Ok(self.on_side(reference, *side, purpose)),
             Stands::Compass(compass, of) => self.in_direction(reference, *compass, of.as_deref(), purpose),
             Stands::OnStreet(roads) => Ok(self.on_street(reference, roads, purpose)),
@@ -106,6 +91,27 @@ impl View<'_> {
                 Ok(strict)
             }
         }
+    }
+
+    /// Whichever stand so in every way, the nearest first.
+    fn in_all_ways(
+        &self,
+        reference: &Reference,
+        all: &[Stands],
+        purpose: Purpose,
+    ) -> Result<Vec<Ranked>, PlanError> {
+        let any = Reference { choice: Choice::Nearest, ..reference.clone() };
+        let mut found: Option<Vec<Ranked>> = None;
+        for one in all {
+            let fits = self.related(&any, one, purpose)?;
+            found = Some(match found {
+                Some(so_far) => {
+                    so_far.into_iter().filter(|(_, id)| fits.iter().any(|(_, other)| other == id)).collect()
+                }
+                None => fits,
+            });
+        }
+        Ok(found.unwrap_or_default())
     }
 
     /// Those that stand in a relation to what the anchor may mean.

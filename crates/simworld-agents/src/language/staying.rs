@@ -119,23 +119,8 @@ impl Parser<'_> {
                 within: None,
             });
         }
-        if clauses.is_empty()
-            && longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).is_some()
-        {
-            let seated = self.peeks("on");
-            self.at +=
-                longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).unwrap_or(0);
-            let to = self.reference(0)?;
-            let seats = seated
-                && matches!(&to.target, super::clause::Target::Any(class) if class.kinds().iter().any(|kind| kind.is_seat()));
-            clauses.push(if seats {
-                Clause::Sit { on: Some(to) }
-            } else {
-                Clause::Go { to, side: None, pace: Pace::Usual, within: None }
-            });
-            if seats && self.peek_time().is_none() && longest_phrase(self.rest(), &["for"]).is_none() {
-                return Ok(clauses);
-            }
+        if clauses.is_empty() && self.rests_there(&mut clauses)? {
+            return Ok(clauses);
         }
         let is_for = self.eat_any(&["for", "for about", "for at least"]);
         if !clauses.is_empty() && is_for && self.peek_time().is_none() {
@@ -161,6 +146,27 @@ impl Parser<'_> {
         }
         clauses.push(Clause::Wait { seconds });
         Ok(clauses)
+    }
+
+    /// "Rest on the red bench", "wait in the library": where, and whether that is all.
+    fn rests_there(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        if longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).is_none() {
+            return Ok(false);
+        }
+        let seated = self.peeks("on");
+        self.at += longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).unwrap_or(0);
+        let to = self.reference(0)?;
+        let seats = seated
+            && matches!(&to.target, super::clause::Target::Any(class) if class.kinds().iter().any(|kind| kind.is_seat()));
+        clauses.push(if seats {
+            Clause::Sit { on: Some(to) }
+        } else {
+            Clause::Go { to, side: None, pace: Pace::Usual, within: None }
+        });
+        if seats && self.peek_time().is_none() && longest_phrase(self.rest(), &["for"]).is_none() {
+            return Ok(true);
+        }
+        Ok(false)
     }
 
     /// "Wait for Anna", "wait for a green light".

@@ -34,6 +34,14 @@ const DO_SO: &[&str] = &[
     "repeat that", "and repeat that",
 ];
 
+/// What comes before the order before it.
+#[rustfmt::skip]
+const AFTER: &[&str] = &[
+    "after", "but first", "but before that", "but first of all", "but beforehand",
+    "but before you do", "but before you do that", "but only after", "right after",
+    "straight after",
+];
+
 impl Parser<'_> {
     /// What follows an order and says how often, how long or when; `whole` is where the sentence begins, and `group` what
     /// "and" joins.
@@ -311,45 +319,40 @@ impl Parser<'_> {
         } else if self.eat_any(&["before"]) {
             self.eat_any(&["you"]);
             clauses.extend(self.order()?);
-        } else if self.eat_any(&[
-            "after",
-            "but first",
-            "but before that",
-            "but first of all",
-            "but beforehand",
-            "but before you do",
-            "but before you do that",
-            "but only after",
-            "right after",
-            "straight after",
-        ]) {
-            if let Some((seconds, count)) =
-                numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0)
-            {
-                self.at += count;
-                clauses.insert(last, Clause::Wait { seconds });
-                return Ok(true);
-            }
-            self.eat_any(&[
-                "youve",
-                "you have",
-                "you had",
-                "having",
-                "you are done",
-                "youre done",
-                "you",
-                "a visit to",
-                "a stop at",
-            ]);
-            let mut earlier = self.earlier()?;
-            self.for_a_while(&mut earlier);
-            while self.eat_any(&["and then", "then"]) {
-                earlier.extend(self.order()?);
-            }
-            clauses.splice(last..last, earlier);
         } else {
+            return self.after_that(clauses);
+        }
+        Ok(true)
+    }
+
+    /// "After half a minute", "but first wave", behind the order that comes later.
+    fn after_that(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        if !self.eat_any(AFTER) {
             return Ok(false);
         }
+        let last = clauses.len() - 1;
+        if let Some((seconds, count)) = numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0) {
+            self.at += count;
+            clauses.insert(last, Clause::Wait { seconds });
+            return Ok(true);
+        }
+        self.eat_any(&[
+            "youve",
+            "you have",
+            "you had",
+            "having",
+            "you are done",
+            "youre done",
+            "you",
+            "a visit to",
+            "a stop at",
+        ]);
+        let mut earlier = self.earlier()?;
+        self.for_a_while(&mut earlier);
+        while self.eat_any(&["and then", "then"]) {
+            earlier.extend(self.order()?);
+        }
+        clauses.splice(last..last, earlier);
         Ok(true)
     }
 

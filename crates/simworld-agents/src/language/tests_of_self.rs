@@ -7,6 +7,58 @@ use super::parser::Parser;
 use super::tests_of::{NEARBY, NEXT_TO_ME};
 use simworld_core::seam::PlanError;
 
+/// Having something in hand.
+#[rustfmt::skip]
+const HOLD: &[&str] = &[
+    "holding", "hold", "have", "carrying", "carry", "got", "have got", "in possession of", "in hold of",
+    "possess", "have picked up", "have taken",
+];
+/// Having nothing in hand.
+#[rustfmt::skip]
+const EMPTY: &[&str] = &[
+    "your hands are empty", "your hand is empty", "your hands are free", "your hand is free",
+    "holding nothing", "hold nothing", "have nothing in your hands", "carry nothing",
+    "carrying nothing", "have nothing", "have got nothing", "got nothing", "empty handed",
+    "have your hands free", "have a free hand", "have both hands free", "dont have anything",
+    "arent holding anything", "are not holding anything", "not holding anything",
+    "not carrying anything", "have nothing in your hand", "got nothing in your hands",
+    "have got nothing in your hands",
+];
+/// Sitting.
+const SIT: &[&str] = &["sitting", "seated", "sit", "sitting down", "in a seat", "are sitting", "are seated"];
+/// Not sitting.
+const STAND: &[&str] = &[
+    "standing",
+    "stand",
+    "not sitting",
+    "on your feet",
+    "not seated",
+    "standing up",
+    "not sitting down",
+    "up",
+];
+/// Being near something.
+#[rustfmt::skip]
+const REACH: &[&str] = &[
+    "near", "next to", "at", "reach", "get to", "arrive at", "close to", "come to", "beside", "by",
+    "reached", "get near", "stand next to", "in front of", "reaching", "arrive in", "within reach of",
+    "got to", "arrived at", "come near", "get close to", "come close to", "pass", "come up to",
+    "approach", "are near", "are at", "outside", "stand at", "stand by", "stand beside", "arriving at",
+    "getting to", "make it to", "made it to", "are next to",
+];
+/// Being far from it.
+const FAR: &[&str] = &[
+    "far from",
+    "away from",
+    "not near",
+    "leave",
+    "not at",
+    "far away from",
+    "not close to",
+    "not next to",
+    "have left",
+];
+
 impl Parser<'_> {
     /// Who is told, or who speaks to him and goes along: "you", "we".
     pub(super) fn subject(&mut self) -> bool {
@@ -77,52 +129,6 @@ impl Parser<'_> {
 
     /// About the agent itself.
     pub(super) fn mine(&mut self) -> Result<Option<Test>, PlanError> {
-        #[rustfmt::skip]
-        const HOLD: &[&str] = &[
-            "holding", "hold", "have", "carrying", "carry", "got", "have got", "in possession of", "in hold of",
-            "possess", "have picked up", "have taken",
-        ];
-        #[rustfmt::skip]
-        const EMPTY: &[&str] = &[
-            "your hands are empty", "your hand is empty", "your hands are free", "your hand is free",
-            "holding nothing", "hold nothing", "have nothing in your hands", "carry nothing",
-            "carrying nothing", "have nothing", "have got nothing", "got nothing", "empty handed",
-            "have your hands free", "have a free hand", "have both hands free", "dont have anything",
-            "arent holding anything", "are not holding anything", "not holding anything",
-            "not carrying anything", "have nothing in your hand", "got nothing in your hands",
-            "have got nothing in your hands",
-        ];
-        const SIT: &[&str] =
-            &["sitting", "seated", "sit", "sitting down", "in a seat", "are sitting", "are seated"];
-        const STAND: &[&str] = &[
-            "standing",
-            "stand",
-            "not sitting",
-            "on your feet",
-            "not seated",
-            "standing up",
-            "not sitting down",
-            "up",
-        ];
-        #[rustfmt::skip]
-        const REACH: &[&str] = &[
-            "near", "next to", "at", "reach", "get to", "arrive at", "close to", "come to", "beside", "by",
-            "reached", "get near", "stand next to", "in front of", "reaching", "arrive in", "within reach of",
-            "got to", "arrived at", "come near", "get close to", "come close to", "pass", "come up to",
-            "approach", "are near", "are at", "outside", "stand at", "stand by", "stand beside", "arriving at",
-            "getting to", "make it to", "made it to", "are next to",
-        ];
-        const FAR: &[&str] = &[
-            "far from",
-            "away from",
-            "not near",
-            "leave",
-            "not at",
-            "far away from",
-            "not close to",
-            "not next to",
-            "have left",
-        ];
         let start = self.at;
         if self.eat_any(EMPTY) {
             return Ok(Some(Test::Not(Box::new(Test::Holds(None)))));
