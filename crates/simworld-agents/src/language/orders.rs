@@ -31,6 +31,12 @@ impl Parser<'_> {
         if let Some(laps) = self.laps()? {
             return Ok(laps);
         }
+        if self.peeks("keep") && self.rest().iter().take(5).any(is_company) {
+            self.at += 1;
+            let to = self.reference(0)?; // "keep Anna company"
+            self.eat_any(&["company"]);
+            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
         let Some((verb, count)) = self.verb_here() else {
             return self.order_without_verb();
         };
@@ -464,4 +470,8 @@ impl Parser<'_> {
         let of = longest_phrase(&self.rest()[count..], &["of the", "of those", "of"]).unwrap_or(0);
         Some((Count::Exactly(number), count + of))
     }
+}
+
+fn is_company(lexeme: &Lexeme) -> bool {
+    matches!(&lexeme.token, Token::Word(word) if word == "company")
 }

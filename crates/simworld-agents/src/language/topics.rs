@@ -11,6 +11,7 @@ use super::verbs::longest_verb;
 /// What leads to a thing that is only spoken of.
 #[rustfmt::skip]
 const INTRODUCTIONS: &[&str] = &[
+    "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
     "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
     "what is", "wheres", "where is", "which is", "who is", "whos", "id like", "i would like", "id love",
