@@ -6,13 +6,15 @@ use rapier3d_f64::prelude::{
 };
 use rayon::prelude::*;
 use simworld_core::event::EventKind;
-use simworld_core::geometry::{Point3, Pose, Twist};
+use simworld_core::geometry::{Point2, Point3, Pose, Twist};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
-use crate::body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
+use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
+use crate::cells::Cells;
+use crate::claims::Claims;
 use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::humanoid::Shove;
@@ -78,8 +80,9 @@ pub struct PhysicsDynamics {
     pub(crate) nobody: RigidBodySet,
     // Scratch space of a step.
     pub(crate) moving: Vec<Moving>,
-    pub(crate) near: Vec<simworld_core::geometry::Point2>,
-    claims: Vec<Claim>,
+    /// Where the bodies of this physics are.
+    pub(crate) near: Cells<Point2>,
+    claims: Claims,
     /// Who pushed whom in the last substep.
     pub(crate) shoves: Vec<Shove>,
     failures: Vec<EventKind>,
@@ -116,6 +119,7 @@ impl PhysicsDynamics {
             .restitution(config.ground.restitution())
             .user_data(marked(BodyTag::Ground, config.ground));
         let ground = physics.insert_collider(ground, None);
+        let near = config.mirror_radius;
         let mut dynamics = Self {
             config,
             physics,
@@ -127,8 +131,8 @@ impl PhysicsDynamics {
             interest: Vec::new(),
             nobody: RigidBodySet::new(),
             moving: Vec::new(),
-            near: Vec::new(),
-            claims: Vec::new(),
+            near: Cells::new(2.0 * near),
+            claims: Claims::default(),
             shoves: Vec::new(),
             failures: Vec::new(),
         };

@@ -3,6 +3,8 @@
 
 mod bodies;
 mod body;
+mod cells;
+mod claims;
 mod config;
 mod contact;
 pub mod convert;
@@ -21,7 +23,8 @@ mod surface;
 mod sync;
 mod vehicle;
 
-pub use body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
+pub use body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
+pub use claims::Claim;
 pub use config::PhysicsConfig;
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;

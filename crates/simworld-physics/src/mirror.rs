@@ -81,7 +81,7 @@ impl PhysicsDynamics {
     /// Whether a place in the plane is within the mirror radius, and a margin, of a body of this physics.
     fn is_near(&self, place: Point2, margin: f64) -> bool {
         let reach = self.config.mirror_radius + margin;
-        self.near.iter().any(|body| (body - place).norm_squared() <= reach * reach)
+        self.near.near(place, reach).any(|body| (body - place).norm_squared() <= reach * reach)
     }
 
     fn mirror(&mut self, entity: &EntityRef<'_>, world: &World) -> RigidBodyHandle {

@@ -38,7 +38,8 @@ impl PhysicsDynamics {
         for owned in &mut self.bodies {
             owned.bonds = Bonds::default();
             if let Some(entity) = world.entity(owned.id) {
-                self.near.push(planar(entity.pose));
+                let here = planar(entity.pose);
+                self.near.insert(here, here);
                 owned.bonds.carried = entity.attachment.map(|bond| bond.role);
             }
         }

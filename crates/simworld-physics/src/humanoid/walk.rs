@@ -15,7 +15,8 @@ use simworld_core::scene::{FallCause, Footing};
 
 use super::balance::look_down;
 use super::{ColliderForm, Humanoid, Posture, Stand};
-use crate::body::{BodyContext, Claim, Surroundings};
+use crate::body::{BodyContext, Surroundings};
+use crate::claims::Claim;
 use crate::convert::{from_vector, to_pose, to_vector};
 use crate::shape::{BodyTag, body_from, is_walker, upright};
 
