@@ -16,9 +16,13 @@ use simworld_core::traffic::RoadLeg;
 use crate::city::City;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
+/// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
+pub(crate) const SETS: [&str; 3] = ["edits", "later.edits", "third.edits"];
 
 /// One thing that is asked, and what must then be true.
 pub(crate) struct Asked {
+    /// Which of [`SETS`] it is of.
+    pub(crate) set: &'static str,
     pub(crate) family: String,
     pub(crate) words: String,
     pub(crate) meaning: String,
@@ -34,17 +38,20 @@ pub(crate) enum Verdict {
     WrongAnswer(String),
 }
 
-/// What is asked in a city: in its own file, and in the one that came later, if it has one.
+/// What is asked in a city: in its own file, and in those that came later, if it has them.
 pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
     let folder = format!("{}/tests/edits", env!("CARGO_MANIFEST_DIR"));
-    let files = ["edits", "later.edits"].map(|set| format!("{folder}/{city}.{set}.toml"));
     let mut asked = Vec::new();
-    for path in files.iter().filter(|path| std::path::Path::new(path).exists()) {
-        let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    for set in SETS {
+        let path = format!("{folder}/{city}.{set}.toml");
+        if !std::path::Path::new(&path).exists() {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
         let families: BTreeMap<String, BTreeMap<String, String>> =
             toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
         asked.extend(families.into_iter().flat_map(|(family, lines)| {
-            lines.into_iter().map(move |(words, meaning)| Asked { family: family.clone(), words, meaning })
+            lines.into_iter().map(move |(words, meaning)| Asked { set, family: family.clone(), words, meaning })
         }));
     }
     asked
