@@ -67,7 +67,10 @@ fn every_family_holds_its_floor() {
         }
     }
     for ((set, family), score) in &sets {
-        println!("{set:12} {family:16} {:3} of {:3}, {} wrong edits", score.right, score.all, score.wrong_edits);
+        println!(
+            "{set:12} {family:16} {:3} of {:3}, {} wrong edits",
+            score.right, score.all, score.wrong_edits
+        );
     }
     let mut below = Vec::new();
     for (family, floor) in FLOORS {

@@ -145,7 +145,7 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["bus"], &[EntityKind::Bus]),
     things(&["motorcycle", "motorbike"], &[EntityKind::Motorcycle]),
     things(&["bicycle", "bike"], &[EntityKind::Bicycle]),
-    things(&["scooter", "kick scooter", "e scooter", "electric scooter"], &[EntityKind::Scooter]),
+    things(&["scooter", "kick scooter", "e scooter", "electric scooter", "moped"], &[EntityKind::Scooter]),
     things(
         &[
             "person",
@@ -178,7 +178,7 @@ pub(super) const CATEGORIES: &[Category] = &[
         ],
         &[EntityKind::Person],
     ),
-    things(&["dog", "robot dog", "hound", "puppy"], &[EntityKind::Dog]),
+    things(&["dog", "robot dog", "hound", "puppy", "doggy", "doggie", "pup"], &[EntityKind::Dog]),
     things(&["robot"], &[EntityKind::Robot]),
     things(&["building", "tower block", "skyscraper"], &[EntityKind::Building]),
     things(&["door", "doorway", "gate", "entrance"], &[EntityKind::Door]),

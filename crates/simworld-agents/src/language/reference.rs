@@ -4,7 +4,7 @@ use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Count, Reference, Side, Stands, Target};
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, written};
 use super::lexicon::{
     COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES, category, fits, longest, longest_phrase,
 };
@@ -41,7 +41,7 @@ const SELLING: &[&str] = &[
     "where you can buy",
     "who sells",
 ];
-const SUPERLATIVES: &[&str] = &["nearest", "closest", "farthest", "furthest"];
+const SUPERLATIVES: &[&str] = &["nearest", "closest", "farthest", "furthest", "nearer", "closer"];
 const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
 /// What doors may be.
 const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
@@ -265,6 +265,8 @@ impl Parser<'_> {
             } else if self.eat_any(&[
                 "nearest",
                 "closest",
+                "closer",
+                "nearer",
                 "nearest you",
                 "closest to you",
                 "nearest to you",
@@ -278,7 +280,7 @@ impl Parser<'_> {
                 "around here",
                 "near here",
             ]) {
-                let bare = ["nearest", "closest"]
+                let bare = ["nearest", "closest", "nearer", "closer"]
                     .iter()
                     .any(|word| fits(&self.lexemes[self.at - 1..], word).is_some());
                 if bare
@@ -483,10 +485,6 @@ impl Parser<'_> {
     }
 
     pub(super) fn text_from(&self, start: usize) -> String {
-        match self.lexemes.get(start..self.at) {
-            Some([first, .., last]) => shortened(&self.words[first.start..last.end]),
-            Some([only]) => shortened(&self.words[only.start..only.end]),
-            _ => String::new(),
-        }
+        shortened(written(self.words, self.lexemes.get(start..self.at).unwrap_or_default()))
     }
 }

@@ -3,7 +3,7 @@
 use simworld_core::seam::PlanError;
 
 use super::clause::Target;
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, written};
 use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
@@ -30,7 +30,7 @@ impl<'a> Parser<'a> {
             (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
             (guess, _) => (guess, phrase),
         };
-        let said = shortened(&self.words[phrase[0].start..phrase[phrase.len() - 1].end]);
+        let said = shortened(written(self.words, phrase));
         match guess {
             Guess::Named(ids) => {
                 self.at += phrase.len();

@@ -51,7 +51,12 @@ pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
         let families: BTreeMap<String, BTreeMap<String, String>> =
             toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
         asked.extend(families.into_iter().flat_map(|(family, lines)| {
-            lines.into_iter().map(move |(words, meaning)| Asked { set, family: family.clone(), words, meaning })
+            lines.into_iter().map(move |(words, meaning)| Asked {
+                set,
+                family: family.clone(),
+                words,
+                meaning,
+            })
         }));
     }
     asked

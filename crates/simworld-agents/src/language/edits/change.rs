@@ -23,12 +23,19 @@ impl Reader<'_> {
             if !self.is_place(cut) {
                 continue;
             }
-            let Ok(what) = self.things(start, cut) else { continue };
+            let what = match self.things(start, cut) {
+                Ok(what) => what,
+                Err(error @ PlanError::NotFound { .. }) => {
+                    refused = refused.or(Some(error));
+                    continue;
+                }
+                Err(_) => continue,
+            };
             self.at = cut;
             match self.places(end) {
                 Ok(at) if self.at == end => readings.push(Wish::Move { what, at }),
                 Ok(_) => {}
-                Err(error) => refused = Some(error),
+                Err(error) => refused = refused.or(Some(error)),
             }
         }
         if readings.is_empty() {
@@ -452,15 +459,18 @@ impl Reader<'_> {
 }
 
 /// "By 150 percent", "by a factor of 1.5", "1.5 times".
-fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
+pub(super) fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
     let mut at = longest_phrase(
         lexemes,
         &["by a factor of", "by factor", "by", "to", "a factor of", "up by", "down by"],
     )
     .unwrap_or(0);
     let relative = longest_phrase(lexemes, &["by"]).is_some();
-    let (number, count) = numbers::number(&lexemes[at..])?;
+    let (mut number, count) = numbers::number(&lexemes[at..])?;
     at += count;
+    if let Some(count) = longest_phrase(&lexemes[at..], &["and a half"]) {
+        (number, at) = (number + 0.5, at + count);
+    }
     if let Some(count) = longest_phrase(&lexemes[at..], &["percent", "%", "per cent"]) {
         at += count;
         let more = longest_phrase(&lexemes[at..], &["bigger", "larger", "taller"]);
@@ -487,6 +497,20 @@ fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
             "times its size",
             "times larger",
             "times as tall",
+            "times taller",
+            "times its current size",
+            "times the current size",
+            "times its present size",
+            "times its height",
+            "times as high",
+            "times what it is",
+            "times what it is now",
+            "times its original size",
+            "times the original size",
+            "times as big as now",
+            "times as big as it is",
+            "times as big as it is now",
+            "fold",
         ],
     )
     .unwrap_or(0);

@@ -4,7 +4,8 @@ use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::Token;
-use super::super::lexicon::longest_phrase;
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::paint::PAINTS;
 use super::super::parser::Parser;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
@@ -22,6 +23,11 @@ const UNLESS: &[&str] = &["unless there is", "unless there are", "unless you fin
 const EXCEPT: &[&str] = &["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
     "with the exception of", "not counting", "not", "without"];
 
+/// What is not so of those that are meant.
+#[rustfmt::skip]
+const IS_NOT: &[&str] = &["that is not", "that are not", "which is not", "which are not", "that isnt", "that arent", "who is not", "who are not", "not being",
+    "that is not painted", "that are not painted", "which isnt", "which arent"];
+
 impl Reader<'_> {
     /// A wish on a condition, before it or behind it.
     pub(super) fn given(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
@@ -29,7 +35,7 @@ impl Reader<'_> {
         let is_condition = |at: usize| {
             let rest = &self.lexemes[at..end];
             let unless = longest_phrase(rest, UNLESS).map(|words| (false, words));
-            unless.or(longest_phrase(rest, IF).map(|words| (true, words)))
+            unless.or(longest_phrase(rest, IF).map(|words| (true, words))).or_else(|| self.is_so(at, end))
         };
         let Some((at, (there, words))) = (start..end).find_map(|at| Some((at, is_condition(at)?))) else {
             return Ok(None);
@@ -62,6 +68,20 @@ impl Reader<'_> {
             None => self.wish(end)?,
         };
         Ok(Some(on_condition(wishes, &what, there)))
+    }
+
+    /// "If Ada is in the park": how a thing that is there stands.
+    fn is_so(&self, at: usize, end: usize) -> Option<(bool, usize)> {
+        let words = longest_phrase(
+            &self.lexemes[at..end],
+            &["if", "unless", "only if", "in case", "provided", "provided that", "as long as"],
+        )?;
+        let is_unless = self.word(at) == Some("unless");
+        let mut parser = self.parser(at + words, end);
+        let what = parser.reference(0).ok()?;
+        let stands = what.relation.is_some() && matches!(what.target, Target::Any(_) | Target::Named(_));
+        let ends = parser.at >= end || joint(&self.lexemes[parser.at..end]).is_some();
+        (stands && ends).then_some((!is_unless, words))
     }
 
     /// "Add one": of what was just asked for, and where.
@@ -102,6 +122,16 @@ impl Reader<'_> {
     pub(super) fn except(&self, parser: &mut Parser<'_>, what: &mut Reference) {
         let start = parser.at;
         let plural = what.count == Count::All || matches!(what.target, Target::Any(_));
+        if self.view.streets.is_some() && plural && parser.eat_any(IS_NOT) {
+            if let Some((paint, words)) = longest(parser.rest(), PAINTS) {
+                parser.at += words;
+                let mut except = Reference { count: Count::All, ..what.clone() };
+                except.traits.paint = Some(paint);
+                what.except = Some(Box::new(except));
+                return;
+            }
+            parser.at = start;
+        }
         if self.view.streets.is_some() && plural && parser.eat_any(EXCEPT) {
             parser.class = if let Target::Any(class) = &what.target { Some(class) } else { None };
             if let Ok(except) = parser.reference(1) {
@@ -120,5 +150,5 @@ fn on_condition(wishes: Vec<Vec<Wish>>, what: &Reference, there: bool) -> Vec<Ve
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    IF.iter().chain(UNLESS).chain(EXCEPT).flat_map(|phrase| phrase.split(' '))
+    IF.iter().chain(UNLESS).chain(EXCEPT).chain(IS_NOT).flat_map(|phrase| phrase.split(' '))
 }

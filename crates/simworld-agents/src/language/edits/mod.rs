@@ -5,16 +5,23 @@
 
 mod ask;
 mod change;
+mod complaints;
 mod dressed;
+mod follow;
+mod forms;
+mod frames;
 mod given;
 mod ground;
 mod make;
 mod offsets;
+mod orders;
 mod parse;
+mod parts;
 mod passage;
 mod places;
 mod resolve;
 mod rows;
+mod says;
 pub(super) mod sky;
 mod slips;
 mod stated;
@@ -28,6 +35,7 @@ use parse::{Reader, UNDERSTOOD};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
+use simworld_core::seam::PlanError;
 use wish::Wish;
 
 use super::names::Names;
@@ -84,9 +92,30 @@ pub(crate) fn read(
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
-    let mut reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0 };
-    let wishes = reader.sentence()?;
-    Ok(Reading { words: words.to_owned(), wishes })
+    orders::in_plain_words(&mut lexemes);
+    let reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0, depth: 0 };
+    Ok(Reading { words: words.to_owned(), wishes: wishes_of(reader, stock)? })
+}
+
+/// The wishes of a sentence: as it stands or, if that is not understood or asks for what nobody has, part by part.
+fn wishes_of(reader: Reader<'_>, stock: &Stock) -> Result<Vec<Vec<Wish>>, PlanError> {
+    let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
+    let is_known = |wish: &Wish| match wish {
+        Wish::Add { things, .. } => things.iter().all(is_new),
+        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
+        _ => true,
+    };
+    let are_known = |wishes: &Vec<Vec<Wish>>| wishes.iter().flatten().all(is_known);
+    let plain = Reader { ..reader }.sentence();
+    if plain.as_ref().is_ok_and(are_known) {
+        return plain;
+    }
+    let in_parts = reader.in_parts().or_else(|| reader.complaint());
+    match (plain, in_parts) {
+        (_, Some(wishes)) if are_known(&wishes) => Ok(wishes),
+        (Ok(wishes), _) | (Err(_), Some(wishes)) => Ok(wishes),
+        (Err(error), None) => Err(error),
+    }
 }
 
 fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
@@ -116,7 +145,12 @@ const EVERYWHERE: f64 = 1.0e5;
 
 /// The words of the parts, so that none is taken for a misspelling.
 fn more_words() -> impl Iterator<Item = &'static str> {
-    stated::words()
+    says::words()
+        .chain(frames::words())
+        .chain(follow::words())
+        .chain(parts::words())
+        .chain(orders::words())
+        .chain(complaints::words())
         .chain(offsets::words())
         .chain(passage::words())
         .chain(rows::words())

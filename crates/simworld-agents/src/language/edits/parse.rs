@@ -15,11 +15,12 @@ use simworld_core::passage::Passage;
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Reference, Target};
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, written};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::parser::Parser;
 use super::super::resolve::View;
+use super::says::Mood;
 use super::wish::{StreetRef, Wish};
 use super::words::{VERBS, Verb};
 
@@ -62,12 +63,15 @@ const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if
     "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time"];
 
 /// Reads one sentence.
+#[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
     pub(super) words: &'a str,
     pub(super) lexemes: &'a [Lexeme],
     pub(super) names: &'a Names<'a>,
     pub(super) view: &'a View<'a>,
     pub(super) at: usize,
+    /// How often the words were put together anew.
+    pub(super) depth: u8,
 }
 
 impl<'a> Reader<'a> {
@@ -109,79 +113,70 @@ impl<'a> Reader<'a> {
             self.at = end;
             return Ok(vec![vec![Wish::Sky(sky)]]);
         }
-        if let Some(made) = self.stated(end)? {
-            return Ok(made);
+        if let Some(wish) = self.lacking(start + self.polite_at(start), end) {
+            return Ok(vec![vec![wish]]);
+        }
+        self.at = start;
+        for begins in self.beginnings(start, end) {
+            let mood = if begins.wished { Mood::Wished } else { Mood::Plain };
+            if let Some(made) = self.says(begins.at, end, mood) {
+                self.at = end;
+                return Ok(made);
+            }
         }
         if let Some(made) = self.place_first(end) {
             return Ok(made);
         }
+        let refused = match self.ordered(start, end) {
+            Ok(Some(made)) => return Ok(made),
+            Ok(None) => None,
+            Err(refused) => Some(refused),
+        };
+        self.at = start;
+        let bare = self.bare(end);
+        if let Ok(Some(wishes)) = bare {
+            return Ok(wishes);
+        }
+        if let Some(made) = self.composed(start, end) {
+            self.at = end;
+            return Ok(made);
+        }
+        self.at = start;
+        Err(refused.or(bare.err()).unwrap_or_else(|| self.not_understood(UNDERSTOOD)))
+    }
+
+    /// The order of the first verb that stands behind small words alone, and is understood.
+    fn ordered(&mut self, start: usize, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let mut refused = None;
         for begin in start..end {
             let Some((verb, count)) = longest(&self.lexemes[begin..end], VERBS) else { continue };
-            // A place before the verb that was not read is no preamble: without it the wish would be another one.
-            if !self.may_skip(start, begin) || self.is_place_before(start, begin) {
-                break;
-            }
             self.at = begin + count;
-            match self.after(verb, end) {
-                Ok(mut wishes) => {
-                    let spoken_of = self.remarked(start, begin);
-                    wishes.iter_mut().flatten().for_each(|wish| wish.is_about(&spoken_of));
-                    return Ok(wishes);
+            let read = self.after(verb, end);
+            // What else stands before a verb may change what is meant; but a thing that is not there is not there.
+            if !self.is_preamble(start, begin) {
+                if let Err(error @ PlanError::NotFound { .. }) = read {
+                    refused = refused.or(Some(error));
                 }
+                continue;
+            }
+            match read {
+                Ok(wishes) => return Ok(Some(wishes)),
                 Err(error) => refused = refused.or(Some(error)),
             }
         }
-        self.at = start;
-        match self.bare(end) {
-            Ok(Some(wishes)) => Ok(wishes),
-            Ok(None) => Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD))),
-            Err(error) => Err(refused.unwrap_or(error)),
-        }
-    }
-
-    /// The things of a remark before a wish: "the blue car is ugly, make it white".
-    fn remarked(&self, start: usize, begin: usize) -> Vec<Reference> {
-        let mut things = Vec::new();
-        let mut at = start;
-        while at < begin {
-            let is_certain =
-                longest_phrase(&self.lexemes[at..begin], &["the", "that", "this", "my", "those"]);
-            let mut parser = self.parser(at, begin);
-            match is_certain.and_then(|_| parser.reference(0).ok()) {
-                Some(thing) if parser.at > at => {
-                    things.push(thing);
-                    at = parser.at;
-                }
-                _ => at += 1,
-            }
-        }
-        things
-    }
-
-    /// Whether a place stands before a verb.
-    fn is_place_before(&self, start: usize, begin: usize) -> bool {
-        let mut reader = Reader { at: start, ..*self };
-        begin > start && self.is_place(start) && reader.places(begin).is_ok()
-    }
-
-    /// Whether what stands before a verb says nothing of its own, or only why: no word of it forbids.
-    fn may_skip(&self, start: usize, begin: usize) -> bool {
-        #[rustfmt::skip]
-    const FORBIDS: &[&str] = &["dont", "not", "never", "no", "without", "stop", "if", "unless", "when", "whenever",
-        "until", "avoid"];
-        let before = &self.lexemes[start..begin];
-        !before
-            .iter()
-            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if FORBIDS.contains(&word.as_str())))
-            && (before.len() <= 8
-                || before.iter().any(|lexeme| lexeme.token == Token::Break || lexeme.token == Token::Comma))
+        refused.map_or(Ok(None), Err)
     }
 
     fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         match verb {
             Verb::Add => {
                 if let Some(wish) = self.copies(end) {
+                    return Ok(wish);
+                }
+                if self.is_wanted()
+                    && let Some(wish) = self.small_clause(self.at, end)
+                {
+                    self.at = end;
                     return Ok(wish);
                 }
                 match self.posed(end).filter(|_| self.is_definite(self.at)) {
@@ -191,7 +186,17 @@ impl<'a> Reader<'a> {
             }
             // "Put the bench ..." moves it, "put a bench ..." makes one.
             Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
-            Verb::Put if self.is_definite(self.at) => self.moves(end).map(|wish| vec![wish]),
+            Verb::Put if self.is_definite(self.at) => {
+                let from = self.at;
+                match self.moves(end) {
+                    // "My castle" need not be there yet.
+                    Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
+                        self.at = from + 1;
+                        self.additions(end).map_err(|_| refused)
+                    }
+                    read => read.map(|wish| vec![wish]),
+                }
+            }
             Verb::Put => self.additions(end),
             Verb::Move if !self.is_definite(self.at) && self.word(self.at - 1) == Some("bring") => {
                 self.additions(end)
@@ -227,6 +232,16 @@ impl<'a> Reader<'a> {
                 Err(self.not_understood("say which street: by its name, or in front of what"))
             }
         }
+    }
+
+    /// "I want the bench red": something is wanted of a thing that is there.
+    fn is_wanted(&self) -> bool {
+        #[rustfmt::skip]
+        const WHO: &[&str] = &["i", "we", "id", "wed", "have", "let", "lets", "can", "could", "may", "need", "needs"];
+        let is_who = |at: usize| self.word(at).is_some_and(|word| WHO.contains(&word));
+        (self.at.saturating_sub(6)..self.at).any(is_who)
+            && self.is_definite(self.at)
+            && !self.is_bare_plural(self.at, self.lexemes.len())
     }
 
     /// "Put me a bench": whoever says so is not put anywhere.
@@ -320,11 +335,7 @@ impl<'a> Reader<'a> {
 
     /// The words as they were written, without quotes around them.
     pub(super) fn written(&self, start: usize, end: usize) -> String {
-        match self.lexemes.get(start..end) {
-            Some([first, .., last]) => self.words[first.start..last.end].to_owned(),
-            Some([only]) => self.words[only.start..only.end].to_owned(),
-            _ => String::new(),
-        }
+        written(self.words, self.lexemes.get(start..end).unwrap_or_default()).to_owned()
     }
 
     fn skip_joints(&mut self) {

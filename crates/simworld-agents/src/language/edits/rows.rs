@@ -20,7 +20,9 @@ const APART: &[&str] = &["apart", "apart from each other", "from each other", "b
 /// That things stand in a line.
 #[rustfmt::skip]
 const ROWS: &[&str] = &["a row of", "a line of", "in a row", "in a line", "a straight line of", "a queue of", "in a straight line", "a chain of",
-    "an avenue of", "in line", "rows of"];
+    "an avenue of", "in line", "rows of", "evenly spaced",
+    "evenly distributed", "at even distances", "at equal distances", "equally spaced", "at regular intervals", "spaced evenly",
+    "evenly spread", "spread evenly", "lined up", "one after another", "one after the other"];
 /// That things stand in a circle.
 #[rustfmt::skip]
 const RINGS: &[&str] = &["a ring of", "a circle of", "in a ring", "in a circle", "ring of", "circle of"];
@@ -48,8 +50,7 @@ impl Reader<'_> {
         if said.in_line {
             from_to_between(&mut said.rest);
         }
-        let mut reader =
-            Reader { words: self.words, lexemes: &said.rest, names: self.names, view: self.view, at: 0 };
+        let mut reader = Reader { lexemes: &said.rest, at: 0, ..*self };
         let stop = reader.before_politeness(0, said.rest.len());
         let wishes = reader.wish(stop).ok().filter(|_| reader.at >= stop)?;
         wishes.into_iter().map(|readings| said.as_rows(readings)).collect()

@@ -1,0 +1,466 @@
+//! Statements of how things should be: "the taxi would look better in pink", "a bench is needed by the fountain", "the bus
+//! ought to be moved behind the museum", "the museum would benefit from a tree".
+//!
+//! A statement is a subject, small words that say it should be so, and what should be of it. Each part is read by its kind,
+//! so that any subject goes with any of them.
+
+use super::super::clause::{Reference, Target};
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::paint::{PAINTS, Paint};
+use super::change::factor_in_numbers;
+use super::forms::as_order;
+use super::parse::{Reader, joint};
+use super::wish::{Anchor, NewThing, Where, Wish};
+use super::words::{ABOUT_IT, FACTORS, Verb};
+
+/// Whether a statement is one of how things should be before its verb is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mood {
+    /// The statement has to say itself that it should be so.
+    Plain,
+    /// It stands in a wish: "I want the taxi pink", "make sure that the taxi is pink".
+    Wished,
+}
+
+/// The small words between a subject and what is said of it.
+#[rustfmt::skip]
+const BETWEEN: &[&str] = &["should", "must", "ought", "to", "shall", "has", "have", "had", "needs", "need", "want", "wants", "is",
+    "are", "be", "being", "been", "was", "were", "would", "could", "can", "may", "might", "will", "look", "looks", "looking",
+    "feel", "feels", "become", "becomes", "turn", "turns", "get", "gets", "go", "goes", "come", "comes", "stand", "stands",
+    "standing", "sit", "sits", "sitting", "belong", "belongs", "better", "nicer", "prettier", "best", "great", "good", "nice",
+    "lovely", "fine", "cool", "amazing", "perfect", "much", "supposed", "meant", "really", "rather", "probably", "ideally",
+    "just", "also", "now", "instead", "please", "maybe", "perhaps", "both", "all", "definitely", "certainly", "surely", "simply",
+    "actually", "preferably", "fantastic", "wonderful", "cuter", "fit", "work", "works", "make", "wait", "waits", "waiting", "live", "lives",
+    "stay", "remain", "end", "land", "appear", "find", "itself", "themselves", "more", "beautiful", "smarter", "smart",
+    "fancier", "livelier", "id", "say", "think", "i", "happier", "safer", "thats", "that", "which", "so", "well", "pretty",
+    "cute", "beautifully", "somehow", "exist", "grow", "grows", "wear", "wears", "like", "likes", "love", "sure", "lie", "park", "going",
+    "gonna", "suit", "help", "even", "way", "super", "again", "used", "splendid", "brilliant", "do", "spawn", "pop", "up", "walk",
+    "over", "kindly", "quickly", "hang", "rest", "move", "moved"];
+/// Of those, the words that say that it should be.
+#[rustfmt::skip]
+const OUGHT: &[&str] = &["should", "must", "ought", "shall", "needs", "need", "want", "wants", "would", "could", "might", "may", "can",
+    "will", "becomes", "become", "belong", "belongs", "better", "nicer", "prettier", "best", "supposed", "meant", "goes", "go",
+    "gets", "get", "comes", "gonna"];
+/// As [`OUGHT`], of several words.
+const OUGHT_TO: &[&str] = &["has to", "have to", "had to", "is to", "are to", "had better", "going to"];
+/// That something not yet there would be welcome; whatever stands around them is small.
+#[rustfmt::skip]
+const WELCOME: &[&str] = &["help", "helps", "helpful", "nice", "great", "good", "lovely", "handy", "useful", "perfect", "wonderful",
+    "welcome", "appreciated", "overdue", "needed", "wanted", "missing", "required", "due", "idea", "lacking", "need", "want",
+    "amazing", "fantastic", "beautiful", "awesome", "cute", "cool", "hurt", "amiss", "fine", "trick", "ticket", "thing", "order",
+    "must", "do", "work", "fit", "suit", "requested", "desired", "called", "dream", "ideal", "sensible", "pretty", "neat", "sweet",
+    "fun", "practical", "demand", "liven", "brighten", "please", "delight", "improve", "better", "loved", "splendid", "brilliant"];
+/// What stands around them.
+#[rustfmt::skip]
+const AROUND: &[&str] = &["a", "an", "the", "very", "so", "really", "much", "be", "is", "are", "would", "wouldnt", "could", "not", "go", "goes",
+    "what", "we", "i", "here", "there", "in", "long", "badly", "sorely", "us", "me", "everyone", "everybody", "things", "it", "right", "well",
+    "might", "up", "place", "to", "have", "for", "also", "look", "looks", "make", "of", "totally", "just", "absolutely", "urgently",
+    "quite", "some", "pretty", "should", "must", "too", "now", "most", "more", "that", "this", "thats", "whats", "lot", "bit", "people", "my",
+    "day", "all", "greatly", "highly", "still", "certainly", "definitely", "surely", "will", "can", "come", "best", "actually",
+    "desperately", "desirable", "sight", "spot", "been", "has", "was", "were", "kind", "day", "wouldn't", "scene", "city", "view", "feel", "add"];
+/// That it should not be there any more.
+#[rustfmt::skip]
+const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away", "out", "out of here", "go away", "disappear", "vanish",
+    "be gone", "byebye", "bye bye", "history", "out of the picture", "out of the scene", "off the map", "out of sight",
+    "out of the way", "go byebye", "go bye bye", "leave", "leave the scene", "cease to exist", "not exist", "dead", "go for good",
+    "gone for good", "not be there", "not be here", "out of my sight", "go", "taken out", "taken off", "thrown away", "thrown out",
+    "scrapped", "gotten rid of", "got rid of", "done away with", "off", "vanished", "disappeared", "away from here", "go to the scrapyard",
+    "no longer there", "no longer here", "no more", "disposed of", "torn down", "out of there"];
+/// That two should stand where the other does.
+#[rustfmt::skip]
+const TRADES: &[&str] = &["change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
+    "exchange places", "swap positions", "switch positions", "exchange positions", "be swapped", "be switched", "swapped", "trade positions",
+    "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"];
+/// That something lacks what follows.
+#[rustfmt::skip]
+pub(super) const LACKS: &[&str] = &["could use", "needs", "need", "wants", "want", "lacks", "lack", "is missing", "deserves", "deserve", "should have",
+    "should get", "must have", "has to have", "could do with", "can use", "ought to have", "would benefit from", "benefits from",
+    "is in need of", "cries out for", "is crying out for", "is crying for", "calls for", "is short of", "would love", "would like",
+    "would be happy with", "would appreciate", "requires", "require", "gets", "get", "should be given", "is in want of", "are missing",
+    "are in need of", "would look good with", "would look better with", "would look nice with", "would look great with", "looks better with",
+    "would look lovely with", "misses", "is lacking", "asks for", "ask for", "begs for", "is begging for", "longs for", "wishes for",
+    "demand", "demands", "request", "requests", "would be better with", "would be nicer with", "would be better off with", "would be prettier with",
+    "has been asking for", "have been asking for", "are asking for", "is asking for", "is waiting for", "would enjoy", "would welcome",
+    "would be glad of", "would be glad about", "wanna have", "want to have", "wants to have", "would like to have", "would love to have",
+    "needs to have", "need to have", "deserves to have", "should receive", "receives", "is to get", "is to have", "shall have", "might use",
+    "might like", "will need", "will get", "has to get", "must get", "still needs", "really needs", "badly needs", "desperately needs",
+    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due"];
+/// Before a colour.
+#[rustfmt::skip]
+const IN_COLOUR: &[&str] = &["in", "into", "to", "a", "an", "the", "all", "as", "colour", "color", "bright", "light", "deep", "nice", "lovely",
+    "shade", "of", "coloured", "colored", "painted", "paint", "proper", "with", "coat", "fresh", "new", "completely", "more", "plain", "totally",
+    "dressed", "wearing"];
+/// Behind it.
+const COLOUR: &[&str] = &[
+    "colour",
+    "color",
+    "paint",
+    "one",
+    "instead",
+    "now",
+    "please",
+    "in colour",
+    "in color",
+    "too",
+    "again",
+    "coat",
+    "all over",
+    "paint job",
+    "from now on",
+];
+/// What something that is asked for does where it stands.
+#[rustfmt::skip]
+const PLACED: &[&str] = &["placed", "put", "parked", "planted", "installed", "built", "added", "set up", "wanted", "needed", "required", "missing",
+    "located", "positioned", "standing", "sitting", "waiting", "set", "erected", "put up", "put down", "dropped", "lying", "situated",
+    "hanging", "spawned", "created", "mounted", "stood", "squeezed in", "fitted", "inserted", "lined up", "overdue", "lacking", "requested",
+    "popped", "stuck", "left", "due", "welcome", "in order", "here", "leaning", "resting", "growing", "perched", "tucked", "nestled", "moved in"];
+
+/// What a statement is about.
+enum Subject {
+    Things(Vec<Reference>),
+    New(NewThing, Vec<Where>),
+    /// "Next to the museum should be a bench".
+    Place(Vec<Where>),
+    /// "There should be a bench".
+    There,
+}
+
+impl<'a> Reader<'a> {
+    /// A statement that takes all the words up to the end.
+    pub(super) fn says(&self, from: usize, end: usize, mood: Mood) -> Option<Vec<Vec<Wish>>> {
+        let end = self.before_politeness(from, end);
+        (from + 1..end).find_map(|cut| {
+            let subject = self.subjects(from, cut);
+            if subject.is_empty() {
+                return None;
+            }
+            let between = self.between_words(cut, end);
+            (0..=between).rev().find_map(|words| {
+                let ought = mood == Mood::Wished || self.says_ought(cut, cut + words);
+                let rest = Reader { at: cut + words, ..*self };
+                subject.iter().filter(|_| ought).find_map(|subject| rest.predicate(subject, (from, cut), end))
+            })
+        })
+    }
+
+    /// What the words before a verb may be.
+    fn subjects(&self, from: usize, cut: usize) -> Vec<Subject> {
+        let mut found = Vec::new();
+        if longest_phrase(&self.lexemes[from..cut], &["there", "it", "here"]) == Some(cut - from) {
+            if self.word(from) == Some("there") {
+                found.push(Subject::There);
+            }
+            if self.word(from) != Some("it") {
+                return found;
+            }
+        }
+        let stop = self.before_politeness(from, cut);
+        if self.is_definite(from)
+            && let Ok(things) = self.things(from, stop)
+        {
+            found.push(Subject::Things(things));
+        }
+        let sub = self.up_to(stop);
+        if self.is_place(from) {
+            let mut reader = Reader { at: from, ..sub };
+            if let Ok(places) = reader.places(stop)
+                && reader.at >= stop
+            {
+                found.push(Subject::Place(places));
+            }
+        } else if !self.is_definite(from) || self.is_bare_plural(from, stop) {
+            let mut reader = Reader { at: from, ..sub };
+            if let Ok(thing) = reader.new_thing(stop) {
+                let places = if reader.at < stop && reader.is_place(reader.at) {
+                    reader.places(stop).ok()
+                } else {
+                    Some(Vec::new())
+                };
+                if let Some(places) = places.filter(|_| reader.at >= stop) {
+                    found.push(Subject::New(thing, places));
+                }
+            }
+        }
+        found
+    }
+
+    /// As this reader, with nothing behind the end.
+    pub(super) fn up_to(&self, end: usize) -> Reader<'a> {
+        Reader { lexemes: &self.lexemes[..end], ..*self }
+    }
+
+    /// How many small words stand from here on.
+    fn between_words(&self, at: usize, end: usize) -> usize {
+        (at..end).take_while(|at| self.word(*at).is_some_and(|word| BETWEEN.contains(&word))).count()
+    }
+
+    fn says_ought(&self, from: usize, to: usize) -> bool {
+        (from..to).any(|at| {
+            self.word(at).is_some_and(|word| OUGHT.contains(&word))
+                || longest_phrase(&self.lexemes[at..to], OUGHT_TO).is_some()
+        })
+    }
+
+    /// What is said of a subject: all the words from here to the end.
+    fn predicate(
+        &self,
+        subject: &Subject,
+        (from, cut): (usize, usize),
+        end: usize,
+    ) -> Option<Vec<Vec<Wish>>> {
+        let at = self.at;
+        let rest = self.rest(end);
+        let one = |wish| Some(vec![vec![wish]]);
+        match subject {
+            Subject::There => self.all_added(at, end),
+            Subject::Place(places) => {
+                if self.is_definite(at) && !self.is_bare_plural(at, end) {
+                    return None;
+                }
+                self.all_added(at, end)?
+                    .into_iter()
+                    .map(|readings| readings.into_iter().map(|wish| placed(wish, places)).collect())
+                    .collect()
+            }
+            Subject::New(thing, places) => {
+                if self.is_welcome(at, end) && (at > cut || !rest.is_empty()) {
+                    return one(Wish::Add { things: vec![thing.clone()], at: places.clone() });
+                }
+                let stood = longest_phrase(rest, PLACED).unwrap_or(0);
+                let more = self.places_to(at + stood, end)?;
+                one(Wish::Add {
+                    things: vec![thing.clone()],
+                    at: places.iter().cloned().chain(more).collect(),
+                })
+            }
+            Subject::Things(what) => {
+                if longest_phrase(rest, GONE) == Some(rest.len()) && !rest.is_empty() {
+                    return one(Wish::Remove { what: what.clone() });
+                }
+                if longest_phrase(rest, TRADES) == Some(rest.len()) && !rest.is_empty() {
+                    return self.pair_up(from, cut).ok().and_then(one);
+                }
+                if let Some(paint) = self.colour_to(at, end) {
+                    return one(Wish::Paint { what: what.clone(), paint });
+                }
+                if let Some(factor) = size_of(rest) {
+                    return one(Wish::Scale { what: what.clone(), factor });
+                }
+                if let Some(at) = self.places_to(at, end) {
+                    return one(Wish::Move { what: what.clone(), at });
+                }
+                if let Some(wish) = self.faces(what, at, end) {
+                    return one(wish);
+                }
+                self.done_to((from, cut), at, end)
+                    .or_else(|| self.lacks((from, cut), at, end).map(|wish| vec![vec![wish]]))
+            }
+        }
+    }
+
+    /// New things, which take all the words.
+    fn all_added(&self, at: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        if at >= end {
+            return None;
+        }
+        let mut reader = Reader { at, ..self.up_to(end) };
+        reader.additions(end).ok().filter(|_| reader.at >= end)
+    }
+
+    /// Places, which take all the words.
+    pub(super) fn places_to(&self, at: usize, end: usize) -> Option<Vec<Where>> {
+        let mut reader = Reader { at, ..self.up_to(end) };
+        if at >= end || !reader.is_place(at) {
+            return None;
+        }
+        reader.places(end).ok().filter(|_| reader.at >= end)
+    }
+
+    /// A colour and nothing else but small words.
+    pub(super) fn colour_to(&self, at: usize, end: usize) -> Option<Paint> {
+        let small = |from: usize, words: &[&str]| {
+            (from..end).take_while(|at| self.word(*at).is_some_and(|word| words.contains(&word))).count()
+        };
+        let before = at + small(at, IN_COLOUR);
+        let (paint, words) = longest(&self.lexemes[before..end], PAINTS)?;
+        let mut after = before + words;
+        while after < end {
+            after += longest_phrase(&self.lexemes[after..end], COLOUR)?;
+        }
+        Some(paint)
+    }
+
+    /// Whether the words say that something would be welcome.
+    pub(super) fn is_welcome(&self, at: usize, end: usize) -> bool {
+        let words: Option<Vec<&str>> = (at..end).map(|at| self.word(at)).collect();
+        words.is_some_and(|words| {
+            words.iter().all(|word| WELCOME.contains(word) || AROUND.contains(word))
+                && words.iter().any(|word| WELCOME.contains(word))
+        })
+    }
+
+    /// "The car should face the museum".
+    fn faces(&self, what: &[Reference], at: usize, end: usize) -> Option<Wish> {
+        #[rustfmt::skip]
+        const FACES: &[&str] = &["face", "facing", "look at", "looking at", "look towards", "looking towards", "point at", "pointing at",
+            "turned towards", "turned to", "turned to face", "to face", "look to", "watch", "watching", "point to", "point towards",
+            "at", "towards", "rotated towards", "aimed at", "stare at", "gaze at"];
+        let words = longest_phrase(self.rest(end), FACES)?;
+        let mut reader = Reader { at: at + words, ..self.up_to(end) };
+        reader.towards(what.to_vec(), end).ok()
+    }
+
+    /// "The bench should be moved behind the museum": the order that does so to the subject.
+    fn done_to(&self, (from, cut): (usize, usize), at: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let (_, words, verb) = as_order(self.rest(end))?;
+        let mut order = vec![verb];
+        order.extend_from_slice(&self.lexemes[at + 1..at + words]);
+        order.extend_from_slice(&self.lexemes[from..cut]);
+        order.extend_from_slice(&self.lexemes[at + words..end]);
+        self.read_plainly(&order)
+    }
+
+    /// "The museum would benefit from a bench out front"; the reader stands behind the small words.
+    fn lacks(&self, (from, cut): (usize, usize), at: usize, end: usize) -> Option<Wish> {
+        let _ = at;
+        let words = longest_phrase(&self.lexemes[cut..end], LACKS)?;
+        let anchor = Anchor::Thing(self.one_of(from, cut).ok()?);
+        let reader = self.up_to(end);
+        reader.given_to(&anchor, cut + words, end)
+    }
+
+    /// A new thing at an anchor: all the words from here.
+    pub(super) fn given_to(&self, anchor: &Anchor, at: usize, end: usize) -> Option<Wish> {
+        if self.is_definite(at) && !self.is_bare_plural(at, end) {
+            return None;
+        }
+        let mut reader = Reader { at, ..*self };
+        let thing = reader.new_thing(end).ok()?;
+        if reader.at >= end {
+            let place = match anchor {
+                Anchor::Street(..) => Where::Along(anchor.clone()),
+                _ => Where::By(anchor.clone()),
+            };
+            return Some(Wish::Add { things: vec![thing], at: vec![place] });
+        }
+        if let Some((relation, words)) = longest(reader.rest(end), ABOUT_IT)
+            && reader.at + words >= end
+        {
+            return Some(Wish::Add { things: vec![thing], at: vec![Where::To(relation, anchor.clone())] });
+        }
+        let mut at = reader.places_to(reader.at, end)?;
+        for place in &mut at {
+            place.means(&mut Some(anchor.clone()));
+        }
+        Some(Wish::Add { things: vec![thing], at })
+    }
+
+    /// Somebody who is no thing of the scene, and what he wants: "residents would benefit from a bench opposite the museum".
+    pub(super) fn others_want(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let end = self.before_politeness(start, end);
+        (start + 1..end.min(start + MOST_NAMED)).find_map(|cut| {
+            let words = longest_phrase(&self.lexemes[cut..end], LACKS)?;
+            let at = cut + words;
+            if !self.is_nobody_here(start, cut) || at >= end {
+                return None;
+            }
+            if self.is_definite(at) && !self.is_bare_plural(at, end) {
+                return self.says(at, end, Mood::Wished).or_else(|| self.small_clause(at, end));
+            }
+            self.all_added(at, end)
+        })
+    }
+
+    /// Whether words name somebody, and nothing that is in the scene: no order, no number, no place.
+    fn is_nobody_here(&self, from: usize, cut: usize) -> bool {
+        let is_word = |at: usize| {
+            self.word(at).is_some()
+                && !self.is_place(at)
+                && longest(&self.lexemes[at..cut], super::words::VERBS)
+                    .is_none_or(|(verb, _)| matches!(verb, Verb::Name | Verb::Describe | Verb::List))
+        };
+        #[rustfmt::skip]
+        const DENIES: &[&str] = &["nobody", "noone", "not", "no", "never", "none", "if", "unless", "dont", "doesnt"];
+        (from..cut).all(is_word)
+            && (from..cut).all(|at| self.word(at).is_none_or(|word| !DENIES.contains(&word)))
+            && self.one_of(from, cut).is_err()
+    }
+
+    /// "The taxi pink", "the bench next to the fountain": what somebody wants of a thing.
+    pub(super) fn small_clause(&self, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let end = self.before_politeness(from, end);
+        if !self.is_definite(from) {
+            return None;
+        }
+        (from + 1..end).rev().find_map(|cut| {
+            let what = self.things(from, cut).ok()?;
+            let rest = Reader { at: cut, ..self.up_to(end) };
+            let wish = rest.predicate(&Subject::Things(what), (from, cut), end);
+            wish
+        })
+    }
+
+    /// Reads an order that was put together from the words of a sentence: all of it, and without any of the readings that
+    /// put orders together.
+    pub(super) fn read_plainly(&self, order: &[Lexeme]) -> Option<Vec<Vec<Wish>>> {
+        if self.depth >= DEEPEST {
+            return None;
+        }
+        let mut reader = Reader { lexemes: order, at: 0, depth: DEEPEST, ..*self };
+        let end = reader.before_politeness(0, order.len());
+        reader.wish(end).ok().filter(|_| reader.at >= end)
+    }
+}
+
+/// Who wants something has no more words.
+const MOST_NAMED: usize = 9;
+/// Orders that are put together are not put together once more.
+pub(super) const DEEPEST: u8 = 3;
+
+/// An addition at a place, if it has none of its own.
+fn placed(wish: Wish, places: &[Where]) -> Option<Wish> {
+    match wish {
+        Wish::Add { things, at } if at.is_empty() => Some(Wish::Add { things, at: places.to_vec() }),
+        _ => None,
+    }
+}
+
+/// A size, if all the words are one: "twice as big", "a lot larger, by 50 percent".
+pub(super) fn size_of(lexemes: &[Lexeme]) -> Option<f64> {
+    const SMALL: &[&str] = &[
+        "to", "be", "become", "get", "somewhat", "even", "quite", "just", "made", "scaled", "about",
+        "roughly", "of", "its", "size",
+    ];
+    let words: Vec<Lexeme> = lexemes
+        .iter()
+        .skip_while(|lexeme| matches!(&lexeme.token, Token::Word(word) if SMALL.contains(&word.as_str())))
+        .cloned()
+        .collect();
+    let whole = |words: &[Lexeme]| {
+        let named = longest(words, FACTORS).or_else(|| factor_in_numbers(words));
+        // "Three" alone is no size.
+        let is_number = words.len() == 1 && longest(words, FACTORS).is_none();
+        named.filter(|(_, count)| *count == words.len() && !is_number).map(|(factor, _)| factor)
+    };
+    if words.is_empty() {
+        return None;
+    }
+    whole(&words).or_else(|| whole(lexemes)).or_else(|| {
+        // "Smaller, half of what it is": the figure counts.
+        let cut = (1..words.len()).find(|at| joint(&words[*at..]).is_some())?;
+        whole(&words[..cut])?;
+        whole(&words[cut + joint(&words[cut..])?..])
+    })
+}
+
+/// Whether a reference says nothing but what was spoken of.
+pub(super) fn is_it(reference: &Reference) -> bool {
+    matches!(reference.target, Target::It | Target::Them)
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    let lists = [BETWEEN, OUGHT_TO, WELCOME, AROUND, GONE, TRADES, LACKS, IN_COLOUR, COLOUR, PLACED];
+    lists.into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+}
