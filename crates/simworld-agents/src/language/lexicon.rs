@@ -143,9 +143,9 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["car", "automobile", "taxi", "cab"], &[EntityKind::Car]),
     things(&["truck", "lorry", "van"], &[EntityKind::Truck]),
     things(&["bus"], &[EntityKind::Bus]),
-    things(&["motorcycle", "motorbike"], &[EntityKind::Motorcycle]),
+    things(&["motorcycle", "motorbike", "moped"], &[EntityKind::Motorcycle]),
     things(&["bicycle", "bike"], &[EntityKind::Bicycle]),
-    things(&["scooter", "kick scooter", "e scooter", "electric scooter", "moped"], &[EntityKind::Scooter]),
+    things(&["scooter", "kick scooter", "e scooter", "electric scooter"], &[EntityKind::Scooter]),
     things(
         &[
             "person",

@@ -4,7 +4,7 @@ mod ground;
 
 use std::collections::BTreeMap;
 
-use simworld_agents::editing::{Difference, EditError, Edited, SceneEditor, Stand, faults};
+use simworld_agents::editing::{Difference, Edit, EditError, Edited, SceneEditor, Stand, faults};
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point2, heading, yaw_of};
 use simworld_core::id::EntityId;
@@ -133,13 +133,19 @@ impl Judge<'_> {
             "remove" => words.iter().try_for_each(|key| take(&mut rest.removed, self.id(key), "removed")),
             "move" => {
                 let thing = self.id(words[0]);
-                take(&mut rest.moved, thing, "moved")?;
+                self.was_moved(thing, rest)?;
                 self.stands(thing, told.split_once(' ').map_or("", |(_, place)| place))
             }
             "rotate" => {
                 let thing = self.id(words[0]);
-                take(&mut rest.moved, thing, "turned")?;
+                self.was_moved(thing, rest)?;
                 let angle: f64 = words[1].parse().map_err(|_| format!("no angle {clause}"))?;
+                // What stands elsewhere may have been turned by that, so that the angle is seen in the edits alone.
+                let turns = |edit: &Edit| matches!(edit, Edit::Rotate { things, angle: by } if things.contains(&thing) && wrap_angle(by - angle.to_radians()).abs() < 1e-6);
+                let stays = (place_of(self.after, thing) - place_of(&self.city.world, thing)).norm() < 1e-6;
+                if !stays && edited.edits.iter().any(turns) {
+                    return Ok(());
+                }
                 let turned = yaw_in(self.after, thing) - yaw_in(&self.city.world, thing);
                 is_near(wrap_angle(turned - angle.to_radians()), 0.0, 1e-6, "is turned wrongly")
             }
@@ -194,6 +200,12 @@ impl Judge<'_> {
             "close" | "open" => self.passages(&words, verb == "close", rest),
             other => panic!("no notation {other} in {clause}"),
         }
+    }
+
+    /// Whether a thing was moved or turned, which may be told twice.
+    fn was_moved(&self, thing: EntityId, rest: &mut Rest) -> Result<(), String> {
+        rest.moved.retain(|id| *id != thing);
+        if self.changed.moved.contains(&thing) { Ok(()) } else { Err(format!("{thing} was not moved")) }
     }
 
     // ---- new things ----

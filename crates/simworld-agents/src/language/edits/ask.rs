@@ -123,7 +123,7 @@ impl Reader<'_> {
 
     /// Whether the verb before asks where something is.
     fn asks_where(&self, start: usize) -> bool {
-        (start.saturating_sub(2)..start)
+        (start.saturating_sub(4)..start)
             .any(|at| self.word(at).is_some_and(|word| ["where", "wheres"].contains(&word)))
     }
 
@@ -161,7 +161,7 @@ impl Reader<'_> {
             read => read?,
         };
         self.at = end;
-        if ["is", "whats", "wheres"].contains(&asked)
+        if (["is", "whats", "wheres"].contains(&asked) || self.asks_where(start))
             && what.count == Count::One
             && !self.is_plural(start, end)
         {

@@ -11,6 +11,12 @@ use super::parse::Reader;
 use super::wish::Wish;
 use super::words::FACTORS;
 
+/// Between a thing and where it is to go.
+#[rustfmt::skip]
+const POSED: &[&str] = &["to stand", "to sit", "to wait", "to be", "to go", "to stay", "so that it stands", "so it stands", "so that it is", "so it is", "over to stand", "and put it",
+    "and place it", "and park it", "and set it down", "and set it", "and leave it", "and stick it", "and drop it", "and stand it", "to be placed", "to rest", "to live", "and put them",
+    "and place them", "and park them", "so that they stand", "so they stand", "so that she stands", "so that he stands", "so she stands", "so he stands"];
+
 impl Reader<'_> {
     // ---- the verbs ----
 
@@ -20,7 +26,12 @@ impl Reader<'_> {
         let mut readings = Vec::new();
         let mut refused = None;
         for cut in start + 1..end {
-            if !self.is_place(cut) {
+            // "Send Gus to stand beside the door".
+            let pose = longest_phrase(&self.lexemes[cut..end], POSED).unwrap_or(0);
+            let place = if pose > 0 && self.is_place((cut + pose).min(end)) { cut + pose } else { cut };
+            if !self.is_place(place)
+                || cut > start + 1 && longest_phrase(&self.lexemes[cut - 1..end], POSED).is_some()
+            {
                 continue;
             }
             let what = match self.things(start, cut) {
@@ -31,7 +42,7 @@ impl Reader<'_> {
                 }
                 Err(_) => continue,
             };
-            self.at = cut;
+            self.at = place;
             match self.places(end) {
                 Ok(at) if self.at == end => readings.push(Wish::Move { what, at }),
                 Ok(_) => {}
@@ -200,12 +211,9 @@ impl Reader<'_> {
     pub(super) fn scaled(&self, start: usize, end: usize) -> Option<Wish> {
         for cut in start + 1..end {
             let rest = &self.lexemes[cut..end];
-            let factor = match longest(rest, FACTORS) {
-                Some((factor, count)) if cut + count == end => factor,
-                _ => match factor_in_numbers(rest) {
-                    Some((factor, count)) if cut + count == end => factor,
-                    _ => continue,
-                },
+            let number = factor_in_numbers(rest).filter(|(_, count)| cut + count == end);
+            let Some(factor) = number.map(|(factor, _)| factor).or_else(|| super::says::size_of(rest)) else {
+                continue;
             };
             if let Ok(what) = self.things(start, cut) {
                 return Some(Wish::Scale { what, factor });

@@ -7,7 +7,6 @@ use super::super::lexicon::{category, longest_phrase};
 use super::super::numbers;
 use super::forms::{word_at, words_at};
 use super::parse::Reader;
-use super::says::Mood;
 use super::wish::{Anchor, NewThing, Where, Wish};
 
 /// What stands for a new thing as the one before.
@@ -55,6 +54,8 @@ pub(super) struct Said {
     pub(super) wish: Option<Wish>,
     /// The last noun of a class, in the singular.
     pub(super) noun: Option<Vec<Lexeme>>,
+    /// The place that a remark just before was about.
+    pub(super) place: Vec<Where>,
 }
 
 impl Reader<'_> {
@@ -63,7 +64,7 @@ impl Reader<'_> {
         let last = said.wish.as_ref();
         let (from, stop) = (self.at, self.before_politeness(self.at, end));
         self.with_noun(said, from, stop)
-            .and_then(|order| self.read_plainly(&order).or_else(|| self.says_in(&order)))
+            .and_then(|order| self.read_anew(&order))
             .or_else(|| self.gapped(said, last?, from, stop))
     }
 
@@ -130,12 +131,6 @@ impl Reader<'_> {
             }
         }
         changed.then_some(words)
-    }
-
-    /// A statement of the words alone.
-    fn says_in(&self, words: &[Lexeme]) -> Option<Vec<Vec<Wish>>> {
-        let reader = Reader { lexemes: words, at: 0, depth: self.depth + 1, ..*self };
-        reader.says(0, words.len(), Mood::Plain)
     }
 
     /// The verb of the wish before, where none is said: "... and the chair next to the tree".

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use super::super::lexer::Token;
-use super::super::lexicon::longest_phrase;
+use super::super::lexicon::{category, longest, longest_phrase};
 use super::parse::Reader;
 
 /// The longest preamble, in words.
@@ -77,6 +77,8 @@ impl Reader<'_> {
             let rest = &self.lexemes[at..end];
             let words = if let Some(words) = longest_phrase(rest, TURNS) {
                 words
+            } else if let Some(words) = (at == start).then(|| self.circumstance(at, end)).flatten() {
+                words
             } else if matches!(rest[0].token, Token::Comma) && at > start {
                 1
             } else if self.word(at).is_some_and(|word| WORDS.contains(word)) {
@@ -90,6 +92,42 @@ impl Reader<'_> {
         }
         found.retain(|beginning| beginning.at < end);
         found
+    }
+
+    /// "For the shot", "in my level": how many words from here say on what occasion, and name nothing that is in the scene.
+    fn circumstance(&self, at: usize, end: usize) -> Option<usize> {
+        let rest = &self.lexemes[at..end];
+        let mut words = longest_phrase(rest, &["for", "in", "during", "as for", "at"])?;
+        words += longest_phrase(
+            &rest[words..],
+            &[
+                "the",
+                "my",
+                "this",
+                "our",
+                "that",
+                "a",
+                "your",
+                "these",
+                "next",
+                "the next",
+                "the last",
+                "the final",
+                "the new",
+            ],
+        )?;
+        let is_plain = |at: &usize| {
+            let here = &self.lexemes[*at..end];
+            self.word(*at).is_some()
+                && !WORDS.contains(self.word(*at).unwrap_or_default())
+                && category(here).is_none()
+                && self.names.part(&here[..1]).is_none()
+                && longest(here, super::words::VERBS).is_none()
+                && self.view.streets.is_none_or(|streets| streets.at(here).is_none())
+                && !self.is_place(*at)
+        };
+        let noun = (at + words..end.min(at + words + 2)).take_while(is_plain).count();
+        (noun > 0).then_some(words + noun)
     }
 
     /// Whether what stands before a verb says nothing of its own.

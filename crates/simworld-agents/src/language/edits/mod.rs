@@ -92,29 +92,45 @@ pub(crate) fn read(
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
-    orders::in_plain_words(&mut lexemes);
+    orders::in_plain_words(words, &mut lexemes);
     let reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0, depth: 0 };
-    Ok(Reading { words: words.to_owned(), wishes: wishes_of(reader, stock)? })
+    Ok(Reading { words: words.to_owned(), wishes: wishes_of(reader, scene, stock, focus)? })
 }
 
-/// The wishes of a sentence: as it stands or, if that is not understood or asks for what nobody has, part by part.
-fn wishes_of(reader: Reader<'_>, stock: &Stock) -> Result<Vec<Vec<Wish>>, PlanError> {
+/// The wishes of a sentence: as it stands or, if that is not understood, or asks for what nobody has or what is not there,
+/// part by part.
+fn wishes_of(
+    reader: Reader<'_>,
+    scene: &dyn Scene,
+    stock: &Stock,
+    focus: &Focus,
+) -> Result<Vec<Vec<Wish>>, PlanError> {
     let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
     let is_known = |wish: &Wish| match wish {
         Wish::Add { things, .. } => things.iter().all(is_new),
         Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
         _ => true,
     };
-    let are_known = |wishes: &Vec<Vec<Wish>>| wishes.iter().flatten().all(is_known);
+    let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
+    // What later wishes are about may be made by earlier ones.
+    let is_there = |wishes: &[Vec<Wish>]| {
+        let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+        let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
+        !wishes.first().is_some_and(|readings| readings.iter().all(missing))
+    };
     let plain = Reader { ..reader }.sentence();
-    if plain.as_ref().is_ok_and(are_known) {
+    if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
         return plain;
     }
-    let in_parts = reader.in_parts().or_else(|| reader.complaint());
+    let in_parts = reader.in_parts(&is_known);
     match (plain, in_parts) {
-        (_, Some(wishes)) if are_known(&wishes) => Ok(wishes),
-        (Ok(wishes), _) | (Err(_), Some(wishes)) => Ok(wishes),
-        (Err(error), None) => Err(error),
+        (_, Some(wishes)) if is_there(&wishes) => Ok(wishes),
+        (Ok(wishes), _) => Ok(wishes),
+        (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
+        (Err(error), _) => {
+            let unknown = || reader.in_parts(&|_| true);
+            reader.complaint().or_else(unknown).ok_or(error)
+        }
     }
 }
 
@@ -143,15 +159,19 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
 /// Edits are about the whole scene, m.
 const EVERYWHERE: f64 = 1.0e5;
 
-/// The words of the parts, so that none is taken for a misspelling.
-fn more_words() -> impl Iterator<Item = &'static str> {
+/// The words of turns and remarks: none of them is a misspelling, and none is taken for what was meant by one.
+fn other_words() -> impl Iterator<Item = &'static str> {
     says::words()
         .chain(frames::words())
         .chain(follow::words())
         .chain(parts::words())
         .chain(orders::words())
         .chain(complaints::words())
-        .chain(offsets::words())
+}
+
+/// The words of the parts, so that none is taken for a misspelling.
+fn more_words() -> impl Iterator<Item = &'static str> {
+    offsets::words()
         .chain(passage::words())
         .chain(rows::words())
         .chain(dressed::words())

@@ -13,7 +13,7 @@ use super::words::{VERBS, Verb};
 /// Verbs that mean to remove something with a particle behind it.
 #[rustfmt::skip]
 const TAKES: &[&str] = &["throw", "take", "chuck", "get", "tear", "knock", "pull", "cut", "chop", "toss", "kick", "haul", "cart", "clear", "sweep",
-    "tow", "carry", "send", "bring", "drag", "push", "rip", "strip", "wipe", "lift", "put", "clean", "dig", "move", "pluck", "have", "want", "make", "let",
+    "carry", "send", "bring", "drag", "push", "rip", "strip", "wipe", "lift", "put", "clean", "dig", "move", "pluck", "have", "want", "make", "let",
     "see", "strike", "cross", "rub", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast"];
 /// The particles.
 #[rustfmt::skip]
@@ -69,8 +69,34 @@ impl Reader<'_> {
         }
         self.behind_preamble(start, end)
             .or_else(|| self.others_want(start, end))
+            .or_else(|| self.fronted(start, end))
             .or_else(|| self.reordered(start, end))
             .or_else(|| self.without_reason(start, end))
+    }
+
+    /// What should be first, and of what behind it: "twice as big, the chair", "by the museum, please, one bench".
+    fn fronted(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let end = self.before_politeness(start, end);
+        (start + 1..end).find_map(|cut| {
+            let stop = self.without_small(start, cut);
+            let mut behind = Reader { at: cut, ..self.up_to(end) };
+            behind.skip_joints_to(end);
+            let from = behind.at;
+            if from >= end {
+                return None;
+            }
+            let one = |wish| Some(vec![vec![wish]]);
+            if let Some(places) = self.places_to(start, stop) {
+                let is_new = !self.is_definite(from) || self.is_bare_plural(from, end);
+                let thing = behind.new_thing(end).ok().filter(|_| is_new && behind.at >= end)?;
+                return one(Wish::Add { things: vec![thing], at: places });
+            }
+            let what = self.things(from, end).ok().filter(|_| self.is_certain(from))?;
+            if let Some(factor) = super::says::size_of(&self.lexemes[start..stop]) {
+                return one(Wish::Scale { what, factor });
+            }
+            self.colour_to(start, stop).and_then(|paint| one(Wish::Paint { what, paint }))
+        })
     }
 
     /// Statements, gerunds and small clauses behind a preamble of any length.
@@ -81,12 +107,14 @@ impl Reader<'_> {
             if let Some(wish) = self.apart(at, end) {
                 return Some(one(wish));
             }
-            if at > start {
+            let doing = self.word(at).is_some_and(|word| word.ends_with("ing"));
+            if at > start || doing {
                 let order = as_order(&self.lexemes[at..end]).map(|(_, _, verb)| {
                     std::iter::once(verb).chain(self.lexemes[at + 1..end].iter().cloned()).collect::<Vec<_>>()
                 });
                 let read = order.and_then(|order| self.read_plainly(&order));
-                if let Some(wishes) = read.or_else(|| self.read_plainly(&self.lexemes[at..end])) {
+                let plain = || if at > start { self.read_plainly(&self.lexemes[at..end]) } else { None };
+                if let Some(wishes) = read.or_else(plain) {
                     return Some(wishes);
                 }
             }
@@ -299,6 +327,10 @@ impl Reader<'_> {
             if matches!(verb, Verb::Count | Verb::List | Verb::Describe | Verb::Close | Verb::Open) {
                 return None;
             }
+            // An order in the next sentence is none of this one.
+            if self.lexemes[start..end].iter().any(|lexeme| lexeme.token == Token::Break) {
+                return None;
+            }
             let stop = self.without_small(start, at);
             let begin = self.beginnings(start, stop + 1).last().map_or(start, |begins| begins.at);
             let behind = &self.lexemes[at + words.len()..end];
@@ -347,8 +379,44 @@ impl Reader<'_> {
     }
 }
 
+/// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".
+fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const STATES: &[&str] = &["in", "too", "a", "on", "at", "so", "facing", "looking", "way", "always", "really", "just", "very", "not", "got", "ugly", "nice", "far",
+        "much", "blocking", "still", "standing", "behind", "next", "near", "an", "been", "kind", "boring", "broken", "old", "empty", "dirty", "lonely", "quite", "rather", "wrong"];
+    const SIDES: &[&str] = &["corner", "edge", "middle", "centre", "center", "side"];
+    let mut at = 0;
+    while at + 1 < lexemes.len() {
+        let (Token::Word(word), Token::Word(next)) = (&lexemes[at].token, &lexemes[at + 1].token) else {
+            at += 1;
+            continue;
+        };
+        let written = words.get(lexemes[at].start..lexemes[at].end).unwrap_or_default();
+        let is_contracted = (written.ends_with("'s") || written.ends_with("’s")) && word.len() > 4;
+        if is_contracted
+            && STATES.contains(&next.as_str())
+            && !["thats", "whats", "theres", "wheres", "heres"].contains(&word.as_str())
+        {
+            let place = lexemes[at].clone();
+            let stem = word[..word.len() - 1].to_owned();
+            lexemes.splice(at..=at, [word_at(&place, &stem), word_at(&place, "is")]);
+        } else if ["its", "his", "her", "their"].contains(&word.as_str())
+            && SIDES.contains(&next.as_str())
+            && at > 0
+        {
+            let (place, side) = (lexemes[at].clone(), lexemes[at + 1].clone());
+            lexemes.splice(
+                at..=at + 1,
+                [word_at(&place, "the"), side, word_at(&place, "of"), word_at(&place, "it")],
+            );
+        }
+        at += 1;
+    }
+}
+
 /// A word twice in a row says no more than once, and "more small" is "smaller".
-pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
+    contractions(words, lexemes);
     #[rustfmt::skip]
     const MORE: &[(&str, &str)] = &[("small", "smaller"), ("big", "bigger"), ("large", "larger"), ("tall", "taller"), ("high", "higher"), ("little", "smaller"),
         ("short", "shorter"), ("close", "closer"), ("tiny", "smaller"), ("huge", "bigger")];

@@ -142,7 +142,14 @@ impl<'a> Reader<'a> {
             return Ok(made);
         }
         self.at = start;
-        Err(refused.or(bare.err()).unwrap_or_else(|| self.not_understood(UNDERSTOOD)))
+        // What is not there is a better answer than that nothing is understood.
+        if let Some(error @ PlanError::NotFound { .. }) = refused {
+            return Err(error);
+        }
+        let missing =
+            || self.beginnings(start, end).into_iter().find_map(|begins| self.missing(begins.at, end));
+        let refused = missing().or(refused).or(bare.err());
+        Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD)))
     }
 
     /// The order of the first verb that stands behind small words alone, and is understood.
@@ -252,8 +259,14 @@ impl<'a> Reader<'a> {
 
     /// "Benches": some that are not there yet.
     pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
-        let class = super::super::lexicon::category(&self.lexemes[at.min(end)..end]);
-        class.is_some_and(|(_, words)| self.is_plural(at, at + words))
+        // "Cherry trees": up to three words say of what kind they are.
+        let ends = |at: usize| {
+            self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], VERBS).is_some()
+        };
+        let noun = (at..end.min(at + 4)).take_while(|next| *next == at || !ends(*next)).find_map(|next| {
+            super::super::lexicon::category(&self.lexemes[next..end]).map(|(_, words)| (next, words))
+        });
+        noun.is_some_and(|(next, words)| self.is_plural(next, next + words)) && !self.is_certain(at)
     }
 
     // ---- things ----

@@ -35,24 +35,29 @@ const SUBJECTS: &[&str] = &["i", "im", "ive", "id", "we", "were", "weve", "they"
     "pedestrians", "drivers", "guests", "in", "at", "on", "with", "behind", "near", "around", "outside", "next to", "by", "for", "from"];
 /// Verbs of what is so.
 #[rustfmt::skip]
-const STATES: &[&str] = &["is", "are", "was", "were", "am", "im", "its", "thats", "theres", "theyre", "youre", "hes", "shes", "isnt", "arent", "wasnt", "werent",
+const STATES: &[&str] = &["is", "are", "was", "were", "am", "isnt", "arent", "wasnt", "werent",
     "has", "have", "had", "hasnt", "havent", "ive", "weve", "theyve", "looks", "look", "looked", "feels", "feel", "seems", "seem", "keeps", "keep", "kept", "uses",
     "use", "used", "likes", "love", "loves", "loved", "hate", "hates", "hated", "cant", "cannot", "couldnt", "dont", "doesnt", "didnt", "wont", "wouldnt", "gives",
     "give", "makes", "made", "blocks", "block", "bothers", "bother", "annoys", "annoy", "said", "says", "say", "told", "asked", "asks", "complained", "complain",
     "complains", "saw", "see", "sees", "seen", "heard", "noticed", "fell", "falls", "fall", "broke", "breaks", "stinks", "stink", "smells", "smell", "trip", "trips",
-    "tripping", "sit", "sits", "stands", "stand", "stood", "waits", "wait", "waiting", "comes", "come", "came", "goes", "went", "gets", "get", "got", "knows", "know",
-    "thinks", "think", "thought", "spoils", "ruins", "ruined", "clashes", "clash", "matches", "match", "suits", "fits", "belongs", "wants", "want", "needs", "need",
-    "lives", "works", "work", "arrives", "arrived", "starts", "starting", "begins", "became", "becomes", "hides", "hide", "misses", "miss", "lost", "left", "moved",
-    "takes", "took", "means", "costs", "cost", "turns", "turned", "runs", "ran", "drives", "drove", "parked", "parks", "died", "dead", "cry", "cries", "crying",
+    "tripping", "sit", "sits", "stands", "stand", "stood", "waits", "wait", "waiting", "came", "went", "got", "knows", "know",
+    "thinks", "think", "thought", "spoils", "ruins", "ruined", "clashes", "clash", "matches", "match", "suits", "fits", 
+    "wants", "want", "needs", "need",
+    "lives", "works", "work", "arrives", "arrived", "starts", "starting", "begins", "hides", "hide", "misses", "miss", "lost", "moved",
+    "takes", "took", "means", "costs", "cost", "runs", "ran", "drives", "drove", "parked", "parks", "died", "dead", "cry", "cries", "crying",
     "complaining", "prefer", "prefers", "remember", "forgot", "enough", "loving", "hating", "scares", "scare", "confuses", "confuse", "faces", "hangs", "lies",
     "shines", "glows", "burns", "grows", "attracts", "disturbs", "reminds", "remind", "happens", "happened", "ends", "hurts", "hurt", "eats", "eat", "drink", "play",
-    "plays", "park", "ride", "walk", "walks", "read", "rest", "shop", "bring", "brings", "show", "shows", "wonder", "doubt", "guess", "bet", "swear", "promise", "am",
-    "stays", "stay", "leans", "leaks", "rusts", "rots", "creaks", "blends", "stick", "sticks", "tend", "tends", "just", "always", "never", "wasn", "there", "aint", "nowhere", "hardly"];
+    "plays", "ride", "walk", "walks", "read", "rest", "shop", "wonder", "doubt", "guess", "bet", "swear", "promise", "am",
+    "stays", "stay", "leans", "leaks", "rusts", "rots", "creaks", "blends", "tend", "tends", "just", "always", "never", "wasn", "there", "aint", "nowhere", "hardly"];
 /// Words by which a part asks for something, or says how something should be.
 #[rustfmt::skip]
 const ASKS: &[&str] = &["should", "must", "ought", "shall", "please", "let", "lets", "instead", "unless", "until", "except", "only", "if", "whenever", "has to",
     "have to", "needs to", "need to", "better", "add", "put", "remove", "delete", "paint", "would", "could", "rather", "supposed", "shouldnt", "mustnt",
-    "each", "every"];
+    "each", "every", "to be", "to go", "to stand", "to have", "to get"];
+/// A subject and its verb in one word.
+#[rustfmt::skip]
+const SHORT: &[&str] = &["im", "its", "thats", "theres", "theyre", "youre", "hes", "shes", "ive", "weve", "theyve", "too many", "too much", "so many", "so much",
+    "not enough", "what a", "such a", "no more room for", "nowhere", "hardly any", "quite some", "thanks to"];
 /// Sounds and greetings that stand alone.
 #[rustfmt::skip]
 const CALLS: &[&str] = &["vroom", "beep", "boom", "wow", "ugh", "argh", "phew", "yay", "yikes", "oops", "hooray", "woof", "meow", "brr", "brrr", "ahoy", "ouch",
@@ -63,11 +68,18 @@ const CALLS: &[&str] = &["vroom", "beep", "boom", "wow", "ugh", "argh", "phew", 
     "dammit", "bonjour", "hola", "ciao", "moin", "servus", "sigh", "lol", "btw", "fyi", "asap", "new idea", "change of plan", "change of plans", "one last thing", "last thing",
     "one thing", "next thing", "first thing", "ok now", "alright then", "that said", "anyway", "anyhow", "still", "next", "too bad", "what a shame", "shame", "yuck", "eww", "ew", "the horror", "no way", "never mind"];
 
+/// A search for the parts of a sentence.
+struct Search<'a> {
+    /// Whether somebody has what a wish asks for.
+    is_known: &'a dyn Fn(&Wish) -> bool,
+    tried: usize,
+}
+
 impl Reader<'_> {
     /// All wishes of a sentence whose parts hang together, or ask for nothing.
-    pub(super) fn in_parts(&self) -> Option<Vec<Vec<Wish>>> {
-        let mut tried = 0;
-        let found = self.parts_from(0, &Said::default(), &[], &mut tried)?;
+    pub(super) fn in_parts(&self, is_known: &dyn Fn(&Wish) -> bool) -> Option<Vec<Vec<Wish>>> {
+        let mut search = Search { is_known, tried: 0 };
+        let found = self.parts_from(0, &Said::default(), &[], &mut search)?;
         (!found.is_empty()).then_some(found)
     }
 
@@ -76,7 +88,7 @@ impl Reader<'_> {
         from: usize,
         said: &Said,
         spoken_of: &[Reference],
-        tried: &mut usize,
+        search: &mut Search<'_>,
     ) -> Option<Vec<Vec<Wish>>> {
         let mut start = Reader { at: from, ..*self };
         start.skip_joints_to(self.lexemes.len());
@@ -86,18 +98,25 @@ impl Reader<'_> {
         }
         let cuts = self.cuts(from);
         for end in cuts.iter().rev().copied() {
-            *tried += 1;
-            if *tried > MOST_TRIED {
+            search.tried += 1;
+            if search.tried > MOST_TRIED {
                 return None;
             }
             let mut part = Reader { at: from, ..self.up_to(end) };
             let Some(mut wishes) = part.part(said, end) else { continue };
-            wishes.iter_mut().flatten().for_each(|wish| wish.is_about(spoken_of));
+            if !wishes.iter().flatten().all(search.is_known) {
+                continue;
+            }
+            wishes.iter_mut().flatten().for_each(|wish| {
+                wish.is_about(spoken_of);
+                wish.stands(&said.place);
+            });
             let now = Said {
                 wish: wishes.last().and_then(|readings| readings.first().cloned()),
                 noun: self.last_noun(from, end).or_else(|| said.noun.clone()),
+                place: Vec::new(),
             };
-            if let Some(rest) = self.parts_from(end, &now, &[], tried) {
+            if let Some(rest) = self.parts_from(end, &now, &[], search) {
                 wishes.extend(rest);
                 return Some(wishes);
             }
@@ -111,8 +130,10 @@ impl Reader<'_> {
             if things.is_empty() {
                 things = spoken_of.to_vec();
             }
-            let now = Said { noun: self.last_noun(from, end).or_else(|| said.noun.clone()), ..said.clone() };
-            if let Some(rest) = self.parts_from(end, &now, &things, tried) {
+            let noun = self.last_noun(from, end).or_else(|| said.noun.clone());
+            let place = self.place_spoken_of(from, end).unwrap_or_else(|| said.place.clone());
+            let now = Said { noun, place, ..said.clone() };
+            if let Some(rest) = self.parts_from(end, &now, &things, search) {
                 return Some(rest);
             }
         }
@@ -126,6 +147,9 @@ impl Reader<'_> {
         }
         let start = self.at;
         let stop = self.before_politeness(start, end);
+        if let Some(wish) = self.mended(stop) {
+            return Some(vec![vec![wish]]);
+        }
         if let Ok(wishes) = self.wish(end)
             && self.at >= stop
         {
@@ -137,16 +161,34 @@ impl Reader<'_> {
         }
         // "Swap the red bench with the blue one".
         let own = Said { noun: self.last_noun(start, end), ..Said::default() };
-        self.with_noun(&own, start, end).and_then(|order| self.read_plainly(&order))
+        self.with_noun(&own, start, end).and_then(|order| self.read_anew(&order))
+    }
+
+    /// "Fix that with a bench".
+    fn mended(&self, end: usize) -> Option<Wish> {
+        #[rustfmt::skip]
+        const MENDS: &[&str] = &["fix that with", "fix it with", "fix this with", "solve that with", "solve it with", "solve this with", "remedy that with", "change that with",
+            "sort that out with", "sort it out with", "help with", "fix that by adding", "fix it by adding", "change that by adding", "so fix that with", "cure that with",
+            "mend that with", "deal with that by adding", "fix that by putting", "help them with", "help out with", "make up for it with", "brighten it up with",
+            "liven it up with", "cheer it up with", "spruce it up with", "spice it up with", "complete it with", "what about", "how about", "why not"];
+        let words = longest_phrase(&self.lexemes[self.at..end], MENDS)?;
+        let mut reader = Reader { at: self.at + words, ..self.up_to(end) };
+        if reader.is_definite(reader.at) {
+            return None;
+        }
+        let thing = reader.new_thing(end).ok().filter(|_| reader.at >= end)?;
+        Some(Wish::Add { things: vec![thing], at: Vec::new() })
     }
 
     /// Where a part that begins here may end, the nearest first.
     fn cuts(&self, from: usize) -> Vec<usize> {
         let all = self.lexemes.len();
         let is_cut = |at: &usize| {
-            joint(&self.lexemes[*at..]).is_some()
-                || longest_phrase(&self.lexemes[*at..], CUTS).is_some()
-                || self.is_purpose(from, *at)
+            is_mark(&self.lexemes[*at])
+                || !self.is_place(*at)
+                    && (joint(&self.lexemes[*at..]).is_some()
+                        || longest_phrase(&self.lexemes[*at..], CUTS).is_some()
+                        || self.is_purpose(from, *at))
         };
         (from + 1..all).filter(is_cut).chain([all]).collect()
     }
@@ -185,11 +227,27 @@ impl Reader<'_> {
         }
         if let Some(reason) = longest_phrase(words, REASONS) {
             let behind = from + reason;
-            return behind < end && !self.asks(behind, end) && !self.is_order(behind, end);
+            return behind < end
+                && !self.is_place(from)
+                && !self.asks(behind, end)
+                && !self.is_order(behind, end);
+        }
+        if self.wants_something_there(from, end)
+            || self.is_place(from) && longest_phrase(words, &["to"]).is_some()
+        {
+            return false;
         }
         let about = longest_phrase(words, SUBJECTS).is_some() || self.one_begins(from, end);
-        let states = (from..end).any(|at| is_word(at, STATES));
+        let states = (from..end).any(|at| is_word(at, STATES)) || longest_phrase(words, SHORT).is_some();
         about && states && !self.asks(from, end)
+    }
+
+    /// "Carol wants a bench next to her": more than how somebody feels.
+    fn wants_something_there(&self, from: usize, end: usize) -> bool {
+        (from + 1..end).any(|at| {
+            longest_phrase(&self.lexemes[at..end], super::says::LACKS)
+                .is_some_and(|words| (at + words + 1..end).any(|at| self.is_place(at)))
+        })
     }
 
     /// Whether a name or a thing of the scene stands first.
@@ -240,6 +298,18 @@ impl Reader<'_> {
             }
         }
         things
+    }
+
+    /// The first place that a remark names: "by the fountain" of "there is nowhere to sit by the fountain".
+    fn place_spoken_of(&self, from: usize, end: usize) -> Option<Vec<super::wish::Where>> {
+        (from..end).filter(|at| self.is_place(*at)).find_map(|at| {
+            let mut reader = Reader { at, ..self.up_to(end) };
+            let place = reader
+                .place(end)
+                .ok()
+                .filter(|place| place.anchor().is_some_and(|anchor| !anchor.is_it()))?;
+            Some(vec![place])
+        })
     }
 
     /// The words without a reason at their end: "..., so that people can rest".

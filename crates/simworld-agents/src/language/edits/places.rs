@@ -1,6 +1,7 @@
 //! New things and places: the noun phrase of what is to be made, and the relations in which it is to stand.
 
 use simworld_core::geometry::Point2;
+use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
@@ -20,6 +21,27 @@ const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the", "one mor
     "yet another", "a few", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
     "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
     "around"];
+/// How something is to be where it stands.
+#[rustfmt::skip]
+const POSTURES: &[&str] = &["standing", "sitting", "waiting", "parked", "placed", "located", "leaning", "lying", "planted", "installed", "that stands", "which stands",
+    "that is", "that are", "which is", "positioned", "situated", "that sits", "resting", "put", "hanging", "set up", "lined up", "to stand", "to be", "to go", "to sit", "to wait",
+    "that goes", "to be placed", "to put", "growing", "built", "set", "to be put", "to be parked", "to park", "to place", "mounted", "stood", "right", "directly", "somewhere", "just",
+    "exactly", "only", "who stands", "who waits", "perched", "balanced", "going", "ready", "and place it", "and put it", "and park it", "and set it", "and stick it", "and put them",
+    "and place them", "and park them", "and leave it", "and plant it", "and stand it", "and drop it", "and put that", "and have it", "and get it"];
+/// Words that are in the name of no thing.
+#[rustfmt::skip]
+const NO_NOUNS: &[&str] = &["is", "are", "was", "were", "has", "have", "needs", "need", "wants", "want", "loves", "should", "must", "would", "could", "i", "you", "he", "she",
+    "we", "they", "them", "it", "my", "your", "nobody", "everybody", "everyone", "there", "ones", "twice", "many", "copy", "copies", "clone", "duplicate", "because", "if",
+    "let", "be", "do", "does", "dont", "not", "never", "gets", "goes", "same", "us", "me", "every", "each", "make", "paint", "move", "remove", "delete", "her", "him",
+    "than", "as", "which", "who", "why", "what", "where", "nowhere", "somewhere", "wouldnt", "isnt", "arent", "doesnt", "cant", "to", "keeps", "keep", "until", "unless",
+    "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those"];
+/// Sides of a thing, behind a distance from it.
+const OWN_SIDES: &[(&[&str], Relation)] = &[
+    (&["left"], Relation::LeftOf),
+    (&["right"], Relation::RightOf),
+    (&["forward", "forwards", "ahead", "front"], Relation::InFrontOf),
+    (&["back", "backwards", "behind"], Relation::Behind),
+];
 /// Metres.
 const METRES: &[&str] = &["m", "metres", "metre", "meters", "meter"];
 
@@ -122,7 +144,10 @@ impl Reader<'_> {
         }
         let made = self.additions(end).ok()?;
         let placed = |wish| match wish {
-            Wish::Add { things, at: own } if own.is_empty() => Some(Wish::Add { things, at: at.clone() }),
+            // "By the museum, put a bench there".
+            Wish::Add { things, at: own } if own.is_empty() || own == [Where::There] => {
+                Some(Wish::Add { things, at: at.clone() })
+            }
             _ => None,
         };
         made.into_iter().map(|readings| readings.into_iter().map(placed).collect()).collect()
@@ -166,6 +191,11 @@ impl Reader<'_> {
                 || self.before_politeness(start, end) <= self.at
             {
                 break;
+            } else if let Some(words) = longest_phrase(rest, POSTURES)
+                .filter(|words| !thing.words.is_empty() && self.is_place((self.at + words).min(end)))
+            {
+                self.at += words;
+                break;
             } else if let Some((paint, words)) = longest(rest, PAINTS).filter(|_| thing.paint.is_none()) {
                 (thing.paint, self.at) = (Some(paint), self.at + words);
             } else if let Some((factor, words)) = longest(rest, FACTORS).filter(|_| !thing.words.is_empty()) {
@@ -181,7 +211,7 @@ impl Reader<'_> {
             }
         }
         thing.text = self.written(start, self.at);
-        if thing.words.is_empty() {
+        if thing.words.is_empty() || thing.words.iter().any(|word| NO_NOUNS.contains(&word.as_str())) {
             self.at = start;
             return Err(self.not_understood("say what to add"));
         }
@@ -191,6 +221,9 @@ impl Reader<'_> {
     /// Whether a place begins at a token.
     pub(super) fn is_place(&self, at: usize) -> bool {
         let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
+        if self.seen_from(at, self.lexemes.len()).is_some() {
+            return true;
+        }
         if self.begins_offset(at) || self.begins_junction(at) || matches!(over, Ok(Some(_))) {
             return true;
         }
@@ -227,7 +260,11 @@ impl Reader<'_> {
         }
     }
 
-    fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+    pub(super) fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+        if let Some((place, after)) = self.seen_from(self.at, end) {
+            self.at = after;
+            return Ok(place);
+        }
         if let Some(place) = self.junction(end) {
             return Ok(place);
         }
@@ -285,6 +322,39 @@ impl Reader<'_> {
             },
         };
         Ok(place)
+    }
+
+    /// "From the kiosk on the left side", "from the statue go two metres left".
+    fn seen_from(&self, at: usize, end: usize) -> Option<(Where, usize)> {
+        if !matches!(self.word(at), Some("from" | "seen")) || at >= end {
+            return None;
+        }
+        let from = at + longest_phrase(&self.lexemes[at..end], &["from", "seen from"])?;
+        let mut reader = Reader { at: from, ..*self };
+        // The thing is the shortest phrase that is one: what follows is where from there.
+        (from + 1..end).find_map(|cut| {
+            let thing = self.one_of(from, cut).ok()?;
+            reader.at = cut;
+            reader.eat_any(&[","]);
+            while reader.lexemes.get(reader.at).is_some_and(super::parts::is_mark) {
+                reader.at += 1;
+            }
+            reader.eat_any(&["go", "walk", "take", "count", "measure", "and go", "its"]);
+            if let Some((relation, words)) = longest(reader.rest(end), ABOUT_IT) {
+                return Some((Where::To(relation, Anchor::Thing(thing)), reader.at + words));
+            }
+            let (distance, words) = numbers::length(reader.rest(end))?;
+            reader.at += words;
+            let mut parser = reader.parser(reader.at, end);
+            parser.eat_any(&["to the", "to its", "due"]);
+            if let Some(compass) = parser.compass() {
+                let bearing = super::wish::Bearing::Compass(compass);
+                return Some((Where::Offset(distance, bearing, Anchor::Thing(thing)), parser.at));
+            }
+            let (relation, words) = longest(&self.lexemes[parser.at..end], OWN_SIDES)?;
+            let bearing = super::wish::Bearing::Side(relation);
+            Some((Where::Offset(distance, bearing, Anchor::Thing(thing)), parser.at + words))
+        })
     }
 
     /// "On the other side of Oak Street from the museum".

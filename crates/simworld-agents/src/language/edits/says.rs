@@ -4,9 +4,11 @@
 //! A statement is a subject, small words that say it should be so, and what should be of it. Each part is read by its kind,
 //! so that any subject goes with any of them.
 
+use simworld_core::seam::PlanError;
+
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::{longest, longest_phrase};
+use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::paint::{PAINTS, Paint};
 use super::change::factor_in_numbers;
 use super::forms::as_order;
@@ -124,23 +126,68 @@ enum Subject {
     Place(Vec<Where>),
     /// "There should be a bench".
     There,
+    /// "Painting the bench red would be nice".
+    Doing,
 }
 
 impl<'a> Reader<'a> {
     /// A statement that takes all the words up to the end.
     pub(super) fn says(&self, from: usize, end: usize, mood: Mood) -> Option<Vec<Vec<Wish>>> {
         let end = self.before_politeness(from, end);
+        if let Some(wish) = self.goes(from, end) {
+            return Some(vec![vec![wish]]);
+        }
         (from + 1..end).find_map(|cut| {
+            if self.is_inside_noun(from, cut, end) {
+                return None;
+            }
             let subject = self.subjects(from, cut);
             if subject.is_empty() {
                 return None;
             }
             let between = self.between_words(cut, end);
             (0..=between).rev().find_map(|words| {
-                let ought = mood == Mood::Wished || self.says_ought(cut, cut + words);
+                let ought = mood == Mood::Wished && (words > 0 || self.is_certain(from))
+                    || self.says_ought(cut, cut + words);
                 let rest = Reader { at: cut + words, ..*self };
-                subject.iter().filter(|_| ought).find_map(|subject| rest.predicate(subject, (from, cut), end))
+                let needed = |subject: &&Subject| {
+                    matches!(subject, Subject::New(..)) && words > 0 && rest.is_needed(end)
+                };
+                subject
+                    .iter()
+                    .filter(|subject| ought || needed(subject))
+                    .find_map(|subject| rest.predicate(subject, (from, cut), end))
             })
+        })
+    }
+
+    /// "The black car goes": whole.
+    fn goes(&self, from: usize, end: usize) -> Option<Wish> {
+        #[rustfmt::skip]
+        const GOES: &[&str] = &["goes", "is no longer needed", "isnt needed", "is not needed", "is not wanted", "isnt wanted", "is superfluous", "is unnecessary",
+            "is surplus to requirements", "is no longer wanted", "are no longer needed", "arent needed", "are not needed", "has got to go", "have got to go",
+            "has outlived its usefulness", "can go", "is one too many", "is of no use", "is no use", "is obsolete", "is no longer required", "is not required",
+            "shouldnt be here", "should not be here", "shouldnt be there", "should not be there", "has no business here", "has no place here", "has served its time",
+            "doesnt belong here", "does not belong here", "doesnt belong there", "does not belong there", "must not stay", "cannot stay", "cant stay", "may not stay",
+            "mustnt stay", "shouldnt stay", "should not stay", "wont be needed", "will not be needed", "is to go", "isnt wanted here", "is not wanted here"];
+        (from + 1..end).find_map(|cut| {
+            let rest = &self.lexemes[cut..end];
+            let what =
+                self.things(from, cut).ok().filter(|_| longest_phrase(rest, GOES) == Some(rest.len()))?;
+            self.is_definite(from).then_some(Wish::Remove { what })
+        })
+    }
+
+    /// What is not there, of what should be so: "the helicopter has to go".
+    pub(super) fn missing(&self, from: usize, end: usize) -> Option<PlanError> {
+        longest_phrase(&self.lexemes[from..end], &["the", "that", "this", "these", "those"])?;
+        (from + 2..end).take(6).find_map(|cut| {
+            let between = self.between_words(cut, end);
+            let ought = between > 0 && self.says_ought(cut, cut + between) || self.word(cut) == Some("goes");
+            match self.things(from, cut) {
+                Err(error @ PlanError::NotFound { .. }) if ought => Some(error),
+                _ => None,
+            }
         })
     }
 
@@ -156,11 +203,25 @@ impl<'a> Reader<'a> {
             }
         }
         let stop = self.before_politeness(from, cut);
+        let is_gerund = self.word(from).is_some_and(|word| word.ends_with("ing"))
+            && as_order(&self.lexemes[from..cut]).is_some();
+        if is_gerund {
+            found.push(Subject::Doing);
+        }
         if self.is_definite(from)
             && let Ok(things) = self.things(from, stop)
         {
             found.push(Subject::Things(things));
         }
+        // "In front of the gallery there must stand a postbox".
+        let stop = if stop > from + 1
+            && self.is_place(from)
+            && matches!(self.word(stop - 1), Some("there" | "it"))
+        {
+            stop - 1
+        } else {
+            stop
+        };
         let sub = self.up_to(stop);
         if self.is_place(from) {
             let mut reader = Reader { at: from, ..sub };
@@ -185,6 +246,28 @@ impl<'a> Reader<'a> {
         found
     }
 
+    /// Whether "can" and the like belong to a noun here: "a garbage can is missing".
+    fn is_inside_noun(&self, from: usize, cut: usize, end: usize) -> bool {
+        (from..cut).any(|at| category(&self.lexemes[at..end]).is_some_and(|(_, words)| at + words > cut))
+    }
+
+    /// Whether a certain thing is spoken of from here: by an article, a name or a pronoun.
+    pub(super) fn is_certain(&self, from: usize) -> bool {
+        #[rustfmt::skip]
+        const CERTAIN: &[&str] = &["the", "that", "this", "these", "those", "my", "our", "your", "both", "all", "every", "each", "it", "them", "him", "her", "any",
+            "his", "their", "its", "either", "he", "she", "they", "everybody", "everyone"];
+        longest_phrase(&self.lexemes[from..], CERTAIN).is_some()
+            || matches!(self.lexemes.get(from), Some(Lexeme { token: Token::Id(_), .. }))
+            || self.names.exact(&self.lexemes[from..]).is_some()
+    }
+
+    /// Whether the words say that something is missing.
+    fn is_needed(&self, end: usize) -> bool {
+        #[rustfmt::skip]
+        const NEEDED: &[&str] = &["needed", "wanted", "missing", "required", "due", "overdue", "lacking", "requested", "order", "called", "must", "desired"];
+        (self.at..end).any(|at| self.word(at).is_some_and(|word| NEEDED.contains(&word)))
+    }
+
     /// As this reader, with nothing behind the end.
     pub(super) fn up_to(&self, end: usize) -> Reader<'a> {
         Reader { lexemes: &self.lexemes[..end], ..*self }
@@ -192,7 +275,13 @@ impl<'a> Reader<'a> {
 
     /// How many small words stand from here on.
     fn between_words(&self, at: usize, end: usize) -> usize {
-        (at..end).take_while(|at| self.word(*at).is_some_and(|word| BETWEEN.contains(&word))).count()
+        let looks_at = |at: usize| {
+            matches!(self.word(at), Some("look" | "looks" | "looking" | "turn" | "turns"))
+                && matches!(self.word(at + 1), Some("at" | "to" | "towards" | "toward"))
+        };
+        (at..end)
+            .take_while(|at| self.word(*at).is_some_and(|word| BETWEEN.contains(&word)) && !looks_at(*at))
+            .count()
     }
 
     fn says_ought(&self, from: usize, to: usize) -> bool {
@@ -214,6 +303,12 @@ impl<'a> Reader<'a> {
         let one = |wish| Some(vec![vec![wish]]);
         match subject {
             Subject::There => self.all_added(at, end),
+            Subject::Doing => {
+                let (_, _, verb) = as_order(&self.lexemes[from..cut]).filter(|_| self.is_welcome(at, end))?;
+                let order: Vec<Lexeme> =
+                    std::iter::once(verb).chain(self.lexemes[from + 1..cut].iter().cloned()).collect();
+                self.read_plainly(&order)
+            }
             Subject::Place(places) => {
                 if self.is_definite(at) && !self.is_bare_plural(at, end) {
                     return None;
@@ -247,11 +342,11 @@ impl<'a> Reader<'a> {
                 if let Some(factor) = size_of(rest) {
                     return one(Wish::Scale { what: what.clone(), factor });
                 }
-                if let Some(at) = self.places_to(at, end) {
-                    return one(Wish::Move { what: what.clone(), at });
-                }
                 if let Some(wish) = self.faces(what, at, end) {
                     return one(wish);
+                }
+                if let Some(at) = self.places_to(at, end).filter(|_| !self.is_bare_plural(from, cut)) {
+                    return one(Wish::Move { what: what.clone(), at });
                 }
                 self.done_to((from, cut), at, end)
                     .or_else(|| self.lacks((from, cut), at, end).map(|wish| vec![vec![wish]]))
@@ -305,7 +400,7 @@ impl<'a> Reader<'a> {
         #[rustfmt::skip]
         const FACES: &[&str] = &["face", "facing", "look at", "looking at", "look towards", "looking towards", "point at", "pointing at",
             "turned towards", "turned to", "turned to face", "to face", "look to", "watch", "watching", "point to", "point towards",
-            "at", "towards", "rotated towards", "aimed at", "stare at", "gaze at"];
+            "towards", "rotated towards", "aimed at", "stare at", "gaze at"];
         let words = longest_phrase(self.rest(end), FACES)?;
         let mut reader = Reader { at: at + words, ..self.up_to(end) };
         reader.towards(what.to_vec(), end).ok()
@@ -408,6 +503,16 @@ impl<'a> Reader<'a> {
             return None;
         }
         let mut reader = Reader { lexemes: order, at: 0, depth: DEEPEST, ..*self };
+        let end = reader.before_politeness(0, order.len());
+        reader.wish(end).ok().filter(|_| reader.at >= end)
+    }
+
+    /// As [`Self::read_plainly`], with all readings.
+    pub(super) fn read_anew(&self, order: &[Lexeme]) -> Option<Vec<Vec<Wish>>> {
+        if self.depth >= DEEPEST {
+            return None;
+        }
+        let mut reader = Reader { lexemes: order, at: 0, depth: self.depth + 1, ..*self };
         let end = reader.before_politeness(0, order.len());
         reader.wish(end).ok().filter(|_| reader.at >= end)
     }

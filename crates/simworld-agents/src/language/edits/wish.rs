@@ -213,6 +213,15 @@ impl Wish {
         }
     }
 
+    /// Puts new things where a remark was about, if they have no place of their own.
+    pub(super) fn stands(&mut self, place: &[Where]) {
+        if let Self::Add { at, .. } = self
+            && at.is_empty()
+        {
+            *at = place.to_vec();
+        }
+    }
+
     /// What is changed.
     fn objects_mut(&mut self) -> Vec<&mut Reference> {
         match self {
