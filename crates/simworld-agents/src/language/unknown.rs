@@ -31,6 +31,18 @@ impl<'a> Parser<'a> {
             (guess, _) => (guess, phrase),
         };
         let said = shortened(written(self.words, phrase));
+        // "The bookshop" sells books.
+        if let (Guess::Nothing(_), Token::Word(word)) = (&guess, &phrase[0].token)
+            && let Some(goods) =
+                ["shop", "store", "stall", "stand"].iter().find_map(|shop| word.strip_suffix(shop))
+            && goods.len() > 2
+        {
+            let sellers = self.names.sellers(goods);
+            if !sellers.is_empty() {
+                self.at += 1;
+                return Ok(Target::Named(sellers));
+            }
+        }
         match guess {
             Guess::Named(ids) => {
                 self.at += phrase.len();

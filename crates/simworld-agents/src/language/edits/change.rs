@@ -183,13 +183,35 @@ impl Reader<'_> {
                 || self.is_joint(next)
                 || longest_phrase(
                     &self.lexemes[next..end],
-                    &["instead", "please", "now", "in colour", "in color", "too"],
+                    &[
+                        "instead",
+                        "please",
+                        "now",
+                        "in colour",
+                        "in color",
+                        "too",
+                        "colour",
+                        "color",
+                        "paint",
+                        "again",
+                    ],
                 )
                 .is_some();
             if let Some(what) = self.things(start, cut).ok().filter(|_| closes) {
                 let rest = longest_phrase(
                     &self.lexemes[next..end],
-                    &["instead", "please", "now", "in colour", "in color", "too"],
+                    &[
+                        "instead",
+                        "please",
+                        "now",
+                        "in colour",
+                        "in color",
+                        "too",
+                        "colour",
+                        "color",
+                        "paint",
+                        "again",
+                    ],
                 );
                 return Some((what, paint, next + rest.unwrap_or(0)));
             }

@@ -36,7 +36,7 @@ const IS: &[&str] = &["is", "are", "looks", "look", "seems", "seem", "stands", "
 /// That there is none.
 #[rustfmt::skip]
 const NONE: &[&str] = &["there is no", "theres no", "there are no", "there isnt a", "there isnt any", "there arent any", "why is there no", "why are there no", "there is not a",
-    "there is not a single", "there isnt a single", "how come there is no", "how come theres no", "why isnt there a", "why arent there any", "i see no", "where is the", "i miss a",
+    "there is not a single", "there isnt a single", "how come there is no", "how come theres no", "why isnt there a", "why is not there a", "why is there not a", "why are there not any", "there is not any", "there are not any", "there is not enough", "why arent there any", "i see no", "where is the", "i miss a",
     "i cant see a", "i cannot find a", "i cant find a", "what is missing is a", "whats missing is a", "all thats missing is a", "all that is missing is a", "missing", "i am missing a",
     "im missing a", "we are missing a", "were missing a", "we lack a", "we are lacking a", "we are short of a", "we have no", "we are short a", "no"];
 

@@ -90,7 +90,7 @@ impl Reader<'_> {
                     }
                 })
                 .collect();
-            let inner = Reader { lexemes: &whole, ..*self };
+            let inner = self.over(&whole);
             let what = inner.one_of(start + words, whole.len()).ok()?;
             let is_there =
                 matches!(&what.relation, Some(Stands::OnStreet(_) | Stands::To(Relation::Inside, _)));

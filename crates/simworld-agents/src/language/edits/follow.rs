@@ -94,7 +94,11 @@ impl Reader<'_> {
         {
             return one(wish);
         }
-        let same = if bare < stop { self.same_for(last, from, bare) } else { None };
+        let is_said = |word: &str| ["too", "also", "well", "likewise"].contains(&word);
+        let too = (stop..end).any(|at| self.word(at).is_some_and(is_said));
+        // Without "too" as well: "paint the bench red, and the chair".
+        let same =
+            if bare < stop || too || self.is_certain(from) { self.same_for(last, from, bare) } else { None };
         same.and_then(one)
     }
 

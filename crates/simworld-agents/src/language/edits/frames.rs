@@ -27,7 +27,7 @@ const SMALL: &str = "a able about absolutely actually ahead all alright also am 
      that thats the then thing think thinking this thought time to today totally trouble try trying uh um us usual very \
      wanna want wanted wants was way we wed well were what why will willing wish wishes with wonder wonderful wondering \
      would you youd your yo dreamt fun hereby officially nicer prettier cooler sir madam buddy bro pls plz see hello \
-     kindness id've kids team people residents everyones super mega cute amazing marvellous splendid brilliant smart \
+     kindness id've kids team people residents everyones super mega cute amazing marvellous splendid somebody someone ya yer anybody glorious brilliant smart \
      wise sensible useful handy worth whole point being theyd they he she hed shed wants needs likes loves would must";
 /// Turns of politeness and of wishing that hold words which else deny or ask on a condition.
 #[rustfmt::skip]
@@ -40,7 +40,7 @@ const TURNS: &[&str] = &["if you dont mind", "if you do not mind", "why dont you
     "from now on", "by the way", "on second thought", "on second thoughts", "come to think of it", "for starters",
     "to start with", "to begin with", "for a start", "here is what i want", "heres what i want", "in that case",
     "would it kill you to", "the least you could do is", "do me a solid and", "id be over the moon if", "up next",
-    "at this point", "the other thing", "there is one more thing", "theres one more thing"];
+    "do the needful and", "do me a favour", "do us a favour", "at this point", "the other thing", "there is one more thing", "theres one more thing"];
 /// Of those, and of small words, the ones that make a wish of a statement behind them.
 #[rustfmt::skip]
 const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "need", "needs", "wish", "wishes", "prefer", "fancy",
@@ -81,7 +81,8 @@ impl Reader<'_> {
                 words
             } else if matches!(rest[0].token, Token::Comma) && at > start {
                 1
-            } else if self.word(at).is_some_and(|word| WORDS.contains(word)) {
+            } else if self.word(at).is_some_and(|word| WORDS.contains(word) && !(word == "if" && at == start))
+            {
                 1
             } else {
                 break;

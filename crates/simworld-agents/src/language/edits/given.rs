@@ -21,7 +21,8 @@ const UNLESS: &[&str] = &["unless there is", "unless there are", "unless you fin
 /// What is not meant.
 #[rustfmt::skip]
 const EXCEPT: &[&str] = &["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
-    "with the exception of", "not counting", "not", "without"];
+    "with the exception of", "not counting", "not", "without", "but leave", "but keep", "but spare", "leaving", "keeping", "sparing",
+    "but leave out", "but not for", "leaving out", "only not", "and leave", "and keep"];
 
 /// What is not so of those that are meant.
 #[rustfmt::skip]
@@ -45,7 +46,7 @@ impl Reader<'_> {
         let (there, from) = (there && none.is_none(), from + none.unwrap_or(0));
         if at > start {
             // "Put a bench there unless there is one": the wish stands before it.
-            let what = self.one_of(from, end)?;
+            let what = self.coloured(from, end).map_or_else(|| self.one_of(from, end), Ok)?;
             let mut reader = Reader { at: start, ..*self };
             let stop = if joint(&self.lexemes[at - 1..at]).is_some() { at - 1 } else { at };
             let wishes = reader.wish(stop)?;
@@ -60,7 +61,7 @@ impl Reader<'_> {
             self.at = end;
             return Err(self.not_understood("put a comma behind the condition"));
         };
-        let what = self.one_of(from, cut)?;
+        let what = self.coloured(from, cut).map_or_else(|| self.one_of(from, cut), Ok)?;
         self.at = cut + 1;
         self.skip_joints_to(end);
         let wishes = match self.one_of_those(&what, end) {
@@ -77,11 +78,26 @@ impl Reader<'_> {
             &["if", "unless", "only if", "in case", "provided", "provided that", "as long as"],
         )?;
         let is_unless = self.word(at) == Some("unless");
+        let cut = (at + words..end).find(|at| joint(&self.lexemes[*at..end]).is_some()).unwrap_or(end);
+        if self.coloured(at + words, cut).is_some() {
+            return Some((!is_unless, words));
+        }
         let mut parser = self.parser(at + words, end);
         let what = parser.reference(0).ok()?;
         let stands = what.relation.is_some() && matches!(what.target, Target::Any(_) | Target::Named(_));
         let ends = parser.at >= end || joint(&self.lexemes[parser.at..end]).is_some();
         (stands && ends).then_some((!is_unless, words))
+    }
+
+    /// "The truck is orange": the truck that is.
+    fn coloured(&self, from: usize, end: usize) -> Option<Reference> {
+        let end = self.before_politeness(from, end);
+        let cut =
+            (from + 1..end).find(|at| longest_phrase(&self.lexemes[*at..end], &["is", "are"]).is_some())?;
+        let (paint, words) = longest(&self.lexemes[cut + 1..end], PAINTS)?;
+        let mut what = self.one_of(from, cut).ok().filter(|_| cut + 1 + words == end)?;
+        what.traits.paint = Some(paint);
+        Some(what)
     }
 
     /// "Add one": of what was just asked for, and where.

@@ -13,6 +13,7 @@ mod frames;
 mod given;
 mod ground;
 mod make;
+mod memo;
 mod offsets;
 mod orders;
 mod parse;
@@ -93,7 +94,17 @@ pub(crate) fn read(
     let mut lexemes = hearing::hear(words, None);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     orders::in_plain_words(words, &mut lexemes);
-    let reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0, depth: 0 };
+    let memo = memo::Memo::default();
+    let reader = Reader {
+        words,
+        lexemes: &lexemes,
+        names: &names,
+        view: &view,
+        memo: &memo,
+        text: 0,
+        at: 0,
+        depth: 0,
+    };
     Ok(Reading { words: words.to_owned(), wishes: wishes_of(reader, scene, stock, focus)? })
 }
 
@@ -122,13 +133,13 @@ fn wishes_of(
     if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
         return plain;
     }
-    let in_parts = reader.in_parts(&is_known);
+    let in_parts = reader.in_parts(&is_known, &is_there);
     match (plain, in_parts) {
         (_, Some(wishes)) if is_there(&wishes) => Ok(wishes),
         (Ok(wishes), _) => Ok(wishes),
         (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
-            let unknown = || reader.in_parts(&|_| true);
+            let unknown = || reader.in_parts(&|_| true, &|_| true);
             reader.complaint().or_else(unknown).ok_or(error)
         }
     }

@@ -64,7 +64,7 @@ const KEEPS: &[&str] = &["only keep", "keep only", "just keep", "keep just", "ke
 impl Reader<'_> {
     /// A wish that is put together from words that stand apart.
     pub(super) fn composed(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
-        if self.depth >= super::says::DEEPEST {
+        if self.depth >= super::says::DEEPEST || self.memo.is_spent() {
             return None;
         }
         self.behind_preamble(start, end)
@@ -119,7 +119,9 @@ impl Reader<'_> {
                 }
             }
             let mood = if begins.wished { Mood::Wished } else { Mood::Plain };
-            self.says(at, end, mood).or_else(|| if begins.wished { self.small_clause(at, end) } else { None })
+            self.says(at, end, mood).or_else(|| {
+                if begins.wished { self.small_clause(at, end) } else { self.bare_clause(at, end) }
+            })
         })
     }
 
@@ -147,7 +149,7 @@ impl Reader<'_> {
     }
 
     /// "Give the taxi a fresh coat of pink", "put some pink paint on the taxi", "do the taxi up in pink".
-    fn coated(&self, at: usize, end: usize) -> Option<Wish> {
+    pub(super) fn coated(&self, at: usize, end: usize) -> Option<Wish> {
         if let Some(words) = longest_phrase(&self.lexemes[at..end], SPLASH) {
             let small = (at + words..end)
                 .take_while(|at| self.word(*at).is_some_and(|word| COAT.contains(&word)))
@@ -217,14 +219,16 @@ impl Reader<'_> {
             (at..end).find_map(|from| self.stead(from, end).map(|(to, what)| (from, to, what)))?;
         let rest: Vec<Lexeme> =
             self.lexemes[at..from].iter().chain(&self.lexemes[to..end]).cloned().collect();
-        let inner = Reader { lexemes: &rest, at: 0, depth: super::says::DEEPEST, ..*self };
+        let inner = Reader { depth: super::says::DEEPEST, ..self.over(&rest) };
         inner.only_new(rest.len()).map(|with| Wish::Replace { what, with })
     }
 
     /// "Instead of the bench" from here on, or "where the bench is"; and where that ends.
     fn stead(&self, from: usize, end: usize) -> Option<(usize, Reference)> {
         let rest = &self.lexemes[from..end];
-        if let Some(words) = longest_phrase(rest, INSTEAD_OF) {
+        let rather = (0..from).any(|at| matches!(self.word(at), Some("rather" | "prefer" | "sooner")));
+        let than = if rather { longest_phrase(rest, &["than", "to"]) } else { None };
+        if let Some(words) = longest_phrase(rest, INSTEAD_OF).or(than) {
             let at = from + words;
             return (at + 1..=end)
                 .rev()
@@ -324,7 +328,22 @@ impl Reader<'_> {
                         )
                     })
                 })?;
-            if matches!(verb, Verb::Count | Verb::List | Verb::Describe | Verb::Close | Verb::Open) {
+            let is_change = matches!(
+                verb,
+                Verb::Add
+                    | Verb::Put
+                    | Verb::Move
+                    | Verb::Remove
+                    | Verb::Turn
+                    | Verb::Swap
+                    | Verb::Paint
+                    | Verb::Grow
+                    | Verb::Shrink
+                    | Verb::Copy
+                    | Verb::Replace
+                    | Verb::Take
+            );
+            if !is_change {
                 return None;
             }
             // An order in the next sentence is none of this one.
@@ -336,6 +355,11 @@ impl Reader<'_> {
             let behind = &self.lexemes[at + words.len()..end];
             [start, begin].into_iter().filter(|from| *from < stop).find_map(|from| {
                 let before = &self.lexemes[from..stop];
+                // What is made is not there yet.
+                let is_made = matches!(verb, Verb::Add | Verb::Put) && is_it_not(behind);
+                if before.iter().any(super::parts::is_mark) || is_made && self.is_certain(from) {
+                    return None;
+                }
                 let is_it = longest_phrase(
                     behind,
                     &["it", "them", "that", "this", "that one", "this one", "those", "these", "him", "her"],
@@ -379,6 +403,11 @@ impl Reader<'_> {
     }
 }
 
+/// Whether the words begin with no pronoun.
+fn is_it_not(words: &[Lexeme]) -> bool {
+    longest_phrase(words, &["it", "them", "that", "this", "those", "these", "him", "her"]).is_none()
+}
+
 /// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".
 fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
@@ -414,9 +443,55 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
     }
 }
 
+/// "A motorbike, black, by the kiosk" is a black motorbike, and "the hospital that has the museum near it" is near the museum.
+fn relatives(lexemes: &mut Vec<Lexeme>) {
+    let is_comma = |lexeme: &Lexeme| lexeme.token == Token::Comma;
+    let mut at = 1;
+    while at + 2 < lexemes.len() {
+        if is_comma(&lexemes[at])
+            && let Some((_, words)) = longest(&lexemes[at + 1..], super::super::paint::PAINTS)
+            && lexemes.get(at + 1 + words).is_some_and(is_comma)
+        {
+            lexemes.remove(at + 1 + words);
+            lexemes.remove(at);
+        }
+        at += 1;
+    }
+    let Some(has) = (0..lexemes.len()).find(|at| {
+        longest_phrase(&lexemes[*at..], &["that has", "which has", "that have", "with the", "having"])
+            .is_some()
+    }) else {
+        return;
+    };
+    let from = has
+        + if matches!(&lexemes[has].token, Token::Word(word) if word == "with" || word == "having") {
+            1
+        } else {
+            2
+        };
+    let it = |at: usize| matches!(lexemes.get(at).map(|lexeme| &lexeme.token), Some(Token::Word(word)) if word == "it" || word == "them");
+    let found = (from + 1..lexemes.len().min(from + 8)).find_map(|at| {
+        let (way, words) = longest(&lexemes[at..], super::words::WAYS)?;
+        let near = matches!(way, super::words::Way::To(_));
+        (near && it(at + words)).then_some((at, words))
+    });
+    if let Some((at, words)) = found {
+        let place = lexemes[at].clone();
+        let noun: Vec<Lexeme> = lexemes[from..at].to_vec();
+        let relation: Vec<Lexeme> = match longest(&lexemes[at..], super::words::WAYS) {
+            Some((super::words::Way::To(simworld_core::scene::Relation::NextTo), _)) => {
+                lexemes[at..at + words].to_vec()
+            }
+            _ => vec![word_at(&place, "near")],
+        };
+        lexemes.splice(has..=at + words, relation.into_iter().chain(noun));
+    }
+}
+
 /// A word twice in a row says no more than once, and "more small" is "smaller".
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     contractions(words, lexemes);
+    relatives(lexemes);
     #[rustfmt::skip]
     const MORE: &[(&str, &str)] = &[("small", "smaller"), ("big", "bigger"), ("large", "larger"), ("tall", "taller"), ("high", "higher"), ("little", "smaller"),
         ("short", "shorter"), ("close", "closer"), ("tiny", "smaller"), ("huge", "bigger")];

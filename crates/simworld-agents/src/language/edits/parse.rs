@@ -20,6 +20,7 @@ use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::parser::Parser;
 use super::super::resolve::View;
+use super::memo::Memo;
 use super::says::Mood;
 use super::wish::{StreetRef, Wish};
 use super::words::{VERBS, Verb};
@@ -72,6 +73,9 @@ pub(super) struct Reader<'a> {
     pub(super) at: usize,
     /// How often the words were put together anew.
     pub(super) depth: u8,
+    pub(super) memo: &'a Memo,
+    /// Which order of the words it reads.
+    pub(super) text: u32,
 }
 
 impl<'a> Reader<'a> {
@@ -101,7 +105,7 @@ impl<'a> Reader<'a> {
             self.at = end;
             return Ok(vec![vec![wish]]);
         }
-        if let Some(made) = self.rows(end) {
+        if let Some(made) = self.rows(end)? {
             self.at = end;
             return Ok(made);
         }
@@ -113,7 +117,12 @@ impl<'a> Reader<'a> {
             self.at = end;
             return Ok(vec![vec![Wish::Sky(sky)]]);
         }
-        if let Some(wish) = self.lacking(start + self.polite_at(start), end) {
+        let polite = start + self.polite_at(start);
+        if let Some(wish) = self.coated(polite, self.before_politeness(polite, end)) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
+        if let Some(wish) = self.lacking(polite, end) {
             return Ok(vec![vec![wish]]);
         }
         self.at = start;
@@ -211,6 +220,15 @@ impl<'a> Reader<'a> {
             Verb::Move => self.moves(end).map(|wish| vec![wish]),
             Verb::Take => self.take(end),
             Verb::Remove => {
+                // "I don't want to see that cone here".
+                let stop = self.before_politeness(self.at, end);
+                let here = stop.saturating_sub(1);
+                let is_here =
+                    here > self.at && matches!(self.word(here), Some("here" | "around" | "standing"));
+                if is_here && let Ok(what) = self.things(self.at, here) {
+                    self.at = end;
+                    return Ok(vec![vec![Wish::Remove { what }]]);
+                }
                 let what = self.things_to(end)?;
                 Ok(vec![vec![Wish::Remove { what }]])
             }
@@ -302,6 +320,10 @@ impl<'a> Reader<'a> {
 
     /// One thing that the words name, all of them but politeness.
     pub(super) fn one_of(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
+        self.memo.thing((self.text, start, end), || self.look_up(start, end))
+    }
+
+    fn look_up(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
         let end = self.before_politeness(start, end);
         let me = longest_phrase(&self.lexemes[start..end], &["me", "myself", "you", "yourself", "i"]);
         if me == Some(end - start) {
@@ -314,6 +336,11 @@ impl<'a> Reader<'a> {
         what.indefinite |= any;
         self.except(&mut parser, &mut what);
         if parser.at < end { Err(parser.not_understood("end here, or go on with \"and\"")) } else { Ok(what) }
+    }
+
+    /// A reader of the same words in another order, or without some of them.
+    pub(super) fn over<'b>(&'b self, lexemes: &'b [Lexeme]) -> Reader<'b> {
+        Reader { lexemes, at: 0, text: self.memo.new_text(), ..*self }
     }
 
     /// The parser of noun phrases, over some of the words.

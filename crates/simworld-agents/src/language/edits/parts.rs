@@ -29,7 +29,7 @@ const REASONS: &[&str] = &["because", "since", "as", "so that", "cause", "cos", 
 #[rustfmt::skip]
 const SUBJECTS: &[&str] = &["i", "im", "ive", "id", "we", "were", "weve", "they", "theyre", "theyve", "you", "youre", "he", "hes", "she", "shes",
     "it", "its", "it is", "that", "thats", "this", "these", "those", "there", "theres", "nobody", "no one", "noone", "everybody", "everyone", "people",
-    "somebody", "someone", "my", "our", "the", "a", "an", "all", "some", "most", "many", "his", "her", "their", "too many", "too much", "what a",
+    "somebody", "someone", "my", "our", "the", "a", "an", "all", "some", "most", "many", "his", "her", "their", "too many", "too much", "many", "much", "what a",
     "how", "such", "nothing", "everything", "something", "not enough", "no", "every", "each", "hardly anybody", "hardly anyone", "few", "both",
     "one", "so many", "so much", "here", "heres", "not a single", "folks", "kids", "children", "visitors", "customers", "students", "tourists",
     "pedestrians", "drivers", "guests", "in", "at", "on", "with", "behind", "near", "around", "outside", "next to", "by", "for", "from"];
@@ -57,7 +57,7 @@ const ASKS: &[&str] = &["should", "must", "ought", "shall", "please", "let", "le
 /// A subject and its verb in one word.
 #[rustfmt::skip]
 const SHORT: &[&str] = &["im", "its", "thats", "theres", "theyre", "youre", "hes", "shes", "ive", "weve", "theyve", "too many", "too much", "so many", "so much",
-    "not enough", "what a", "such a", "no more room for", "nowhere", "hardly any", "quite some", "thanks to"];
+    "not enough", "what a", "such a", "no more room for", "nowhere", "hardly any", "quite some", "thanks to", "many", "much"];
 /// Sounds and greetings that stand alone.
 #[rustfmt::skip]
 const CALLS: &[&str] = &["vroom", "beep", "boom", "wow", "ugh", "argh", "phew", "yay", "yikes", "oops", "hooray", "woof", "meow", "brr", "brrr", "ahoy", "ouch",
@@ -72,13 +72,19 @@ const CALLS: &[&str] = &["vroom", "beep", "boom", "wow", "ugh", "argh", "phew", 
 struct Search<'a> {
     /// Whether somebody has what a wish asks for.
     is_known: &'a dyn Fn(&Wish) -> bool,
+    /// Whether what the first wish is about is there.
+    is_there: &'a dyn Fn(&[Vec<Wish>]) -> bool,
     tried: usize,
 }
 
 impl Reader<'_> {
     /// All wishes of a sentence whose parts hang together, or ask for nothing.
-    pub(super) fn in_parts(&self, is_known: &dyn Fn(&Wish) -> bool) -> Option<Vec<Vec<Wish>>> {
-        let mut search = Search { is_known, tried: 0 };
+    pub(super) fn in_parts(
+        &self,
+        is_known: &dyn Fn(&Wish) -> bool,
+        is_there: &dyn Fn(&[Vec<Wish>]) -> bool,
+    ) -> Option<Vec<Vec<Wish>>> {
+        let mut search = Search { is_known, is_there, tried: 0 };
         let found = self.parts_from(0, &Said::default(), &[], &mut search)?;
         (!found.is_empty()).then_some(found)
     }
@@ -99,12 +105,13 @@ impl Reader<'_> {
         let cuts = self.cuts(from);
         for end in cuts.iter().rev().copied() {
             search.tried += 1;
-            if search.tried > MOST_TRIED {
+            if search.tried > MOST_TRIED || self.memo.is_spent() {
                 return None;
             }
             let mut part = Reader { at: from, ..self.up_to(end) };
             let Some(mut wishes) = part.part(said, end) else { continue };
-            if !wishes.iter().flatten().all(search.is_known) {
+            let is_first = said.wish.is_none() && spoken_of.is_empty();
+            if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
                 continue;
             }
             wishes.iter_mut().flatten().for_each(|wish| {
@@ -215,6 +222,8 @@ impl Reader<'_> {
         }
         // A thing that is spoken of next: "the cone? I don't need it".
         if words.len() <= 6
+            && from == 0
+            && end < self.lexemes.len()
             && self.is_definite(from)
             && self.one_of(from, end).is_ok_and(|what| !super::follow::is_open(&what))
         {
@@ -227,6 +236,15 @@ impl Reader<'_> {
         }
         if let Some(reason) = longest_phrase(words, REASONS) {
             let behind = from + reason;
+            let is_plain =
+                ["for", "due to", "thanks to", "on account of", "in case", "in order to", "because of", "to"]
+                    .iter()
+                    .any(|word| super::super::lexicon::fits(words, word).is_some());
+            let states = (behind..end).any(|at| is_word(at, STATES));
+            let somewhere = || (behind..end).any(|at| self.is_place(at) && self.places_to(at, end).is_some());
+            if !states && (!is_plain || somewhere()) {
+                return false;
+            }
             return behind < end
                 && !self.is_place(from)
                 && !self.asks(behind, end)
@@ -245,8 +263,9 @@ impl Reader<'_> {
     /// "Carol wants a bench next to her": more than how somebody feels.
     fn wants_something_there(&self, from: usize, end: usize) -> bool {
         (from + 1..end).any(|at| {
-            longest_phrase(&self.lexemes[at..end], super::says::LACKS)
-                .is_some_and(|words| (at + words + 1..end).any(|at| self.is_place(at)))
+            longest_phrase(&self.lexemes[at..end], super::says::LACKS).is_some_and(|words| {
+                (at + words + 1..end).any(|at| self.is_place(at) && self.places_to(at, end).is_some())
+            })
         })
     }
 
@@ -257,7 +276,19 @@ impl Reader<'_> {
     }
 
     fn asks(&self, from: usize, end: usize) -> bool {
-        (from..end).any(|at| longest_phrase(&self.lexemes[at..end], ASKS).is_some())
+        // "They look better that way".
+        const SO: &[&str] = &[
+            "better that way",
+            "better like that",
+            "better this way",
+            "better then",
+            "better so",
+            "better like this",
+        ];
+        (from..end).any(|at| {
+            longest_phrase(&self.lexemes[at..end], ASKS).is_some()
+                && longest_phrase(&self.lexemes[at..end], SO).is_none()
+        })
     }
 
     /// Whether an order stands here, understood or not.

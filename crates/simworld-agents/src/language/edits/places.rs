@@ -20,7 +20,7 @@ const CALLED: &[&str] = &["called", "named", "with the name", "with the name of"
 const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the", "one more", "a new", "new", "a single",
     "yet another", "a few", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
     "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
-    "around"];
+    "around", "see", "please", "yet another", "one more of", "just one", "just a", "possibly", "ideally", "preferably"];
 /// How something is to be where it stands.
 #[rustfmt::skip]
 const POSTURES: &[&str] = &["standing", "sitting", "waiting", "parked", "placed", "located", "leaning", "lying", "planted", "installed", "that stands", "which stands",
@@ -32,9 +32,9 @@ const POSTURES: &[&str] = &["standing", "sitting", "waiting", "parked", "placed"
 #[rustfmt::skip]
 const NO_NOUNS: &[&str] = &["is", "are", "was", "were", "has", "have", "needs", "need", "wants", "want", "loves", "should", "must", "would", "could", "i", "you", "he", "she",
     "we", "they", "them", "it", "my", "your", "nobody", "everybody", "everyone", "there", "ones", "twice", "many", "copy", "copies", "clone", "duplicate", "because", "if",
-    "let", "be", "do", "does", "dont", "not", "never", "gets", "goes", "same", "us", "me", "every", "each", "make", "paint", "move", "remove", "delete", "her", "him",
+    "let", "be", "do", "does", "dont", "not", "never", "gets", "goes", "same", "us", "me", "make", "paint", "move", "remove", "delete", "her", "him",
     "than", "as", "which", "who", "why", "what", "where", "nowhere", "somewhere", "wouldnt", "isnt", "arent", "doesnt", "cant", "to", "keeps", "keep", "until", "unless",
-    "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those"];
+    "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those", "no", "ya"];
 /// Sides of a thing, behind a distance from it.
 const OWN_SIDES: &[(&[&str], Relation)] = &[
     (&["left"], Relation::LeftOf),
@@ -52,6 +52,9 @@ impl Reader<'_> {
         let mut anchor: Option<Anchor> = None;
         let mut last: Option<NewThing> = None;
         while self.at < end {
+            if anchor.is_some() && self.is_bare_singular(end) {
+                return Err(self.not_understood("say \"next to\" again, or \"a\" before what is to be made"));
+            }
             let mut things = vec![self.another(end, last.as_ref()).map_or_else(|| self.new_thing(end), Ok)?];
             while let Some(count) = joint(self.rest(end)) {
                 let start = self.at;
@@ -78,11 +81,35 @@ impl Reader<'_> {
                 self.at = from;
                 Vec::new()
             };
+            if at.iter().any(|place| matches!(place, Where::Shift(..) | Where::ShiftOwn(..))) {
+                return Err(self.not_understood("say from what it is so far"));
+            }
             last = things.last().cloned();
+            // "Benches: one by the fountain, one by the kiosk".
+            let is_topic = wishes.is_empty() && at.is_empty() && things.len() == 1 && {
+                let mut next = *self;
+                next.skip_joints_to(end);
+                next.at > self.at && next.another(end, last.as_ref()).is_some()
+            };
+            if is_topic {
+                last = last.map(|thing| NewThing { count: 1, ..thing });
+                self.skip_joints_to(end);
+                continue;
+            }
             wishes.push(vec![Wish::Add { things, at }]);
             self.skip_joints_to(end);
         }
         if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
+    }
+
+    /// "Next to the fountain, statue and kiosk": a noun without an article, behind a place, is no new thing.
+    fn is_bare_singular(&self, end: usize) -> bool {
+        let rest = self.rest(end);
+        longest_phrase(rest, ARTICLES).is_none()
+            && numbers::number(rest).is_none()
+            && longest(rest, PAINTS).is_none()
+            && longest(rest, SIZES).is_none()
+            && !self.is_bare_plural(self.at, end)
     }
 
     /// "Another one": as the thing before.
@@ -119,7 +146,9 @@ impl Reader<'_> {
     }
 
     fn try_place_first(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
-        self.eat_any(&["from", "right", "and"]);
+        if self.seen_from(self.at, end).is_none() {
+            self.eat_any(&["from", "right", "and"]);
+        }
         if !self.is_place(self.at) {
             return None;
         }
@@ -220,6 +249,10 @@ impl Reader<'_> {
 
     /// Whether a place begins at a token.
     pub(super) fn is_place(&self, at: usize) -> bool {
+        self.memo.place((self.text, at, self.lexemes.len()), || self.begins_place(at))
+    }
+
+    fn begins_place(&self, at: usize) -> bool {
         let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
         if self.seen_from(at, self.lexemes.len()).is_some() {
             return true;

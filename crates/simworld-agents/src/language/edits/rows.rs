@@ -1,5 +1,7 @@
 //! Rows: "a bench every twenty metres along Oak Street", "a ring of twelve cones around the fountain".
 
+use simworld_core::seam::PlanError;
+
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
@@ -42,18 +44,26 @@ struct Said {
 
 impl Reader<'_> {
     /// Things at even distances, if the words up to the end say so.
-    pub(super) fn rows(&self, end: usize) -> Option<Vec<Vec<Wish>>> {
+    ///
+    /// # Errors
+    /// What it is along is not there.
+    pub(super) fn rows(&self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let mut said = self.row_words(end);
         if said.every.is_none() && said.count.is_none() && !said.in_line && !said.in_ring {
-            return None;
+            return Ok(None);
         }
         if said.in_line {
             from_to_between(&mut said.rest);
         }
-        let mut reader = Reader { lexemes: &said.rest, at: 0, ..*self };
+        let mut reader = self.over(&said.rest);
         let stop = reader.before_politeness(0, said.rest.len());
-        let wishes = reader.wish(stop).ok().filter(|_| reader.at >= stop)?;
-        wishes.into_iter().map(|readings| said.as_rows(readings)).collect()
+        match reader.wish(stop) {
+            Ok(wishes) if reader.at >= stop => {
+                Ok(wishes.into_iter().map(|readings| said.as_rows(readings)).collect())
+            }
+            Err(error @ PlanError::NotFound { .. }) if said.every.is_some() => Err(error),
+            _ => Ok(None),
+        }
     }
 
     /// Takes the words about distances, rows and numbers out.

@@ -76,7 +76,7 @@ const TRADES: &[&str] = &["change places", "swap places", "trade places", "switc
     "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"];
 /// That something lacks what follows.
 #[rustfmt::skip]
-pub(super) const LACKS: &[&str] = &["could use", "needs", "need", "wants", "want", "lacks", "lack", "is missing", "deserves", "deserve", "should have",
+pub(super) const LACKS: &[&str] = &["could use", "needs is", "wants is", "lacks is", "really needs is", "is missing is", "could use is", "needs", "need", "wants", "want", "lacks", "lack", "is missing", "deserves", "deserve", "should have",
     "should get", "must have", "has to have", "could do with", "can use", "ought to have", "would benefit from", "benefits from",
     "is in need of", "cries out for", "is crying out for", "is crying for", "calls for", "is short of", "would love", "would like",
     "would be happy with", "would appreciate", "requires", "require", "gets", "get", "should be given", "is in want of", "are missing",
@@ -138,14 +138,18 @@ impl<'a> Reader<'a> {
             return Some(vec![vec![wish]]);
         }
         (from + 1..end).find_map(|cut| {
-            if self.is_inside_noun(from, cut, end) {
+            let between = self.between_words(cut, end);
+            let is_clause = mood == Mood::Wished && self.is_certain(from);
+            let may_be = is_clause
+                || (1..=between).any(|words| mood == Mood::Wished || self.says_ought(cut, cut + words));
+            let is_needed = || between > 0 && Reader { at: cut, ..*self }.is_needed(end);
+            if !may_be && !is_needed() || self.is_inside_noun(from, cut, end) {
                 return None;
             }
             let subject = self.subjects(from, cut);
             if subject.is_empty() {
                 return None;
             }
-            let between = self.between_words(cut, end);
             (0..=between).rev().find_map(|words| {
                 let ought = mood == Mood::Wished && (words > 0 || self.is_certain(from))
                     || self.says_ought(cut, cut + words);
@@ -172,9 +176,9 @@ impl<'a> Reader<'a> {
             "mustnt stay", "shouldnt stay", "should not stay", "wont be needed", "will not be needed", "is to go", "isnt wanted here", "is not wanted here"];
         (from + 1..end).find_map(|cut| {
             let rest = &self.lexemes[cut..end];
-            let what =
-                self.things(from, cut).ok().filter(|_| longest_phrase(rest, GOES) == Some(rest.len()))?;
-            self.is_definite(from).then_some(Wish::Remove { what })
+            let goes = longest_phrase(rest, GOES) == Some(rest.len()) && self.is_definite(from);
+            let what = if goes { self.things(from, cut).ok() } else { None };
+            what.map(|what| Wish::Remove { what })
         })
     }
 
@@ -184,8 +188,8 @@ impl<'a> Reader<'a> {
         (from + 2..end).take(6).find_map(|cut| {
             let between = self.between_words(cut, end);
             let ought = between > 0 && self.says_ought(cut, cut + between) || self.word(cut) == Some("goes");
-            match self.things(from, cut) {
-                Err(error @ PlanError::NotFound { .. }) if ought => Some(error),
+            match if ought { self.things(from, cut) } else { return None } {
+                Err(error @ PlanError::NotFound { .. }) => Some(error),
                 _ => None,
             }
         })
@@ -322,6 +326,27 @@ impl<'a> Reader<'a> {
                 if self.is_welcome(at, end) && (at > cut || !rest.is_empty()) {
                     return one(Wish::Add { things: vec![thing.clone()], at: places.clone() });
                 }
+                if let Some(words) = longest_phrase(
+                    rest,
+                    &[
+                        "well with",
+                        "with",
+                        "nicely with",
+                        "together with",
+                        "good with",
+                        "great with",
+                        "suit",
+                        "match",
+                    ],
+                ) && at > cut
+                    && places.is_empty()
+                    && let Ok(anchor) = self.one_of(at + words, end)
+                {
+                    return one(Wish::Add {
+                        things: vec![thing.clone()],
+                        at: vec![Where::By(Anchor::Thing(anchor))],
+                    });
+                }
                 let stood = longest_phrase(rest, PLACED).unwrap_or(0);
                 let more = self.places_to(at + stood, end)?;
                 one(Wish::Add {
@@ -344,6 +369,25 @@ impl<'a> Reader<'a> {
                 }
                 if let Some(wish) = self.faces(what, at, end) {
                     return one(wish);
+                }
+                let is_turn = |at: usize| {
+                    matches!(
+                        self.word(at),
+                        Some(
+                            "way"
+                                | "around"
+                                | "round"
+                                | "degrees"
+                                | "degree"
+                                | "turn"
+                                | "backwards"
+                                | "clockwise"
+                                | "counterclockwise"
+                        )
+                    )
+                };
+                if let Some(angle) = super::turn::angle(rest).filter(|_| (at..end).any(is_turn)) {
+                    return one(Wish::Rotate { what: what.clone(), angle });
                 }
                 if let Some(at) = self.places_to(at, end).filter(|_| !self.is_bare_plural(from, cut)) {
                     return one(Wish::Move { what: what.clone(), at });
@@ -386,6 +430,19 @@ impl<'a> Reader<'a> {
         Some(paint)
     }
 
+    /// "A fresh coat of pink", "some yellow paint": paint is spoken of.
+    fn paint_to(&self, at: usize, end: usize) -> Option<Paint> {
+        const COAT: &[&str] =
+            &["coat", "coats", "lick", "layer", "paint", "colour", "color", "job", "repaint"];
+        let spoken = (at..end).any(|at| self.word(at).is_some_and(|word| COAT.contains(&word)));
+        let small = (at..end).take_while(|at| longest(&self.lexemes[*at..end], PAINTS).is_none()).count();
+        let (paint, words) =
+            longest(&self.lexemes[(at + small).min(end)..end], PAINTS).filter(|_| spoken && small <= 6)?;
+        let after = at + small + words;
+        (after == end || longest_phrase(&self.lexemes[after..end], COLOUR) == Some(end - after))
+            .then_some(paint)
+    }
+
     /// Whether the words say that something would be welcome.
     pub(super) fn is_welcome(&self, at: usize, end: usize) -> bool {
         let words: Option<Vec<&str>> = (at..end).map(|at| self.word(at)).collect();
@@ -398,7 +455,7 @@ impl<'a> Reader<'a> {
     /// "The car should face the museum".
     fn faces(&self, what: &[Reference], at: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const FACES: &[&str] = &["face", "facing", "look at", "looking at", "look towards", "looking towards", "point at", "pointing at",
+        const FACES: &[&str] = &["face", "faces", "looks at", "looks towards", "points at", "facing", "look at", "looking at", "look towards", "looking towards", "point at", "pointing at",
             "turned towards", "turned to", "turned to face", "to face", "look to", "watch", "watching", "point to", "point towards",
             "towards", "rotated towards", "aimed at", "stare at", "gaze at"];
         let words = longest_phrase(self.rest(end), FACES)?;
@@ -420,7 +477,11 @@ impl<'a> Reader<'a> {
     fn lacks(&self, (from, cut): (usize, usize), at: usize, end: usize) -> Option<Wish> {
         let _ = at;
         let words = longest_phrase(&self.lexemes[cut..end], LACKS)?;
-        let anchor = Anchor::Thing(self.one_of(from, cut).ok()?);
+        let thing = self.one_of(from, cut).ok()?;
+        if let Some(paint) = self.paint_to(cut + words, end) {
+            return Some(Wish::Paint { what: vec![thing], paint });
+        }
+        let anchor = Anchor::Thing(thing);
         let reader = self.up_to(end);
         reader.given_to(&anchor, cut + words, end)
     }
@@ -489,11 +550,31 @@ impl<'a> Reader<'a> {
             return None;
         }
         (from + 1..end).rev().find_map(|cut| {
+            if joint(&self.lexemes[cut - 1..end]).is_some() {
+                return None;
+            }
             let what = self.things(from, cut).ok()?;
-            let rest = Reader { at: cut, ..self.up_to(end) };
+            let mark = usize::from(super::parts::is_mark(&self.lexemes[cut]));
+            let rest = Reader { at: (cut + mark).min(end), ..self.up_to(end) };
             let wish = rest.predicate(&Subject::Things(what), (from, cut), end);
             wish
         })
+    }
+
+    /// "The taxi pink, please": without a verb, what a thing is to look like, and not where it stands.
+    fn is_look(wishes: &[Vec<Wish>]) -> bool {
+        wishes
+            .iter()
+            .flatten()
+            .all(|wish| matches!(wish, Wish::Paint { .. } | Wish::Scale { .. } | Wish::Remove { .. }))
+    }
+
+    /// As [`Self::small_clause`], where nobody says that it is wanted.
+    pub(super) fn bare_clause(&self, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        if !self.is_certain(from) {
+            return None;
+        }
+        self.small_clause(from, end).filter(|wishes| Self::is_look(wishes))
     }
 
     /// Reads an order that was put together from the words of a sentence: all of it, and without any of the readings that
@@ -502,7 +583,7 @@ impl<'a> Reader<'a> {
         if self.depth >= DEEPEST {
             return None;
         }
-        let mut reader = Reader { lexemes: order, at: 0, depth: DEEPEST, ..*self };
+        let mut reader = Reader { depth: DEEPEST, ..self.over(order) };
         let end = reader.before_politeness(0, order.len());
         reader.wish(end).ok().filter(|_| reader.at >= end)
     }
@@ -512,7 +593,7 @@ impl<'a> Reader<'a> {
         if self.depth >= DEEPEST {
             return None;
         }
-        let mut reader = Reader { lexemes: order, at: 0, depth: self.depth + 1, ..*self };
+        let mut reader = Reader { depth: self.depth + 1, ..self.over(order) };
         let end = reader.before_politeness(0, order.len());
         reader.wish(end).ok().filter(|_| reader.at >= end)
     }
