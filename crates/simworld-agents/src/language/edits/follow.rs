@@ -68,6 +68,12 @@ impl Reader<'_> {
             .or_else(|| self.gapped(said, last?, from, stop))
     }
 
+    /// "Paint the bench red, and the chair": the same, though nobody says "too".
+    pub(super) fn same_of(&self, said: &Said, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let wish = self.same_for(said.wish.as_ref()?, from, end).filter(|_| self.is_certain(from))?;
+        Some(vec![vec![wish]])
+    }
+
     /// A part that says no more than where one more of what was made goes, or of what the same holds.
     pub(super) fn more_of_it(&self, said: &Said, end: usize) -> Option<Vec<Vec<Wish>>> {
         let last = said.wish.as_ref()?;
@@ -96,9 +102,7 @@ impl Reader<'_> {
         }
         let is_said = |word: &str| ["too", "also", "well", "likewise"].contains(&word);
         let too = (stop..end).any(|at| self.word(at).is_some_and(is_said));
-        // Without "too" as well: "paint the bench red, and the chair".
-        let same =
-            if bare < stop || too || self.is_certain(from) { self.same_for(last, from, bare) } else { None };
+        let same = if bare < stop || too { self.same_for(last, from, bare) } else { None };
         same.and_then(one)
     }
 

@@ -47,9 +47,19 @@ impl Reader<'_> {
         if at > start {
             // "Put a bench there unless there is one": the wish stands before it.
             let what = self.coloured(from, end).map_or_else(|| self.one_of(from, end), Ok)?;
+            let mut what = what;
             let mut reader = Reader { at: start, ..*self };
             let stop = if joint(&self.lexemes[at - 1..at]).is_some() { at - 1 } else { at };
             let wishes = reader.wish(stop)?;
+            if super::says::is_it(&what) {
+                // "Remove the hydrant unless it is red".
+                let object = wishes.first().and_then(|readings| readings.first()?.object().cloned());
+                let Some(object) = object else {
+                    return Err(self.not_understood("say what the condition is about"));
+                };
+                what.traits = super::super::clause::Traits { paint: what.traits.paint, ..object.traits };
+                what = Reference { traits: what.traits, ..object };
+            }
             self.at = end;
             return Ok(Some(on_condition(wishes, &what, there)));
         }
@@ -64,6 +74,9 @@ impl Reader<'_> {
         let what = self.coloured(from, cut).map_or_else(|| self.one_of(from, cut), Ok)?;
         self.at = cut + 1;
         self.skip_joints_to(end);
+        if super::says::is_it(&what) {
+            return Err(self.not_understood("say what the condition is about"));
+        }
         let wishes = match self.one_of_those(&what, end) {
             Some(wish) => vec![vec![wish]],
             None => self.wish(end)?,

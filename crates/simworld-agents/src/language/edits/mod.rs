@@ -164,6 +164,7 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
         gone: Vec::new(),
         policy: AmbiguityPolicy::Nearest,
         streets: Some(&focus.streets),
+        told: std::cell::OnceCell::new(),
     }
 }
 

@@ -70,6 +70,7 @@ impl Reader<'_> {
         self.behind_preamble(start, end)
             .or_else(|| self.others_want(start, end))
             .or_else(|| self.fronted(start, end))
+            .or_else(|| self.told_in_pieces(start, end))
             .or_else(|| self.reordered(start, end))
             .or_else(|| self.without_reason(start, end))
     }
@@ -87,6 +88,9 @@ impl Reader<'_> {
             }
             let one = |wish| Some(vec![vec![wish]]);
             if let Some(places) = self.places_to(start, stop) {
+                if let Some(wish) = self.is_where(from, end, &places) {
+                    return one(wish);
+                }
                 let is_new = !self.is_definite(from) || self.is_bare_plural(from, end);
                 let thing = behind.new_thing(end).ok().filter(|_| is_new && behind.at >= end)?;
                 return one(Wish::Add { things: vec![thing], at: places });
@@ -97,6 +101,92 @@ impl Reader<'_> {
             }
             self.colour_to(start, stop).and_then(|paint| one(Wish::Paint { what, paint }))
         })
+    }
+
+    /// "... is where the statue should be", "... would be a good spot for a bench".
+    fn is_where(&self, at: usize, end: usize, places: &[super::wish::Where]) -> Option<Wish> {
+        #[rustfmt::skip]
+        const IS: &[&str] = &["is where", "is the place where", "is the right place for", "is the place for", "is a good place for", "would be a good place for",
+            "would be the right place for", "is the spot for", "is a good spot for", "would be a good spot for", "would be perfect for", "is perfect for",
+            "would be ideal for", "is ideal for", "would be the perfect place for", "is the perfect place for", "would be a nice place for", "is a nice place for",
+            "would be a nice spot for", "would be the perfect spot for", "is the perfect spot for", "is just right for", "could hold", "could take", "has room for",
+            "there is room for", "is room for", "is where i want", "is where we want", "is where we need", "is where i need", "is where id like", "would be great for"];
+        const TAILS: &[&str] = &[
+            "should be",
+            "should go",
+            "should stand",
+            "belongs",
+            "has to be",
+            "must be",
+            "goes",
+            "ought to be",
+            "needs to be",
+            "has to go",
+            "to be",
+            "to go",
+            "to stand",
+            "would look best",
+            "would look better",
+            "would be best",
+            "must go",
+            "has to stand",
+            "must stand",
+            "would look good",
+            "should sit",
+        ];
+        let from = at + longest_phrase(&self.lexemes[at..end], IS)?;
+        let stop = (from + 1..end)
+            .find(|at| longest_phrase(&self.lexemes[*at..end], TAILS) == Some(end - at))
+            .unwrap_or(end);
+        if self.is_certain(from) {
+            return self.things(from, stop).ok().map(|what| Wish::Move { what, at: places.to_vec() });
+        }
+        let mut reader = Reader { at: from, ..self.up_to(stop) };
+        let thing = reader.new_thing(stop).ok().filter(|_| reader.at >= stop)?;
+        Some(Wish::Add { things: vec![thing], at: places.to_vec() })
+    }
+
+    /// "Old Bakery, behind it, oak tree, two": a new thing, its place, how many, and what "it" is, in any order.
+    fn told_in_pieces(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let end = self.before_politeness(start, end);
+        let marks: Vec<usize> = (start..end).filter(|at| super::parts::is_mark(&self.lexemes[*at])).collect();
+        if marks.is_empty() || marks.len() > 4 {
+            return None;
+        }
+        let (mut count, mut places, mut topic, mut made) = (None, None, None, None);
+        let ends = marks.iter().copied().chain([end]);
+        let mut from = start;
+        for to in ends {
+            let piece = &self.lexemes[from..to];
+            let number = super::super::numbers::count(piece).filter(|(_, words)| *words == piece.len());
+            let found = if let Some((number, _)) = number {
+                count.replace(number).is_none()
+            } else if let Some(at) = self.places_to(from, to) {
+                places.replace(at).is_none()
+            } else if let Some(thing) =
+                self.one_of(from, to).ok().filter(|_| from == start && self.is_certain(from))
+            {
+                topic.replace(thing).is_none()
+            } else {
+                let mut reader = Reader { at: from, ..self.up_to(to) };
+                let thing =
+                    reader.new_thing(to).ok().filter(|_| reader.at >= to && !self.is_certain(from))?;
+                made.replace(thing).is_none()
+            };
+            if !found {
+                return None;
+            }
+            from = to + 1;
+        }
+        let (mut thing, mut at) = (made?, places?);
+        thing.count = count.unwrap_or(thing.count);
+        let mut anchor = topic.map(super::wish::Anchor::Thing);
+        for place in &mut at {
+            place.means(&mut anchor);
+        }
+        at.iter()
+            .all(|place| place.anchor().is_none_or(|anchor| !anchor.is_it()))
+            .then(|| vec![vec![Wish::Add { things: vec![thing], at }]])
     }
 
     /// Statements, gerunds and small clauses behind a preamble of any length.
@@ -369,7 +459,11 @@ impl Reader<'_> {
                     Some((before, behind)),
                     Some((behind, before)),
                 ];
-                orders.into_iter().flatten().find_map(|(one, other)| {
+                // "By the museum a bench put": the thing behind its place.
+                let inner = (from + 2..stop)
+                    .filter(|_| behind.is_empty() && self.is_place(from))
+                    .map(|cut| (&self.lexemes[cut..stop], &self.lexemes[from..cut]));
+                orders.into_iter().flatten().chain(inner).find_map(|(one, other)| {
                     let order: Vec<Lexeme> = words.iter().chain(one).chain(other).cloned().collect();
                     self.read_plainly(&order)
                 })

@@ -295,6 +295,8 @@ impl<'a> Reader<'a> {
         if let Ok(what) = whole {
             return Ok(vec![what]);
         }
+        // "Both the truck and the hydrant" are one of each.
+        let start = start + usize::from(matches!(self.word(start), Some("both")));
         for cut in (start + 1..end).rev() {
             let Some(count) = joint(&self.lexemes[cut..end]) else { continue };
             if let (Ok(mut before), Ok(last)) = (self.things(start, cut), self.one_of(cut + count, end)) {

@@ -97,6 +97,9 @@ impl Reader<'_> {
         search: &mut Search<'_>,
     ) -> Option<Vec<Vec<Wish>>> {
         let mut start = Reader { at: from, ..*self };
+        // "Everyone" may be spoken to, or be who a remark is about.
+        let joints = (from..self.lexemes.len()).take_while(|at| is_mark(&self.lexemes[*at])).count();
+        let remark = from + joints;
         start.skip_joints_to(self.lexemes.len());
         let from = start.at;
         if from >= self.lexemes.len() {
@@ -130,7 +133,7 @@ impl Reader<'_> {
         }
         // A remark ends at any of the next marks: "the crate, I think, is ugly".
         for end in cuts.iter().copied().take(4) {
-            if !self.is_remark(from, end) {
+            if !self.is_remark(from, end) && !self.is_remark(remark.min(from), end) {
                 continue;
             }
             let mut things = self.spoken_of(from, end);
@@ -163,7 +166,7 @@ impl Reader<'_> {
             return Some(wishes);
         }
         self.at = start;
-        if let Some(wishes) = self.follows(said, end) {
+        if let Some(wishes) = self.follows(said, end).or_else(|| self.same_of(said, start, stop)) {
             return Some(wishes);
         }
         // "Swap the red bench with the blue one".
@@ -223,7 +226,7 @@ impl Reader<'_> {
         // A thing that is spoken of next: "the cone? I don't need it".
         if words.len() <= 6
             && from == 0
-            && end < self.lexemes.len()
+            && self.lexemes.get(end).is_some_and(is_mark)
             && self.is_definite(from)
             && self.one_of(from, end).is_ok_and(|what| !super::follow::is_open(&what))
         {

@@ -34,7 +34,7 @@ const NO_NOUNS: &[&str] = &["is", "are", "was", "were", "has", "have", "needs", 
     "we", "they", "them", "it", "my", "your", "nobody", "everybody", "everyone", "there", "ones", "twice", "many", "copy", "copies", "clone", "duplicate", "because", "if",
     "let", "be", "do", "does", "dont", "not", "never", "gets", "goes", "same", "us", "me", "make", "paint", "move", "remove", "delete", "her", "him",
     "than", "as", "which", "who", "why", "what", "where", "nowhere", "somewhere", "wouldnt", "isnt", "arent", "doesnt", "cant", "to", "keeps", "keep", "until", "unless",
-    "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those", "no", "ya"];
+    "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those", "put", "add", "erect", "install", "no", "ya"];
 /// Sides of a thing, behind a distance from it.
 const OWN_SIDES: &[(&[&str], Relation)] = &[
     (&["left"], Relation::LeftOf),
@@ -60,7 +60,8 @@ impl Reader<'_> {
                 let start = self.at;
                 self.at += count;
                 self.skip_joints_to(end);
-                if self.at >= end || self.is_place(self.at) {
+                let is_more = || Reader { ..*self }.another(end, things.last()).is_some();
+                if self.at >= end || self.is_place(self.at) || is_more() {
                     self.at = start;
                     break;
                 }

@@ -38,7 +38,7 @@ const BETWEEN: &[&str] = &["should", "must", "ought", "to", "shall", "has", "hav
     "fancier", "livelier", "id", "say", "think", "i", "happier", "safer", "thats", "that", "which", "so", "well", "pretty",
     "cute", "beautifully", "somehow", "exist", "grow", "grows", "wear", "wears", "like", "likes", "love", "sure", "lie", "park", "going",
     "gonna", "suit", "help", "even", "way", "super", "again", "used", "splendid", "brilliant", "do", "spawn", "pop", "up", "walk",
-    "over", "kindly", "quickly", "hang", "rest", "move", "moved"];
+    "over", "off", "kindly", "quickly", "hang", "rest", "move", "moved"];
 /// Of those, the words that say that it should be.
 #[rustfmt::skip]
 const OUGHT: &[&str] = &["should", "must", "ought", "shall", "needs", "need", "want", "wants", "would", "could", "might", "may", "can",

@@ -213,6 +213,20 @@ impl Wish {
         }
     }
 
+    /// What is changed, if it is one thing.
+    pub(super) fn object(&self) -> Option<&Reference> {
+        match self {
+            Self::Move { what, .. }
+            | Self::Remove { what }
+            | Self::Rotate { what, .. }
+            | Self::FaceCompass { what, .. }
+            | Self::Face { what, .. }
+            | Self::Paint { what, .. }
+            | Self::Scale { what, .. } => what.first().filter(|_| what.len() == 1),
+            _ => None,
+        }
+    }
+
     /// Puts new things where a remark was about, if they have no place of their own.
     pub(super) fn stands(&mut self, place: &[Where]) {
         if let Self::Add { at, .. } = self
