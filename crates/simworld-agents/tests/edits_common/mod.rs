@@ -17,7 +17,7 @@ use crate::city::City;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-pub(crate) const SETS: [&str; 3] = ["edits", "later.edits", "third.edits"];
+pub(crate) const SETS: [&str; 4] = ["edits", "later.edits", "third.edits", "fourth.edits"];
 
 /// One thing that is asked, and what must then be true.
 pub(crate) struct Asked {
