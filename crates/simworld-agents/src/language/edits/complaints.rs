@@ -36,14 +36,20 @@ const IS: &[&str] = &["is", "are", "looks", "look", "seems", "seem", "stands", "
 /// That there is none.
 #[rustfmt::skip]
 const NONE: &[&str] = &["there is no", "theres no", "there are no", "there isnt a", "there isnt any", "there arent any", "why is there no", "why are there no", "there is not a",
-    "there is not a single", "there isnt a single", "how come there is no", "how come theres no", "why isnt there a", "why is not there a", "why is there not a", "why are there not any", "there is not any", "there are not any", "there is not enough", "why arent there any", "i see no", "where is the", "i miss a",
+    "there is not a single", "there isnt a single", "how come there is no", "how come theres no", "how come there are no", "why cant i see a", "there isnt", "why isnt there a", "why is not there a", "why is there not a", "why are there not any", "there is not any", "there are not any", "there is not enough", "why arent there any", "i see no", "where is the", "i miss a",
     "i cant see a", "i cannot find a", "i cant find a", "what is missing is a", "whats missing is a", "all thats missing is a", "all that is missing is a", "missing", "i am missing a",
     "im missing a", "we are missing a", "were missing a", "we lack a", "we are lacking a", "we are short of a", "we have no", "we are short a", "no"];
 
 impl Reader<'_> {
     /// A sentence that is a complaint, with remarks before it or without.
     pub(super) fn complaint(&self) -> Option<Vec<Vec<Wish>>> {
-        let end = self.before_politeness(0, self.lexemes.len());
+        #[rustfmt::skip]
+        const MEND: &[&str] = &["fix that", "fix it", "fix this", "change that", "please fix that", "do something about it", "do something about that", "sort it out", "sort that out",
+            "can you fix that", "could you fix that", "please change that", "lets fix that", "lets change that", "make it so", "that should change", "mend that", "remedy that",
+            "can we fix that", "help", "that needs fixing", "that must change", "can you help", "can you do something about it", "do something", "correct that", "put that right"];
+        let all = self.before_politeness(0, self.lexemes.len());
+        let mend = (1..all).find(|at| longest_phrase(&self.lexemes[*at..all], MEND) == Some(all - at));
+        let end = self.before_politeness(0, mend.unwrap_or(all));
         let starts = (0..end).filter(|at| *at == 0 || self.is_joint(at - 1));
         starts.take(6).find_map(|from| {
             if from > 0 && !self.is_remark(0, from - 1) {

@@ -49,6 +49,13 @@ pub(super) fn as_order(lexemes: &[Lexeme]) -> Option<(Verb, usize, Lexeme)> {
     })
 }
 
+/// Whether a word is a form of a verb.
+pub(super) fn is_form(word: &str) -> bool {
+    base_of(word).iter().any(|base| {
+        VERBS.iter().flat_map(|(words, _)| *words).any(|phrase| phrase.split(' ').next() == Some(base))
+    })
+}
+
 /// No phrase of a verb goes on longer behind its first word.
 const LONGEST: usize = 7;
 

@@ -27,7 +27,7 @@ const SMALL: &str = "a able about absolutely actually ahead all alright also am 
      that thats the then thing think thinking this thought time to today totally trouble try trying uh um us usual very \
      wanna want wanted wants was way we wed well were what why will willing wish wishes with wonder wonderful wondering \
      would you youd your yo dreamt fun hereby officially nicer prettier cooler sir madam buddy bro pls plz see hello \
-     kindness id've kids team people residents everyones super mega cute amazing marvellous splendid somebody someone ya yer anybody glorious brilliant smart \
+     kindness id've kids team people residents everyones super mega cute amazing marvellous splendid happier gladder prettier mate kindest somebody someone ya yer anybody glorious brilliant smart \
      wise sensible useful handy worth whole point being theyd they he she hed shed wants needs likes loves would must";
 /// Turns of politeness and of wishing that hold words which else deny or ask on a condition.
 #[rustfmt::skip]
@@ -123,7 +123,6 @@ impl Reader<'_> {
                 && !WORDS.contains(self.word(*at).unwrap_or_default())
                 && category(here).is_none()
                 && self.names.part(&here[..1]).is_none()
-                && longest(here, super::words::VERBS).is_none()
                 && self.view.streets.is_none_or(|streets| streets.at(here).is_none())
                 && !self.is_place(*at)
         };

@@ -3,7 +3,7 @@
 
 use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::{longest, longest_phrase};
+use super::super::lexicon::{category, longest, longest_phrase};
 use super::forms::{as_order, word_at};
 use super::parse::Reader;
 use super::says::{Mood, is_it};
@@ -69,6 +69,7 @@ impl Reader<'_> {
         }
         self.behind_preamble(start, end)
             .or_else(|| self.others_want(start, end))
+            .or_else(|| self.cleft(start, self.before_politeness(start, end)))
             .or_else(|| self.fronted(start, end))
             .or_else(|| self.told_in_pieces(start, end))
             .or_else(|| self.reordered(start, end))
@@ -91,15 +92,52 @@ impl Reader<'_> {
                 if let Some(wish) = self.is_where(from, end, &places) {
                     return one(wish);
                 }
-                let is_new = !self.is_definite(from) || self.is_bare_plural(from, end);
-                let thing = behind.new_thing(end).ok().filter(|_| is_new && behind.at >= end)?;
-                return one(Wish::Add { things: vec![thing], at: places });
+                return self.beginnings(from, end).into_iter().find_map(|begins| {
+                    let verb = longest(&self.lexemes[begins.at..end], VERBS)
+                        .filter(|(verb, _)| matches!(verb, Verb::Add | Verb::Put));
+                    let at = begins.at + verb.map_or(0, |(_, words)| words);
+                    let is_new = at < end
+                        && (!self.is_definite(at)
+                            || self.is_bare_plural(at, end)
+                            || verb.is_none() && self.is_bare_noun(at, end));
+                    let mut made = Reader { at, ..self.up_to(end) };
+                    let thing = if is_new { made.new_thing(end).ok() } else { None };
+                    let thing = thing.filter(|_| made.at >= end)?;
+                    Some(vec![vec![Wish::Add { things: vec![thing], at: places.clone() }]])
+                });
             }
             let what = self.things(from, end).ok().filter(|_| self.is_certain(from))?;
             if let Some(factor) = super::says::size_of(&self.lexemes[start..stop]) {
                 return one(Wish::Scale { what, factor });
             }
             self.colour_to(start, stop).and_then(|paint| one(Wish::Paint { what, paint }))
+        })
+    }
+
+    /// "Beside the statue bench": a noun of a class without an article, and nothing else.
+    fn is_bare_noun(&self, at: usize, end: usize) -> bool {
+        category(&self.lexemes[at..end]).is_some_and(|(_, words)| at + words == end)
+    }
+
+    /// "What this place is missing is a well by the fountain".
+    fn cleft(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        #[rustfmt::skip]
+        const LACKING: &[&str] = &["missing", "need", "needs", "want", "wants", "lack", "lacks", "like", "love", "wish", "lacking", "use", "hope", "dream", "prefer", "require",
+            "requires", "deserves", "ask", "asking", "needed", "wanted", "suggest", "propose", "recommend", "thinking", "absent"];
+        longest_phrase(
+            &self.lexemes[start..end],
+            &["what", "all", "the only thing", "the one thing", "one thing", "the thing", "something"],
+        )?;
+        (start + 2..end).find_map(|at| {
+            let is =
+                longest_phrase(&self.lexemes[at..end], &["is", "are", "would be", "is just", "is that"])?;
+            let lacks = (start..at).any(|at| self.word(at).is_some_and(|word| LACKING.contains(&word)));
+            let from = at + is;
+            if !lacks || from >= end || self.is_definite(from) && !self.is_bare_plural(from, end) {
+                return None;
+            }
+            let mut reader = Reader { at: from, ..self.up_to(end) };
+            reader.additions(end).ok().filter(|_| reader.at >= end)
         })
     }
 
@@ -502,6 +540,13 @@ fn is_it_not(words: &[Lexeme]) -> bool {
     longest_phrase(words, &["it", "them", "that", "this", "those", "these", "him", "her"]).is_none()
 }
 
+/// Words that make a wish stronger or weaker, and no other.
+#[rustfmt::skip]
+const ADVERBS: &[&str] = &["really", "definitely", "certainly", "absolutely", "totally", "seriously", "honestly", "literally", "basically", "desperately", "badly", "sorely",
+    "urgently", "frankly", "truly", "obviously", "clearly", "surely", "undoubtedly", "ideally", "preferably", "presumably", "urgent", "personally", "sincerely", "finally"];
+/// Where a name may follow, which is any word.
+const CALLS: &[&str] = &["call", "name", "rename", "christen", "label", "title", "called", "named"];
+
 /// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".
 fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
@@ -523,6 +568,20 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
             let place = lexemes[at].clone();
             let stem = word[..word.len() - 1].to_owned();
             lexemes.splice(at..=at, [word_at(&place, &stem), word_at(&place, "is")]);
+        } else if ["on", "inside", "onto", "behind", "under"].contains(&word.as_str()) && next == "there" {
+            let place = lexemes[at + 1].clone();
+            lexemes[at + 1] = word_at(&place, "it");
+        } else if word == "what" && category(&lexemes[at + 1..]).is_some() {
+            let place = lexemes[at].clone();
+            lexemes[at] = word_at(&place, "which");
+        } else if let Some(who) =
+            ["we'll", "i'll", "they'll", "you'll", "it'll", "we’ll", "i’ll", "they’ll", "it’ll"]
+                .iter()
+                .find(|short| written.eq_ignore_ascii_case(short))
+        {
+            let (place, who) =
+                (lexemes[at].clone(), who.split(['\'', '’']).next().unwrap_or_default().to_owned());
+            lexemes.splice(at..=at, [word_at(&place, &who), word_at(&place, "will")]);
         } else if ["its", "his", "her", "their"].contains(&word.as_str())
             && SIDES.contains(&next.as_str())
             && at > 0
@@ -586,6 +645,12 @@ fn relatives(lexemes: &mut Vec<Lexeme>) {
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     contractions(words, lexemes);
     relatives(lexemes);
+    let is_call =
+        |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if CALLS.contains(&word.as_str()));
+    if !lexemes.iter().any(is_call) && lexemes.len() > 2 {
+        lexemes
+            .retain(|lexeme| !matches!(&lexeme.token, Token::Word(word) if ADVERBS.contains(&word.as_str())));
+    }
     #[rustfmt::skip]
     const MORE: &[(&str, &str)] = &[("small", "smaller"), ("big", "bigger"), ("large", "larger"), ("tall", "taller"), ("high", "higher"), ("little", "smaller"),
         ("short", "shorter"), ("close", "closer"), ("tiny", "smaller"), ("huge", "bigger")];

@@ -61,7 +61,13 @@ const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if
     "buddy", "bro", "dude", "sir", "quickly", "again", "would you", "will you", "could you", "can you",
     "if you would", "if you will", "thanks a lot", "if its not too much trouble", "if it is not too much trouble",
     "right now", "right away", "immediately", "asap", "thank you very much", "thanks in advance", "if its possible",
-    "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time"];
+    "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time",
+    "from the scene", "from the map", "from the world", "from the city", "from the campus", "from town", "from the harbour", "from here",
+    "if you would be so kind", "for good", "for now", "from now on", "as soon as possible", "whenever you can", "this time",
+    "today", "right there", "once and for all", "for once", "would you please", "for heavens sake", "for gods sake", "ya", "no", "eh", "huh",
+    "right", "yeah", "man", "thank you so much", "many thanks", "much appreciated", "ta", "at once", "quick", "i guess", "i think", "i suppose", "dear",
+    "if thats ok", "if that is ok", "if thats okay", "if thats possible", "if that is possible", "if theres room", "if there is room", "if there is space",
+    "if you like", "if you please", "if you want", "somehow", "lol", "already", "first", "next", "or so", "or something", "or whatever", "you know"];
 
 /// Reads one sentence.
 #[derive(Clone, Copy)]

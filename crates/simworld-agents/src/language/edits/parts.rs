@@ -54,6 +54,11 @@ const STATES: &[&str] = &["is", "are", "was", "were", "am", "isnt", "arent", "wa
 const ASKS: &[&str] = &["should", "must", "ought", "shall", "please", "let", "lets", "instead", "unless", "until", "except", "only", "if", "whenever", "has to",
     "have to", "needs to", "need to", "better", "add", "put", "remove", "delete", "paint", "would", "could", "rather", "supposed", "shouldnt", "mustnt",
     "each", "every", "to be", "to go", "to stand", "to have", "to get"];
+/// Who does something in a remark, whatever it is.
+#[rustfmt::skip]
+const PEOPLE: &[&str] = &["nobody", "no one", "noone", "everybody", "everyone", "people", "somebody", "someone", "i", "we", "they", "he", "she", "folks", "kids", "students",
+    "visitors", "customers", "tourists", "pedestrians", "drivers", "guests", "residents", "locals", "passersby", "children", "nothing", "everything", "hardly anybody",
+    "hardly anyone", "not everybody", "half the people"];
 /// A subject and its verb in one word.
 #[rustfmt::skip]
 const SHORT: &[&str] = &["im", "its", "thats", "theres", "theyre", "youre", "hes", "shes", "ive", "weve", "theyve", "too many", "too much", "so many", "so much",
@@ -258,8 +263,21 @@ impl Reader<'_> {
         {
             return false;
         }
+        // "Across from the hospital people are hungry".
+        if self.is_place(from) {
+            let mut reader = Reader { at: from, ..self.up_to(end) };
+            if reader.place(end).is_ok()
+                && reader.at < end
+                && reader.at > from
+                && self.is_remark(reader.at, end)
+            {
+                return true;
+            }
+        }
         let about = longest_phrase(words, SUBJECTS).is_some() || self.one_begins(from, end);
-        let states = (from..end).any(|at| is_word(at, STATES)) || longest_phrase(words, SHORT).is_some();
+        let states = longest_phrase(words, PEOPLE).is_some_and(|who| who + 1 < words.len())
+            || (from..end).any(|at| is_word(at, STATES))
+            || longest_phrase(words, SHORT).is_some();
         about && states && !self.asks(from, end)
     }
 
@@ -308,6 +326,20 @@ impl Reader<'_> {
     pub(super) fn spoken_of(&self, from: usize, end: usize) -> Vec<Reference> {
         let mut things: Vec<Reference> = Vec::new();
         let mut at = from;
+        // "There's a hydrant by the fountain": of that one it is spoken.
+        if let Some(words) = longest_phrase(
+            &self.lexemes[from..end],
+            &["theres", "there is", "i see", "we have", "i can see", "there stands"],
+        ) {
+            let mut parser = self.parser(from + words, end);
+            if let Ok(mut thing) = parser.reference(0)
+                && parser.at > from + words
+            {
+                thing.indefinite = false;
+                things.push(thing);
+                at = parser.at;
+            }
+        }
         while at < end {
             let is_certain = longest_phrase(
                 &self.lexemes[at..end],

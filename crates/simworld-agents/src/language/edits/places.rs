@@ -51,6 +51,11 @@ impl Reader<'_> {
         let mut wishes = Vec::new();
         let mut anchor: Option<Anchor> = None;
         let mut last: Option<NewThing> = None;
+        // "Plant there two palm trees".
+        let is_there = matches!(self.word(self.at), Some("there" | "here"))
+            && (!self.is_definite(self.at + 1) || self.is_bare_plural(self.at + 1, end));
+        let there = if is_there { self.places_to(self.at, self.at + 1) } else { None };
+        self.at += usize::from(there.is_some());
         while self.at < end {
             if anchor.is_some() && self.is_bare_singular(end) {
                 return Err(self.not_understood("say \"next to\" again, or \"a\" before what is to be made"));
@@ -67,11 +72,18 @@ impl Reader<'_> {
                 }
                 things.push(self.new_thing(end)?);
             }
+            let whose = self.for_whom(end);
             let from = self.at;
             if joint(self.rest(end)).is_some() {
                 self.skip_joints_to(end);
             }
-            let at = if self.at < end && self.is_place(self.at) {
+            if whose.is_some() {
+                anchor.clone_from(&whose);
+            }
+            let at = if let Some(whose) = whose.filter(|_| self.at >= end || !self.is_place(self.at)) {
+                self.at = from;
+                vec![Where::By(whose)]
+            } else if self.at < end && self.is_place(self.at) {
                 let mut at = self.places(end)?;
                 // "A tree behind the school and a bench in front of it": of the school.
                 for place in &mut at {
@@ -80,7 +92,7 @@ impl Reader<'_> {
                 at
             } else {
                 self.at = from;
-                Vec::new()
+                there.clone().unwrap_or_default()
             };
             if at.iter().any(|place| matches!(place, Where::Shift(..) | Where::ShiftOwn(..))) {
                 return Err(self.not_understood("say from what it is so far"));
@@ -101,6 +113,22 @@ impl Reader<'_> {
             self.skip_joints_to(end);
         }
         if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
+    }
+
+    /// "A parasol for the café": whose it is to be, if that is a thing of the scene.
+    fn for_whom(&mut self, end: usize) -> Option<Anchor> {
+        if self.word(self.at) != Some("for") || !self.is_certain(self.at + 1) {
+            return None;
+        }
+        let mut parser = self.parser(self.at + 1, self.before_politeness(self.at, end));
+        let thing = parser.reference(0).ok()?;
+        let after = parser.at;
+        let ends =
+            after >= self.before_politeness(self.at, end) || self.is_joint(after) || self.is_place(after);
+        ends.then(|| {
+            self.at = after;
+            Anchor::Thing(thing)
+        })
     }
 
     /// "Next to the fountain, statue and kiosk": a noun without an article, behind a place, is no new thing.
@@ -218,6 +246,9 @@ impl Reader<'_> {
                 break;
             } else if joint(rest).is_some()
                 || self.is_place(self.at)
+                || self.word(self.at) == Some("for")
+                    && !thing.words.is_empty()
+                    && self.is_certain(self.at + 1)
                 || self.before_politeness(start, end) <= self.at
             {
                 break;
@@ -254,6 +285,11 @@ impl Reader<'_> {
     }
 
     fn begins_place(&self, at: usize) -> bool {
+        if matches!(self.word(at), Some("down" | "up" | "over" | "back" | "out" | "off"))
+            && longest(&self.lexemes[(at + 1).min(self.lexemes.len())..], WAYS).is_some()
+        {
+            return true;
+        }
         let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
         if self.seen_from(at, self.lexemes.len()).is_some() {
             return true;
@@ -278,6 +314,11 @@ impl Reader<'_> {
                 self.at += count;
             }
             self.skip_joints_to(end);
+            // Behind a place of its own "instead" says no more than that.
+            if self.word(self.at) == Some("instead") && self.at + 1 >= self.before_politeness(self.at, end) {
+                self.at = end;
+                return Ok(places);
+            }
             if self.at < end
                 && self.is_place(self.at)
                 && let Ok(place) = self.place(end)
@@ -295,6 +336,14 @@ impl Reader<'_> {
     }
 
     pub(super) fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+        // "Set it down between the two".
+        let is_particle = matches!(self.word(self.at), Some("down" | "up" | "over" | "back" | "out" | "off"));
+        if is_particle
+            && longest(self.rest(end), WAYS).is_none_or(|(_, words)| words == 1)
+            && self.is_place(self.at + 1)
+        {
+            self.at += 1;
+        }
         if let Some((place, after)) = self.seen_from(self.at, end) {
             self.at = after;
             return Ok(place);

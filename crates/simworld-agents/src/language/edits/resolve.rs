@@ -256,7 +256,11 @@ impl Finder<'_> {
     fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
         let mut things = Vec::new();
         for one in what {
-            if one.count == Count::One && !plural(one) {
+            let of_several = one.choice != Choice::Open
+                && [" of the ", " of all ", " of these ", " of those "]
+                    .iter()
+                    .any(|of| one.text.contains(of));
+            if one.count == Count::One && (!plural(one) || of_several) {
                 things.push(self.one(one)?);
             } else {
                 things.extend(self.candidates(one)?);

@@ -52,7 +52,8 @@ const WELCOME: &[&str] = &["help", "helps", "helpful", "nice", "great", "good", 
     "welcome", "appreciated", "overdue", "needed", "wanted", "missing", "required", "due", "idea", "lacking", "need", "want",
     "amazing", "fantastic", "beautiful", "awesome", "cute", "cool", "hurt", "amiss", "fine", "trick", "ticket", "thing", "order",
     "must", "do", "work", "fit", "suit", "requested", "desired", "called", "dream", "ideal", "sensible", "pretty", "neat", "sweet",
-    "fun", "practical", "demand", "liven", "brighten", "please", "delight", "improve", "better", "loved", "splendid", "brilliant"];
+    "fun", "swell", "ace", "top", "terrific", "excellent", "superb", "magnificent", "charming", "grand", "super", "fab", "dandy", "brill", "wicked", "nicer", "smart",
+    "pleasant", "cosy", "cozy", "sensational", "marvellous", "delightful", "dope", "sick", "rad", "practical", "demand", "liven", "brighten", "please", "delight", "improve", "better", "loved", "splendid", "brilliant"];
 /// What stands around them.
 #[rustfmt::skip]
 const AROUND: &[&str] = &["a", "an", "the", "very", "so", "really", "much", "be", "is", "are", "would", "wouldnt", "could", "not", "go", "goes",
@@ -571,7 +572,8 @@ impl<'a> Reader<'a> {
 
     /// As [`Self::small_clause`], where nobody says that it is wanted.
     pub(super) fn bare_clause(&self, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
-        if !self.is_certain(from) {
+        let is_noun = category(&self.lexemes[from..end]).is_some_and(|(_, words)| from + words < end);
+        if !self.is_certain(from) && !is_noun {
             return None;
         }
         self.small_clause(from, end).filter(|wishes| Self::is_look(wishes))
@@ -615,7 +617,7 @@ fn placed(wish: Wish, places: &[Where]) -> Option<Wish> {
 /// A size, if all the words are one: "twice as big", "a lot larger, by 50 percent".
 pub(super) fn size_of(lexemes: &[Lexeme]) -> Option<f64> {
     const SMALL: &[&str] = &[
-        "to", "be", "become", "get", "somewhat", "even", "quite", "just", "made", "scaled", "about",
+        "to", "be", "become", "get", "somewhat", "even", "only", "quite", "just", "made", "scaled", "about",
         "roughly", "of", "its", "size",
     ];
     let words: Vec<Lexeme> = lexemes

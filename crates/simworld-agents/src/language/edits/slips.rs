@@ -160,7 +160,11 @@ struct Own<'a> {
 
 impl Own<'_> {
     fn contains(&self, word: &str) -> bool {
-        TABLES.contains(word) || OTHERS.contains(word) || self.stock.has_word(word) || is_synonym(word)
+        TABLES.contains(word)
+            || super::forms::is_form(word)
+            || OTHERS.contains(word)
+            || self.stock.has_word(word)
+            || is_synonym(word)
     }
 
     /// All of them, each once.

@@ -72,6 +72,10 @@ impl Reader<'_> {
     pub(super) fn bare(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let start = self.at;
         self.at += self.polite_at(start);
+        // "Three copies of the cone by the kiosk".
+        if let Some(copies) = self.copies(end) {
+            return Ok(Some(copies));
+        }
         if self.is_definite(self.at) && !self.is_bare(self.at, end) {
             self.at = start;
             return Ok(None);
@@ -83,6 +87,13 @@ impl Reader<'_> {
     fn is_bare(&self, at: usize, end: usize) -> bool {
         let rest = &self.lexemes[at.min(end)..end];
         let noun = super::super::lexicon::category(rest);
-        self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
+        // "Cypresses along the road": a plural that is nothing of the scene.
+        let place = (at + 1..end.min(at + 4)).find(|at| self.is_place(*at));
+        let many = place.is_some_and(|place| {
+            let is_many =
+                self.word(place - 1).is_some_and(|word| word.ends_with('s') && !word.ends_with("ss"));
+            is_many && !self.is_certain(at) && self.one_of(at, place).is_err() && !self.has_verb(at, place)
+        });
+        many || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
 }

@@ -230,7 +230,8 @@ impl Wish {
     /// Puts new things where a remark was about, if they have no place of their own.
     pub(super) fn stands(&mut self, place: &[Where]) {
         if let Self::Add { at, .. } = self
-            && at.is_empty()
+            && !place.is_empty()
+            && (at.is_empty() || *at == [Where::There])
         {
             *at = place.to_vec();
         }
@@ -252,6 +253,15 @@ impl Wish {
             | Self::Name { what, .. }
             | Self::Describe { what } => vec![what],
             Self::Swap { one, other } => std::iter::once(one).chain(other).collect(),
+            Self::Passage { which, .. } => which
+                .iter_mut()
+                .filter_map(|street| match street {
+                    StreetRef::To(_, thing) | StreetRef::Around(thing) | StreetRef::Thing(thing) => {
+                        Some(thing)
+                    }
+                    _ => None,
+                })
+                .collect(),
             _ => Vec::new(),
         }
     }
