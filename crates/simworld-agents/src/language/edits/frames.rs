@@ -18,7 +18,7 @@ const SMALL: &str = "a able about absolutely actually ahead all alright also am 
      ask asking asks awesome be beg begging believe best better bit boss can care chance cheers client could course curious \
      customer dear decided definitely delighted demand do dream dude ensure everybody everyone everything expect fab fancy \
      fantastic favor favour feel feeling fine finally folks for get getting glad go going gonna good got gotta grand grateful \
-     great guess guys had happy have having help helpful hey hi hmm hope hoping how i id idea if ill im imagine in insist is \
+     great guess guys had happy have having help helpful hey hi hmm hope hoping how i id idea if ill im imagine insist is \
      it itd its ive job just keen kind kindly let lets like listen little lot love lovely make mate may maybe me mean meant \
      might mind moment more much must my neat need needed needs next nice now obviously of oh ok okay opportunity order ought \
      our perfect perhaps picture plan please pleased pleasure point possible possibly prefer preferably pretty probably \

@@ -3,6 +3,7 @@
 //! The same words, names and noun phrases as in orders to a body; other verbs. A sentence is read whole first; each wish is
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
+mod apart;
 mod ask;
 mod change;
 mod complaints;
@@ -20,12 +21,17 @@ mod parse;
 mod parts;
 mod passage;
 mod places;
+mod plain;
+mod polite;
+mod predicates;
 mod resolve;
 mod rows;
 mod says;
+mod sizes;
 pub(super) mod sky;
 mod slips;
 mod stated;
+mod things;
 mod turn;
 mod wish;
 pub(super) mod words;
@@ -93,7 +99,7 @@ pub(crate) fn read(
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
-    orders::in_plain_words(words, &mut lexemes);
+    plain::in_plain_words(words, &mut lexemes);
     let memo = memo::Memo::default();
     let reader = Reader {
         words,
@@ -177,7 +183,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(frames::words())
         .chain(follow::words())
         .chain(parts::words())
-        .chain(orders::words())
+        .chain(apart::words())
+        .chain(predicates::words())
         .chain(complaints::words())
 }
 

@@ -21,6 +21,7 @@ use super::super::names::Names;
 use super::super::parser::Parser;
 use super::super::resolve::View;
 use super::memo::Memo;
+use super::polite::{CODA, JOINTS, POLITE};
 use super::says::Mood;
 use super::wish::{StreetRef, Wish};
 use super::words::{VERBS, Verb};
@@ -28,46 +29,6 @@ use super::words::{VERBS, Verb};
 /// What is understood, in one line, for answers.
 pub(super) const UNDERSTOOD: &str = "say add, put, move, remove, replace, rotate, swap, paint, make bigger or smaller, copy, name, \
      count, list, describe, or what the weather and the time are to be";
-/// What joins two wishes.
-#[rustfmt::skip]
-pub(super) const JOINTS: &[&str] = &["and", "then", "and then", "also", "plus", "but", "and also", "as well as",
-    "after that", "next", "finally", "too", "as well", "while you are at it", "now", "along with", "together with",
-    "and finally", "afterwards", "first", "so", "or rather", "with"];
-/// What is put before and behind wishes, and says nothing.
-#[rustfmt::skip]
-const POLITE: &[&str] = &["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
-    "um", "well", "could you", "can you", "would you", "will you", "can u", "could u", "i want you to",
-    "i would like you to", "id like you to", "you should", "you must", "lets", "let us", "just", "try to",
-    "go ahead and", "would you mind", "do you mind", "if you can", "if you could", "if possible",
-    "if you dont mind", "for me", "for us", "quickly", "simply", "maybe", "perhaps", "would you please",
-    "could you please", "can you please", "will you please", "yo", "dude", "bro", "mate", "pls", "plz",
-    "i think you should", "i want to", "i would like to", "id like to", "i need to", "we need to", "we should",
-    "we want to", "help me", "be so kind as to", "be so kind and", "why dont you", "how about you",
-    "be so good as to", "i think", "actually", "really", "also", "again", "to", "cheers", "i dont care where",
-    "i dont mind where", "thx", "there", "buddy", "guys", "everyone", "do me a favour and", "do me a favor and",
-    "i ask you to", "need you to", "i need you to", "oh", "oh and", "hmm", "so", "can we", "could we",
-    "may i ask you to", "it would be nice to", "it would be great to", "it would be nice if you could",
-    "id be grateful if you could", "would it be possible to", "is it possible to", "might you",
-    "i reckon we should", "you need to", "you have to", "you can", "you could", "go and", "go", "instead", "now",
-    "kindly please", "sir", "as well", "too", "i wonder if you could", "it is time to", "its time to", "time to",
-    "how about", "what about", "what if we", "shall we", "anymore", "any more", "any longer", "at all",
-    "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"];
-
-/// What is put behind wishes, and says nothing.
-#[rustfmt::skip]
-const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if you can", "if you could",
-    "if possible", "if you dont mind", "pls", "plz", "now", "instead", "too", "as well", "anymore", "any more",
-    "any longer", "at all", "i dont care where", "i dont mind where", "cheers", "thx", "okay", "ok", "mate",
-    "buddy", "bro", "dude", "sir", "quickly", "again", "would you", "will you", "could you", "can you",
-    "if you would", "if you will", "thanks a lot", "if its not too much trouble", "if it is not too much trouble",
-    "right now", "right away", "immediately", "asap", "thank you very much", "thanks in advance", "if its possible",
-    "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time",
-    "from the scene", "from the map", "from the world", "from the city", "from the campus", "from town", "from the harbour", "from here",
-    "if you would be so kind", "for good", "for now", "from now on", "as soon as possible", "whenever you can", "this time",
-    "today", "right there", "once and for all", "for once", "would you please", "for heavens sake", "for gods sake", "ya", "no", "eh", "huh",
-    "right", "yeah", "man", "thank you so much", "many thanks", "much appreciated", "ta", "at once", "quick", "i guess", "i think", "i suppose", "dear",
-    "if thats ok", "if that is ok", "if thats okay", "if thats possible", "if that is possible", "if theres room", "if there is room", "if there is space",
-    "if you like", "if you please", "if you want", "somehow", "lol", "already", "first", "next", "or so", "or something", "or whatever", "you know"];
 
 /// Reads one sentence.
 #[derive(Clone, Copy)]
@@ -123,22 +84,11 @@ impl<'a> Reader<'a> {
             self.at = end;
             return Ok(vec![vec![Wish::Sky(sky)]]);
         }
-        let polite = start + self.polite_at(start);
-        if let Some(wish) = self.coated(polite, self.before_politeness(polite, end)) {
+        if let Some(made) = self.stated(start, end) {
             self.at = end;
-            return Ok(vec![vec![wish]]);
-        }
-        if let Some(wish) = self.lacking(polite, end) {
-            return Ok(vec![vec![wish]]);
+            return Ok(made);
         }
         self.at = start;
-        for begins in self.beginnings(start, end) {
-            let mood = if begins.wished { Mood::Wished } else { Mood::Plain };
-            if let Some(made) = self.says(begins.at, end, mood) {
-                self.at = end;
-                return Ok(made);
-            }
-        }
         if let Some(made) = self.place_first(end) {
             return Ok(made);
         }
@@ -165,6 +115,19 @@ impl<'a> Reader<'a> {
             || self.beginnings(start, end).into_iter().find_map(|begins| self.missing(begins.at, end));
         let refused = missing().or(refused).or(bare.err());
         Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD)))
+    }
+
+    /// What is told as a statement: what somebody lacks, and how something should be.
+    fn stated(&mut self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let polite = start + self.polite_at(start);
+        let paint = self.coated(polite, self.before_politeness(polite, end));
+        if let Some(wish) = paint.or_else(|| self.lacking(polite, end)) {
+            return Some(vec![vec![wish]]);
+        }
+        self.beginnings(start, end).into_iter().find_map(|begins| {
+            let mood = if begins.wished { Mood::Wished } else { Mood::Plain };
+            self.says(begins.at, end, mood)
+        })
     }
 
     /// The order of the first verb that stands behind small words alone, and is understood.
@@ -208,36 +171,14 @@ impl<'a> Reader<'a> {
             }
             // "Put the bench ..." moves it, "put a bench ..." makes one.
             Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
-            Verb::Put if self.is_definite(self.at) => {
-                let from = self.at;
-                match self.moves(end) {
-                    // "My castle" need not be there yet.
-                    Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
-                        self.at = from + 1;
-                        self.additions(end).map_err(|_| refused)
-                    }
-                    read => read.map(|wish| vec![wish]),
-                }
-            }
+            Verb::Put if self.is_definite(self.at) => self.puts(end),
             Verb::Put => self.additions(end),
             Verb::Move if !self.is_definite(self.at) && self.word(self.at - 1) == Some("bring") => {
                 self.additions(end)
             }
             Verb::Move => self.moves(end).map(|wish| vec![wish]),
             Verb::Take => self.take(end),
-            Verb::Remove => {
-                // "I don't want to see that cone here".
-                let stop = self.before_politeness(self.at, end);
-                let here = stop.saturating_sub(1);
-                let is_here =
-                    here > self.at && matches!(self.word(here), Some("here" | "around" | "standing"));
-                if is_here && let Ok(what) = self.things(self.at, here) {
-                    self.at = end;
-                    return Ok(vec![vec![Wish::Remove { what }]]);
-                }
-                let what = self.things_to(end)?;
-                Ok(vec![vec![Wish::Remove { what }]])
-            }
+            Verb::Remove => self.removes(end),
             Verb::Replace => self.replace(end),
             Verb::Turn => self.turns(end),
             Verb::Swap => self.swap(end),
@@ -263,6 +204,30 @@ impl<'a> Reader<'a> {
                 Err(self.not_understood("say which street: by its name, or in front of what"))
             }
         }
+    }
+
+    /// "Put the bench there"; "my castle" need not be there yet.
+    fn puts(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let from = self.at;
+        match self.moves(end) {
+            Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
+                self.at = from + 1;
+                self.additions(end).map_err(|_| refused)
+            }
+            read => read.map(|wish| vec![wish]),
+        }
+    }
+
+    /// "Remove the cone"; "I don't want to see that cone here".
+    fn removes(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let here = self.before_politeness(self.at, end).saturating_sub(1);
+        let is_here = here > self.at && matches!(self.word(here), Some("here" | "around" | "standing"));
+        let what = match if is_here { self.things(self.at, here).ok() } else { None } {
+            Some(what) => what,
+            None => self.things(self.at, end)?,
+        };
+        self.at = end;
+        Ok(vec![vec![Wish::Remove { what }]])
     }
 
     /// "I want the bench red": something is wanted of a thing that is there.

@@ -11,7 +11,7 @@ use super::super::clause::{Choice, Count, Reference, Stands, Target};
 use super::super::resolve::{Purpose, View};
 use super::places::is_pronoun;
 use super::sky::changed;
-use super::wish::{Anchor, Where, Wish};
+use super::wish::{Anchor, NewThing, Where, Wish};
 use super::{Focus, Reading, view_of};
 use crate::editing::{Edit, EditError, Stand, Stock};
 
@@ -65,23 +65,7 @@ pub(super) struct Finder<'a> {
 impl Finder<'_> {
     pub(super) fn edits(&self, wish: &Wish) -> Result<Vec<Edit>, EditError> {
         let edit = match wish {
-            Wish::Add { things, at } => {
-                if let Some(each) = self.at_each(things, at)? {
-                    return Ok(each);
-                }
-                if let Some(row) = self.lined_up(things, at)? {
-                    return Ok(vec![row]);
-                }
-                let stands = self.stands(at, &[])?;
-                let add = |thing: &super::wish::NewThing| {
-                    Ok(Edit::Add {
-                        make: thing.make(self.stock)?,
-                        count: thing.count,
-                        stands: stands.clone(),
-                    })
-                };
-                return things.iter().map(add).collect();
-            }
+            Wish::Add { things, at } => return self.added(things, at),
             Wish::Remove { what } => Edit::Remove { things: self.all(what)? },
             Wish::Move { what, at } => return self.moved(what, at),
             Wish::Replace { what, with } => {
@@ -128,12 +112,22 @@ impl Finder<'_> {
         Ok(vec![edit])
     }
 
+    fn added(&self, things: &[NewThing], at: &[Where]) -> Result<Vec<Edit>, EditError> {
+        if let Some(each) = self.at_each(things, at)? {
+            return Ok(each);
+        }
+        if let Some(row) = self.lined_up(things, at)? {
+            return Ok(vec![row]);
+        }
+        let stands = self.stands(at, &[])?;
+        let add = |thing: &NewThing| {
+            Ok(Edit::Add { make: thing.make(self.stock)?, count: thing.count, stands: stands.clone() })
+        };
+        things.iter().map(add).collect()
+    }
+
     /// "A tree in front of each house": the same for every one of them.
-    fn at_each(
-        &self,
-        things: &[super::wish::NewThing],
-        at: &[Where],
-    ) -> Result<Option<Vec<Edit>>, EditError> {
+    fn at_each(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Vec<Edit>>, EditError> {
         let is_each = |place: &Where| match place.anchor() {
             Some(Anchor::Thing(anchor)) => {
                 let several = anchor.count == Count::All && anchor.choice == Choice::Open;

@@ -92,7 +92,12 @@ impl Reader<'_> {
         let many = place.is_some_and(|place| {
             let is_many =
                 self.word(place - 1).is_some_and(|word| word.ends_with('s') && !word.ends_with("ss"));
-            is_many && !self.is_certain(at) && self.one_of(at, place).is_err() && !self.has_verb(at, place)
+            is_many
+                && !self.is_certain(at)
+                && self.one_of(at, place).is_err()
+                && !self.has_verb(at, place)
+                && super::forms::as_order(&self.lexemes[at..place]).is_none()
+                && self.names.exact(&self.lexemes[place - 1..place]).is_none()
         });
         many || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
