@@ -3,13 +3,12 @@
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
-use super::super::lexer::{Lexeme, Token, lex};
+use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::{PAINTS, Paint};
 use super::parse::Reader;
 use super::wish::Wish;
-use super::words::FACTORS;
 
 /// Between a thing and where it is to go.
 #[rustfmt::skip]

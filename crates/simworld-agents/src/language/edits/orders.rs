@@ -1,11 +1,10 @@
 //! Orders whose words stand in another order: "the bench please remove", "twice as big, the chair", "what we need is a bench".
 
-use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::forms::{as_order, word_at};
 use super::parse::Reader;
-use super::says::{Mood, is_it};
+use super::says::Mood;
 use super::wish::Wish;
 use super::words::{VERBS, Verb};
 

@@ -8,10 +8,10 @@ use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
-use super::super::paint::PAINTS;
 use super::parse::{Reader, joint};
+use super::things::ARTICLES;
 use super::wish::{Anchor, NewThing, Where, Wish};
-use super::words::{ABOUT_IT, FACTORS, SIZES, VERBS, Verb, WAYS, Way};
+use super::words::{ABOUT_IT, VERBS, Verb, WAYS, Way};
 
 /// Sides of a thing, behind a distance from it.
 const OWN_SIDES: &[(&[&str], Relation)] = &[
