@@ -39,7 +39,7 @@ const IN_USE: &[&str] = &["taken", "occupied", "in use", "used"];
 /// The least distance, with nothing or "to" something behind it.
 #[rustfmt::skip]
 const NEAR_MOST: &[&str] = &[
-    "nearest", "closest", "nearest you", "closest to you", "nearest to you", "near you", "close to you",
+    "nearest", "closest", "nearer", "closer", "nearest you", "closest to you", "nearest to you", "near you", "close to you",
     "nearby", "close by", "closest to me", "nearest to me", "near me", "near here", "nearer", "closer",
     "nearer to you", "closer to you", "next to you", "beside you", "by you", "closest to here",
     "nearest to here", "nearest here", "closest to where you are", "nearest to where you are",

@@ -4,7 +4,7 @@ use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Stands, Target, Traits};
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, written};
 use super::lexicon::{DETERMINERS, category, fits, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
@@ -214,10 +214,6 @@ impl Parser<'_> {
     }
 
     pub(super) fn text_from(&self, start: usize) -> String {
-        match self.lexemes.get(start..self.at) {
-            Some([first, .., last]) => shortened(&self.words[first.start..last.end]),
-            Some([only]) => shortened(&self.words[only.start..only.end]),
-            _ => String::new(),
-        }
+        shortened(written(self.words, self.lexemes.get(start..self.at).unwrap_or_default()))
     }
 }

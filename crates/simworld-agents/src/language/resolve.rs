@@ -56,6 +56,8 @@ pub(super) struct View<'a> {
     pub(super) policy: AmbiguityPolicy,
     /// The names of streets, where the scene is spoken of and not what somebody is to do in it.
     pub(super) streets: Option<&'a StreetNames>,
+    /// What is near, as answers say it, where the scene is spoken of: it is looked for once a sentence.
+    pub(super) told: std::cell::OnceCell<String>,
 }
 
 /// Whether goods of that name are sold there.
@@ -83,6 +85,7 @@ impl<'a> View<'a> {
             gone: Vec::new(),
             speaker: None,
             policy,
+            told: std::cell::OnceCell::new(),
             streets: None,
         }
     }
@@ -395,6 +398,13 @@ impl<'a> View<'a> {
 
     /// What is near, with distances, for answers.
     pub(super) fn surroundings(&self) -> String {
+        match self.streets {
+            Some(_) => self.told.get_or_init(|| self.look_around()).clone(),
+            None => self.look_around(),
+        }
+    }
+
+    fn look_around(&self) -> String {
         /// How far, m, and how many things are listed.
         const NEAR: f64 = 100.0;
         const MOST: usize = 4;

@@ -3,7 +3,7 @@
 use simworld_core::seam::PlanError;
 
 use super::clause::Target;
-use super::lexer::{Lexeme, Token, lex};
+use super::lexer::{Lexeme, Token, lex, written};
 use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
@@ -30,7 +30,19 @@ impl<'a> Parser<'a> {
             (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
             (guess, _) => (guess, phrase),
         };
-        let said = shortened(&self.words[phrase[0].start..phrase[phrase.len() - 1].end]);
+        let said = shortened(written(self.words, phrase));
+        // "The bookshop" sells books.
+        if let (Guess::Nothing(_), Token::Word(word)) = (&guess, &phrase[0].token)
+            && let Some(goods) =
+                ["shop", "store", "stall", "stand"].iter().find_map(|shop| word.strip_suffix(shop))
+            && goods.len() > 2
+        {
+            let sellers = self.names.sellers(goods);
+            if !sellers.is_empty() {
+                self.at += 1;
+                return Ok(Target::Named(sellers));
+            }
+        }
         match guess {
             Guess::Named(ids) => {
                 self.at += phrase.len();
