@@ -1,7 +1,7 @@
 //! What lies where in the plane, for things that come and go in every step: a grid of which only the cells are kept that hold
 //! something. Asking for what is near costs what is near, however much there is in all.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use simworld_core::geometry::{Point2, Vector2};
 
@@ -13,8 +13,8 @@ const END: u32 = u32::MAX;
 pub(crate) struct Cells<T> {
     /// Width of a cell, m.
     width: f64,
-    /// The last entry of each cell; asked by key alone, so its order is never seen.
-    last: HashMap<(i64, i64), u32>,
+    /// The last entry of each cell.
+    last: BTreeMap<(i64, i64), u32>,
     /// Each with the entry of its cell that was put in before it.
     entries: Vec<(T, u32)>,
 }
@@ -22,7 +22,7 @@ pub(crate) struct Cells<T> {
 impl<T> Cells<T> {
     /// Nothing, in cells of this width, m: best twice as wide as one looks around.
     pub(crate) fn new(width: f64) -> Self {
-        Self { width, last: HashMap::new(), entries: Vec::new() }
+        Self { width, last: BTreeMap::new(), entries: Vec::new() }
     }
 
     /// Forgets everything but the memory.
@@ -44,8 +44,10 @@ impl<T> Cells<T> {
         let span = |from: i64, to: i64| i128::from(to) - i128::from(from) + 1;
         // Of a box of more cells than there are things, all are looked at instead.
         let is_wide = span(left, right).saturating_mul(span(bottom, top)) > self.entries.len() as i128;
-        let (all, rows) = if is_wide { (self.entries.as_slice(), 1..=0) } else { (&[][..], bottom..=top) };
-        let cells = rows.flat_map(move |row| (left..=right).map(move |column| (column, row)));
+        let all = if is_wide { self.entries.as_slice() } else { &[] };
+        let rows = (!is_wide).then_some(bottom..=top);
+        let cells =
+            rows.into_iter().flatten().flat_map(move |row| (left..=right).map(move |column| (column, row)));
         let found = cells.flat_map(move |cell| {
             let mut next = self.last.get(&cell).copied().unwrap_or(END);
             std::iter::from_fn(move || {

@@ -107,7 +107,9 @@ mod tests {
                     ..disc(rng.uniform(-9.0, 9.0), rng.uniform(-9.0, 9.0))
                 })
                 .collect();
-            all.iter().for_each(|claim| claims.take(*claim));
+            for claim in &all {
+                claims.take(*claim);
+            }
             let room = disc(rng.uniform(-9.0, 9.0), rng.uniform(-9.0, 9.0));
             let step = Vector3::new(rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0), 0.0);
             let expected =

@@ -64,6 +64,31 @@ const ELSE: &[&str] = &[
     "if thats not the case", "if that is not the case", "in the other case",
 ];
 
+/// What is done if what was asked is so, and if it is not.
+const SO: &[&str] = &[
+    "if so",
+    "if yes",
+    "in that case",
+    "if it is",
+    "if they are",
+    "if he is",
+    "if she is",
+    "then",
+    "if there is",
+    "if it does",
+];
+const NOT_SO: &[&str] = &[
+    "if not",
+    "if it isnt",
+    "if it is not",
+    "if its not",
+    "if no",
+    "if there isnt",
+    "if there is not",
+    "if he isnt",
+    "if she isnt",
+];
+
 impl Parser<'_> {
     /// A block, if one begins here.
     pub(super) fn block(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
@@ -90,29 +115,6 @@ impl Parser<'_> {
         }
         if let Some(test) = self.asked() {
             self.skip_joints();
-            const SO: &[&str] = &[
-                "if so",
-                "if yes",
-                "in that case",
-                "if it is",
-                "if they are",
-                "if he is",
-                "if she is",
-                "then",
-                "if there is",
-                "if it does",
-            ];
-            const NOT_SO: &[&str] = &[
-                "if not",
-                "if it isnt",
-                "if it is not",
-                "if its not",
-                "if no",
-                "if there isnt",
-                "if there is not",
-                "if he isnt",
-                "if she isnt",
-            ];
             let not = self.eat_any(NOT_SO);
             if not || self.eat_any(SO) {
                 let test = if not { Test::Not(Box::new(test)) } else { test };
@@ -350,7 +352,7 @@ impl Parser<'_> {
                 "cannot", "hasnt", "has not", "havent", "wont", "aint",
             ]);
         self.eat_any(&["so", "there", "the case", "any"]);
-        if denied && self.ends_at_mark() || denied && longest_verb(self.rest()).is_some() {
+        if denied && (self.ends_at_mark() || longest_verb(self.rest()).is_some()) {
             return true;
         }
         self.at = start;

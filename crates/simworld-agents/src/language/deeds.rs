@@ -10,7 +10,7 @@ use simworld_core::geometry::{Point3, heading};
 use simworld_core::id::EntityId;
 use simworld_core::seam::{Goal, PlanError, PlanStep};
 
-impl<'a> Draft<'a> {
+impl Draft<'_> {
     pub(super) fn face(&mut self, what: &Reference) -> Result<(), PlanError> {
         self.can(ActionKind::Rotate)?;
         let to = self.goal(what)?;

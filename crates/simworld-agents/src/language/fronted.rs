@@ -47,15 +47,12 @@ impl Parser<'_> {
         };
         self.skip_joints();
         let mut clauses = vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }];
-        match self.statement() {
-            Ok(more) => {
-                clauses.extend(more);
-                Some(clauses)
-            }
-            Err(_) => {
-                self.at = start;
-                None
-            }
+        if let Ok(more) = self.statement() {
+            clauses.extend(more);
+            Some(clauses)
+        } else {
+            self.at = start;
+            None
         }
     }
 

@@ -281,7 +281,7 @@ impl Parser<'_> {
         {
             return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
         }
-        return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
+        Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""))
     }
 
     /// "Move the letter to the clinic" is about the letter.

@@ -56,12 +56,11 @@ impl Parser<'_> {
 
     /// "The white one": no modifier, but what stands for a noun.
     fn stands_for_noun(&self) -> bool {
-        let one = (self.class.is_some() || self.bearers.is_some())
+        (self.class.is_some() || self.bearers.is_some())
             && longest_phrase(self.rest(), &["one", "ones"]).is_some()
             && category(self.rest().get(1..).unwrap_or_default()).is_none()
             && longest_phrase(self.rest().get(1..).unwrap_or_default(), OF_SEVERAL).is_none()
-            && longest_phrase(self.rest(), &["one of the", "one of"]).is_none();
-        one
+            && longest_phrase(self.rest(), &["one of the", "one of"]).is_none()
     }
 
     /// How many, and whether a certain one.

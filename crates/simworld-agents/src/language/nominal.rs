@@ -24,20 +24,24 @@ const TURNS: &[(&[&str], Turn)] = &[
     Turn::Straight),
 ];
 
+/// Reads one kind of such orders; nothing where it is none.
+type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
+
 impl Parser<'_> {
     /// An order in nouns alone.
     pub(super) fn nominal(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
         self.skip_fillers();
-        for rule in [
+        let rules: [Rule<'_>; 7] = [
             Self::counted_deeds,
-            Self::turning,
+            |parser| Ok(parser.turning()),
             Self::measured_way,
-            Self::up_and_down,
+            |parser| Ok(parser.up_and_down()),
             Self::rounds,
             Self::wanted_goods,
             Self::destination,
-        ] {
+        ];
+        for rule in rules {
             let at = self.at;
             if let Some(clauses) = rule(self)? {
                 return Ok(Some(clauses));
@@ -93,29 +97,25 @@ impl Parser<'_> {
     }
 
     /// "Next left", "left at the lights", "straight over the crossing after it".
-    fn turning(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+    fn turning(&mut self) -> Option<Vec<Clause>> {
         let another = self.eat_any(&["another", "one more"]);
         self.eat_any(&["the", "a", "then"]);
         let nth = if self.eat_any(&["next", "very next"]) { Some(1) } else { numbers::ordinal(self.rest()) };
         self.at += usize::from(numbers::ordinal(self.rest()).is_some());
         self.eat_any(&["turning", "turn", "street", "road"]);
-        let Some((turn, words)) = super::lexicon::longest(self.rest(), TURNS) else { return Ok(None) };
+        let (turn, words) = super::lexicon::longest(self.rest(), TURNS)?;
         self.at += words;
         self.eat_any(&["again", "turn"]);
         if let Some((nth, lights)) = self.junction_passed().or_else(|| self.junction()) {
-            return Ok(Some(vec![Clause::TurnAt { turn, nth, lights }]));
+            return Some(vec![Clause::TurnAt { turn, nth, lights }]);
         }
         if !self.ends_clause() || turn == Turn::Straight && nth.is_none() {
-            return Ok(None);
+            return None;
         }
         let drives = self.view.scene.entity(self.view.who).is_some_and(|me| me.kind.is_vehicle());
-        Ok(match (nth, turn) {
-            (None, _) if another => Some(vec![Clause::TurnAt { turn, nth: 1, lights: Lights::Any }]),
-            (Some(nth), _) => Some(vec![Clause::TurnAt { turn, nth, lights: Lights::Any }]),
-            (None, Turn::Left) if drives => Some(vec![Clause::TurnAt { turn, nth: 1, lights: Lights::Any }]),
-            (None, Turn::Right) if drives => Some(vec![Clause::TurnAt { turn, nth: 1, lights: Lights::Any }]),
-            _ => None,
-        })
+        // Who walks and says "left" turns where it stands; who drives takes the next street.
+        let nth = nth.or((another || drives && matches!(turn, Turn::Left | Turn::Right)).then_some(1))?;
+        Some(vec![Clause::TurnAt { turn, nth, lights: Lights::Any }])
     }
 
     /// "Over the crossing after it", "across the junction": which junction is passed straight on.
@@ -184,15 +184,15 @@ impl Parser<'_> {
     }
 
     /// "Down and up again": to sit and to stand.
-    fn up_and_down(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+    fn up_and_down(&mut self) -> Option<Vec<Clause>> {
         let clause = if self.eat_any(&["down", "down again", "back down"]) {
             Clause::Sit { on: None }
         } else if self.eat_any(&["up", "up again", "back up", "on your feet"]) {
             Clause::StandUp
         } else {
-            return Ok(None);
+            return None;
         };
-        Ok(self.ends_clause().then(|| vec![clause]))
+        self.ends_clause().then(|| vec![clause])
     }
 
     /// "A coffee, please", "soup from the Blue Spoon first".

@@ -228,31 +228,8 @@ impl Parser<'_> {
                 self.back_and_forth(Pace::Usual)
             }
             Verb::Count => self.count_up(),
-            Verb::Cross => {
-                self.eat_any(&["the", "this", "over"]);
-                self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
-                self.eat_any(&["to the other side", "over", "at the crossing", "at the crosswalk"]);
-                self.eat_any(&["of the street", "of the road", "of the crossing"]);
-                one(Clause::Cross)
-            }
-            Verb::Follow if self.ends_clause() && self.view.speaker.is_some() => {
-                let whom =
-                    self.view.speaker.map(|speaker| Reference::to(Target::Id(speaker), "me".to_owned()));
-                whom.map(|whom| vec![Clause::Follow { whom, pace: Pace::Usual }])
-                    .ok_or_else(|| self.not_understood("say whom"))
-            }
-            Verb::Follow => {
-                let whom = self.reference(0)?;
-                // "Stay close to the statue" is about staying.
-                let stays = ["stay", "keep", "stick", "remain"]
-                    .iter()
-                    .any(|word| fits(&self.lexemes[start..], word).is_some());
-                if stays && !self.moves_about(&whom) {
-                    return one(Clause::Go { to: whom, side: None, pace: Pace::Usual, within: None });
-                }
-                self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
-                one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
-            }
+            Verb::Cross => Ok(vec![self.across_the_street()]),
+            Verb::Follow => self.follow(start).map(|clause| vec![clause]),
             Verb::Take => self.take(start),
             Verb::Deliver
                 if self.eat_any(&[
@@ -290,61 +267,11 @@ impl Parser<'_> {
             Verb::Turn => self.turn().map(|turn| vec![turn]),
             Verb::Look => self.look().map(|look| vec![look]),
             Verb::Face => self.face().map(|face| vec![face]),
-            Verb::Point => {
-                self.eat_any(&[
-                    "at",
-                    "to",
-                    "towards",
-                    "out",
-                    "over at",
-                    "over to",
-                    "your finger at",
-                    "up at",
-                    "in the direction of",
-                    "out to me",
-                    "me to",
-                ]);
-                one(Clause::Point { at: self.reference(0)? })
-            }
-            Verb::Wave => {
-                self.eat_any(&[
-                    "at",
-                    "to",
-                    "over at",
-                    "over to",
-                    "hello to",
-                    "goodbye to",
-                    "hi to",
-                    "across to",
-                    "back at",
-                    "hello at",
-                    "towards",
-                    "in the direction of",
-                    "your hand at",
-                    "your hand to",
-                    "hand to",
-                    "hands to",
-                    "your hand",
-                ]);
-                let it = Reference::to(Target::It, "it".to_owned());
-                one(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
-            }
+            Verb::Point => self.point_out().map(|clause| vec![clause]),
+            Verb::Wave => self.wave().map(|clause| vec![clause]),
             Verb::Talk | Verb::Greet | Verb::Say | Verb::Tell | Verb::Argue => self.speak(verb),
-            Verb::Open | Verb::Close => {
-                let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
-                let what = what.map(Reference::but_behind);
-                self.eat_any(&["up", "for me", "again", "behind you"]);
-                one(Clause::Door { what, open: verb == Verb::Open })
-            }
-            Verb::Photo => {
-                let times = self.number_of_photos();
-                let shoots = fits(&self.lexemes[start..self.at], "shoot").is_some();
-                if shoots && times == 0 {
-                    return Err(self.not_understood("say what to take a photo of"));
-                }
-                let times = times.max(1);
-                self.photo(times)
-            }
+            Verb::Open | Verb::Close => self.door(verb == Verb::Open).map(|clause| vec![clause]),
+            Verb::Photo => self.photos(start),
             Verb::Faster | Verb::Slower if self.eat_any(&["to"]) => {
                 one(Clause::Speed { speed: self.speed()? })
             }
@@ -358,6 +285,95 @@ impl Parser<'_> {
                 one(Clause::Speed { speed })
             }
         }
+    }
+
+    /// "Cross the road to the other side at the crossing".
+    fn across_the_street(&mut self) -> Clause {
+        self.eat_any(&["the", "this", "over"]);
+        self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
+        self.eat_any(&["to the other side", "over", "at the crossing", "at the crosswalk"]);
+        self.eat_any(&["of the street", "of the road", "of the crossing"]);
+        Clause::Cross
+    }
+
+    /// "Follow me", "stay close to the statue".
+    fn follow(&mut self, start: usize) -> Result<Clause, PlanError> {
+        if let Some(speaker) = self.view.speaker.filter(|_| self.ends_clause()) {
+            let whom = Reference::to(Target::Id(speaker), "me".to_owned());
+            return Ok(Clause::Follow { whom, pace: Pace::Usual });
+        }
+        let whom = self.reference(0)?;
+        // "Stay close to the statue" is about staying.
+        let stays = ["stay", "keep", "stick", "remain"]
+            .iter()
+            .any(|word| fits(&self.lexemes[start..], word).is_some());
+        if stays && !self.moves_about(&whom) {
+            return Ok(Clause::Go { to: whom, side: None, pace: Pace::Usual, within: None });
+        }
+        self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
+        Ok(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
+    }
+
+    /// "Point out to me the red car".
+    fn point_out(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&[
+            "at",
+            "to",
+            "towards",
+            "out",
+            "over at",
+            "over to",
+            "your finger at",
+            "up at",
+            "in the direction of",
+            "out to me",
+            "me to",
+        ]);
+        Ok(Clause::Point { at: self.reference(0)? })
+    }
+
+    /// "Wave your hand at Ben".
+    fn wave(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&[
+            "at",
+            "to",
+            "over at",
+            "over to",
+            "hello to",
+            "goodbye to",
+            "hi to",
+            "across to",
+            "back at",
+            "hello at",
+            "towards",
+            "in the direction of",
+            "your hand at",
+            "your hand to",
+            "hand to",
+            "hands to",
+            "your hand",
+        ]);
+        let it = Reference::to(Target::It, "it".to_owned());
+        Ok(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
+    }
+
+    /// "Open the door for me", "close it behind you".
+    fn door(&mut self, open: bool) -> Result<Clause, PlanError> {
+        let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
+        let what = what.map(Reference::but_behind);
+        self.eat_any(&["up", "for me", "again", "behind you"]);
+        Ok(Clause::Door { what, open })
+    }
+
+    /// "Take two photos of the fountain".
+    fn photos(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
+        let times = self.number_of_photos();
+        let shoots = fits(&self.lexemes[start..self.at], "shoot").is_some();
+        if shoots && times == 0 {
+            return Err(self.not_understood("say what to take a photo of"));
+        }
+        let times = times.max(1);
+        self.photo(times)
     }
 
     /// "Stand behind the statue", "stand halfway between": where to stand, and not to get up.

@@ -78,8 +78,8 @@ fn active(said: &[Lexeme]) -> Option<Vec<Lexeme>> {
 
 /// The verb, then who or what it is about, then the rest.
 fn in_order(about: &[Lexeme], rest: &[Lexeme]) -> Option<Vec<Lexeme>> {
-    let (verb, words) = verb(rest)?;
     const OTHERS: &[&str] = &["if", "you", "that", "when", "i", "we", "because", "who", "which", "it's"];
+    let (verb, words) = verb(rest)?;
     if about.is_empty() || about.iter().any(|lexeme| OTHERS.iter().any(|word| is_word(lexeme, word))) {
         return None;
     }

@@ -264,10 +264,9 @@ impl<'a> View<'a> {
     fn of_class(&self, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
         let spared = usize::from(reference.except.is_some());
         let (enough, first) = match (reference.choice, reference.count) {
-            (_, Count::All) => (usize::MAX, ALL_WITHIN),
-            (Choice::Farthest | Choice::Most(..) | Choice::Compass(_), _) => (usize::MAX, self.range),
             // Of those about, and not of all in the city.
-            (Choice::Side(_) | Choice::Middle, _) => (usize::MAX, ALL_WITHIN),
+            (_, Count::All) | (Choice::Side(_) | Choice::Middle, _) => (usize::MAX, ALL_WITHIN),
+            (Choice::Farthest | Choice::Most(..) | Choice::Compass(_), _) => (usize::MAX, self.range),
             (Choice::Nth(nth), _) => (nth as usize + spared, FIRST_LOOK),
             (_, Count::Exactly(count)) => (count as usize + spared, FIRST_LOOK),
             _ => (1 + spared, FIRST_LOOK),

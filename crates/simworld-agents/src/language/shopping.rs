@@ -139,7 +139,7 @@ impl Parser<'_> {
                 || *known == "loaf" && word == "loaves"
         };
         let of = longest_phrase(self.rest().get(1..)?, &["of"])?;
-        VESSELS.iter().any(|known| is_vessel(&known)).then_some(1 + of)
+        VESSELS.iter().any(is_vessel).then_some(1 + of)
     }
 
     /// Whoever gets it, before what he gets: "fetch Gus a newspaper".

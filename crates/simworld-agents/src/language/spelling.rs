@@ -231,9 +231,9 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
         let frequent = |candidate: &&str| FREQUENT.contains(candidate);
         let one_of = |fits: &dyn Fn(&&str) -> bool| best.iter().filter(|word| fits(word)).count() == 1;
         if one_of(&frequent) {
-            best.retain(|word| frequent(&word));
+            best.retain(|word| frequent(word));
         } else if one_of(&longer) {
-            best.retain(|word| longer(&word));
+            best.retain(|word| longer(word));
         }
     }
     match best[..] {

@@ -307,6 +307,11 @@ impl Parser<'_> {
 
     /// About a thing: "the chair is free", "Anna arrives".
     fn thing_is(&mut self) -> Result<Option<Test>, PlanError> {
+        #[rustfmt::skip]
+        const BE: &[&str] = &[
+            "is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become",
+            "remains", "stays", "sits", "turns out to be", "comes",
+        ];
         let speaker = self.view.speaker.filter(|_| self.eat_any(&["i", "we"]));
         let what = match speaker {
             Some(speaker) => Reference::to(Target::Id(speaker), "me".to_owned()),
@@ -330,11 +335,6 @@ impl Parser<'_> {
         if let Some(test) = self.light_of(&what) {
             return Ok(Some(test));
         }
-        #[rustfmt::skip]
-        const BE: &[&str] = &[
-            "is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become",
-            "remains", "stays", "sits", "turns out to be", "comes",
-        ];
         if !self.eat_any(BE) {
             return Ok(None);
         }

@@ -75,25 +75,22 @@ impl Parser<'_> {
     pub(super) fn weather(&mut self) -> Option<Test> {
         let start = self.at;
         let found = self.of_sky();
-        match found {
-            Some((sky, holds)) => {
-                self.eat_any(&[
-                    "outside",
-                    "any more",
-                    "anymore",
-                    "any longer",
-                    "again",
-                    "out",
-                    "out there",
-                    "already",
-                    "yet",
-                ]);
-                Some(test(sky, holds))
-            }
-            None => {
-                self.at = start;
-                None
-            }
+        if let Some((sky, holds)) = found {
+            self.eat_any(&[
+                "outside",
+                "any more",
+                "anymore",
+                "any longer",
+                "again",
+                "out",
+                "out there",
+                "already",
+                "yet",
+            ]);
+            Some(test(sky, holds))
+        } else {
+            self.at = start;
+            None
         }
     }
 

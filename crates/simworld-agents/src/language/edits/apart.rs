@@ -136,18 +136,9 @@ impl Reader<'_> {
             }
             let what = self.one_of(from, cut).ok()?;
             let mut reader = Reader { at: with, ..self.up_to(end) };
-            let with =
-                reader.new_thing(end).ok().filter(|with| reader.at >= end && self.is_some_thing(with))?;
+            let with = reader.new_thing(end).ok().filter(|with| reader.at >= end && is_some_thing(with))?;
             Some(Wish::Replace { what, with })
         })
-    }
-
-    /// Whether the words name a thing that can be made, as far as nouns tell: "half its size" is none.
-    fn is_some_thing(&self, thing: &NewThing) -> bool {
-        #[rustfmt::skip]
-        const NONE: &[&str] = &["size", "bit", "lot", "turn", "degrees", "percent", "side", "times", "place", "spot", "it", "way", "half", "quarter", "third",
-            "copy", "little", "metre", "metres", "meter", "meters", "while", "colour", "color", "name", "where", "near", "shade"];
-        !thing.words.iter().any(|word| NONE.contains(&word.as_str()))
     }
 
     /// "A bin instead of the bench", "where the bike is, a motorbike should be instead".
@@ -254,4 +245,12 @@ impl Reader<'_> {
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
     let lists = [TAKES, AWAY, COATS, SPLASH, COAT, INSTEAD_OF, BECOMES, CHANGES, KEEPS];
     lists.into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+}
+
+/// Whether the words name a thing that can be made, as far as nouns tell: "half its size" is none.
+fn is_some_thing(thing: &NewThing) -> bool {
+    #[rustfmt::skip]
+    const NONE: &[&str] = &["size", "bit", "lot", "turn", "degrees", "percent", "side", "times", "place", "spot", "it", "way", "half", "quarter", "third",
+        "copy", "little", "metre", "metres", "meter", "meters", "while", "colour", "color", "name", "where", "near", "shade"];
+    !thing.words.iter().any(|word| NONE.contains(&word.as_str()))
 }

@@ -3,7 +3,6 @@
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
-use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::{PAINTS, Paint};

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use super::super::lexer::Token;
-use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::lexicon::{category, longest_phrase};
 use super::parse::Reader;
 
 /// The longest preamble, in words.
@@ -79,9 +79,8 @@ impl Reader<'_> {
                 words
             } else if let Some(words) = (at == start).then(|| self.circumstance(at, end)).flatten() {
                 words
-            } else if matches!(rest[0].token, Token::Comma) && at > start {
-                1
-            } else if self.word(at).is_some_and(|word| WORDS.contains(word) && !(word == "if" && at == start))
+            } else if matches!(rest[0].token, Token::Comma) && at > start
+                || self.word(at).is_some_and(|word| WORDS.contains(word) && !(word == "if" && at == start))
             {
                 1
             } else {

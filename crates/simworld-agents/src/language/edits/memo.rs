@@ -10,11 +10,14 @@ use super::super::clause::Reference;
 /// As many phrases are looked up for one sentence; who says more is not understood. A phrase takes some 20 µs.
 const MOST: u32 = 500;
 
-/// Answers by the text that the words are of, and by where they stand in it.
+/// The text that words are of, and where they begin and end in it.
+type Words = (u32, usize, usize);
+
+/// Answers by the words that were asked about.
 #[derive(Default)]
 pub(super) struct Memo {
-    things: RefCell<BTreeMap<(u32, usize, usize), Result<Reference, PlanError>>>,
-    places: RefCell<BTreeMap<(u32, usize, usize), bool>>,
+    things: RefCell<BTreeMap<Words, Result<Reference, PlanError>>>,
+    places: RefCell<BTreeMap<Words, bool>>,
     texts: Cell<u32>,
     asked: Cell<u32>,
 }
@@ -34,7 +37,7 @@ impl Memo {
     /// What words name.
     pub(super) fn thing(
         &self,
-        key: (u32, usize, usize),
+        key: Words,
         find: impl FnOnce() -> Result<Reference, PlanError>,
     ) -> Result<Reference, PlanError> {
         if let Some(known) = self.things.borrow().get(&key) {
@@ -47,7 +50,7 @@ impl Memo {
     }
 
     /// Whether a place begins somewhere.
-    pub(super) fn place(&self, key: (u32, usize, usize), find: impl FnOnce() -> bool) -> bool {
+    pub(super) fn place(&self, key: Words, find: impl FnOnce() -> bool) -> bool {
         if let Some(known) = self.places.borrow().get(&key) {
             return *known;
         }

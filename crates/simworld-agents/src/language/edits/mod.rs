@@ -142,8 +142,7 @@ fn wishes_of(
     let in_parts = reader.in_parts(&is_known, &is_there);
     match (plain, in_parts) {
         (_, Some(wishes)) if is_there(&wishes) => Ok(wishes),
-        (Ok(wishes), _) => Ok(wishes),
-        (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
+        (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
             let unknown = || reader.in_parts(&|_| true, &|_| true);
             reader.complaint().or_else(unknown).ok_or(error)

@@ -2,7 +2,7 @@
 
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
-use super::forms::{as_order, word_at};
+use super::forms::as_order;
 use super::parse::Reader;
 use super::says::Mood;
 use super::wish::Wish;

@@ -10,7 +10,7 @@ use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::parse::{Reader, joint};
 use super::things::ARTICLES;
-use super::wish::{Anchor, NewThing, Where, Wish};
+use super::wish::{Anchor, Where, Wish};
 use super::words::{ABOUT_IT, VERBS, Verb, WAYS, Way};
 
 /// Sides of a thing, behind a distance from it.

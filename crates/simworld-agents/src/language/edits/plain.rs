@@ -12,6 +12,16 @@ const ADVERBS: &[&str] = &["really", "definitely", "certainly", "absolutely", "t
 /// Where a name may follow, which is any word.
 const CALLS: &[&str] = &["call", "name", "rename", "christen", "label", "title", "called", "named"];
 
+/// What "more" makes of a word.
+#[rustfmt::skip]
+const MORE: &[(&str, &str)] = &[("small", "smaller"), ("big", "bigger"), ("large", "larger"), ("tall", "taller"), ("high", "higher"), ("little", "smaller"),
+    ("short", "shorter"), ("close", "closer"), ("tiny", "smaller"), ("huge", "bigger")];
+/// Words that slip in twice.
+const TWICE: &[&str] = &[
+    "far", "very", "really", "so", "please", "much", "way", "the", "a", "right", "next", "big", "to", "of",
+    "and", "long",
+];
+
 /// A word twice in a row says no more than once, and "more small" is "smaller".
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     contractions(words, lexemes);
@@ -22,13 +32,6 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
         lexemes
             .retain(|lexeme| !matches!(&lexeme.token, Token::Word(word) if ADVERBS.contains(&word.as_str())));
     }
-    #[rustfmt::skip]
-    const MORE: &[(&str, &str)] = &[("small", "smaller"), ("big", "bigger"), ("large", "larger"), ("tall", "taller"), ("high", "higher"), ("little", "smaller"),
-        ("short", "shorter"), ("close", "closer"), ("tiny", "smaller"), ("huge", "bigger")];
-    const TWICE: &[&str] = &[
-        "far", "very", "really", "so", "please", "much", "way", "the", "a", "right", "next", "big", "to",
-        "of", "and", "long",
-    ];
     let is = |lexeme: &Lexeme, word: &str| matches!(&lexeme.token, Token::Word(own) if own == word);
     let mut at = 1;
     while at < lexemes.len() {

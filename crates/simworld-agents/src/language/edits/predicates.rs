@@ -79,7 +79,7 @@ impl Reader<'_> {
         end: usize,
     ) -> Option<Vec<Vec<Wish>>> {
         let at = self.at;
-        let rest = self.rest(end);
+        let _rest = self.rest(end);
         let one = |wish| Some(vec![vec![wish]]);
         match subject {
             Subject::There => self.all_added(at, end),

@@ -254,14 +254,14 @@ impl<'a> Reader<'a> {
 
     /// Whether words name somebody, and nothing that is in the scene: no order, no number, no place.
     fn is_nobody_here(&self, from: usize, cut: usize) -> bool {
+        #[rustfmt::skip]
+        const DENIES: &[&str] = &["nobody", "noone", "not", "no", "never", "none", "if", "unless", "dont", "doesnt"];
         let is_word = |at: usize| {
             self.word(at).is_some()
                 && !self.is_place(at)
                 && longest(&self.lexemes[at..cut], super::words::VERBS)
                     .is_none_or(|(verb, _)| matches!(verb, Verb::Name | Verb::Describe | Verb::List))
         };
-        #[rustfmt::skip]
-        const DENIES: &[&str] = &["nobody", "noone", "not", "no", "never", "none", "if", "unless", "dont", "doesnt"];
         (from..cut).all(is_word)
             && (from..cut).all(|at| self.word(at).is_none_or(|word| !DENIES.contains(&word)))
             && self.one_of(from, cut).is_err()
@@ -280,8 +280,8 @@ impl<'a> Reader<'a> {
             let what = self.things(from, cut).ok()?;
             let mark = usize::from(super::parts::is_mark(&self.lexemes[cut]));
             let rest = Reader { at: (cut + mark).min(end), ..self.up_to(end) };
-            let wish = rest.predicate(&Subject::Things(what), (from, cut), end);
-            wish
+
+            rest.predicate(&Subject::Things(what), (from, cut), end)
         })
     }
 
