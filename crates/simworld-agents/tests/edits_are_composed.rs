@@ -64,7 +64,6 @@ fn new_things_are_asked_for_in_many_ways() {
         "B I want A",
         "B there should be A",
         "B, please put A",
-        "please B A put",
         "I suggest adding A B",
         "let's have A B because people asked for it",
         "everyone is complaining. A B, please!",

@@ -32,7 +32,8 @@ fn answer(request: &ChatRequest) -> ChatReply {
         return ChatReply::of(r#"{"thought": "I work off what I have, and bid for what pays best."}"#);
     };
     let texts = request.messages.iter().flat_map(|message| &message.content);
-    let mut texts = texts.filter_map(|part| if let Part::Text(text) = part { Some(text.as_str()) } else { None });
+    let mut texts =
+        texts.filter_map(|part| if let Part::Text(text) = part { Some(text.as_str()) } else { None });
     let prompt = texts.next_back().unwrap_or_default();
     let branches = Branches(&schema.json["properties"]["deed"]);
     let deed = Shift::read(prompt).and_then(|shift| shift.deed(&branches));
