@@ -13,6 +13,7 @@ pub mod evaluation;
 pub mod event;
 pub mod geometry;
 pub mod grid;
+pub mod ground;
 pub mod hash;
 pub mod id;
 pub mod intent;

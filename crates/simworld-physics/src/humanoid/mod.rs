@@ -1,6 +1,7 @@
 //! A person on foot or on a scooter, or a dog: what it is told and in what state it is. How it moves is in `walk`.
 
 mod actions;
+mod surface;
 mod walk;
 
 pub(crate) use walk::SKIN;

@@ -27,7 +27,7 @@ pub(crate) const SKIN: f64 = 0.02;
 /// Free width that a person needs on a step to take it, m.
 const TREAD: f64 = 0.1;
 /// How close something must be for the character controller to be asked, beyond the way of a substep, m.
-const NEARBY: f64 = 0.1;
+pub(super) const NEARBY: f64 = 0.1;
 /// How far the soles of someone standing on the ground may be off it, m.
 const LEVEL: f64 = 1e-3;
 /// Height from which the ground is looked for, m.
@@ -54,7 +54,7 @@ impl Humanoid {
         }
     }
 
-    fn controller(around: &Surroundings<'_>) -> KinematicCharacterController {
+    pub(super) fn controller(around: &Surroundings<'_>) -> KinematicCharacterController {
         let config = around.config();
         KinematicCharacterController {
             up: Vector::Z,
@@ -146,7 +146,7 @@ impl Humanoid {
 /// How far down it is to what carries a walker within a step's height, m; negative if it is a little up.
 ///
 /// A cast that starts at the very gap it looks for misses now and then, so it starts above.
-fn drop_to_support(
+pub(super) fn drop_to_support(
     solid: &dyn Shape,
     pose: &RapierPose,
     step_height: f64,
@@ -166,7 +166,7 @@ fn drop_to_support(
 
 /// What is close to a body.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Company {
+pub(super) enum Company {
     /// Nothing but the ground.
     Alone,
     /// Something within reach.
@@ -177,7 +177,7 @@ enum Company {
 
 impl Company {
     /// Who is within `reach` m of the box around a solid.
-    fn of(solid: &dyn Shape, pose: &RapierPose, reach: f64, queries: &QueryPipeline<'_>) -> Self {
+    pub(super) fn of(solid: &dyn Shape, pose: &RapierPose, reach: f64, queries: &QueryPipeline<'_>) -> Self {
         let mut aabb = solid.compute_aabb(pose);
         aabb.mins -= Vector::splat(reach);
         aabb.maxs += Vector::splat(reach);
@@ -220,6 +220,10 @@ impl PhysicsBody for Humanoid {
         let wish = self.intend(around.config().gravity, dt);
         let Some(collider) = around.collider() else { return };
         let (solid, body_from_solid) = (collider.shape(), body_from(collider));
+        if let Some(surface) = around.surface() {
+            self.motion.planned = self.on_surface(surface, around, &wish, dt);
+            return;
+        }
         let queries = around.queries();
         let start = to_pose(&pose_facing(self.state.pose.translation.vector.into(), self.motion.yaw));
         let reach = wish.norm() + NEARBY;
