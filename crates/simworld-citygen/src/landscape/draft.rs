@@ -169,12 +169,11 @@ impl Draft {
             };
             let places = surveyor.places(near);
             let found = if surveyor.trails.lines().is_empty() && self.network.roads.is_empty() {
-                let from = surveyor.places(|place| Some((place - start).norm()));
-                from.first().and_then(|from| places.iter().find(|place| surveyor.join(*from, **place)))
+                surveyor.begin(start, &places)
             } else {
-                places.iter().find(|place| surveyor.lead(**place).is_some())
+                places.into_iter().find(|place| surveyor.lead(*place).is_some())
             };
-            shores.push(*found.ok_or_else(|| no_place(&format!("a way to the {}", basin.water.as_str())))?);
+            shores.push(found.ok_or_else(|| no_place(&format!("a way to the {}", basin.water.as_str())))?);
         }
         if spec.kind == SceneKind::Island {
             self.ring(surveyor);

@@ -75,19 +75,33 @@ impl<'a> Surveyor<'a> {
         })
     }
 
-    /// Places for something, the best first: where `rank` gives a number, the less the better.
+    /// Places for something to which ways lead from the roads and trails that there are, the best first: where `rank` gives a
+    /// number, the less the better.
     pub(super) fn places(&self, rank: impl Fn(Point2) -> Option<f64>) -> Vec<Point2> {
-        let nodes = 0..self.router.count();
+        let is_way = |node: &usize| {
+            let place = self.router.place(*node);
+            self.trails.passes(place) || self.pavement(place).is_some()
+        };
+        let ways: Vec<usize> = (0..self.router.count()).filter(is_way).collect();
+        let reached = if ways.is_empty() { vec![true; self.router.count()] } else { self.router.reach(ways) };
+        self.best(&reached, rank)
+    }
+
+    /// The best places among some nodes.
+    fn best(&self, among: &[bool], rank: impl Fn(Point2) -> Option<f64>) -> Vec<Point2> {
+        let is_free = |place: Point2| {
+            self.grid.holds(place, EDGE)
+                && self.grid.height(place) > 0.9
+                && self.grid.slope(place) < LEVEL
+                && !self.grid.is_made_near(place, CLEAR)
+                && !self.trails.passes(place)
+                && self.lots.iter().all(|lot| (lot.middle.xy() - place).norm() > CLEAR + 10.0)
+        };
+        let nodes = (0..self.router.count()).filter(|node| among[*node]);
         let mut ranked: Vec<(f64, usize)> = nodes
             .filter_map(|node| {
                 let place = self.router.place(node);
-                let is_free = self.grid.holds(place, EDGE)
-                    && self.grid.height(place) > 0.9
-                    && self.grid.slope(place) < LEVEL
-                    && !self.grid.is_made_near(place, CLEAR)
-                    && !self.trails.passes(place)
-                    && self.lots.iter().all(|lot| (lot.middle.xy() - place).norm() > CLEAR + 10.0);
-                Some((rank(place).filter(|_| is_free)?, node))
+                Some((rank(place).filter(|_| is_free(place))?, node))
             })
             .collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -102,6 +116,24 @@ impl<'a> Surveyor<'a> {
             }
         }
         places
+    }
+
+    /// The first trail of land without roads: from where one comes to it to a shore; that shore.
+    pub(super) fn begin(&mut self, start: Point2, shores: &[Point2]) -> Option<Point2> {
+        for shore in shores {
+            let reached = self.router.reach([self.router.node(*shore)]);
+            // A shore below cliffs all round is nobody's way.
+            if reached.iter().filter(|reached| **reached).count() * 4 < reached.len() {
+                continue;
+            }
+            let far = |at: Point2| ((at - shore).norm() > 80.0).then(|| (at - start).norm());
+            for from in self.best(&reached, far) {
+                if self.join(from, *shore) {
+                    return Some(*shore);
+                }
+            }
+        }
+        None
     }
 
     /// Leads a trail from a place to the nearest road or trail; the line from there to the place. With neither it stays alone.

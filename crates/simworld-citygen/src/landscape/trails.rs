@@ -113,6 +113,32 @@ impl Router {
         Point2::new(column as f64 * STEP - self.half, row as f64 * STEP - self.half)
     }
 
+    /// Which nodes ways from some nodes come to, without sharp bends.
+    pub(super) fn reach(&self, from: impl IntoIterator<Item = usize>) -> Vec<bool> {
+        let mut seen = vec![false; self.count() * STEPS.len()];
+        let mut open: Vec<usize> = Vec::new();
+        for state in
+            from.into_iter().flat_map(|node| (0..STEPS.len()).map(move |way| node * STEPS.len() + way))
+        {
+            seen[state] = true;
+            open.push(state);
+        }
+        while let Some(state) = open.pop() {
+            let (at, came) = (state / STEPS.len(), (state % STEPS.len()) as i32);
+            for turn in -TURN..=TURN {
+                let way = (came + turn).rem_euclid(16) as usize;
+                let (dx, dy) = STEPS[way];
+                if self.costs[at][way].is_finite() {
+                    let to = (at as i32 + dy * self.side as i32 + dx) as usize * STEPS.len() + way;
+                    if !std::mem::replace(&mut seen[to], true) {
+                        open.push(to);
+                    }
+                }
+            }
+        }
+        seen.chunks(STEPS.len()).map(|ways| ways.contains(&true)).collect()
+    }
+
     /// The cheapest way from a node to any that is a goal, both included, without sharp bends: Dijkstra's algorithm over nodes
     /// with the direction in which they were come to.
     pub(super) fn way(&self, from: usize, is_goal: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
