@@ -7,13 +7,12 @@
 
 use clap::{Parser, ValueEnum};
 use rayon::prelude::*;
-use serde_json::json;
-use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, Part as Content, Scripted};
+use simworld_agents::delivery::{CourierRow, DeliveryTask, PolicyKind};
 use simworld_core::clock::Tick;
 use simworld_core::scene::Scene;
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{
-    Brain, RunConfig, Thinkers, Watch, assemble, assemble_with, make_city, run_seed,
+    Brain, EVERYWHERE, RunConfig, Thinkers, Watch, assemble, assemble_with, make_city, reader, run_seed,
 };
 use simworld_examples::experiment::{Preset, at_scale};
 use simworld_examples::timing::timed;
@@ -25,7 +24,7 @@ struct Arguments {
     /// Only these parts; without it all.
     #[arg(long, value_enum)]
     only: Vec<Part>,
-    /// Numbers of couriers whose steps are compared [default: 20, 200, 2000 and 10000].
+    /// Numbers of couriers whose steps are compared, ascending [default: 20, 200 and 2000].
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     couriers: Vec<u32>,
     /// Steps that are measured, after as many to get going.
@@ -43,6 +42,8 @@ struct Arguments {
 enum Part {
     /// Time for a courier and a step, for few and for many.
     Scale,
+    /// Time for a step of the preset of ten thousand couriers.
+    Preset,
     /// Time for a step of two hundred couriers with few and with many orders.
     Orders,
     /// What couriers ask of a model that answers in a second, in the main setting.
@@ -59,11 +60,18 @@ fn main() -> Result<(), Fault> {
     let arguments = Arguments::parse();
     let wanted = |part| arguments.only.is_empty() || arguments.only.contains(&part);
     if wanted(Part::Scale) {
-        let all = [20, 200, 2000, 10_000];
+        let all = [20, 200, 2000];
         let couriers = if arguments.couriers.is_empty() { &all[..] } else { &arguments.couriers };
-        let steps: Vec<f64> =
-            couriers.iter().map(|count| scale(*count, arguments.steps)).collect::<Result<_, _>>()?;
-        growth("couriers", couriers, &steps);
+        for town in [Town::Grows, Town::OfTheLargest] {
+            for bodies in [Bodies::All, Bodies::None] {
+                scale(couriers, town, bodies, arguments.steps)?;
+            }
+        }
+    }
+    if wanted(Part::Preset) {
+        let config = at_scale(&RunConfig::default(), 10_000);
+        let step = measure_and_tell("the preset scale", &config, arguments.steps)?;
+        println!("the preset scale: {:.2} times real time; bar: 1", 0.1 / step);
     }
     if wanted(Part::Orders) {
         let volumes = [20, 200, 2000];
@@ -87,22 +95,59 @@ fn main() -> Result<(), Fault> {
     Ok(())
 }
 
-/// Couriers in a city of their size, with traffic: what a step takes, s.
-fn scale(couriers: u32, steps: u64) -> Result<f64, Fault> {
-    let config = RunConfig { steps: 2 * steps, ..at_scale(&RunConfig::default(), couriers) };
-    let measured = measure(&config, steps)?;
-    let bar = if couriers == 10_000 { "; bar: 1" } else { "" };
-    println!(
-        "{couriers} couriers ({} with bodies under physics at the start), {} people: {:.1} µs a courier and step, {:.2} ms a \
-         step, {:.1} times real time{bar} ({})",
-        measured.physical,
-        config.delivery.orders.customers,
-        measured.step * 1e6 / f64::from(couriers),
-        measured.step * 1e3,
-        0.1 / measured.step,
-        measured.did
+/// In what city couriers of several numbers are compared.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Town {
+    /// One as dense whatever their number.
+    Grows,
+    /// That of the greatest number for all.
+    OfTheLargest,
+}
+
+/// Who has a body under physics; the others are points.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Bodies {
+    All,
+    None,
+}
+
+/// So many couriers, then more, with traffic in proportion: what a step takes, and how that grows. Like is compared with like: all of
+/// them have bodies, or none has.
+fn scale(couriers: &[u32], town: Town, bodies: Bodies, steps: u64) -> Result<(), Fault> {
+    let largest = couriers.iter().copied().max().unwrap_or_default();
+    let setting = format!(
+        "{}, in {}",
+        if bodies == Bodies::All { "all with bodies under physics" } else { "all points" },
+        if town == Town::Grows { "a city that grows with them" } else { "the city of the most" }
     );
-    Ok(measured.step)
+    let step = |count: &u32| {
+        let mut config = at_scale(&RunConfig::default(), *count);
+        config.physical_within = if bodies == Bodies::All { EVERYWHERE } else { 0.0 };
+        if town == Town::OfTheLargest {
+            config.city = at_scale(&RunConfig::default(), largest).city;
+        }
+        measure_and_tell(&setting, &config, steps)
+    };
+    let times: Vec<f64> = couriers.iter().map(step).collect::<Result<_, _>>()?;
+    growth(&format!("couriers, {setting}"), couriers, &times);
+    Ok(())
+}
+
+/// What a step of a run takes, s, and prints it.
+fn measure_and_tell(what: &str, config: &RunConfig, steps: u64) -> Result<f64, Fault> {
+    let config = RunConfig { steps: 2 * steps, ..config.clone() };
+    let Measured { step, physical, did } = measure(&config, steps)?;
+    println!(
+        "{} couriers, {what} ({physical} with bodies at the start, {} streets, {} vehicles, {} pedestrians): {:.1} µs a courier \
+         and step, {:.2} ms a step ({did})",
+        config.agents,
+        config.city.roads.count,
+        config.vehicles,
+        config.pedestrians,
+        step * 1e6 / f64::from(config.agents),
+        step * 1e3,
+    );
+    Ok(step)
 }
 
 /// Two hundred couriers and so many orders at the start, with as many to follow: what a step takes, s.
@@ -125,8 +170,11 @@ fn growth(what: &str, counts: &[u32], steps: &[f64]) {
     for (counts, steps) in counts.windows(2).zip(steps.windows(2)) {
         let (more, longer) = (f64::from(counts[1]) / f64::from(counts[0]), steps[1] / steps[0]);
         println!(
-            "from {} to {} {what}: {more:.0} times as many, {longer:.1} times the time; linear is at most {more:.0}",
-            counts[0], counts[1]
+            "from {} to {} {what}: {more:.0} times as many, {longer:.1} times the time, {:.2} times for each; linear is at most \
+             {more:.0}",
+            counts[0],
+            counts[1],
+            longer / more
         );
     }
 }
@@ -152,67 +200,58 @@ fn measure(config: &RunConfig, steps: u64) -> Result<Measured, Fault> {
     run(steps)?;
     let (done, time) = timed(|| run(2 * steps));
     done?;
-    let report = assembly.episode.task().report();
-    let (bids, delivered) = report
-        .map_or((0, 0), |report| (report.couriers.iter().map(|row| row.bids).sum::<u32>(), report.delivered));
-    let orders = assembly.episode.task().orders().len();
-    let did = format!("{orders} orders, {bids} bids, {delivered} delivered");
+    let task = assembly.episode.task();
+    let did = format!("{} orders, {}", task.orders().len(), did(task));
     Ok(Measured { step: time.as_secs_f64() / steps as f64, physical, did })
 }
 
-/// The main setting with twenty couriers whose model takes a second of the simulation for each answer.
+/// The main setting with twenty couriers whose model takes a second of the simulation for each answer, beside as many that work as
+/// it does without a model.
 fn requests(steps: u64) -> Result<(), Fault> {
     let mut config = RunConfig { steps, frames: 0, policies: vec![Brain::Model], ..RunConfig::default() };
     config.model.thinking.latency = 1.0;
     let (city, _) = make_city(&config)?;
-    let model = || Ok(Box::new(Scripted::rule(|request| Ok(busy(request)))) as Box<dyn ChatModel>);
-    let thinkers = Thinkers::with_backend(&config.model, Seed(config.seed), model)?;
-    let mut assembly = assemble_with(&config, &city, Seed(config.seed), Some(thinkers))?;
-    while !assembly.episode.is_over() {
-        assembly.episode.step()?;
+    let (mut requests, mut papers) = (0, 0);
+    for seed in (0..u64::from(config.seeds)).map(|index| Seed(config.seed + index)) {
+        let thinkers = Thinkers::with_backend(&config.model, seed, || Ok(reader()))?;
+        let mut read = assemble_with(&config, &city, seed, Some(thinkers))?;
+        let without = RunConfig { policies: vec![Brain::Policy(PolicyKind::ValueDensity)], ..config.clone() };
+        let mut reckoned = assemble(&without, &city, seed)?;
+        for assembly in [&mut read, &mut reckoned] {
+            while !assembly.episode.is_over() {
+                assembly.episode.step()?;
+            }
+        }
+        let Some(usage) = read.thinkers.as_ref().map(|thinkers| thinkers.usage(steps)) else { continue };
+        (requests, papers) = (requests + usage.requests, papers + usage.paper_requests);
+        println!(
+            "seed {}: couriers whose model reads its prompt {}; those of the same policy without {}",
+            seed.0,
+            did(read.episode.task()),
+            did(reckoned.episode.task())
+        );
     }
-    let Some(usage) = assembly.thinkers.as_ref().map(|thinkers| thinkers.usage(steps)) else { return Ok(()) };
-    let report = assembly.episode.task().report();
-    let (bids, delivered) = report
-        .map_or((0, 0), |report| (report.couriers.iter().map(|row| row.bids).sum::<u32>(), report.delivered));
     println!(
-        "a model that answers in 1 s, {} couriers, {steps} steps: {} requests of the paper's {}, 1/{:.1}; bar: 1/50 ({bids} \
-         bids, {delivered} delivered)",
-        usage.couriers,
-        usage.requests,
-        usage.paper_requests,
-        usage.paper_requests as f64 / usage.requests.max(1) as f64
+        "a model that answers in 1 s, {} couriers, {steps} steps, {} seeds: {requests} requests of the paper's {papers}, \
+         1/{:.1}; bar: 1/50",
+        config.agents,
+        config.seeds,
+        papers as f64 / requests.max(1) as f64
     );
     Ok(())
 }
 
-/// A model that works: it goes where it is going, delivers before it fetches, fetches before it bids, and bids two thirds of what
-/// is offered.
-fn busy(request: &ChatRequest) -> ChatReply {
-    let Some(schema) = request.schema.as_ref().filter(|schema| schema.name != "thought") else {
-        return ChatReply::of(r#"{"thought": "There is work to do."}"#);
-    };
-    let deed = &schema.json["properties"]["deed"];
-    let branches = deed["anyOf"].as_array().map_or(std::slice::from_ref(deed), Vec::as_slice);
-    let find = |act: &str| branches.iter().find(|branch| branch["properties"]["act"]["enum"][0] == act);
-    let goes = request.messages[1]
-        .content
-        .iter()
-        .any(|part| matches!(part, Content::Text(text) if text.contains("on the way to")));
-    let acts: &[&str] = if goes { &["bid_order"] } else { &["deliver_order", "pick_up_order", "bid_order"] };
-    let chosen = acts.iter().find_map(|act| Some((*act, find(act)?)));
-    let deed = match chosen {
-        Some((act, branch)) => {
-            let fields = &branch["properties"];
-            let mut deed = json!({ "act": act, "order": fields["order"]["enum"][0] });
-            if let Some(most) = fields["cents"]["maximum"].as_i64() {
-                deed["cents"] = json!((most * 2 / 3).max(1));
-            }
-            deed
-        }
-        None => json!({ "act": "do_nothing" }),
-    };
-    ChatReply::of(json!({ "because": "it pays", "deed": deed }).to_string())
+/// What came of a run, in words.
+fn did(task: &DeliveryTask) -> String {
+    let Some(report) = task.report() else { return "nothing".to_owned() };
+    let sum = |figure: fn(&CourierRow) -> f64| report.couriers.iter().map(figure).sum::<f64>();
+    format!(
+        "{} bids, {} won, {} delivered, {:.2} $ earned",
+        sum(|row| f64::from(row.bids)),
+        sum(|row| f64::from(row.won)),
+        report.delivered,
+        sum(|row| row.earned.dollars())
+    )
 }
 
 /// All seeds of a setting on all threads.

@@ -4,6 +4,8 @@
 
 mod delivery_common;
 
+use std::sync::Arc;
+
 use delivery_common::{Town, quiet, simulation, world};
 use simworld_agents::asynchronous::{AsynchronousConfig, AsynchronousEpisode, FreeMind, Pace};
 use simworld_agents::delivery::{
@@ -16,8 +18,12 @@ use simworld_agents::language::GrammarPlanner;
 use simworld_agents::mind::Silent;
 use simworld_core::command::Command;
 use simworld_core::environment::Environment;
+use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, Role, Scene};
+use simworld_core::net::{
+    NetworkConfig, RoadNetwork, Route, RouteScratch, Street, StreetPlan, WaypointConfig, WaypointGraph,
+};
+use simworld_core::scene::{EntityKind, Role, Scene, World};
 use simworld_core::seam::Task;
 use simworld_core::seed::Seed;
 
@@ -344,34 +350,61 @@ fn the_time_runs_out() {
     assert!(town.task.metrics().iter().all(|metric| metric.value.is_finite()));
 }
 
-/// Grown roads make routes longer than the straight line, never shorter.
-#[test]
-fn routes_follow_sidewalks_where_there_are_roads() {
-    use std::sync::Arc;
-
-    use simworld_core::geometry::Point2;
-    use simworld_core::net::{NetworkConfig, RoadNetwork, Street, StreetPlan};
-    use simworld_core::seam::TaskOutput;
-    use simworld_core::seed::Seed;
-
-    // A corner: from the restaurants west and south of it to the homes, the way is round the corner.
+/// The town with couriers and two streets that meet in a corner: from the restaurants the way to the homes is along them.
+fn town_with_streets(couriers: usize) -> (World, Vec<EntityId>, RoadNetwork) {
     let nodes = [(-150.0, 0.0), (150.0, 0.0), (150.0, -200.0)].map(|(x, y)| Point2::new(x, y)).to_vec();
     let streets = vec![Street::simple(0, 1), Street::simple(1, 2)];
     let plan = StreetPlan { nodes, streets, ..StreetPlan::default() };
     let roads = RoadNetwork::derive(&plan, &NetworkConfig::default()).unwrap();
+    let (mut world, ids) = world(couriers);
+    world.set_roads(Arc::new(roads.clone()));
+    (world, ids, roads)
+}
+
+/// Grown roads make routes longer than the straight line, never shorter.
+#[test]
+fn routes_follow_sidewalks_where_there_are_roads() {
     let mut config = quiet();
     config.orders.initial = 30;
     let straight = Town::new(config.clone(), 1, 1);
-    let (mut world, couriers) = delivery_common::world(1);
-    world.set_roads(Arc::new(roads));
-    let mut task = simworld_agents::delivery::DeliveryTask::new(config).unwrap();
-    task.reset(&world, &couriers, Seed(1), &mut TaskOutput::default()).unwrap();
+    let (world, couriers, _) = town_with_streets(1);
+    let town = Town::within(world, couriers, config, 1);
     let mut longer = 0;
-    for (order, other) in task.orders().iter().zip(straight.task.orders()) {
+    for (order, other) in town.task.orders().iter().zip(straight.task.orders()) {
         assert!(order.route >= other.route - 1e-9, "{} < {}", order.route, other.route);
         longer += usize::from(order.route > other.route + 1.0);
     }
     assert!(longer > 10, "{longer}");
+}
+
+/// As long as a dispatcher would allow: for the ways that there are, not for those that birds have.
+#[test]
+fn the_time_allowed_is_for_the_way_along_sidewalks() {
+    let mut config = quiet();
+    config.orders.initial = 12;
+    config.capacity = 12;
+    let (world, ids, roads) = town_with_streets(1);
+    let graph = WaypointGraph::walkable(&roads, &WaypointConfig::default()).unwrap();
+    let mut town = Town::within(world, ids, config.clone(), 1);
+    let bid = |id| (0, CourierAction::BidOrder { order: OrderId(id), price: Cents(500) }.into());
+    town.step(&(0..12).map(bid).collect::<Vec<_>>());
+    let here = town.task.view(town.couriers[0]).unwrap().position();
+    town.until("order_awarded", 20);
+    let mut detours = 0;
+    for order in town.task.orders() {
+        let Stage::Awarded(awarded) = &order.stage else { continue };
+        let there = order.pickup.xy();
+        let (from, to) = (graph.nearest(here).unwrap(), graph.nearest(there).unwrap());
+        let mut route = Route::default();
+        assert!(graph.route(from, to, &mut RouteScratch::default(), &mut route));
+        let (first, last) = (graph.waypoint(from).position, graph.waypoint(to).position);
+        let walk = (first - here).norm() + route.length + (last - there).norm();
+        detours += usize::from(walk > (there - here).norm() + 10.0);
+        let allowed = awarded.due - awarded.tick as f64 * 0.1;
+        let expected = config.orders.allowance * (walk + order.route) / config.orders.allowance_speed;
+        assert!((allowed - expected).abs() < 1e-6, "{allowed:.1} s for {expected:.1} s");
+    }
+    assert!(detours > 0, "some way is longer than the straight line");
 }
 
 /// Couriers without minds of their own, in the town.

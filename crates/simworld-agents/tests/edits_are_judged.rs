@@ -39,25 +39,38 @@ struct Score {
     wrong_edits: usize,
 }
 
+impl Score {
+    fn count(&mut self, verdict: &Verdict) {
+        self.all += 1;
+        self.right += usize::from(*verdict == Verdict::Right);
+        self.wrong_edits += usize::from(matches!(verdict, Verdict::WrongEdit(_)));
+    }
+}
+
 #[test]
 fn every_family_holds_its_floor() {
     let mut families: BTreeMap<String, Score> = BTreeMap::new();
+    let mut sets: BTreeMap<(&str, String), Score> = BTreeMap::new();
     let mut faults = Vec::new();
     for name in CITIES {
         let city = City::read(name);
         for asked in asked_in(name) {
             let verdict = verdict(&city, &asked);
-            let score = families.entry(asked.family.clone()).or_default();
-            score.all += 1;
-            score.right += usize::from(verdict == Verdict::Right);
-            score.wrong_edits += usize::from(matches!(verdict, Verdict::WrongEdit(_)));
+            families.entry(asked.family.clone()).or_default().count(&verdict);
+            sets.entry((asked.set, asked.family.clone())).or_default().count(&verdict);
             if verdict != Verdict::Right {
                 faults.push(format!(
-                    "{name}/{}: {:?}\n    wanted {}\n    got    {verdict:?}",
-                    asked.family, asked.words, asked.meaning
+                    "{name}.{}/{}: {:?}\n    wanted {}\n    got    {verdict:?}",
+                    asked.set, asked.family, asked.words, asked.meaning
                 ));
             }
         }
+    }
+    for ((set, family), score) in &sets {
+        println!(
+            "{set:12} {family:16} {:3} of {:3}, {} wrong edits",
+            score.right, score.all, score.wrong_edits
+        );
     }
     let mut below = Vec::new();
     for (family, floor) in FLOORS {

@@ -4,7 +4,7 @@
 //! physical bodies; the fast bodies on lanes need none.
 
 use crate::action::Action;
-use crate::geometry::{Point2, Pose, direction, planar, yaw_of};
+use crate::geometry::{Point2, Pose, Vector2, direction, planar, yaw_of};
 use crate::net::polyline;
 use crate::ops::{atan2, wrap_angle};
 use serde::{Deserialize, Serialize};
@@ -59,30 +59,37 @@ impl Pid {
     }
 }
 
-/// Drives a body along a path at a speed: PID on the pedals, pure pursuit with a PID on what is left on the wheel.
+/// Drives a body along a path at a speed: PID on the pedals, Stanley's law on the wheel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Driver {
     pedals: Pid,
-    wheel: Pid,
     /// Distance between the axles, m.
     pub wheelbase: f64,
     /// Greatest angle of the front wheels, radians.
     pub lock: f64,
 }
 
+/// Axles stand so much of the length apart: a sedan's 2.6 of 4.5 m, a bus's 7 of 12 m.
+pub(crate) const WHEELBASE: f64 = 0.58;
+
 impl Default for Driver {
-    /// A passenger car.
+    /// Of a passenger car.
     fn default() -> Self {
-        Self {
-            pedals: Pid::new(0.35, 0.05, 0.0, 0.3),
-            wheel: Pid::new(0.25, 0.02, 0.02, 0.05),
-            wheelbase: 2.7,
-            lock: 0.6,
-        }
+        Self::of_length(4.65)
     }
 }
 
 impl Driver {
+    /// Of a vehicle of a length, m, whose axles stand where they do on cars, buses and motorcycles.
+    ///
+    /// ```
+    /// use simworld_core::control::Driver;
+    /// assert!((Driver::of_length(12.0).wheelbase - 7.0).abs() < 0.1);
+    /// ```
+    pub fn of_length(length: f64) -> Self {
+        Self { pedals: Pid::new(0.35, 0.05, 0.0, 0.3), wheelbase: (length * WHEELBASE).max(0.5), lock: 0.6 }
+    }
+
     /// The pedal and the wheel for a body at a pose and a speed, to follow `path` at `wanted` m/s. A body of which any of these is
     /// not finite is braked.
     pub fn drive(&mut self, pose: &Pose, speed: f64, path: &[Point2], wanted: f64, dt: f64) -> [Action; 2] {
@@ -90,7 +97,7 @@ impl Driver {
         if ![at.x, at.y, yaw_of(pose), speed, wanted].iter().all(|number| number.is_finite()) {
             return [Action::Brake { level: 1.0 }, Action::Steer { angle: 0.0 }];
         }
-        [self.pedal(speed, wanted, dt), Action::Steer { angle: self.steer(pose, speed, path, dt) }]
+        [self.pedal(speed, wanted, dt), Action::Steer { angle: self.steer(pose, speed, path) }]
     }
 
     fn pedal(&mut self, speed: f64, wanted: f64, dt: f64) -> Action {
@@ -114,27 +121,56 @@ impl Driver {
         }
     }
 
-    fn steer(&mut self, pose: &Pose, speed: f64, path: &[Point2], dt: f64) -> f64 {
-        let here = planar(pose);
-        let Some(near) = polyline::closest(path, &here) else { return 0.0 };
-        let ahead = (0.6 * speed).clamp(4.0, 15.0);
-        let target = polyline::at(path, near.station + ahead).0 - here;
-        let bearing = wrap_angle(atan2(target.y, target.x) - yaw_of(pose));
-        // Pure pursuit (Coulter 1992): the arc through the target; the PID takes out what is left beside the path.
-        let arc = atan2(2.0 * self.wheelbase * crate::ops::sin(bearing), target.norm().max(1.0));
+    /// The bend of the path, and beside it Stanley's law (Hoffmann et al. 2007): a point of the vehicle is to go along the path,
+    /// and towards it the faster the farther it is beside.
+    fn steer(&self, pose: &Pose, speed: f64, path: &[Point2]) -> f64 {
+        /// The point, of the wheelbase before the rear axle. The front axle leaves the rear far inside of a bend, the rear axle
+        /// the front outside; here both share it.
+        const SHARE: f64 = 0.75;
+        /// How fast what is beside the path is taken out, 1/s, and the speed from which on it is, m/s.
+        const GAIN: f64 = 1.0;
+        const SOFT: f64 = 2.0;
+        /// The body turns to where it should at most so fast, 1/s: with wheels and a mind that follow later it swings beyond.
+        const TURNING: f64 = 3.0;
+        /// The wheels follow what they are told so much later, s.
+        const LAG: f64 = 0.15;
+        /// The steepest that one goes towards the path, radians, and what tyres give across, m/s².
+        const STEEPEST: f64 = 1.2;
+        const GRIP: f64 = 6.0;
+        let yaw = yaw_of(pose);
+        let point = planar(pose) + direction(yaw) * ((SHARE - 0.5) * self.wheelbase);
+        let Some(near) = polyline::closest(path, &point) else { return 0.0 };
         // Before its begin one is as far beside the path as beside its first piece made longer.
-        let (point, heading) = polyline::at(path, near.station);
+        let (place, first) = polyline::at(path, near.station);
         let is_before = near.station <= 0.0;
-        let aside = if is_before { direction(heading).perp(&(here - point)) } else { near.lateral };
-        let correction = self.wheel.update(-aside, dt) / (1.0 + speed);
-        (arc + correction).clamp(-self.lock, self.lock)
+        let aside = if is_before { direction(first).perp(&(point - place)) } else { near.lateral };
+        let (along, curvature) = bend(path, near.station + LAG * speed.max(0.0)).unwrap_or((first, 0.0));
+        let (turned, bent) = (SHARE * self.wheelbase * curvature, self.wheelbase * curvature);
+        let wanted = wrap_angle(along - yaw) - atan2(turned, 1.0) - atan2(GAIN * aside, speed.abs() + SOFT);
+        let gain = (TURNING * self.wheelbase / speed.abs().max(0.1)).min(1.0 / SHARE);
+        let held = atan2(GRIP * self.wheelbase, speed * speed).min(self.lock);
+        (atan2(bent, 1.0) + gain * wanted.clamp(-STEEPEST, STEEPEST)).clamp(-held, held)
     }
+}
+
+/// The heading of a path at a station, radians, and how it bends there, 1/m: over a piece so long that its corners are none.
+fn bend(path: &[Point2], station: f64) -> Option<(f64, f64)> {
+    const PIECE: f64 = 2.0;
+    let [before, here, after] = [-PIECE, 0.0, PIECE].map(|offset| polyline::at(path, station + offset).0);
+    let bearing = |way: Vector2| (way.norm() > 0.1).then(|| atan2(way.y, way.x));
+    let along = bearing(after - before)?;
+    let turn =
+        bearing(here - before).zip(bearing(after - here)).map_or(0.0, |(from, to)| wrap_angle(to - from));
+    Some((along, turn / PIECE))
 }
 
 #[cfg(test)]
 mod tests {
     use crate::geometry::{Point3, pose_facing};
+    use crate::kinematic::KinematicVehicle;
     use crate::ops::tan;
+    use crate::scene::Shape;
+    use crate::seam::Embodiment;
 
     use super::*;
 
@@ -157,6 +193,62 @@ mod tests {
                 self.yaw += self.v / 2.7 * tan(angle) * dt;
             }
             self.at += direction(self.yaw) * (self.v * dt);
+        }
+    }
+
+    /// How far beside a path the ends of a vehicle of a length are, of which `begin` tells the place and the heading: at each
+    /// tenth of a second that which is farther.
+    fn driven(length: f64, path: &[Point2], begin: (f64, f64, f64), speed: f64) -> Vec<f64> {
+        let (x, y, yaw) = begin;
+        let solid = Shape::cuboid(length, 2.0, 2.0);
+        let mut body = KinematicVehicle::new(pose_facing(Point3::new(x, y, 0.0), yaw), &solid);
+        let (mut driver, mut beside) = (Driver::of_length(length), Vec::new());
+        loop {
+            let state = body.state();
+            let near = polyline::closest(path, &planar(&state.pose)).unwrap();
+            if near.station > polyline::length(path) - length || beside.len() > 2000 {
+                return beside;
+            }
+            let ends = [-0.5, 0.5]
+                .map(|share| planar(&state.pose) + direction(yaw_of(&state.pose)) * (share * length));
+            let lateral = ends.map(|end| polyline::closest(path, &end).unwrap().lateral.abs());
+            beside.push(lateral[0].max(lateral[1]));
+            for action in driver.drive(&state.pose, state.twist.ground_speed(), path, speed, 0.1) {
+                body.apply(&action).unwrap();
+            }
+            body.advance(0.1);
+        }
+    }
+
+    #[test]
+    fn no_vehicle_swings_about_its_path() {
+        let path = [Point2::new(0.0, 0.0), Point2::new(300.0, 0.0)];
+        for length in [1.8, 2.1, 4.5, 6.0, 8.5, 12.0] {
+            for (speed, yaw) in [(3.0, 0.6), (5.0, 0.5), (8.0, 0.5), (11.0, 0.3), (15.0, 0.2)] {
+                let beside = driven(length, &path, (5.0, 1.2, yaw), speed);
+                let late = beside
+                    .iter()
+                    .rev()
+                    .take(beside.len() / 2)
+                    .fold(0.0, |most: f64, aside| most.max(aside.abs()));
+                assert!(late < 0.15, "{length} m at {speed} m/s is {late:.2} m beside its path for good");
+            }
+        }
+    }
+
+    #[test]
+    fn long_vehicles_keep_to_the_lane_in_a_turn() {
+        for (length, radius, most) in [(2.1, 8.0, 0.5), (4.5, 8.0, 0.65), (8.5, 12.0, 1.1), (12.0, 20.0, 1.4)]
+        {
+            let mut path = vec![Point2::new(0.0, 0.0), Point2::new(40.0, 0.0)];
+            path.extend((1..=24).map(|i| {
+                let (sin, cos) = crate::ops::sin_cos(f64::from(i) * core::f64::consts::FRAC_PI_2 / 24.0);
+                Point2::new(40.0 + radius * sin, radius - radius * cos)
+            }));
+            path.push(Point2::new(40.0 + radius, radius + 60.0));
+            let beside = driven(length, &path, (6.0, 0.0, 0.0), 4.0);
+            let worst = beside.iter().fold(0.0, |most: f64, aside| most.max(aside.abs()));
+            assert!(worst < most, "{length} m in a bend of {radius} m is {worst:.2} m beside its path");
         }
     }
 

@@ -8,6 +8,7 @@ use crate::action::ActionKind;
 use crate::clock::Tick;
 use crate::geometry::Point3;
 use crate::id::EntityId;
+use crate::scene::FallCause;
 use crate::value::Value;
 
 /// Something that happened during a step.
@@ -46,6 +47,18 @@ pub enum EventKind {
         action: ActionKind,
         /// Why it could not.
         reason: String,
+    },
+    /// Somebody lost its footing and falls; [`EntityRef::footing`](crate::scene::EntityRef::footing) says how it fares since.
+    Fell {
+        /// Who.
+        who: EntityId,
+        /// Why.
+        cause: FallCause,
+    },
+    /// Somebody who had fallen stands again.
+    GotUp {
+        /// Who.
+        who: EntityId,
     },
     /// A plan was carried out to its end.
     PlanDone {

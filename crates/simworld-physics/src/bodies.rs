@@ -1,11 +1,13 @@
 //! Giving entities bodies, taking them away, and asking about them.
 
-use simworld_core::geometry::Twist;
+use rapier3d_f64::prelude::RigidBodyHandle;
+use simworld_core::geometry::{Twist, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Embodiment};
 
 use crate::body::{Bonds, Detail, PhysicsBody};
+use crate::convert::from_vector;
 use crate::dynamics::{Owned, PhysicsDynamics};
 use crate::shape::material_of_entity;
 use crate::sync::Slot;
@@ -97,7 +99,8 @@ impl PhysicsDynamics {
     /// The entity has none.
     pub fn remove(&mut self, id: EntityId) -> Result<(), PhysicsError> {
         let place = self.position(id).map_err(|_| PhysicsError::Bodiless { id })?;
-        let owned = self.bodies.remove(place);
+        let mut owned = self.bodies.remove(place);
+        owned.body.gather(&mut self.physics, owned.rigid);
         self.physics.remove_body(owned.rigid);
         self.slots[id.index()] = Slot::Vacant;
         Ok(())
@@ -116,6 +119,17 @@ impl PhysicsDynamics {
     /// Where the body of an entity is and how it moves, if it has one.
     pub fn state(&self, id: EntityId) -> Option<BodyState> {
         self.body(id).map(Embodiment::state)
+    }
+
+    /// The momentum of all of an entity's body, kg m/s, world frame, if it has one.
+    pub fn momentum(&self, id: EntityId) -> Option<Vector3> {
+        let owned = &self.bodies[self.position(id).ok()?];
+        let rigids = std::iter::once(&owned.rigid).chain(owned.body.parts());
+        let momentum = |handle: &RigidBodyHandle| {
+            let rigid = self.physics.bodies.get(*handle)?;
+            Some(from_vector(rigid.linvel()) * rigid.mass())
+        };
+        Some(rigids.filter_map(momentum).sum())
     }
 
     pub(crate) fn position(&self, id: EntityId) -> Result<usize, usize> {

@@ -5,13 +5,15 @@ use rapier3d_f64::prelude::{
     RigidBodyHandle, RigidBodySet,
 };
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Point2, Vector3};
+use simworld_core::geometry::Vector3;
 use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
-use simworld_core::scene::Role;
+use simworld_core::scene::{Role, World, WorldError};
 use simworld_core::seam::{BodyState, Embodiment};
 
 use crate::PhysicsConfig;
+use crate::claims::{Claim, Claims};
+use crate::humanoid::Shove;
 use crate::surface::Conditions;
 
 /// How finely a body is to move.
@@ -102,6 +104,24 @@ pub trait PhysicsBody: Embodiment + Send {
     /// the entity's body frame; colliders carry the entity's mark ([`collider_for`](crate::collider_for) sets it).
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle;
 
+    /// The rigid bodies that it has in the engine beside the first; none for most bodies. They have the entity's mark, and are
+    /// its own business: it puts them in and takes them out.
+    fn parts(&self) -> &[RigidBodyHandle] {
+        &[]
+    }
+
+    /// Draws itself together into its first rigid body, without parts, because it is about to be carried, moved from
+    /// outside or taken away.
+    fn gather(&mut self, _physics: &mut PhysicsWorld, _rigid: RigidBodyHandle) {}
+
+    /// Tells the world, once a step, what is to be seen of it beside pose and velocity; nothing by default.
+    ///
+    /// # Errors
+    /// The world refuses.
+    fn report(&mut self, _id: EntityId, _world: &mut World) -> Result<(), WorldError> {
+        Ok(())
+    }
+
     /// Learns what it is tied to, once a step before it moves; of no interest to most bodies.
     fn bind(&mut self, _bonds: Bonds) {}
 
@@ -137,6 +157,10 @@ pub struct Surroundings<'a> {
     pub(crate) detail: Detail,
     pub(crate) ground: ColliderHandle,
     pub(crate) surface: Option<&'a Ground>,
+    /// The greatest speed of anything that moves, m/s.
+    pub(crate) fastest: f64,
+    /// Who pushed whom in the last substep.
+    pub(crate) shoves: &'a [Shove],
 }
 
 impl Surroundings<'_> {
@@ -188,19 +212,6 @@ impl Surroundings<'_> {
     }
 }
 
-/// Room that a body takes in this substep: an upright cylinder in the world frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Claim {
-    /// Its axis.
-    pub center: Point2,
-    /// m.
-    pub radius: f64,
-    /// Height of its lower end, m.
-    pub bottom: f64,
-    /// Height of its upper end, m.
-    pub top: f64,
-}
-
 /// What a body may act on, for [`PhysicsBody::drive`].
 pub struct BodyContext<'a> {
     pub(crate) physics: &'a mut PhysicsWorld,
@@ -208,7 +219,8 @@ pub struct BodyContext<'a> {
     pub(crate) config: &'a PhysicsConfig,
     pub(crate) conditions: &'a Conditions,
     pub(crate) detail: Detail,
-    pub(crate) claims: &'a mut Vec<Claim>,
+    pub(crate) claims: &'a mut Claims,
+    pub(crate) shoves: &'a mut Vec<Shove>,
 }
 
 impl BodyContext<'_> {
@@ -251,58 +263,11 @@ impl BodyContext<'_> {
     /// How much of a displacement leads to no overlap with the room that bodies before this one have taken in
     /// this substep: a share in [0, 1]. Moving away from an overlap is free.
     pub fn free_share(&self, room: &Claim, displacement: &Vector3, gap: f64) -> f64 {
-        self.claims.iter().map(|claim| share_before(claim, room, displacement, gap)).fold(1.0, f64::min)
+        self.claims.free_share(room, displacement, gap)
     }
 
     /// Takes room for this substep, which bodies after this one then respect.
     pub fn claim(&mut self, room: Claim) {
-        self.claims.push(room);
-    }
-}
-
-/// The share of a displacement after which two discs come within `gap` of one another.
-fn share_before(claim: &Claim, room: &Claim, displacement: &Vector3, gap: f64) -> f64 {
-    let (low, high) =
-        (room.bottom.min(room.bottom + displacement.z), room.top.max(room.top + displacement.z));
-    if high <= claim.bottom || claim.top <= low {
-        return 1.0;
-    }
-    let reach = room.radius + claim.radius + gap;
-    let from = room.center - claim.center;
-    // |from + s * move|² = reach², the smaller root s.
-    let a = displacement.xy().norm_squared();
-    let b = from.dot(&displacement.xy());
-    let c = from.norm_squared() - reach * reach;
-    if a == 0.0 || b >= 0.0 {
-        return 1.0; // standing, or moving apart
-    }
-    if c <= 0.0 {
-        return 0.0;
-    }
-    let discriminant = b * b - a * c;
-    if discriminant <= 0.0 { 1.0 } else { ((-b - discriminant.sqrt()) / a).clamp(0.0, 1.0) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn disc(x: f64, y: f64) -> Claim {
-        Claim { center: Point2::new(x, y), radius: 0.25, bottom: 0.0, top: 1.8 }
-    }
-
-    #[test]
-    fn a_step_ends_at_the_gap() {
-        let share = share_before(&disc(1.0, 0.0), &disc(0.0, 0.0), &Vector3::new(1.0, 0.0, 0.0), 0.02);
-        assert!((share - 0.48).abs() < 1e-12, "{share}");
-    }
-
-    #[test]
-    fn passing_by_above_or_away_is_free() {
-        let step = Vector3::new(1.0, 0.0, 0.0);
-        assert_eq!(share_before(&disc(1.0, 0.6), &disc(0.0, 0.0), &step, 0.02), 1.0);
-        assert_eq!(share_before(&disc(-0.3, 0.0), &disc(0.0, 0.0), &step, 0.02), 1.0);
-        let below = Claim { bottom: -2.0, top: -0.1, ..disc(1.0, 0.0) };
-        assert_eq!(share_before(&below, &disc(0.0, 0.0), &step, 0.02), 1.0);
+        self.claims.take(room);
     }
 }

@@ -5,7 +5,7 @@
 
 use parry3d_f64::query::contact;
 use rapier3d_f64::math::Vector;
-use rapier3d_f64::prelude::{ColliderHandle, QueryFilter};
+use rapier3d_f64::prelude::{ColliderHandle, QueryFilter, RigidBody};
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point3, Vector3};
 use simworld_core::id::EntityId;
@@ -39,6 +39,16 @@ struct Contact {
     point: Point3,
     closing_speed: f64,
     impulse: f64,
+}
+
+/// What the solver has in contact with a body.
+struct Solved {
+    id: EntityId,
+    other: ColliderHandle,
+    point: Point3,
+    towards_other: Vector3,
+    impulse: f64,
+    dist: f64,
 }
 
 impl Contacts {
@@ -83,11 +93,10 @@ impl PhysicsDynamics {
     pub(crate) fn find_contacts(&mut self) {
         let mut contacts = std::mem::take(&mut self.contacts);
         for owned in self.bodies.iter().filter(|owned| owned.bonds.carried.is_none()) {
-            let rigid = &self.physics.bodies[owned.rigid];
-            for handle in rigid.colliders() {
-                if rigid.is_dynamic() {
-                    self.find_solved(owned, *handle, &mut contacts);
-                } else {
+            if self.physics.bodies[owned.rigid].is_dynamic() {
+                self.find_solved(owned, &mut contacts);
+            } else {
+                for handle in self.physics.bodies[owned.rigid].colliders() {
                     self.find_close(owned, *handle, &mut contacts);
                 }
             }
@@ -96,20 +105,42 @@ impl PhysicsDynamics {
         self.contacts = contacts;
     }
 
-    /// What the solver has in contact with a dynamic body.
-    fn find_solved(&self, owned: &Owned, handle: ColliderHandle, contacts: &mut Contacts) {
-        for pair in self.physics.contact_pairs_with(handle).filter(|pair| pair.has_any_active_contact()) {
-            let Some((manifold, deepest)) = pair.find_deepest_contact() else { continue };
-            let is_first = pair.collider1 == handle;
-            let other = if is_first { pair.collider2 } else { pair.collider1 };
-            let collider = &self.physics.colliders[pair.collider1];
-            let point = world_point(collider.position(), deepest.local_p1);
-            // The manifold's normal points from the first to the second.
-            let normal = from_vector(manifold.data.normal);
-            let towards_other = if is_first { normal } else { -normal };
-            let impulse = pair.total_impulse_magnitude();
+    /// What the solver has in contact with a dynamic body: each other body once, by its deepest contact, with the impulse of
+    /// all of them.
+    fn find_solved(&self, owned: &Owned, contacts: &mut Contacts) {
+        let mut met: Vec<Solved> = Vec::new();
+        let rigids = std::iter::once(&owned.rigid).chain(owned.body.parts());
+        let colliders = rigids.filter_map(|handle| self.physics.bodies.get(*handle));
+        for handle in colliders.flat_map(RigidBody::colliders) {
+            for pair in self.physics.contact_pairs_with(*handle).filter(|pair| pair.has_any_active_contact())
+            {
+                let Some((manifold, deepest)) = pair.find_deepest_contact() else { continue };
+                let is_first = pair.collider1 == *handle;
+                let other = if is_first { pair.collider2 } else { pair.collider1 };
+                let Some(id) = self.entity_of(other).filter(|id| *id != owned.id) else { continue };
+                let collider = &self.physics.colliders[pair.collider1];
+                let point = world_point(collider.position(), deepest.local_p1);
+                // The manifold's normal points from the first to the second.
+                let normal = from_vector(manifold.data.normal);
+                let towards_other = if is_first { normal } else { -normal };
+                let (impulse, dist) = (pair.total_impulse_magnitude(), deepest.dist);
+                match met.iter_mut().find(|solved| solved.id == id) {
+                    Some(solved) if solved.dist <= dist => solved.impulse += impulse,
+                    Some(solved) => {
+                        let impulse = solved.impulse + impulse;
+                        *solved = Solved { id, other, point, towards_other, impulse, dist };
+                    }
+                    None => met.push(Solved { id, other, point, towards_other, impulse, dist }),
+                }
+            }
+        }
+        for Solved { other, point, towards_other, impulse, .. } in met {
             self.note(owned, other, point, towards_other, impulse, contacts);
         }
+    }
+
+    fn entity_of(&self, collider: ColliderHandle) -> Option<EntityId> {
+        BodyTag::from_user_data(self.physics.colliders.get(collider)?.user_data).entity()
     }
 
     /// What is about one skin away from a walker.

@@ -6,17 +6,20 @@ use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle, RigidBodySet};
 use rayon::prelude::*;
 use simworld_core::event::EventKind;
-use simworld_core::geometry::{Point3, Pose, Twist};
+use simworld_core::geometry::{Point2, Point3, Pose, Twist};
 use simworld_core::ground::Ground;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
-use crate::body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
+use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
+use crate::cells::Cells;
+use crate::claims::Claims;
 use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::ground;
+use crate::humanoid::Shove;
 use crate::mirror::Moving;
 use crate::solid::Solids;
 use crate::surface::Conditions;
@@ -78,8 +81,11 @@ pub struct PhysicsDynamics {
     pub(crate) nobody: RigidBodySet,
     // Scratch space of a step.
     pub(crate) moving: Vec<Moving>,
-    pub(crate) near: Vec<simworld_core::geometry::Point2>,
-    claims: Vec<Claim>,
+    /// Where the bodies of this physics are.
+    pub(crate) near: Cells<Point2>,
+    claims: Claims,
+    /// Who pushed whom in the last substep.
+    pub(crate) shoves: Vec<Shove>,
     failures: Vec<EventKind>,
 }
 
@@ -107,6 +113,7 @@ impl PhysicsDynamics {
         let mut physics = PhysicsWorld::new();
         physics.gravity = Vector::new(0.0, 0.0, -config.gravity);
         let ground = physics.insert_collider(ground::level(&config), None);
+        let near = config.mirror_radius;
         let mut dynamics = Self {
             config,
             physics,
@@ -120,8 +127,9 @@ impl PhysicsDynamics {
             interest: Vec::new(),
             nobody: RigidBodySet::new(),
             moving: Vec::new(),
-            near: Vec::new(),
-            claims: Vec::new(),
+            near: Cells::new(2.0 * near),
+            claims: Claims::default(),
+            shoves: Vec::new(),
             failures: Vec::new(),
         };
         dynamics.file(ground);
@@ -160,14 +168,26 @@ impl PhysicsDynamics {
 
     /// Lets every body look around; the state is frozen, so the order and the thread do not matter.
     fn sense(&mut self, dt: f64) {
+        let fastest = self.fastest();
         let (physics, nobody, config, conditions) =
             (&self.physics, &self.nobody, &self.config, &self.conditions);
         let (ground, surface) = (self.ground, self.surface.as_deref());
+        let shoves = &*self.shoves;
         let sense = |owned: &mut Owned| {
             if owned.bonds.carried.is_none() {
                 let (rigid, detail) = (owned.rigid, owned.detail);
-                let around =
-                    Surroundings { physics, nobody, rigid, config, conditions, detail, ground, surface };
+                let around = Surroundings {
+                    physics,
+                    nobody,
+                    rigid,
+                    config,
+                    conditions,
+                    detail,
+                    fastest,
+                    shoves,
+                    ground,
+                    surface,
+                };
                 owned.body.sense(&around, dt);
             }
         };
@@ -178,16 +198,26 @@ impl PhysicsDynamics {
         }
     }
 
+    /// The greatest speed of anything that moves, m/s.
+    fn fastest(&self) -> f64 {
+        let bodies = self.bodies.iter().map(|owned| owned.body.state().twist.linear.norm_squared());
+        let mirrored = self.moving.iter().filter_map(|moving| self.physics.bodies.get(moving.rigid));
+        let mirrored = mirrored.map(|rigid| rigid.linvel().length_squared());
+        bodies.chain(mirrored).fold(0.0, f64::max).sqrt()
+    }
+
     /// One substep: `share` of the world's step will have passed at its end.
     fn substep(&mut self, dt: f64, share: f64) -> Result<(), PhysicsError> {
         self.sense(dt);
         self.claims.clear();
+        self.shoves.clear();
         for owned in &mut self.bodies {
             owned.before = owned.body.state().twist;
             if owned.bonds.carried.is_none() {
                 let (physics, rigid, detail) = (&mut self.physics, owned.rigid, owned.detail);
-                let (config, conditions, claims) = (&self.config, &self.conditions, &mut self.claims);
-                let mut context = BodyContext { physics, rigid, config, conditions, detail, claims };
+                let (config, conditions) = (&self.config, &self.conditions);
+                let (claims, shoves) = (&mut self.claims, &mut self.shoves);
+                let mut context = BodyContext { physics, rigid, config, conditions, detail, claims, shoves };
                 owned.body.drive(&mut context, dt);
             }
         }
@@ -210,9 +240,12 @@ impl PhysicsDynamics {
             return Ok(());
         }
         let caught = |owned: &&Owned| {
-            let rigid = &self.physics.bodies[owned.rigid];
-            quarantine.bodies().contains(&owned.rigid)
-                || rigid.colliders().iter().any(|handle| quarantine.colliders().contains(handle))
+            let handles = std::iter::once(&owned.rigid).chain(owned.body.parts());
+            let mut rigids = handles.filter_map(|handle| Some((handle, self.physics.bodies.get(*handle)?)));
+            rigids.any(|(handle, rigid)| {
+                quarantine.bodies().contains(handle)
+                    || rigid.colliders().iter().any(|handle| quarantine.colliders().contains(handle))
+            })
         };
         match self.bodies.iter().find(caught) {
             Some(owned) => Err(PhysicsError::NotFinite { id: owned.id }),
@@ -230,12 +263,16 @@ impl PhysicsDynamics {
                 world.set_motion(owned.id, pose, twist)?;
             }
         }
+        for owned in &mut self.bodies {
+            owned.body.report(owned.id, world)?;
+        }
         Ok(())
     }
 
     /// Puts a body somewhere else from outside.
     pub(crate) fn place(&mut self, index: usize, state: &BodyState) {
         let owned = &mut self.bodies[index];
+        owned.body.gather(&mut self.physics, owned.rigid);
         owned.body.place(state);
         let state = owned.body.state();
         owned.written = state.pose;

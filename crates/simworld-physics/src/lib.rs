@@ -3,6 +3,8 @@
 
 mod bodies;
 mod body;
+mod cells;
+mod claims;
 mod config;
 mod contact;
 pub mod convert;
@@ -22,11 +24,12 @@ mod surface;
 mod sync;
 mod vehicle;
 
-pub use body::{BodyContext, Bonds, Claim, Detail, PhysicsBody, Surroundings};
+pub use body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
+pub use claims::Claim;
 pub use config::PhysicsConfig;
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;
-pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture};
+pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture, Surefootedness};
 /// The physics engine underneath, for bodies of one's own: its types appear in [`PhysicsBody`].
 pub use rapier3d_f64 as rapier;
 pub use rigid::Rigid;

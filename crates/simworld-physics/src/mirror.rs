@@ -30,7 +30,7 @@ pub(crate) struct Mirror {
 /// A way that a mirrored body goes within this step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving {
-    rigid: RigidBodyHandle,
+    pub(crate) rigid: RigidBodyHandle,
     from: Pose,
     to: Pose,
 }
@@ -44,8 +44,18 @@ impl PhysicsDynamics {
             _ => None,
         };
         let Some((pose, rigid)) = known else {
+            let stood = match &self.slots[slot] {
+                Slot::Fixed { id, pose, .. } if *id == entity.id => Some(*pose),
+                _ => None,
+            };
             self.vacate(slot);
             let rigid = self.is_near(entity.planar(), 0.0).then(|| self.mirror(entity, world));
+            if let (Some(rigid), Some(stood)) = (rigid, stood) {
+                // It begins to move from where it stood.
+                self.physics.bodies[rigid].set_position(to_pose(&stood), true);
+                self.file_body(rigid);
+                self.follow(rigid, &stood, entity.pose);
+            }
             self.slots[slot] =
                 Slot::Traffic(Mirror { id: entity.id, shape: entity.info.shape, pose: *entity.pose, rigid });
             return;
@@ -71,7 +81,7 @@ impl PhysicsDynamics {
     /// Whether a place in the plane is within the mirror radius, and a margin, of a body of this physics.
     fn is_near(&self, place: Point2, margin: f64) -> bool {
         let reach = self.config.mirror_radius + margin;
-        self.near.iter().any(|body| (body - place).norm_squared() <= reach * reach)
+        self.near.near(place, reach).any(|body| (body - place).norm_squared() <= reach * reach)
     }
 
     fn mirror(&mut self, entity: &EntityRef<'_>, world: &World) -> RigidBodyHandle {

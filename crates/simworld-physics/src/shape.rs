@@ -54,9 +54,22 @@ pub(crate) fn marked(tag: BodyTag, material: Material) -> u128 {
     tag.to_user_data() | (material as u128) << MATERIAL_BITS
 }
 
+/// Set in the mark of somebody on foot.
+const WALKER: u128 = 1 << 127;
+
+/// The mark of somebody on foot.
+pub(crate) fn walker_mark(id: EntityId) -> u128 {
+    marked(BodyTag::Entity(id), Material::Flesh) | WALKER
+}
+
+/// Whether a collider is that of somebody on foot, by its mark.
+pub(crate) fn is_walker(data: u128) -> bool {
+    data & WALKER != 0
+}
+
 /// What a collider is made of, by its mark.
 pub(crate) fn material_of(data: u128) -> Material {
-    let index = (data >> MATERIAL_BITS) as usize;
+    let index = ((data & !WALKER) >> MATERIAL_BITS) as usize;
     Material::ALL.get(index).copied().unwrap_or_default()
 }
 
@@ -116,6 +129,9 @@ mod tests {
         let tag = BodyTag::Entity(EntityId::new(u32::MAX, u32::MAX));
         let mark = marked(tag, Material::Ice);
         assert_eq!((BodyTag::from_user_data(mark), material_of(mark)), (tag, Material::Ice));
+        let walker = walker_mark(EntityId::new(u32::MAX, u32::MAX));
+        assert_eq!((BodyTag::from_user_data(walker), material_of(walker)), (tag, Material::Flesh));
+        assert!(is_walker(walker) && !is_walker(mark));
     }
 
     #[test]

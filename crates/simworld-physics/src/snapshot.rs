@@ -14,6 +14,7 @@ use simworld_core::seam::{BodyState, Embodiment};
 use crate::body::{Bonds, Detail};
 use crate::convert::{from_pose, from_vector};
 use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::humanoid::Shove;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
@@ -32,6 +33,7 @@ struct Written<'a> {
     touching: &'a [(EntityId, EntityId)],
     conditions: Conditions,
     interest: &'a [Point3],
+    shoves: &'a [Shove],
     bodies: Vec<SavedBody>,
 }
 
@@ -47,6 +49,7 @@ struct Read {
     touching: Vec<(EntityId, EntityId)>,
     conditions: Conditions,
     interest: Vec<Point3>,
+    shoves: Vec<Shove>,
     bodies: Vec<SavedBody>,
 }
 
@@ -85,6 +88,7 @@ impl PhysicsDynamics {
             touching: &self.contacts.touching,
             conditions: self.conditions,
             interest: &self.interest,
+            shoves: &self.shoves,
             bodies: self.bodies.iter().map(save).collect(),
         };
         let rest = postcard::to_allocvec(&written).map_err(|error| saved_error(error.to_string()))?;
@@ -134,6 +138,7 @@ impl PhysicsDynamics {
         self.contacts.touching = read.touching;
         self.conditions = read.conditions;
         self.interest = read.interest;
+        self.shoves = read.shoves;
         Ok(())
     }
 
@@ -144,10 +149,12 @@ impl PhysicsDynamics {
         for owned in &self.bodies {
             let inner = owned.body.save();
             hasher.u64(owned.id.into()).u64(inner.len() as u64).bytes(&inner);
-            let Some(rigid) = self.physics.bodies.get(owned.rigid) else { continue };
-            hasher.pose(&from_pose(rigid.position()));
-            hasher.vector(&from_vector(rigid.linvel())).vector(&from_vector(rigid.angvel()));
-            hasher.u64(u64::from(rigid.is_sleeping())).f64(rigid.activation().time_since_can_sleep);
+            for handle in std::iter::once(&owned.rigid).chain(owned.body.parts()) {
+                let Some(rigid) = self.physics.bodies.get(*handle) else { continue };
+                hasher.pose(&from_pose(rigid.position()));
+                hasher.vector(&from_vector(rigid.linvel())).vector(&from_vector(rigid.angvel()));
+                hasher.u64(u64::from(rigid.is_sleeping())).f64(rigid.activation().time_since_can_sleep);
+            }
         }
         for pair in self.physics.contact_pairs() {
             for point in pair.manifolds().iter().flat_map(|manifold| &manifold.points) {
@@ -157,6 +164,9 @@ impl PhysicsDynamics {
         hasher.u64(self.interest.len() as u64);
         for point in &self.interest {
             hasher.point(point);
+        }
+        for shove in &self.shoves {
+            hasher.u64(shove.whom.into()).f64(shove.velocity.x).f64(shove.velocity.y);
         }
         hasher.u64(self.contacts.touching.len() as u64);
         for (a, b) in &self.contacts.touching {

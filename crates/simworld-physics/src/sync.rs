@@ -5,7 +5,7 @@
 
 use rapier3d_f64::prelude::{ColliderHandle, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Pose, planar};
+use simworld_core::geometry::{Pose, Twist, planar};
 use simworld_core::id::{AssetId, EntityId};
 use simworld_core::scene::{EntityRef, Role, Scene, Shape, World};
 use simworld_core::seam::BodyState;
@@ -39,7 +39,8 @@ impl PhysicsDynamics {
         for owned in &mut self.bodies {
             owned.bonds = Bonds::default();
             if let Some(entity) = world.entity(owned.id) {
-                self.near.push(planar(entity.pose));
+                let here = planar(entity.pose);
+                self.near.insert(here, here);
                 owned.bonds.carried = entity.attachment.map(|bond| bond.role);
             }
         }
@@ -61,9 +62,10 @@ impl PhysicsDynamics {
     /// Takes the bodies of removed entities out of the engine.
     fn drop_orphans(&mut self, world: &World) {
         let (physics, slots) = (&mut self.physics, &mut self.slots);
-        self.bodies.retain(|owned| {
+        self.bodies.retain_mut(|owned| {
             let lives = world.entity(owned.id).is_some();
             if !lives {
+                owned.body.gather(physics, owned.rigid);
                 physics.remove_body(owned.rigid);
                 slots[owned.id.index()] = Slot::Vacant;
             }
@@ -84,7 +86,10 @@ impl PhysicsDynamics {
         match &self.slots[slot] {
             Slot::Own { .. } => {}
             _ if !entity.is_solid() => self.vacate(slot),
-            _ if entity.kind.is_mobile() => self.synchronise_mirror(slot, entity, world),
+            // What somebody moves, such as a lift, carries who stands on it.
+            _ if entity.kind.is_mobile() || *entity.twist != Twist::ZERO => {
+                self.synchronise_mirror(slot, entity, world);
+            }
             Slot::Fixed { id, asset, shape, pose, .. }
                 if *id == entity.id
                     && *asset == entity.info.asset
@@ -131,6 +136,7 @@ impl PhysicsDynamics {
             let was_carried = !self.is_solid(owned.rigid);
             if is_carried != was_carried {
                 let rigid = owned.rigid;
+                self.bodies[index].body.gather(&mut self.physics, rigid);
                 self.set_solid(rigid, !is_carried);
             }
             if *entity.pose != self.bodies[index].written {

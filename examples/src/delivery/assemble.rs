@@ -1,5 +1,6 @@
 //! Puts the parts together: a city, its traffic, couriers with physical bodies, and the task.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -12,10 +13,10 @@ use simworld_citygen::files::save::SaveError;
 use simworld_citygen::python::{FormatError, Warning, read_roads};
 use simworld_citygen::{City, CityError};
 use simworld_core::environment::EnvironmentError;
-use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::geometry::{Aabb, Point2, Point3, direction, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::net::{NetworkError, WaypointConfig, WaypointGraph};
-use simworld_core::scene::{EntityDesc, EntityKind, Place, Shape, World, WorldError};
+use simworld_core::scene::{EntityDesc, EntityKind, Place, Scene, Shape, World, WorldError};
 use simworld_core::seam::{Dynamics, TaskError};
 use simworld_core::seed::Seed;
 use simworld_core::simulation::Simulation;
@@ -99,6 +100,17 @@ pub struct Assembly {
     pub thinkers: Option<Thinkers>,
     /// How many of them are under physics at the start.
     pub physical: u32,
+    /// The vehicles and pedestrians of the traffic at the start.
+    pub traffic: Passers,
+}
+
+/// Who passes by.
+#[derive(Clone, Debug, Default)]
+pub struct Passers {
+    /// The vehicles.
+    pub vehicles: Vec<EntityId>,
+    /// The pedestrians.
+    pub pedestrians: Vec<EntityId>,
 }
 
 /// The city of a configuration, the same for all its seeds; and what was mended in its file of roads.
@@ -148,6 +160,8 @@ pub fn assemble_with(
         ..config.traffic.clone()
     };
     let traffic = TrafficDynamics::new(&mut world, &traffic_config, seed)?;
+    let passers =
+        Passers { vehicles: traffic.vehicles().to_vec(), pedestrians: traffic.pedestrians().to_vec() };
     let couriers = spawn_couriers(&mut world, city, config.agents, seed)?;
     let (bodies, physical) = courier_bodies(config, &world, &couriers)?;
     let mut simulation = Simulation::new(world);
@@ -159,7 +173,7 @@ pub fn assemble_with(
     let agents = make_agents(config, city, &couriers, seed, thinkers.as_mut())?;
     let mut episode = Episode::new(simulation, task, agents, seed.stream("delivery").seed())?;
     episode.set_trail_interval(config.digest_interval);
-    Ok(Assembly { episode, couriers, thinkers, physical })
+    Ok(Assembly { episode, couriers, thinkers, physical, traffic: passers })
 }
 
 /// Bodies under physics, or where only some are, those that change with the place; and how many are under physics.
@@ -181,7 +195,15 @@ fn courier_bodies(
     Ok((Box::new(physics), couriers.len() as u32))
 }
 
-/// Couriers begin before restaurants and stores, one at each door in turn, out of each other's way.
+/// Half the width of a courier, and how much room it wants beside that where it begins, m.
+const COURIER: (f64, f64) = (0.25, 0.05);
+/// From one place of a row to the next, m.
+const PLACE: f64 = 0.8;
+/// So many places of a row are tried.
+const MOST_PLACES: usize = 1000;
+
+/// Couriers begin before restaurants, stores and offices, one at each door in turn, where nobody and nothing stands: shops in
+/// one house may share a door.
 fn spawn_couriers(
     world: &mut World,
     city: &City,
@@ -202,17 +224,29 @@ fn spawn_couriers(
     for index in 0..count as usize {
         let door = doors[index % doors.len()];
         // Those who share a door stand in a row along the sidewalk.
-        let place = 0.8 * (index / doors.len()) as f64;
-        let along = simworld_core::geometry::direction(door.facing + std::f64::consts::FRAC_PI_2);
-        let spot = door.access + along * place;
+        let along = direction(door.facing + std::f64::consts::FRAC_PI_2);
+        let first = index / doors.len();
+        let mut row = (first..first + MOST_PLACES).map(|place| door.access + along * (PLACE * place as f64));
+        let spot = row.find(|spot| is_free(world, *spot)).ok_or(AssembleError::NoPlace)?;
         let pose = pose_facing(Point3::new(spot.x, spot.y, 0.0), door.facing);
         let height = rng.normal_clamped(1.74, 0.08, 1.55, 1.95);
-        let desc = EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.25, height })
+        let shape = Shape::Capsule { radius: COURIER.0, height };
+        let desc = EntityDesc::new(EntityKind::Person, pose, shape)
             .named(format!("courier {index}"))
             .colored([0.85, 0.35, 0.05]);
         couriers.push(world.spawn(desc)?);
     }
     Ok(couriers)
+}
+
+/// Whether a courier can begin there.
+fn is_free(world: &World, spot: Point2) -> bool {
+    let room = COURIER.0 + COURIER.1;
+    let taken = world.visit(&Aabb::column_around(spot, room), &mut |entity| {
+        let is_near = entity.info.shape.planar_distance(entity.pose, &spot) < room;
+        if entity.is_solid() && is_near { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    taken.is_continue()
 }
 
 fn make_agents(

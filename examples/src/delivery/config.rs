@@ -15,7 +15,7 @@ use super::players::Brain;
 use super::thinkers::ModelSettings;
 
 /// From this distance on all bodies are under physics, m.
-pub(super) const EVERYWHERE: f64 = 1e6;
+pub const EVERYWHERE: f64 = 1e6;
 
 /// Everything that determines a run. The same configuration gives the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -15,6 +15,7 @@ mod log;
 mod map;
 mod output;
 mod players;
+mod reader;
 mod replay;
 mod report;
 mod run;
@@ -24,15 +25,18 @@ mod watch;
 
 pub use assemble::{AssembleError, Assembly, assemble, assemble_with, make_city};
 pub use auctions::{Auction, auctions_of};
-pub use config::{ConfigError, RunConfig};
+pub use config::{ConfigError, EVERYWHERE, RunConfig};
 pub use frames::{FrameError, FrameTaker};
 pub use log::{LogError, LogRecord, LogWriter, ReadLog, read_log};
 pub use map::draw_map;
 pub use output::{OutputError, OutputFolder};
 pub use players::{Brain, BrainError, Player, players};
+pub use reader::reader;
 pub use replay::{ReplayError, ReplayReport, replay};
 pub use report::{COLUMNS, PAPER, RunReport, SeedReport};
 pub use run::{RunError, SeedRun, play, resume, run_seed};
 pub use thinkers::{Eyes, ModelSettings, ModelUsage, ThinkError, Thinkers};
-pub use track::{Doing, Mount, Spot, Track, TrackWriter, Tracked, read_track};
+pub use track::{
+    Doing, Mount, Moves, Passage, Passer, Spot, Track, TrackWriter, Tracked, metres, read_track,
+};
 pub use watch::{Progress, Watch};

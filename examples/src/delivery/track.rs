@@ -1,5 +1,5 @@
 //! Where everybody was and what they did, at even intervals: JSON lines beside the event log, whole up to the last
-//! finished line whenever the run stops. Positions in whole decimetres, world frame.
+//! finished line whenever the run stops. Couriers all, traffic in a sample. Positions in whole decimetres, world frame.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, BufWriter, Seek, Write};
@@ -16,9 +16,11 @@ use super::log::cut_off;
 use super::{Assembly, LogError};
 
 /// The version of the format; a reader refuses others.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// A sample a second, unless there would be more samples than this, all couriers together.
 const MOST_SAMPLES: u64 = 1_000_000;
+/// Vehicles that are tracked, and pedestrians: evenly from all that there are at the start.
+const MOST_PASSERS: usize = 60;
 /// Decimetres a metre.
 const DECIMETRES: f64 = 10.0;
 
@@ -96,7 +98,7 @@ pub struct Spot {
 impl Spot {
     /// Where it was, m.
     pub fn point(&self) -> Point2 {
-        Point2::new(self.x as f64 / DECIMETRES, self.y as f64 / DECIMETRES)
+        metres((self.x, self.y))
     }
 }
 
@@ -112,6 +114,11 @@ impl From<Spot> for (i64, i64, Doing, Mount) {
     }
 }
 
+/// Where something of a track was, m.
+pub fn metres(place: (i64, i64)) -> Point2 {
+    Point2::new(place.0 as f64 / DECIMETRES, place.1 as f64 / DECIMETRES)
+}
+
 /// A courier of a track.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tracked {
@@ -121,7 +128,29 @@ pub struct Tracked {
     pub name: String,
 }
 
-/// The couriers of a run, and where they were.
+/// Somebody of the traffic that is tracked too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Passer {
+    /// Its entity.
+    pub id: EntityId,
+    /// On what it moves.
+    pub on: Moves,
+}
+
+/// On what somebody of the traffic moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Moves {
+    /// A vehicle, of two wheels or more.
+    Wheels,
+    /// A pedestrian.
+    Feet,
+}
+
+/// East and north, dm; `None` of who has left the streets.
+pub type Passage = Option<(i64, i64)>;
+
+/// The couriers of a run, and where they were; and some of the traffic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// Length of a step, s.
@@ -132,6 +161,12 @@ pub struct Track {
     pub couriers: Vec<Tracked>,
     /// The samples: the step, and a spot a courier.
     pub samples: Vec<(Tick, Vec<Spot>)>,
+    /// Who of the traffic is tracked, vehicles first.
+    pub passers: Vec<Passer>,
+    /// Where those were in each sample.
+    pub passages: Vec<Vec<Passage>>,
+    /// How many vehicles and pedestrians there were at the start, tracked or not.
+    pub traffic: (usize, usize),
 }
 
 /// One line of the file.
@@ -139,9 +174,16 @@ pub struct Track {
 #[serde(rename_all = "snake_case")]
 enum Line {
     /// The first line.
-    Header { version: u32, dt: f64, interval: u64, couriers: Vec<Tracked> },
-    /// All couriers after a step.
-    Sample(Tick, Vec<Spot>),
+    Header {
+        version: u32,
+        dt: f64,
+        interval: u64,
+        couriers: Vec<Tracked>,
+        passers: Vec<Passer>,
+        traffic: (usize, usize),
+    },
+    /// All couriers after a step, and the traffic that is tracked.
+    Sample(Tick, Vec<Spot>, Vec<Passage>),
 }
 
 /// Writes a track line by line.
@@ -150,6 +192,7 @@ pub struct TrackWriter {
     path: PathBuf,
     file: BufWriter<File>,
     interval: u64,
+    passers: Vec<Passer>,
 }
 
 impl TrackWriter {
@@ -166,8 +209,12 @@ impl TrackWriter {
             Tracked { id: *id, name }
         };
         let couriers = assembly.couriers.iter().map(name).collect();
-        let mut writer = Self { path: path.to_owned(), file: BufWriter::new(file), interval };
-        writer.line(&Line::Header { version: VERSION, dt, interval, couriers })?;
+        let passers = passers(assembly);
+        let traffic = (assembly.traffic.vehicles.len(), assembly.traffic.pedestrians.len());
+        let header =
+            Line::Header { version: VERSION, dt, interval, couriers, passers: passers.clone(), traffic };
+        let mut writer = Self { path: path.to_owned(), file: BufWriter::new(file), interval, passers };
+        writer.line(&header)?;
         writer.take_if_due(assembly)?;
         Ok(writer)
     }
@@ -179,8 +226,8 @@ impl TrackWriter {
     pub fn go_on(path: &Path, length: u64, assembly: &Assembly, steps: u64) -> Result<Self, LogError> {
         let file =
             cut_off(path, length).map_err(|source| LogError::File { path: path.to_owned(), source })?;
-        let interval = interval(assembly, steps);
-        Ok(Self { path: path.to_owned(), file: BufWriter::new(file), interval })
+        let (interval, passers) = (interval(assembly, steps), passers(assembly));
+        Ok(Self { path: path.to_owned(), file: BufWriter::new(file), interval, passers })
     }
 
     /// How long the file is with all that was written, bytes.
@@ -202,6 +249,7 @@ impl TrackWriter {
         if !tick.0.is_multiple_of(self.interval) {
             return Ok(());
         }
+        let decimetres = |metres: f64| (metres * DECIMETRES).round() as i64;
         let spot = |id: &EntityId| {
             let view = assembly.episode.task().view(*id);
             let place = world.entity(*id).map(|body| body.planar()).or(view.map(|view| view.position()));
@@ -210,11 +258,15 @@ impl TrackWriter {
                 Some(view) if view.is_riding() => Mount::Scooter,
                 _ => Mount::Foot,
             };
-            let decimetres = |metres: f64| (metres * DECIMETRES).round() as i64;
             let doing = view.map_or(Doing::Idle, |view| Doing::of(&view));
             Spot { x: decimetres(place.x), y: decimetres(place.y), doing, mount }
         };
-        self.line(&Line::Sample(tick, assembly.couriers.iter().map(spot).collect()))
+        let passage = |passer: &Passer| {
+            let place = world.entity(passer.id)?.planar();
+            Some((decimetres(place.x), decimetres(place.y)))
+        };
+        let spots = assembly.couriers.iter().map(spot).collect();
+        self.line(&Line::Sample(tick, spots, self.passers.iter().map(passage).collect()))
     }
 
     /// Ends the track.
@@ -233,6 +285,16 @@ impl TrackWriter {
     }
 }
 
+/// Who of the traffic is tracked: so many of each, evenly from all.
+fn passers(assembly: &Assembly) -> Vec<Passer> {
+    let some = |all: &[EntityId], on: Moves| -> Vec<Passer> {
+        let count = all.len().min(MOST_PASSERS);
+        (0..count).map(|index| Passer { id: all[index * all.len() / count], on }).collect()
+    };
+    let traffic = &assembly.traffic;
+    [some(&traffic.vehicles, Moves::Wheels), some(&traffic.pedestrians, Moves::Feet)].concat()
+}
+
 /// Steps between two samples of a run of that many steps.
 fn interval(assembly: &Assembly, steps: u64) -> u64 {
     let a_second = (1.0 / assembly.episode.simulation().world().clock().dt()).round().max(1.0) as u64;
@@ -247,30 +309,37 @@ pub fn read_track(path: &Path) -> Result<Track, LogError> {
     let fail = |source| LogError::File { path: path.to_owned(), source };
     let mut lines = BufReader::new(File::open(path).map_err(fail)?).split(b'\n').enumerate();
     let header = lines.next().map(|(_, line)| line.map_err(fail)).transpose()?.unwrap_or_default();
-    let Ok(Line::Header { version: VERSION, dt, interval, couriers }) = serde_json::from_slice(&header)
+    let Ok(Line::Header { version: VERSION, dt, interval, couriers, passers, traffic }) =
+        serde_json::from_slice(&header)
     else {
         return Err(LogError::Header { path: path.to_owned() });
     };
     if interval == 0 || !dt.is_finite() || dt <= 0.0 {
         return Err(LogError::Header { path: path.to_owned() });
     }
-    let mut track = Track { dt, interval, couriers, samples: Vec::new() };
+    let (samples, passages) = (Vec::new(), Vec::new());
+    let mut track = Track { dt, interval, couriers, samples, passers, passages, traffic };
     let mut fault = None;
     for (index, line) in lines {
         if let Some(fault) = fault.take() {
             return Err(fault);
         }
         let sample = serde_json::from_slice(&line.map_err(fail)?).and_then(|line| match line {
-            Line::Sample(tick, spots) if spots.len() == track.couriers.len() => Ok((tick, spots)),
-            _ => Err(serde::de::Error::custom("no sample of the couriers of the first line")),
+            Line::Sample(tick, spots, passages)
+                if spots.len() == track.couriers.len() && passages.len() == track.passers.len() =>
+            {
+                Ok((tick, spots, passages))
+            }
+            _ => Err(serde::de::Error::custom("no sample of those whom the first line names")),
         });
         match sample {
-            Ok((tick, spots)) => {
+            Ok((tick, spots, passages)) => {
                 if let Some((before, _)) = track.samples.last().filter(|last| last.0 >= tick) {
                     let (path, before) = (path.to_owned(), *before);
                     return Err(LogError::Order { path, line: index + 1, tick, before });
                 }
                 track.samples.push((tick, spots));
+                track.passages.push(passages);
             }
             Err(source) => fault = Some(LogError::Line { path: path.to_owned(), line: index + 1, source }),
         }
@@ -307,11 +376,10 @@ mod tests {
         read_track(&path)
     }
 
-    const HEADER: &str =
-        r#"{"header":{"version":1,"dt":0.1,"interval":10,"couriers":[{"id":7,"name":"Ada"}]}}"#;
+    const HEADER: &str = r#"{"header":{"version":2,"dt":0.1,"interval":10,"couriers":[{"id":7,"name":"Ada"}],"passers":[{"id":9,"on":"wheels"}],"traffic":[80,0]}}"#;
     const SAMPLES: &str = r#"
-{"sample":[0,[[10,-25,"idle","foot"]]]}
-{"sample":[10,[[30,-25,"fetching","scooter"]]]}
+{"sample":[0,[[10,-25,"idle","foot"]],[[400,15]]]}
+{"sample":[10,[[30,-25,"fetching","scooter"]],[null]]}
 "#;
 
     #[test]
@@ -323,6 +391,8 @@ mod tests {
             (track.samples[1].1[0].doing, track.samples[1].1[0].mount),
             (Doing::Fetching, Mount::Scooter)
         );
+        assert_eq!(track.passers, [Passer { id: EntityId::from(9), on: Moves::Wheels }]);
+        assert_eq!(track.passages, [[Some((400, 15))], [None]]);
         assert_eq!((track.courier(EntityId::from(7)), track.courier(EntityId::from(8))), (Some(0), None));
         let whole = format!("{HEADER}{SAMPLES}");
         let cut = written(&whole[..whole.len() - 9]).unwrap();
@@ -332,8 +402,14 @@ mod tests {
     #[test]
     fn what_is_no_track_is_refused_with_its_line() {
         assert!(matches!(written("").unwrap_err(), LogError::Header { .. }));
-        let stranger = format!("{HEADER}\n{{\"sample\":[0,[]]}}\n{{\"sample\":[10,[]]}}\n");
+        let stranger = format!("{HEADER}\n{{\"sample\":[0,[],[null]]}}\n{{\"sample\":[10,[],[null]]}}\n");
         assert!(matches!(written(&stranger).unwrap_err(), LogError::Line { line: 2, .. }));
+        // The couriers of the first line, and not its traffic.
+        let strange = r#"{"sample":[0,[[10,-25,"idle","foot"]],[]]}"#;
+        assert!(matches!(
+            written(&format!("{HEADER}\n{strange}\n{strange}\n")).unwrap_err(),
+            LogError::Line { line: 2, .. }
+        ));
         let back = format!("{HEADER}{SAMPLES}{}", SAMPLES.trim_start());
         assert!(matches!(written(&back).unwrap_err(), LogError::Order { line: 4, .. }));
     }

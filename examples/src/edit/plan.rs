@@ -6,6 +6,7 @@ use simworld_core::geometry::{Aabb, Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::net::RoadNetwork;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
+use simworld_core::value::Value;
 use std::ops::ControlFlow;
 use svg::node::element::{Circle, Group, Line, Polygon, Polyline, Rectangle, Text, Title};
 
@@ -67,7 +68,11 @@ impl Plan<'_> {
         let _ = world.visit(&region, &mut |entity| {
             let is_area = entity.kind == EntityKind::Ground && entity.info.name.is_some();
             // Water on land is drawn with the land, whose shore it has; its name is drawn here.
-            let is_water = is_area && world.ground().is_some_and(|land| land.is_wet(entity.planar()));
+            let used_as = entity.info.attributes.get("area");
+            let is_wet = ["sea", "lake", "river"]
+                .iter()
+                .any(|water| used_as == Some(&Value::Text((*water).to_owned())));
+            let is_water = is_area && is_wet && world.ground().is_some();
             if is_water {
                 areas.push(self.water_name(&entity, unit));
             } else if is_area {

@@ -50,6 +50,12 @@ pub(super) fn findings(trials: &[Trial]) -> Vec<Finding> {
             &correlation(asked, paid),
         ),
         inactive(trials),
+        Finding::across(
+            "The inactive win fewer orders",
+            1.0,
+            "orders by which each of the others leads",
+            &lead(trials, |row| f64::from(row.won)),
+        ),
     ]
 }
 
@@ -229,7 +235,9 @@ mod tests {
     fn what_is_planted_is_found_with_its_sign() {
         // The later policies bid higher, and the lowest bid wins.
         let high = findings(&trials(20, |rank| (0.3 + 0.5 * rank, 0.05), lowest, the_busy, 1));
-        for claim in ["bid high win less", "lower bidder", "thin margin", "inactive earn less"] {
+        for claim in
+            ["bid high win less", "lower bidder", "thin margin", "inactive earn less", "inactive win fewer"]
+        {
             assert_eq!(verdict(&high, claim), Verdict::Holds, "{claim}");
         }
         // All ask for the same on average, the later ones in a wider range; then the other way round.

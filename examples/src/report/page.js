@@ -39,12 +39,14 @@
   const label = one("#clock"), list = one("#lines"), timeline = one(".timeline");
   const colors = stage.dataset.colors.split(" ");
   const width = stage.viewBox.baseVal.width, height = stage.viewBox.baseVal.height;
-  const unit = Math.max(width, height) / 90;
+  // On a narrow screen marks are larger beside the map, or nobody could tell their colours.
+  const narrow = Math.max(1, Math.min(750 / (stage.getBoundingClientRect().width || 750), 2));
+  const unit = Math.max(width, height) / 90 * narrow;
   const end = film.every * Math.max(film.samples - 1, 0);
 
-  const places = (() => {
-    const bytes = Uint8Array.from(atob(film.ways), (letter) => letter.charCodeAt(0));
-    const found = new Float64Array(film.names.length * film.samples * 2);
+  const unpacked = (ways, count) => {
+    const bytes = Uint8Array.from(atob(ways), (letter) => letter.charCodeAt(0));
+    const found = new Float64Array(count * film.samples * 2);
     let at = 0;
     const next = () => {
       let value = 0, scale = 1, byte;
@@ -55,22 +57,50 @@
       } while (byte & 128);
       return value % 2 ? -(value + 1) / 2 : value / 2;
     };
-    for (let courier = 0; courier < film.names.length; courier++) {
+    for (let one = 0; one < count; one++) {
       let x = 0, y = 0;
       for (let sample = 0; sample < film.samples; sample++) {
-        const place = 2 * (courier * film.samples + sample);
+        const place = 2 * (one * film.samples + sample);
         found[place] = x += next();
         found[place + 1] = y += next();
       }
     }
     return found;
-  })();
+  };
+  const places = unpacked(film.ways, film.names.length);
+  const passing = unpacked(film.passers.ways, film.passers.present.length);
+  // Where vehicles head in each sample, degrees: where they go next, or where they went last or will go first if they stand.
+  const headings = new Float32Array(film.passers.vehicles * film.samples);
+  for (let one = 0; one < film.passers.vehicles; one++) {
+    let known = null;
+    for (let sample = 0; sample < film.samples; sample++) {
+      const row = one * film.samples, a = 2 * (row + sample), b = sample + 1 < film.samples ? a + 2 : a;
+      const x = passing[b] - passing[a], y = passing[b + 1] - passing[a + 1];
+      if (Math.hypot(x, y) > 2) {
+        const heading = Math.atan2(y, x) * 180 / Math.PI;
+        if (known === null) headings.fill(heading, row, row + sample);
+        known = heading;
+      }
+      headings[row + sample] = known ?? 0;
+    }
+  }
 
   const make = (name, attributes, parent) => {
     const made = document.createElementNS("http://www.w3.org/2000/svg", name);
     for (const key in attributes) made.setAttribute(key, attributes[key]);
     return parent.appendChild(made);
   };
+  // A vehicle is longer than wide, and heads where it goes; below everything else.
+  const passers = film.passers.present.map((present, index) => {
+    const made = index < film.passers.vehicles
+      ? make("rect", {
+        x: -unit * 0.5, y: -unit * 0.25, width: unit, height: unit * 0.5, rx: unit * 0.15, class: "passer vehicle",
+      }, stage)
+      : make("circle", { r: unit * 0.25, class: "passer walker" }, stage);
+    return { made, present };
+  });
+  const quiet = one("#show-traffic");
+  if (quiet) quiet.addEventListener("change", () => stage.classList.toggle("quiet", !quiet.checked));
   const orders = film.orders.map((order) => ({
     posted: order[1], won: order[2], picked: order[3], gone: order[4],
     from: make("circle", { cx: order[5], cy: order[6], r: unit * 0.75, class: "origin" }, stage),
@@ -106,10 +136,20 @@
     const exact = time / film.every;
     const before = Math.max(0, Math.min(Math.floor(exact + 1e-9), film.samples - 1));
     const after = Math.min(before + 1, film.samples - 1), part = Math.max(0, Math.min(exact - before, 1));
-    couriers.forEach(({ group, disc }, index) => {
+    const at = (found, index) => {
       const a = 2 * (index * film.samples + before), b = 2 * (index * film.samples + after);
-      const x = places[a] + (places[b] - places[a]) * part;
-      const y = places[a + 1] + (places[b + 1] - places[a + 1]) * part;
+      return { x: found[a] + (found[b] - found[a]) * part, y: found[a + 1] + (found[b + 1] - found[a + 1]) * part };
+    };
+    passers.forEach(({ made, present }, index) => {
+      const here = state(present, before);
+      made.style.display = here ? "" : "none";
+      if (!here) return;
+      const { x, y } = at(passing, index);
+      const turn = index < film.passers.vehicles ? ` rotate(${headings[index * film.samples + before].toFixed(0)})` : "";
+      made.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})${turn}`);
+    });
+    couriers.forEach(({ group, disc }, index) => {
+      const { x, y } = at(places, index);
       group.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
       const now = state(film.doing[index], before);
       disc.setAttribute("fill", colors[now % colors.length]);

@@ -1,4 +1,5 @@
-//! The recorded run as a film: everybody's places, what they were about and the orders, packed into the page for a slider.
+//! The recorded run as a film: everybody's places, what they were about, the orders and some of the traffic, packed into the
+//! page for a slider.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -12,7 +13,7 @@ use super::city::CityMap;
 use super::palette;
 use super::story::{End, Story};
 use super::words::{dollars, escaped};
-use crate::delivery::{Doing, Mount};
+use crate::delivery::{Doing, Mount, Moves, Track, metres};
 
 /// Places of couriers in a page, all samples together: a few bytes each.
 const MOST_PLACES: usize = 200_000;
@@ -23,7 +24,14 @@ const MOST_ORDERS: usize = 1500;
 /// Lines of what happened, the first ones.
 const MOST_LINES: usize = 4000;
 
-/// What the script of the page reads.
+/// Whether traffic is drawn, to choose.
+const TRAFFIC: &str = "<label><input type=checkbox id=show-traffic checked> Traffic</label>";
+/// How traffic is drawn.
+const PASSERS: &str =
+    " <span><i class=\"dot vehicle\"></i>vehicle</span> <span><i class=\"dot walker\"></i>pedestrian</span>";
+
+/// What the script of the page reads. Ways are, for each and each sample, the change of x and of y since the last sample, in
+/// units of the map, as zigzag varints in Base64.
 #[derive(Serialize)]
 struct Film<'a> {
     /// Seconds between two samples.
@@ -32,8 +40,7 @@ struct Film<'a> {
     samples: usize,
     /// What couriers are called.
     names: Vec<&'a str>,
-    /// For each courier and sample the change of x and of y since the last sample, in units of the map, as zigzag varints in
-    /// Base64.
+    /// The ways of the couriers.
     ways: String,
     /// For each courier: from which sample on, and the number of the state; again and again.
     doing: Vec<Vec<usize>>,
@@ -41,6 +48,18 @@ struct Film<'a> {
     orders: Vec<[f64; 9]>,
     /// What happened: when, and in words.
     lines: Vec<(f64, String)>,
+    passers: Passing,
+}
+
+/// Some of the traffic.
+#[derive(Serialize)]
+struct Passing {
+    /// How many of them are vehicles, the first ones; the others are on foot.
+    vehicles: usize,
+    /// Their ways; who is gone stays where it was.
+    ways: String,
+    /// For each: from which sample on, and whether it is there; again and again.
+    present: Vec<Vec<usize>>,
 }
 
 /// The section: controls, the stage, the key of colours, and the data.
@@ -55,10 +74,14 @@ pub(super) fn section(shown: &Shown, map: &CityMap, stories: &[Story]) -> String
         every,
         samples: rows.len(),
         names: track.couriers.iter().take(couriers).map(|courier| courier.name.as_str()).collect(),
-        ways: STANDARD.encode(ways(&rows, couriers, map)),
+        ways: ways(
+            (0..couriers)
+                .map(|courier| rows.iter().map(move |(_, spots)| map.frame.cell(spots[courier].point()))),
+        ),
         doing: (0..couriers).map(|courier| states(&rows, courier)).collect(),
         orders: stories.iter().take(MOST_ORDERS).filter_map(|story| order(shown, map, story)).collect(),
         lines: shown.events.iter().filter_map(|event| line(shown, event)).take(MOST_LINES).collect(),
+        passers: passing(track, stride, map),
     };
     // Inside a page no name may end the script that holds it.
     let data = serde_json::to_string(&film)
@@ -80,46 +103,78 @@ pub(super) fn section(shown: &Shown, map: &CityMap, stories: &[Story]) -> String
         "<div class=controls data-script hidden><button type=button id=play aria-pressed=false>Play</button><input \
          type=range id=time min=0 max={end} step={every} value=0 aria-label=\"Time of the run\"><output id=clock \
          for=time></output><label>Speed <select id=speed><option value=1>1×<option value=5>5×<option value=15 \
-         selected>15×<option value=60>60×</select></label></div><noscript><p class=note>The replay needs the script of \
+         selected>15×<option value=60>60×</select></label>{traffic}</div><noscript><p class=note>The replay needs the script of \
          this page.</p></noscript><div class=picture><svg id=stage class=map viewBox=\"{view}\" data-colors=\"{colors}\" \
          role=img aria-label=\"The couriers on the map at the chosen time\"><use href=\"#city\"/></svg></div><p \
          class=key>{key}<span><i class=\"dot open\"></i>restaurant with an open order</span> <span><i class=\"dot \
          waiting\"></i>order waits for its courier</span> <span><i class=\"dot door\"></i>home that waits</span> \
-         <span><i class=\"dot ring\"></i>on a scooter</span></p><ol id=lines class=beats></ol><p class=note>{note}</p>\
+         <span><i class=\"dot ring\"></i>on a scooter</span>{passers}</p><ol id=lines class=beats></ol><p class=note>{note}</p>\
          <script type=\"application/json\" id=film>{data}</script>",
         view = map.frame.view_box(),
-        note = escaped(&note(shown, every, couriers, stories.len())),
+        traffic = if track.passers.is_empty() { "" } else { TRAFFIC },
+        passers = if track.passers.is_empty() { "" } else { PASSERS },
+        note = escaped(&note(shown, every, couriers, stories.len(), data.len())),
     )
 }
 
-/// At which rate and of whom, so that nobody takes the film for the run.
-fn note(shown: &Shown, every: f64, couriers: usize, orders: usize) -> String {
+/// At which rate and of whom, so that nobody takes the film for the run; and how much of the page it takes.
+fn note(shown: &Shown, every: f64, couriers: usize, orders: usize, bytes: usize) -> String {
     let part = |drawn: usize, all: usize, what: &str| {
         if drawn < all { format!(" The first {drawn} of {all} {what} are drawn.") } else { String::new() }
     };
+    let track = &shown.track;
+    let tracked = |on: Moves| track.passers.iter().filter(|passer| passer.on == on).count();
+    let traffic = match track.traffic {
+        (0, 0) => String::new(),
+        (vehicles, people) => format!(
+            " Of the traffic {} of {vehicles} vehicles and {} of {people} pedestrians are drawn, larger than they are.",
+            tracked(Moves::Wheels),
+            tracked(Moves::Feet),
+        ),
+    };
     format!(
-        "Places were sampled every {every} s; between samples they are drawn on a straight line.{}{} On the slider \
-         space plays and pauses and arrow keys step; an address that ends in #t=120 opens two minutes into the run, \
-         and #t=120&play plays from there.",
-        part(couriers, shown.track.couriers.len(), "couriers"),
+        "Places were sampled every {every} s; between samples they are drawn on a straight line.{}{}{traffic} The replay \
+         takes {} kB of this page. On the slider space plays and pauses and arrow keys step; an address that ends in #t=120 \
+         opens two minutes into the run, and #t=120&play plays from there.",
+        part(couriers, track.couriers.len(), "couriers"),
         part(orders.min(MOST_ORDERS), orders, "orders"),
+        bytes.div_ceil(1000),
     )
 }
 
 type Row = (Tick, Vec<crate::delivery::Spot>);
 
-fn ways(rows: &[&Row], couriers: usize, map: &CityMap) -> Vec<u8> {
+/// The ways of some, each a cell of the map a sample.
+fn ways(all: impl Iterator<Item = impl Iterator<Item = (i64, i64)>>) -> String {
     let mut bytes = Vec::new();
-    for courier in 0..couriers {
+    for way in all {
         let mut at = (0, 0);
-        for (_, spots) in rows {
-            let to = map.frame.cell(spots[courier].point());
+        for to in way {
             varint(to.0 - at.0, &mut bytes);
             varint(to.1 - at.1, &mut bytes);
             at = to;
         }
     }
-    bytes
+    STANDARD.encode(bytes)
+}
+
+/// The traffic that was tracked.
+fn passing(track: &Track, stride: usize, map: &CityMap) -> Passing {
+    let rows = || track.passages.iter().step_by(stride);
+    let way = |passer: usize| {
+        let mut at = (0, 0);
+        rows().map(move |row| {
+            at = row[passer].map_or(at, |place| map.frame.cell(metres(place)));
+            at
+        })
+    };
+    let present = |passer: usize| changes(rows().map(move |row| usize::from(row[passer].is_some())));
+    let all = 0..track.passers.len();
+    Passing {
+        vehicles: track.passers.iter().filter(|passer| passer.on == Moves::Wheels).count(),
+        ways: ways(all.clone().map(way)),
+        present: all.map(present).collect(),
+    }
 }
 
 /// Seven bits a byte, the lowest first; the sign in the lowest bit.
@@ -133,18 +188,23 @@ fn varint(value: i64, bytes: &mut Vec<u8>) {
 }
 
 fn states(rows: &[&Row], courier: usize) -> Vec<usize> {
-    let mut states = Vec::new();
-    let mut last = usize::MAX;
-    for (sample, (_, spots)) in rows.iter().enumerate() {
+    changes(rows.iter().map(|(_, spots)| {
         let spot = spots[courier];
         let riding = if spot.mount == Mount::Scooter { Doing::ALL.len() } else { 0 };
-        let state = riding + Doing::ALL.iter().position(|doing| *doing == spot.doing).unwrap_or(0);
+        riding + Doing::ALL.iter().position(|doing| *doing == spot.doing).unwrap_or(0)
+    }))
+}
+
+/// From which sample on a state holds, and the state; again and again.
+fn changes(states: impl Iterator<Item = usize>) -> Vec<usize> {
+    let (mut changes, mut last) = (Vec::new(), usize::MAX);
+    for (sample, state) in states.enumerate() {
         if state != last {
-            states.extend([sample, state]);
+            changes.extend([sample, state]);
             last = state;
         }
     }
-    states
+    changes
 }
 
 fn order(shown: &Shown, map: &CityMap, story: &Story) -> Option<[f64; 9]> {

@@ -255,7 +255,15 @@ mod tests {
     #[test]
     fn a_story_goes_from_post_to_door() {
         let named = |id: u64| Tracked { id: EntityId::from(id), name: id.to_string() };
-        let track = Track { dt: 0.1, interval: 10, couriers: vec![named(5), named(9)], samples: Vec::new() };
+        let track = Track {
+            dt: 0.1,
+            interval: 10,
+            couriers: vec![named(5), named(9)],
+            samples: Vec::new(),
+            passers: Vec::new(),
+            passages: Vec::new(),
+            traffic: (0, 0),
+        };
         let events = [
             told(0, "order_posted", None, &[("ceiling", 20.0.into()), ("home", EntityId::from(2).into())]),
             told(4, "bid_placed", Some(9), &[("price", 15.0.into())]),

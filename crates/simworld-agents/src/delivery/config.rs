@@ -97,8 +97,9 @@ pub struct OrderConfig {
     /// Couriers are told of orders whose restaurant is within this distance of them, and of offers to share that meet there,
     /// m, in [100, 10⁶]; from 10⁶ on of all. Chosen: of all, as in the paper; in a large city platforms tell those who are near.
     pub told_within: f64,
-    /// Time allowed for an order over that of walking from where it was won through the restaurant to the home,
-    /// in [0.1, 100]. Ancestor: 1.25.
+    /// Time allowed for an order over that of walking from where it was won through the restaurant to the home by the shortest
+    /// way along sidewalks, in [0.1, 100]. Ancestor: 1.25. The paper says nothing of how deadlines are set; by the ways that
+    /// there are is how a dispatcher reckons.
     pub allowance: f64,
     /// The walking speed on which the allowance is reckoned, m/s, in [0.1, 50]. Ancestor: 1.6.
     pub allowance_speed: f64,

@@ -1,5 +1,7 @@
 //! Demand: orders come, auctions close, prices move.
 
+use simworld_core::geometry::{Point2, Point3};
+
 use super::auction::Bid;
 use super::board::Notice;
 use super::money::{Account, Cents};
@@ -96,7 +98,7 @@ impl Turn<'_> {
         self.state.market.closed += 1;
         for bid in &open.bids {
             let won = winner.is_some_and(|(courier, _)| courier == bid.courier);
-            self.remember(bid, order.ceiling, won);
+            self.remember(bid, id, order.ceiling, won);
         }
         let Some((courier, pay)) = winner else {
             self.state.market.unwanted += 1;
@@ -106,7 +108,7 @@ impl Turn<'_> {
         };
         self.pay(Account::Customers, Account::Escrow, order.ceiling, Some(id))
             .expect("customers can always pay an amount that is not negative");
-        let approach = (order.pickup.xy() - self.state.couriers[courier].position).norm();
+        let approach = self.approach(courier, &order.pickup);
         let orders = &self.config.orders;
         let due = self.state.now() + orders.allowance * (approach + order.route) / orders.allowance_speed;
         let bidders = open.bids.len() as i64;
@@ -124,9 +126,15 @@ impl Turn<'_> {
         self.tell("order_awarded", Some(courier), &facts);
     }
 
-    fn remember(&mut self, bid: &Bid, ceiling: Cents, won: bool) {
+    /// How far a courier has to a restaurant, m: by the ways that there are, as for the rest of the order.
+    fn approach(&mut self, courier: usize, pickup: &Point3) -> f64 {
+        let Point2 { coords } = self.state.couriers[courier].position;
+        self.routes.length(&Point3::new(coords.x, coords.y, pickup.z), pickup)
+    }
+
+    fn remember(&mut self, bid: &Bid, order: OrderId, ceiling: Cents, won: bool) {
         let courier = &mut self.state.couriers[bid.courier];
-        courier.results.push(BidResult { price: bid.price, ceiling, won });
+        courier.results.push(BidResult { order, price: bid.price, ceiling, won });
         if courier.results.len() > MEMORY {
             courier.results.remove(0);
             courier.results_before += 1;

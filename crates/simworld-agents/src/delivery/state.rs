@@ -56,6 +56,8 @@ pub(super) enum Ride {
 /// How a bid of a courier ended.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BidResult {
+    /// For which order.
+    pub order: OrderId,
     /// What was bid.
     pub price: Cents,
     /// The ceiling of that order.

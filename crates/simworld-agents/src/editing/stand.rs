@@ -1,6 +1,6 @@
 //! How things stand to each other, as geometric tests.
 
-use simworld_core::geometry::{Point2, Twist, direction, heading as heading_of};
+use simworld_core::geometry::{Aabb, Point2, Twist, direction, heading as heading_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::{Road, polyline};
 use simworld_core::ops::wrap_angle;
@@ -40,6 +40,22 @@ pub(super) struct Subject<'a> {
     pub(super) id: Option<EntityId>,
     pub(super) kind: EntityKind,
     pub(super) info: &'a EntityInfo,
+}
+
+impl Subject<'_> {
+    /// The thing as it would stand.
+    fn placed<'a>(&'a self, solid: &'a Solid, bounds: &'a Aabb) -> EntityRef<'a> {
+        EntityRef {
+            // No entity has this id, so that a thing which is not there yet is nobody else.
+            id: self.id.unwrap_or(EntityId::new(u32::MAX, u32::MAX)),
+            kind: self.kind,
+            pose: &solid.pose,
+            twist: &Twist::ZERO,
+            bounds,
+            info: self.info,
+            attachment: None,
+        }
+    }
 }
 
 impl Stand {
@@ -85,21 +101,9 @@ impl Stand {
         let anchor = |id: &EntityId| scene.entity(*id).filter(|found| subject.id != Some(found.id));
         let at = solid.planar();
         match self {
-            Self::To { relation, anchor: to } => anchor(to).is_some_and(|to| {
-                let bounds = solid.bounds();
-                // No entity has this id, so that a thing which is not there yet is nobody else.
-                let id = subject.id.unwrap_or(EntityId::new(u32::MAX, u32::MAX));
-                let stands = EntityRef {
-                    id,
-                    kind: subject.kind,
-                    pose: &solid.pose,
-                    twist: &Twist::ZERO,
-                    bounds: &bounds,
-                    info: subject.info,
-                    attachment: None,
-                };
-                relation.holds(&stands, &to)
-            }),
+            Self::To { relation, anchor: to } => {
+                anchor(to).is_some_and(|to| relation.holds(&subject.placed(solid, &solid.bounds()), &to))
+            }
             Self::Between { one, other } => match (anchor(one), anchor(other)) {
                 (Some(one), Some(other)) => is_between(at, one.planar(), other.planar()),
                 _ => false,
@@ -120,19 +124,12 @@ impl Stand {
                 let corners = Solid::of(&of).corners();
                 corners.into_iter().any(|corner| solid.distance_to(corner) <= CORNER)
             }),
-            Self::Towards { heading, anchor: from } => anchor(from).is_some_and(|from| {
-                let way = at - from.planar();
-                let forward = way.dot(&direction(*heading));
-                // Within 45°: as much forward as aside.
-                forward > 0.0
-                    && forward * forward * 2.0 >= way.norm_squared()
-                    && Solid::of(&from).gap(solid) <= FAR_SIDE
-            }),
-            Self::Offset { anchor: from, heading, distance } => anchor(from).is_some_and(|from| {
-                let way = at - from.planar();
-                let off = wrap_angle(heading_of(&way) - heading).abs();
-                (Solid::of(&from).gap(solid) - distance).abs() <= slack(*distance) && off <= AIM
-            }),
+            Self::Towards { heading, anchor: from } => {
+                anchor(from).is_some_and(|from| is_towards(*heading, &Solid::of(&from), solid))
+            }
+            Self::Offset { anchor: from, heading, distance } => {
+                anchor(from).is_some_and(|from| is_off(*heading, *distance, &Solid::of(&from), solid))
+            }
             Self::Apart { anchor: from, least, most } => {
                 anchor(from).is_some_and(|from| (*least..=*most).contains(&Solid::of(&from).gap(solid)))
             }
@@ -189,6 +186,19 @@ fn is_between(at: Point2, one: Point2, other: Point2) -> bool {
     let (way, offset) = (along / length, at - one);
     let (forward, aside) = (offset.dot(&way), way.perp(&offset).abs());
     forward > 0.0 && forward < length && aside <= (length / 3.0).max(2.0)
+}
+
+fn is_towards(heading: f64, anchor: &Solid, solid: &Solid) -> bool {
+    let way = solid.planar() - anchor.planar();
+    let forward = way.dot(&direction(heading));
+    // Within 45°: as much forward as aside.
+    forward > 0.0 && forward * forward * 2.0 >= way.norm_squared() && anchor.gap(solid) <= FAR_SIDE
+}
+
+fn is_off(heading: f64, distance: f64, anchor: &Solid, solid: &Solid) -> bool {
+    let way = solid.planar() - anchor.planar();
+    let off = wrap_angle(heading_of(&way) - heading).abs();
+    (anchor.gap(solid) - distance).abs() <= slack(distance) && off <= AIM
 }
 
 fn is_along(anchor: &Solid, solid: &Solid) -> bool {

@@ -16,35 +16,15 @@ use super::resolve::View;
 use super::spelling::correct;
 
 /// Every call with its arguments; a question mark follows those that may be left out.
+#[rustfmt::skip]
 pub(super) const CALLS: &[(&str, &[&str])] = &[
-    ("navigate", &["to?", "x?", "y?", "z?", "speed?", "within?"]),
-    ("follow", &["whom"]),
-    ("face", &["what"]),
-    ("pick_up", &["item"]),
-    ("drop_off", &[]),
-    ("put_down", &[]),
-    ("give", &["to", "item?"]),
-    ("buy", &["goods", "at?"]),
-    ("sit_down", &["seat?"]),
-    ("stand_up", &[]),
-    ("stop", &[]),
-    ("wait", &["seconds"]),
-    ("ride_scooter", &["scooter"]),
-    ("get_off_scooter", &[]),
-    ("enter_car", &["car"]),
-    ("exit_car", &[]),
-    ("open_door", &["door?"]),
-    ("close_door", &["door?"]),
-    ("step", &["direction?", "distance?"]),
-    ("turn", &["angle"]),
-    ("change_speed", &["speed"]),
-    ("say", &["to", "words"]),
-    ("argue", &["with"]),
-    ("wave", &["to"]),
-    ("point", &["at"]),
-    ("take_photo", &["of?"]),
-    ("look", &["angle"]),
-    ("walk_on", &[]),
+    ("navigate", &["to?", "x?", "y?", "z?", "speed?", "within?"]), ("follow", &["whom"]), ("face", &["what"]),
+    ("pick_up", &["item"]), ("drop_off", &[]), ("put_down", &[]), ("give", &["to", "item?"]), ("buy", &["goods",
+    "at?"]), ("sit_down", &["seat?"]), ("stand_up", &[]), ("stop", &[]), ("wait", &["seconds"]),
+    ("ride_scooter", &["scooter"]), ("get_off_scooter", &[]), ("enter_car", &["car"]), ("exit_car", &[]),
+    ("open_door", &["door?"]), ("close_door", &["door?"]), ("step", &["direction?", "distance?"]), ("turn",
+    &["angle"]), ("change_speed", &["speed"]), ("say", &["to", "words"]), ("argue", &["with"]), ("wave",
+    &["to"]), ("point", &["at"]), ("take_photo", &["of?"]), ("look", &["angle"]), ("walk_on", &[]),
 ];
 
 /// Arguments being read.
@@ -120,7 +100,12 @@ impl Call<'_> {
             "face" => Clause::Face { what: self.thing("what")? },
             "pick_up" => Clause::Take { what: self.thing("item")?, to: None, grip: Grip::Lift },
             "give" => Clause::Give { what: self.optional_thing("item")?, to: self.thing("to")? },
-            "buy" => Clause::Buy { goods: self.text("goods")?, times: 1, at: self.optional_thing("at")? },
+            "buy" => Clause::Buy {
+                goods: self.text("goods")?,
+                times: 1,
+                at: self.optional_thing("at")?,
+                whom: None,
+            },
             "ride_scooter" => Clause::Board { what: self.thing("scooter")?, to: None },
             "enter_car" => Clause::Board { what: self.thing("car")?, to: None },
             "open_door" => Clause::Door { what: self.optional_thing("door")?, open: true },

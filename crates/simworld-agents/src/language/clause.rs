@@ -34,8 +34,10 @@ pub(super) enum Clause {
     Drop { what: Option<Reference>, at: Option<Reference>, manner: Manner },
     /// Hands something over.
     Give { what: Option<Reference>, to: Reference },
-    /// Buys something, where it is sold or at a place.
-    Buy { goods: String, times: u32, at: Option<Reference> },
+    /// Buys something, where it is sold or at a place, and gives it to somebody if one is named.
+    Buy { goods: String, times: u32, at: Option<Reference>, whom: Option<Reference> },
+    /// Speaks of something that later words stand for, and does nothing.
+    Mention { what: Reference },
     /// Sits down, on the nearest free seat if none is named.
     Sit { on: Option<Reference> },
     /// Gets up.
@@ -125,6 +127,23 @@ pub(super) enum Test {
     Either(Box<Self>, Box<Self>),
 }
 
+impl Test {
+    /// Whether a pronoun in it stands for what the order is about: "unless it is taken".
+    pub(super) fn is_about_it(&self) -> bool {
+        match self {
+            Self::Sees(what)
+            | Self::Near { what, .. }
+            | Self::There { what, .. }
+            | Self::InUse(what)
+            | Self::Open(what)
+            | Self::Holds(Some(what)) => matches!(what.target, Target::It | Target::Them),
+            Self::Not(test) => test.is_about_it(),
+            Self::Both(one, other) | Self::Either(one, other) => one.is_about_it() || other.is_about_it(),
+            _ => false,
+        }
+    }
+}
+
 /// Which junctions count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lights {
@@ -137,10 +156,10 @@ pub(super) enum Lights {
 /// Where beside a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spot {
-    /// On a side of it as it stands.
-    Beside(Relation),
-    /// On a side of it by the compass.
-    Compass(Compass),
+    /// On a side of it as it stands, with so much room between, m.
+    Beside(Relation, Option<f64>),
+    /// On a side of it by the compass, so far from its middle, m.
+    Compass(Compass, Option<f64>),
 }
 
 /// In which direction one goes.
@@ -201,6 +220,8 @@ pub(super) enum Vehicle {
 pub(super) struct Reference {
     pub(super) target: Target,
     pub(super) choice: Choice,
+    /// The place in the order of the choice, from 1: the second tallest is 2.
+    pub(super) place: u32,
     pub(super) count: Count,
     pub(super) traits: Traits,
     /// How it stands to something else.
@@ -232,6 +253,8 @@ pub(super) enum Stands {
     Within(f64, Box<Reference>),
     /// In a direction from a thing or, without one, from the agent.
     Compass(Compass, Option<Box<Reference>>),
+    /// In all of these ways.
+    All(Vec<Self>),
 }
 
 /// A side of the agent, as it will be turned by then.
@@ -247,6 +270,8 @@ pub(super) enum Side {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Traits {
     pub(super) paint: Option<Paint>,
+    /// The colours that it does not have.
+    pub(super) unlike: Vec<Paint>,
     pub(super) free: bool,
     pub(super) parked: bool,
     /// An attribute of doors that is set or not.
@@ -295,6 +320,10 @@ pub(super) enum Choice {
     Compass(Compass),
     /// The one with the most or, with `false`, the least of a measure.
     Most(Measure, bool),
+    /// The one farthest to a side of the agent.
+    Side(Side),
+    /// The one in the middle of an odd number.
+    Middle,
 }
 
 /// What can be compared.
@@ -318,6 +347,7 @@ impl Reference {
         Self {
             target,
             choice: Choice::Open,
+            place: 1,
             count: Count::One,
             traits: Traits::default(),
             relation: None,
@@ -354,6 +384,27 @@ impl Clause {
             return if let Self::Stay { body, .. } = self { body.plural() } else { None };
         };
         (what.count != Count::One).then_some(what)
+    }
+
+    /// The thing that an order is about, if it is about one.
+    pub(super) const fn about(&self) -> Option<&Reference> {
+        match self {
+            Self::Go { to: what, .. }
+            | Self::Take { what, .. }
+            | Self::Wave { to: what }
+            | Self::Say { to: what, .. }
+            | Self::Face { what }
+            | Self::Point { at: what }
+            | Self::Argue { with: what }
+            | Self::Follow { whom: what, .. }
+            | Self::Board { what, .. }
+            | Self::Drive { to: what, .. }
+            | Self::Buy { at: Some(what), .. }
+            | Self::Door { what: Some(what), .. }
+            | Self::Sit { on: Some(what) }
+            | Self::Photo { of: Some(what), .. } => Some(what),
+            _ => None,
+        }
     }
 
     /// Whether doing it twice in a row is doing something twice: waving is, sitting down is not.

@@ -10,10 +10,10 @@ use simworld_core::scene::{EntityKind, EntityRef, Role};
 use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 
 use super::clause::{Clause, Pace, Reference, Spot, Target, Test};
-use super::compass::Compass;
-use super::lexicon::{class, is_animate};
+use super::lexicon::is_animate;
 use super::relate::spot_on_side;
 use super::resolve::{Purpose, View};
+use super::sequence;
 
 /// How near one comes to a thing, or to its door, m: well within reach of an arm.
 const AT_THING: f64 = 1.0;
@@ -22,7 +22,7 @@ const AT_PERSON: f64 = 1.2;
 /// How near one comes to a point, m.
 pub(super) const AT_POINT: f64 = 0.5;
 /// The gap one keeps from somebody whom one follows, m.
-const FOLLOWING: f64 = 2.0;
+pub(super) const FOLLOWING: f64 = 2.0;
 /// Room for a body between itself and what it stands before, m.
 const ROOM: f64 = 0.6;
 /// What "run" means, m/s: a slow jog, the most that walkers of the engine can do.
@@ -65,7 +65,7 @@ pub(super) struct Draft<'a> {
     pub(super) beside: Option<EntityId>,
     there: Option<(Goal, f64)>,
     /// What was let go of last, and to whom it was given: "carry it there and leave it" says one thing twice.
-    pub(super) delivered: Option<(EntityId, Option<EntityId>)>,
+    pub(super) delivered: Option<(Load, Option<EntityId>)>,
     /// What one is in or on.
     pub(super) mount: Option<EntityId>,
 }
@@ -102,7 +102,13 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn add_all(&mut self, clauses: &[Clause]) -> Result<(), PlanError> {
-        clauses.iter().try_for_each(|clause| self.add(clause))
+        for (at, clause) in clauses.iter().enumerate() {
+            match sequence::in_view_of(clause, &clauses[at + 1..]) {
+                Some(instead) => instead.iter().try_for_each(|clause| self.add(clause))?,
+                None => self.add(clause)?,
+            }
+        }
+        Ok(())
     }
 
     /// Adds the steps of one order, once for each thing that it is about.
@@ -140,12 +146,14 @@ impl<'a> Draft<'a> {
             Clause::Take { what, to, grip } => self.take_to(what, to.as_ref(), *grip),
             Clause::Drop { what, at, manner } => self.drop(what.as_ref(), at.as_ref(), *manner),
             Clause::Give { what, to } => self.give(what.as_ref(), to),
-            Clause::Buy { goods, times, at } => self.buy(goods, *times, at.as_ref()),
+            Clause::Buy { goods, times, at, whom } => self.buy(goods, *times, at.as_ref(), whom.as_ref()),
+            Clause::Mention { what } => self.speak_of(what),
             Clause::Sit { on } => self.sit(on.as_ref()),
             Clause::StandUp => {
                 self.posture = Posture::Standing;
                 self.act(Action::StandUp)
             }
+            Clause::Stop if matches!(self.last_step(), Some(PlanStep::Act(Action::Stop))) => Ok(()),
             Clause::Stop => self.act(Action::Stop),
             Clause::Wait { seconds } => {
                 self.push(PlanStep::Wait { seconds: *seconds });
@@ -209,6 +217,7 @@ impl<'a> Draft<'a> {
                 self.push(PlanStep::Until { condition, steps });
                 Ok(())
             }
+            Clause::Repeat { times: 1, body } => self.add_all(body),
             Clause::Repeat { times, body } => {
                 let steps = self.block(body)?;
                 self.push(PlanStep::Repeat { times: *times, steps });
@@ -222,8 +231,15 @@ impl<'a> Draft<'a> {
         let (held, carried, posture, beside, there) =
             (self.held, self.carried, self.posture, self.beside, self.there);
         let (from, heading) = (self.view.from, self.view.heading);
-        if let Condition::Holds(Some(item)) = &condition {
-            self.held.get_or_insert(Load::Thing(*item));
+        match &condition {
+            Condition::Holds(Some(item)) => {
+                self.held.get_or_insert(Load::Thing(*item));
+            }
+            // Whatever it is.
+            Condition::Holds(None) => {
+                self.held.get_or_insert(Load::Bought);
+            }
+            _ => {}
         }
         let spoken_of = self.view.it;
         let then = self.block(then)?;
@@ -287,6 +303,16 @@ impl<'a> Draft<'a> {
         let found = self.view.find(reference, purpose)?;
         self.mention(&found);
         Ok(found)
+    }
+
+    /// Later words stand for it: "there" leads to it.
+    fn speak_of(&mut self, what: &Reference) -> Result<(), PlanError> {
+        if what.count != super::clause::Count::One {
+            return self.view.find_all(what, Purpose::Any).map(|_| ());
+        }
+        let found = self.find(what, Purpose::Any)?;
+        self.there = Some((Goal::Entity(found.id), reach_of(&found)));
+        Ok(())
     }
 
     /// Remembers what was spoken of.
@@ -361,7 +387,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    fn place_of(&self, goal: Goal) -> Point2 {
+    pub(super) fn place_of(&self, goal: Goal) -> Point2 {
         match goal {
             Goal::Point(point) => point.xy(),
             Goal::Entity(id) => {
@@ -371,7 +397,7 @@ impl<'a> Draft<'a> {
         }
     }
 
-    fn goal(&mut self, reference: &Reference) -> Result<Goal, PlanError> {
+    pub(super) fn goal(&mut self, reference: &Reference) -> Result<Goal, PlanError> {
         Ok(match (&reference.target, self.there) {
             (Target::Point { x, y, z }, _) => Goal::Point(Point3::new(*x, *y, z.unwrap_or(self.level))),
             (Target::There, Some((goal, _))) => goal,
@@ -380,85 +406,9 @@ impl<'a> Draft<'a> {
         })
     }
 
-    fn face(&mut self, what: &Reference) -> Result<(), PlanError> {
-        self.can(ActionKind::Rotate)?;
-        let to = self.goal(what)?;
-        let way = self.place_of(to) - self.view.from;
-        if way.norm() > 1e-6 {
-            self.view.heading = heading(&way);
-        }
-        self.push(PlanStep::Face { to });
-        Ok(())
-    }
-
     /// How far from a thing the middle of the body comes to stand, m.
     fn room(&self) -> f64 {
         if self.drives() { ROOM + self.half_length } else { ROOM }
-    }
-
-    /// Towards a place so far away that the direction stays the same wherever one stands.
-    fn face_compass(&mut self, compass: Compass) -> Result<(), PlanError> {
-        const FAR: f64 = 1000.0;
-        self.can(ActionKind::Rotate)?;
-        self.view.heading = compass.heading();
-        let to = Goal::Point(self.on_level(self.view.from + compass.step() * FAR));
-        self.push(PlanStep::Face { to });
-        Ok(())
-    }
-
-    fn photo(&mut self, of: Option<&Reference>, times: u32) -> Result<(), PlanError> {
-        if let Some(of) = of {
-            self.face(of)?;
-        }
-        if times == 1 {
-            return self.act(Action::TakePhoto);
-        }
-        self.can(ActionKind::TakePhoto)?;
-        self.push(PlanStep::Repeat { times, steps: vec![PlanStep::Act(Action::TakePhoto)] });
-        Ok(())
-    }
-
-    fn follow(&mut self, whom: &Reference, pace: Pace) -> Result<(), PlanError> {
-        let target = self.find(whom, Purpose::Any)?;
-        if !target.kind.is_mobile() {
-            let near =
-                format!("a {} stays where it is: follow people, animals, robots or vehicles", target.kind);
-            return Err(PlanError::NotFound { wanted: format!("{:?} to follow", whom.text), near });
-        }
-        self.get_up()?;
-        self.beside = None;
-        self.push(PlanStep::Follow { whom: target.id, gap: FOLLOWING, speed: speed_of(pace) });
-        Ok(())
-    }
-
-    fn go_to_somebody(&mut self, to: &Reference, verb: &str) -> Result<EntityId, PlanError> {
-        let somebody = self.find(to, Purpose::Any)?;
-        if !is_animate(somebody.kind) {
-            let near = format!("a {} does not answer: {}", somebody.kind, self.view.surroundings());
-            return Err(PlanError::NotFound { wanted: format!("{:?} to {verb}", to.text), near });
-        }
-        self.go_beside(&somebody)?;
-        Ok(somebody.id)
-    }
-
-    /// To the other side of the nearest crossing, along its longer side.
-    fn cross(&mut self) -> Result<(), PlanError> {
-        let wanted = Reference {
-            indefinite: true,
-            text: "crossing".to_owned(),
-            ..Reference::nearest(class("crossing"))
-        };
-        let crossing = self.view.find(&wanted, Purpose::Any)?;
-        let half = crossing.info.shape.size() * 0.5;
-        let along = if half.x >= half.y {
-            Point3::new(half.x + AT_POINT, 0.0, 0.0)
-        } else {
-            Point3::new(0.0, half.y + AT_POINT, 0.0)
-        };
-        let ends = [crossing.pose * along, crossing.pose * Point3::from(-along.coords)];
-        let distance = |end: &Point3| (end.xy() - self.view.from).norm();
-        let far = if distance(&ends[0]) >= distance(&ends[1]) { ends[0] } else { ends[1] };
-        self.navigate(Goal::Point(far), AT_POINT, None)
     }
 
     /// Nobody walks while sitting or aboard.

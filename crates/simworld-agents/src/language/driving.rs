@@ -10,6 +10,7 @@ use simworld_core::seam::{Goal, PlanError, PlanStep};
 
 use super::clause::{Clause, Course, Lights, Pace, Reference, Spot};
 use super::draft::{AT_POINT, Draft, Posture};
+use super::lexer::Token;
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
@@ -40,21 +41,11 @@ impl Parser<'_> {
             "signals",
             "set of traffic lights",
         ];
+        #[rustfmt::skip]
         const JUNCTIONS: &[&str] = &[
-            "junction",
-            "intersection",
-            "crossroads",
-            "crossroad",
-            "corner",
-            "crossing",
-            "turning",
-            "turn",
-            "street corner",
-            "side street",
-            "street",
-            "road",
-            "opportunity",
-            "turnoff",
+            "junction", "intersection", "crossroads", "crossroad", "corner", "crossing", "turning", "turn",
+            "street corner", "side street", "street", "road", "opportunity", "turnoff", "one", "one after",
+            "one after that", "one after it",
         ];
         let start = self.at;
         if !self.eat_any(&[
@@ -155,6 +146,11 @@ impl Parser<'_> {
             None
         };
         let said = nth.is_some() || turning || self.at > start + 1;
+        if let Some(turn) = turn.filter(|_| nth.is_none() && !turning)
+            && let Some((nth, lights)) = self.junction()
+        {
+            return Some(vec![Clause::TurnAt { turn, nth, lights }]);
+        }
         let turn = turn.filter(|_| said && self.ends_clause());
         if turn.is_none() {
             self.at = start;
@@ -164,25 +160,16 @@ impl Parser<'_> {
 
     /// After "drive".
     pub(super) fn drive(&mut self) -> Result<Vec<Clause>, PlanError> {
+        #[rustfmt::skip]
         const TO: &[&str] = &[
-            "to",
-            "over to",
-            "towards",
-            "back to",
-            "up to",
-            "down to",
-            "all the way to",
-            "straight to",
-            "on to",
-            "as far as",
-            "me to",
-            "us to",
-            "yourself to",
+            "to", "over to", "towards", "back to", "up to", "down to", "all the way to", "straight to", "on to",
+            "as far as", "me to", "us to", "yourself to",
         ];
         let pace = self.pace(Pace::Usual)?;
         if self.eat_any(TO) {
             let to = self.reference(0)?;
-            return Ok(vec![Clause::Drive { to, pace: self.pace(pace)? }]);
+            let pace = self.pace(pace)?;
+            return self.after_place(Clause::Drive { to, pace }, pace);
         }
         if let Some(clauses) = self.straight_at_junction() {
             return Ok(clauses);
@@ -230,9 +217,17 @@ impl Parser<'_> {
             "ahead",
         ]);
         if self.at > start
-            && let Some((nth, lights)) = self.junction()
+            && let Some((nth, lights)) = self.junction_passed().or_else(|| self.junction())
         {
             return Some(vec![Clause::TurnAt { turn: Turn::Straight, nth, lights }]);
+        }
+        let drives = self.view.scene.entity(self.view.who).is_some_and(|me| me.kind.is_vehicle());
+        let from = start.saturating_sub(2);
+        let straight = self.lexemes[from..self.at]
+            .iter()
+            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "straight"));
+        if drives && straight && self.ends_clause() && !self.goes_on() && self.peek_interval().is_none() {
+            return Some(vec![Clause::TurnAt { turn: Turn::Straight, nth: 1, lights: Lights::Any }]);
         }
         self.at = start;
         None
@@ -253,7 +248,7 @@ impl Parser<'_> {
         if self.eat_any(KERB) {
             return Ok(vec![Clause::Park { at: None }]);
         }
-        let side = self.side().map(Spot::Beside);
+        let side = self.side().map(|side| Spot::Beside(side, None));
         if side.is_none() && self.ends_clause() {
             return Ok(vec![Clause::Park { at: None }]);
         }

@@ -2,56 +2,70 @@
 
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{category, longest_phrase};
-use super::politeness::{FILLERS, HESITATIONS};
+use super::politeness::{HESITATIONS, filler};
 use super::verbs::longest_verb;
 
 /// Contractions of a verb and "not".
-const NEGATED: &[(&str, &str)] = &[("isnt", "is"), ("arent", "are"), ("wasnt", "was"), ("aint", "is")];
+const NEGATED: &[(&str, &str)] = &[
+    ("isnt", "is"),
+    ("arent", "are"),
+    ("wasnt", "was"),
+    ("aint", "is"),
+    ("hasnt", "has"),
+    ("doesnt", "does"),
+];
 /// Words with "'s" that stand in the tables as they are.
 const WHOLE: &[&str] =
     &["its", "thats", "lets", "theres", "whos", "whats", "heres", "wheres", "hows", "todays"];
 /// What somebody or something may be: before it "'s" is "is", and not whose.
+#[rustfmt::skip]
 const STATES: &[&str] = &[
-    "here",
-    "there",
-    "green",
-    "red",
-    "yellow",
-    "amber",
-    "free",
-    "taken",
-    "occupied",
-    "empty",
-    "open",
-    "closed",
-    "shut",
-    "near",
-    "nearby",
-    "close",
-    "next",
-    "visible",
-    "in sight",
-    "in view",
-    "in use",
-    "available",
-    "busy",
-    "locked",
-    "unlocked",
-    "not",
-    "arrived",
-    "back",
-    "sitting",
-    "standing",
-    "gone",
+    "here", "there", "green", "red", "yellow", "amber", "free", "taken", "occupied", "empty", "open", "closed",
+    "shut", "near", "nearby", "close", "next", "visible", "in sight", "in view", "in use", "available", "busy",
+    "locked", "unlocked", "not", "arrived", "back", "sitting", "standing", "gone", "been", "got", "waiting",
+    "coming", "lonely", "sad", "late", "hungry", "thirsty", "bored", "tired", "ill", "ready", "alone", "lost",
+    "in", "on", "at", "by", "behind", "over", "still", "already", "about", "around", "feeling", "looking",
+    "asking", "lying", "parked", "stopped", "turned", "become", "come", "dark", "raining", "snowing", "dry",
+    "wet", "closest", "nearest",
 ];
 
 /// The tokens of what is said to somebody of that name.
 pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
     let mut lexemes = lex_speech(text);
+    without_abbreviations(&mut lexemes);
+    with_dashes(&mut lexemes, text);
     if let Some(name) = name {
         drop_address(&mut lexemes, &lex(name));
     }
     lexemes
+}
+
+/// "St. Mary's": the full stop of an abbreviation ends no sentence.
+fn without_abbreviations(lexemes: &mut Vec<Lexeme>) {
+    let mut at = 1;
+    while at < lexemes.len() {
+        let short = matches!(&lexemes[at - 1].token, Token::Word(word) if ["st", "mr", "mrs", "ms", "dr"].contains(&word.as_str()));
+        if short && lexemes[at].token == Token::Break && at + 1 < lexemes.len() {
+            lexemes.remove(at);
+        }
+        at += 1;
+    }
+}
+
+/// "The letter - bring it to Hana": a dash between words parts them as a comma does.
+fn with_dashes(lexemes: &mut Vec<Lexeme>, text: &str) {
+    let mut at = 1;
+    while at < lexemes.len() {
+        let (start, end) = (lexemes[at - 1].end, lexemes[at].start);
+        let between = text.get(start..end).unwrap_or_default();
+        let dash = between.contains(['–', '—']) || between.contains(" - ") || between.contains(" -- ");
+        let is_word = |lexeme: &Lexeme| !matches!(lexeme.token, Token::Comma | Token::Break);
+        if dash && is_word(&lexemes[at - 1]) && is_word(&lexemes[at]) {
+            lexemes.insert(at, Lexeme { token: Token::Comma, lemma: None, start, end: start });
+            at += 1;
+        }
+        at += 1;
+    }
 }
 
 /// As [`lex`], without the sounds that people make while they think, and with contractions in full.
@@ -105,7 +119,10 @@ fn in_full(lexemes: &[Lexeme], text: &str) -> Vec<Lexeme> {
             full.push(lexeme.clone());
             continue;
         };
-        let parts = if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
+        let written = &text[lexeme.start..lexeme.end];
+        let parts = if written.eq_ignore_ascii_case("we're") || written.eq_ignore_ascii_case("we’re") {
+            Some(("we".to_owned(), "are"))
+        } else if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
             Some(((*verb).to_owned(), "not"))
         } else {
             owner(word, lexeme, text).filter(|_| is_state(&lexemes[at + 1..])).map(|owner| (owner, "is"))
@@ -142,9 +159,16 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
             lexemes.get(at..end).is_some_and(|said| said.iter().zip(name).all(|(a, b)| a.token == b.token));
         let is_mark = |at: usize| matches!(lexemes[at].token, Token::Comma | Token::Break);
         let begins = at == 0 || is_mark(at - 1) || is_polite(&lexemes[..at]);
+        let called = at > 0
+            && end >= lexemes.len()
+            && matches!(&lexemes[at - 1].token, Token::Word(word)
+                if ["me", "here", "please", "now", "boy", "girl", "down", "still", "it", "back", "home", "there"].contains(&word.as_str()));
+        let begins = begins || called;
         let ends = end >= lexemes.len() || is_mark(end) || at == 0 && longest_verb(&lexemes[end..]).is_some();
         if same && begins && ends && lexemes.len() > name.len() {
-            lexemes.drain(at..end);
+            let between =
+                at > 0 && end < lexemes.len() && is_comma(lexemes, at - 1) && is_comma(lexemes, end);
+            lexemes.drain(at..end + usize::from(between));
         } else {
             at += 1;
         }
@@ -153,7 +177,7 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
 
 /// Whether the words are politeness alone: "come on Rex, ...".
 fn is_polite(mut lexemes: &[Lexeme]) -> bool {
-    while let Some(count) = longest_phrase(lexemes, FILLERS) {
+    while let Some(count) = filler(lexemes) {
         lexemes = &lexemes[count..];
     }
     lexemes.is_empty()

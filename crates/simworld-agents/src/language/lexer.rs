@@ -58,6 +58,13 @@ pub(crate) fn lex(text: &str) -> Vec<Lexeme> {
     lexemes
 }
 
+/// What was written from the first of some tokens to the last, in whatever order they are.
+pub(crate) fn written<'a>(text: &'a str, lexemes: &[Lexeme]) -> &'a str {
+    let start = lexemes.iter().map(|lexeme| lexeme.start).min();
+    let end = lexemes.iter().map(|lexeme| lexeme.end).max();
+    start.zip(end).and_then(|(start, end)| text.get(start..end)).unwrap_or_default()
+}
+
 fn symbol(symbol: char) -> Option<Token> {
     match symbol {
         '(' | '[' => Some(Token::Open),

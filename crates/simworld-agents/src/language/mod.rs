@@ -7,21 +7,32 @@
 //!
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
+mod blocks;
 mod call;
 mod clause;
 mod compass;
+mod corrections;
+mod deeds;
+mod described;
 mod draft;
 mod driving;
 pub(crate) mod edits;
+mod fronted;
+mod handling;
 mod hearing;
 pub(crate) mod lexer;
 mod lexicon;
+mod modifiers;
 mod motion;
 mod names;
+mod nominal;
 pub(crate) mod numbers;
 mod orders;
+mod paces;
 pub(crate) mod paint;
 mod parser;
+mod passive;
+mod pauses;
 mod pointing;
 mod politeness;
 mod reference;
@@ -30,6 +41,8 @@ mod remarks;
 mod requests;
 mod resolve;
 pub(crate) mod scenes;
+mod sequence;
+mod shopping;
 mod speech;
 mod spelling;
 mod staying;
@@ -38,9 +51,12 @@ pub(crate) mod streets;
 mod structured;
 mod tails;
 mod tests_of;
+mod tests_of_self;
 mod things;
+mod topics;
 mod unknown;
 mod verbs;
+mod wants;
 mod ways;
 mod weather;
 mod whereabouts;
@@ -142,6 +158,7 @@ impl Planner for GrammarPlanner {
             Intent::Words(words) => {
                 let mut lexemes = hearing::hear(words, me.info.name.as_deref());
                 spelling::correct(&mut lexemes, &names);
+                passive::put_verbs_first(&mut lexemes);
                 Parser::new(words, &lexemes, &names, &view).sentence()?
             }
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],

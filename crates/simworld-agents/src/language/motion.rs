@@ -23,38 +23,35 @@ pub(super) const LENGTHS: &[&str] = &[
     "a step",
 ];
 
+#[rustfmt::skip]
 const DIRECTIONS: &[(&[&str], StepDirection)] = &[
-    (
-        &[
-            "forward",
-            "forwards",
-            "ahead",
-            "straight ahead",
-            "straight",
-            "straight on",
-            "onward",
-            "onwards",
-            "straight forward",
-        ],
-        StepDirection::Forward,
-    ),
-    (&["backward", "backwards"], StepDirection::Backward),
-    (&["left", "to the left", "to your left", "leftwards"], StepDirection::Left),
-    (&["right", "to the right", "to your right", "rightwards"], StepDirection::Right),
+    (&["forward", "forwards", "ahead", "straight ahead", "straight", "straight on", "onward", "onwards",
+    "straight forward"], StepDirection::Forward),
+    (&["backward", "backwards", "to the rear"], StepDirection::Backward),
+    (&["left", "to the left", "to your left", "leftwards", "over to the left", "to the left side"],
+    StepDirection::Left),
+    (&["right", "to the right", "to your right", "rightwards", "over to the right", "to the right side"],
+    StepDirection::Right),
+];
+
+/// What leads to a place.
+#[rustfmt::skip]
+const TOWARDS: &[&str] = &[
+    "to", "too", "towards", "toward", "up to", "over to", "into", "in", "onto", "on", "at", "for", "back to",
+    "down to", "through", "out to", "right up to", "straight to", "as far as", "all the way to",
+    "all the way up to", "by", "round to", "along to", "across to", "off to", "back into", "inside", "with",
+    "until", "until you reach", "until you get to", "over at", "over by", "up at", "down at", "in on", "in at",
+    "on over to", "back over to", "away to", "home to", "over towards", "right over to", "round by", "round at",
+    "over into", "down by", "up by", "out at", "right to", "back at", "on", "near to",
 ];
 
 /// Going between two places again and again.
+#[rustfmt::skip]
 const TO_AND_FRO: &[&str] = &[
-    "back and forth between",
-    "to and fro between",
-    "back and forth from",
-    "and forth between",
-    "and forth from",
-    "up and down between",
-    "and down between",
-    "backwards and forwards between",
-    "backward and forward between",
-    "and forwards between",
+    "back and forth between", "to and fro between", "back and forth from", "and forth between",
+    "and forth from", "up and down between", "and down between", "backwards and forwards between",
+    "backward and forward between", "and forwards between", "to and fro from", "back and forward between",
+    "backwards and forwards from", "up and down from", "back and fro between", "hither and thither between",
 ];
 
 #[derive(Clone, Copy)]
@@ -72,24 +69,13 @@ const SENSES: &[(&[&str], Sense)] = &[
 
 impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["first", "then", "next", "finally"]);
         let pace = self.pace(pace)?;
-        if let Some(to) = self.speaker_calls(start) {
-            return Ok(vec![Clause::Go { to, side: None, pace, within: None }]);
-        }
-        if let Some(clauses) = self.straight_at_junction() {
+        let apart = self.apart();
+        if apart.is_none()
+            && let Some(clauses) = self.way(pace, start)?
+        {
             return Ok(clauses);
-        }
-        if let Some(clauses) = self.by_the_compass(pace)? {
-            return Ok(clauses);
-        }
-        if self.begins_step() {
-            return self.step().map(|step| vec![step]);
-        }
-        if let Some(clauses) = self.between_places(pace)? {
-            return Ok(clauses);
-        }
-        if self.eat_any(TO_AND_FRO) {
-            return self.back_and_forth(pace);
         }
         self.eat_any(&[
             "straight",
@@ -106,70 +92,103 @@ impl Parser<'_> {
             "across",
             "out",
             "off",
+            "yourself",
+            "yourself down",
+            "yourself over",
+            "yourself up",
+            "right over",
+            "straight over",
+            "straight away",
         ]);
         if let Some(clauses) = self.special_way(pace)? {
             return Ok(clauses);
         }
         let pace = self.pace(pace)?;
+        if let Some(clauses) = self.leads_nowhere(pace, start) {
+            return Ok(clauses);
+        }
+        let within = self.within()?;
+        let apart = apart.or_else(|| self.apart());
+        let named_side = longest(self.rest(), RELATIONS).is_some_and(|(_, words)| words > 1);
+        if apart.is_none() && !named_side {
+            self.eat_any(TOWARDS);
+        }
+        self.place_to_go(pace, within, apart, start)
+    }
+
+    /// A way that names no place: straight on, by the compass, so many steps, to and fro.
+    fn way(&mut self, pace: Pace, start: usize) -> Result<Option<Vec<Clause>>, PlanError> {
+        if let Some(to) = self.speaker_calls(start) {
+            return Ok(Some(vec![Clause::Go { to, side: None, pace, within: None }]));
+        }
+        if let Some(clauses) = self.straight_at_junction() {
+            return Ok(Some(clauses));
+        }
+        if let Some(clauses) = self.by_the_compass(pace)? {
+            return Ok(Some(clauses));
+        }
+        if self.begins_step() {
+            return self.step().map(|step| Some(vec![step]));
+        }
+        if let Some(clauses) = self.between_places(pace)? {
+            return Ok(Some(clauses));
+        }
+        if self.eat_any(TO_AND_FRO) {
+            return self.back_and_forth(pace).map(Some);
+        }
+        Ok(None)
+    }
+
+    /// "Go back", "keep walking", "go in": no place is named.
+    fn leads_nowhere(&mut self, pace: Pace, start: usize) -> Option<Vec<Clause>> {
         let returns = self.lexemes[start..self.at]
             .iter()
             .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "back" || word == "return"));
         if returns && self.ends_clause() {
             let to = Reference::to(Target::Here, "back".to_owned());
-            return Ok(vec![Clause::Go { to, side: None, pace, within: None }]);
+            return Some(vec![Clause::Go { to, side: None, pace, within: None }]);
         }
         if self.ends_clause() && self.continues() {
-            return Ok(vec![Clause::Forward]);
+            return Some(vec![Clause::Forward]);
         }
         let inside = self.at;
         if self.eat_any(&["in", "inside"]) && self.ends_clause() {
-            return Ok(vec![Clause::Board { what: Reference::to(Target::It, "in".to_owned()), to: None }]);
+            return Some(vec![Clause::Board { what: Reference::to(Target::It, "in".to_owned()), to: None }]);
         }
         self.at = inside;
-        let within = self.within()?;
-        self.eat_any(&[
-            "to",
-            "too",
-            "towards",
-            "toward",
-            "up to",
-            "over to",
-            "into",
-            "in",
-            "onto",
-            "on",
-            "at",
-            "for",
-            "back to",
-            "down to",
-            "through",
-            "out to",
-            "right up to",
-            "straight to",
-            "as far as",
-            "all the way to",
-            "all the way up to",
-            "by",
-            "round to",
-            "along to",
-            "across to",
-            "off to",
-            "back into",
-            "inside",
-            "with",
-            "until",
-            "until you reach",
-            "until you get to",
-        ]);
+        None
+    }
+
+    /// The place itself, beside what it is, and what is said of the way behind it.
+    fn place_to_go(
+        &mut self,
+        pace: Pace,
+        within: Option<f64>,
+        apart: Option<f64>,
+        start: usize,
+    ) -> Result<Vec<Clause>, PlanError> {
         let stood =
             self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("stand".to_owned()));
         if let Some((compass, to)) = self.compass_side()? {
-            return Ok(vec![Clause::Go { to, side: Some(Spot::Compass(compass)), pace, within }]);
+            return Ok(vec![Clause::Go { to, side: Some(Spot::Compass(compass, apart)), pace, within }]);
         }
-        let side = self.side().or(if stood { Some(Relation::NextTo) } else { None }).map(Spot::Beside);
+        let side = self.side().or(if stood { Some(Relation::NextTo) } else { None });
+        let side = side.map(|side| Spot::Beside(side, apart));
         let to = self.reference(0)?;
         let pace = self.pace(pace)?;
         self.after_place(Clause::Go { to, side, pace, within }, pace)
+    }
+
+    /// "Two metres" before "north of the hydrant" or "behind the statue", m.
+    fn apart(&mut self) -> Option<f64> {
+        let (length, words) = numbers::walked(self.rest())?;
+        let start = self.at;
+        self.at += words;
+        self.eat_any(&["to the", "away"]);
+        let side = longest(self.rest(), RELATIONS).is_some()
+            || self.compass().is_some() && longest_phrase(self.rest(), &["of", "from"]).is_some();
+        self.at = if side { start + words } else { start };
+        side.then_some(length)
     }
 
     /// "From the statue to the fountain"; "around until ..." leads nowhere in particular.
@@ -196,6 +215,9 @@ impl Parser<'_> {
         }
         let other = self.reference(0)?;
         let begins_here = one.target == Target::Here;
+        if self.eat_any(&["and back again", "and back"]) {
+            return Ok(Some(vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }]));
+        }
         Ok(Some(if begins_here { vec![go(other)] } else { vec![go(one), go(other)] }))
     }
 
@@ -239,73 +261,16 @@ impl Parser<'_> {
         self.goes_on() || self.at > 0 && self.lexemes[self.at - 1].lemma.is_some()
     }
 
-    fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
+    pub(super) fn back_and_forth(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
         let one = self.reference(0)?;
         let (one, other) =
             if self.eat_any(&["and", "to"]) { (one, self.reference(0)?) } else { Self::pair(&one) };
         let go = |to| Clause::Go { to, side: None, pace, within: None };
         let times = numbers::times(self.rest());
         self.at += times.map_or(0, |(_, count)| count);
+        self.eat_any(&["and back", "and back again"]);
         let body = vec![go(one), go(other)];
         Ok(vec![Clause::Repeat { times: times.map_or(1, |(times, _)| times), body }])
-    }
-
-    /// Words of speed.
-    pub(super) fn pace(&mut self, usual: Pace) -> Result<Pace, PlanError> {
-        const FAST: &[&str] = &[
-            "quickly",
-            "fast",
-            "in a hurry",
-            "as fast as you can",
-            "as quickly as possible",
-            "as fast as possible",
-            "rapidly",
-            "at a run",
-        ];
-        if self.eat_any(&["slowly", "at a slow pace", "leisurely", "calmly", "carefully"]) {
-            return Ok(Pace::Slow);
-        }
-        if self.eat_any(FAST) {
-            return Ok(Pace::Run);
-        }
-        let is_speed = matches!(self.rest(), [at, number, unit, ..]
-            if at.token == Token::Word("at".to_owned()) && matches!(number.token, Token::Number(_)) && matches!(unit.token, Token::Word(_)));
-        if is_speed {
-            self.at += 1;
-            return self.speed().map(Pace::At);
-        }
-        Ok(usual)
-    }
-
-    /// A speed, m/s.
-    pub(super) fn speed(&mut self) -> Result<f64, PlanError> {
-        let number_at = self.at;
-        if let Some((number, count)) = numbers::number(self.rest()) {
-            self.at += count;
-            let hourly = self.eat_any(&[
-                "km / h",
-                "kmh",
-                "kph",
-                "kilometres per hour",
-                "kilometers per hour",
-                "kilometres an hour",
-            ]);
-            let _ = hourly
-                || self.eat_any(&[
-                    "m / s",
-                    "mps",
-                    "metres per second",
-                    "meters per second",
-                    "metres a second",
-                    "meters a second",
-                ]);
-            let speed = if hourly { number / 3.6 } else { number };
-            if (0.1..=50.0).contains(&speed) {
-                return Ok(speed);
-            }
-            self.at = number_at;
-        }
-        Err(self.not_understood("give a speed from 0.1 to 50 m/s"))
     }
 
     /// "next to", "behind" and so on before a place.
@@ -321,7 +286,28 @@ impl Parser<'_> {
         let back = longest_phrase(self.rest(), &["back"]).is_some()
             && numbers::number(&self.rest()[1..])
                 .is_some_and(|(_, count)| longest_phrase(&self.rest()[1 + count..], LENGTHS).is_some());
+        if self.peeks_halfway()
+            || longest_phrase(
+                self.rest(),
+                &[
+                    "right up",
+                    "right in",
+                    "right at",
+                    "right over",
+                    "right to",
+                    "right by",
+                    "right next",
+                    "right beside",
+                    "right behind",
+                ],
+            )
+            .is_some()
+        {
+            return false;
+        }
+        let on = self.peeks("for") && numbers::walked(&self.rest()[1..]).is_some();
         in_digits
+            || on
             || back
             || self.counts_steps()
             || longest(self.rest(), DIRECTIONS).is_some() && !self.leads_on()
@@ -349,17 +335,22 @@ impl Parser<'_> {
         let mut distance = 0.5;
         let number_at = self.at;
         self.eat_any(&["by", "for"]);
-        let mut in_metres = false;
-        if let Some((number, count)) = numbers::number(self.rest()) {
-            self.at += count;
-            in_metres = longest_phrase(self.rest(), &["metres", "metre", "meters", "meter", "m"]).is_some();
-            self.eat_any(LENGTHS);
+        let mut measured = false;
+        if let Some((length, words)) = numbers::walked(self.rest()) {
+            measured = numbers::length(self.rest()).is_some();
+            self.at += words;
+            distance = length;
+        } else if let Some((number, words)) =
+            numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none())
+        {
+            self.at += words;
             distance = number;
         } else {
             self.at = number_at;
         }
+        self.eat_any(&["further", "farther", "more"]);
         direction = direction.or_else(|| self.direction());
-        if in_metres && distance > LONGEST_STEP && distance <= 10_000.0 {
+        if measured && distance > LONGEST_STEP && distance <= 10_000.0 {
             let course = Course::Relative(direction.unwrap_or(StepDirection::Forward));
             return Ok(Clause::Walk { course, distance, pace: Pace::Usual });
         }
@@ -384,13 +375,9 @@ impl Parser<'_> {
         self.eat_any(&["by", "for"]);
         let number_at = self.at;
         let mut angle = FRAC_PI_2;
-        if let Some((number, count)) =
-            numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none())
-        {
+        if let Some((said, count)) = numbers::angle(self.rest()) {
             self.at += count;
-            let in_radians = self.eat_any(&["radians", "radian", "rad"]);
-            self.eat_any(&["degrees", "degree", "deg", "°"]);
-            angle = if in_radians { number } else { number.to_radians() };
+            angle = said;
         }
         sense = sense.or_else(|| self.sense());
         self.eat_any(&["turn", "hand turn"]);
@@ -399,7 +386,7 @@ impl Parser<'_> {
         {
             return Ok(Clause::FaceCompass(compass));
         }
-        let half_turn = (angle - PI).abs() < 1e-9;
+        let half_turn = (angle - PI).abs() < 1e-9 || (angle - 2.0 * PI).abs() < 1e-9;
         let Some(sense) = sense.or(half_turn.then_some(Sense::Around)) else {
             return Err(self.not_understood("say left, right or around"));
         };
@@ -410,6 +397,7 @@ impl Parser<'_> {
         let angle = match sense {
             Sense::Left => angle,
             Sense::Right => -angle,
+            Sense::Around if angle > PI + 1e-9 => angle,
             Sense::Around => PI,
         };
         if let Some((nth, lights)) = self.junction() {
@@ -433,6 +421,16 @@ impl Parser<'_> {
         if self.eat_any(&["the right", "your right", "right"]) {
             return Ok(Clause::Turn { angle: -FRAC_PI_2 });
         }
+        if self.eat_any(&[
+            "the other way",
+            "the opposite way",
+            "the other direction",
+            "the opposite direction",
+            "backwards",
+            "the other way round",
+        ]) {
+            return Ok(Clause::Turn { angle: PI });
+        }
         if let Some(compass) = self.compass() {
             return Ok(Clause::FaceCompass(compass));
         }
@@ -444,10 +442,9 @@ impl Parser<'_> {
             if self.peeks(way) {
                 self.at += 1;
                 self.eat_any(&["by"]);
-                let angle = numbers::number(self.rest());
+                let angle = numbers::angle(self.rest());
                 self.at += angle.map_or(0, |(_, count)| count);
-                self.eat_any(&["degrees", "degree", "deg", "°"]);
-                let angle = angle.map_or(GLANCE, |(number, _)| number.to_radians());
+                let angle = angle.map_or(GLANCE, |(angle, _)| angle);
                 if !(angle > 0.0 && angle <= FRAC_PI_2) {
                     return Err(self.not_understood("look up or down by more than 0 and at most 90 degrees"));
                 }
@@ -456,6 +453,11 @@ impl Parser<'_> {
         }
         if self.eat_any(&["behind you", "behind yourself", "over your shoulder", "back over your shoulder"]) {
             return Ok(Clause::Turn { angle: PI });
+        }
+        if let Some(speaker) =
+            self.view.speaker.filter(|_| self.eat_any(&["here", "over here", "up here", "this way"]))
+        {
+            return Ok(Clause::Face { what: Reference::to(Target::Id(speaker), "here".to_owned()) });
         }
         if longest(self.rest(), SENSES).is_some() {
             return self.turn();

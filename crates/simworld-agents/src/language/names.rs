@@ -41,8 +41,8 @@ struct Name {
 pub(super) enum Guess {
     /// One thing only: a name, or part of one, that nothing else bears.
     Named(Vec<EntityId>),
-    /// A class.
-    Category(&'static Category),
+    /// A class, and its word that was meant.
+    Category(&'static Category, &'static str),
     /// Several things equally well; what they are called.
     Ambiguous(Vec<String>),
     /// Nothing that is safe to assume; what sounds most alike, if anything does.
@@ -254,6 +254,14 @@ impl Candidate<'_> {
         }
     }
 
+    /// The word of the class.
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Name(_) => "",
+            Self::Class(_, word) => word,
+        }
+    }
+
     fn label(&self) -> String {
         match self {
             Self::Name(name) => name.label.clone(),
@@ -281,7 +289,7 @@ fn agreed(found: &[Candidate<'_>]) -> Guess {
     match found[0] {
         Candidate::Name(_) if names.len() == found.len() => one_name(&names),
         Candidate::Class(category, _) if found.iter().all(|other| is_class(other, category)) => {
-            Guess::Category(category)
+            Guess::Category(category, found[0].word())
         }
         _ => Guess::Ambiguous(found.iter().take(4).map(Candidate::label).collect()),
     }

@@ -2,16 +2,26 @@
 
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Count, Grip, Manner, Pace, Reference, Stands, Target, Vehicle};
+use super::clause::{Clause, Count, Manner, Pace, Reference, Target, Vehicle};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{RELATIONS, category, longest, longest_phrase};
+use super::lexicon::{RELATIONS, category, fits, longest, longest_phrase};
 use super::numbers;
 use super::parser::{Parser, UNDERSTOOD};
 use super::verbs::{Verb, longest_verb};
 
 /// What people take photos with their words of.
-const PHOTOS: &[&str] =
-    &["photos", "photo", "pictures", "picture", "photographs", "snapshots", "shots", "selfies", "pics"];
+#[rustfmt::skip]
+pub(super) const PHOTOS: &[&str] = &[
+    "snaps", "snap", "photograph", "shot", "selfie", "pic", "snapshot", "photos", "photo", "pictures",
+    "picture", "photographs", "snapshots", "shots", "selfies", "pics",
+];
+
+/// What leads to where something is brought.
+#[rustfmt::skip]
+pub(super) const BRINGS: &[&str] = &[
+    "to", "over to", "back to", "into", "up to", "down to", "across to", "along to", "out to", "round to",
+    "off to", "all the way to", "straight to", "right to", "back over to",
+];
 
 impl Parser<'_> {
     /// An order; several if one verb says several things.
@@ -21,15 +31,34 @@ impl Parser<'_> {
         if let Some(laps) = self.laps()? {
             return Ok(laps);
         }
+        if self.peeks("keep") && self.rest().iter().take(5).any(is_company) {
+            self.at += 1;
+            let to = self.reference(0)?; // "keep Anna company"
+            self.eat_any(&["company"]);
+            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
         let Some((verb, count)) = self.verb_here() else {
             return self.order_without_verb();
         };
         if self.goes_to_do(count) {
             self.at += count;
+            self.eat_any(&[
+                "out and",
+                "over and",
+                "along and",
+                "off and",
+                "down and",
+                "up and",
+                "on and",
+                "round and",
+                "out to",
+                "off to",
+                "and",
+            ]);
             return self.order();
         }
         self.at += count;
-        self.verb = Some(verb);
+        self.previous = self.verb.replace(verb);
         // "Wave twice at Carol"; at the end of an order it may be about more than this one.
         let mut times = numbers::times(self.rest());
         self.at += times.map_or(0, |(_, count)| count);
@@ -48,10 +77,35 @@ impl Parser<'_> {
         const PLACES: &[&str] = &["back", "past", "round", "around", "point", "report"];
         let is_go = count == 1 && (self.peeks("go") || self.peeks("come"));
         let after = &self.rest()[count.min(self.rest().len())..];
+        let moves = longest_verb(self.rest()).is_some_and(|(verb, _)| matches!(verb, Verb::Go | Verb::Run));
+        let out = longest_phrase(
+            after,
+            &[
+                "out and",
+                "over and",
+                "along and",
+                "off and",
+                "down and",
+                "up and",
+                "on and",
+                "round and",
+                "out to",
+                "off to",
+                "and",
+            ],
+        );
+        if moves
+            && out.is_some_and(|words| {
+                longest_verb(&after[words..]).is_some_and(|(verb, _)| verb != Verb::Shuttle)
+            })
+        {
+            return true;
+        }
         // Names come last: the index of a large city takes time.
         is_go
             && longest_verb(after).is_some()
-            && longest_phrase(after, PLACES).is_none()
+            && (longest_phrase(after, PLACES).is_none()
+                || longest_phrase(after, &["point at", "point to", "point out"]).is_some())
             && longest(after, RELATIONS).is_none()
             && category(after).is_none()
             && self.names.exact(after).is_none()
@@ -70,23 +124,30 @@ impl Parser<'_> {
                 verb,
                 Verb::StandUp
                     | Verb::Stop
-                    | Verb::Sit
                     | Verb::Wait
+                    | Verb::Count
                     | Verb::Faster
                     | Verb::Slower
                     | Verb::Alight
             )
         };
+        if let Some(clauses) = self.counted_deeds()? {
+            return Ok(clauses);
+        }
         // "... and then on to the taxi" goes on going, whatever was done in between.
         let moves = longest_phrase(
             self.rest(),
             &["on to", "onto", "over to", "back to", "across to", "back here", "back"],
         )
         .is_some();
-        let last = if moves { Some(Verb::Go) } else { self.verb };
+        let leads = longest_phrase(self.rest(), &["to", "off to", "over to"]).is_some();
+        let last = if moves { Some(Verb::Go) } else { self.verb.or(leads.then_some(Verb::Go)) };
         let Some(verb) = last.filter(has_objects) else { return Err(refused) };
         let is_phrase = moves || longest_phrase(self.rest(), BEGINNINGS).is_some();
         let start = self.at;
+        if verb == Verb::Sit && longest_phrase(self.rest(), &["on", "in", "at"]).is_none() {
+            return Err(refused);
+        }
         self.eat_any(match verb {
             Verb::Look | Verb::Wave | Verb::Point => &["at", "to"][..],
             Verb::Talk | Verb::Greet => &["to", "with"],
@@ -94,12 +155,56 @@ impl Parser<'_> {
         });
         match self.objects(verb, start) {
             Ok(clauses) if self.at > start => Ok(clauses),
-            Err(error) if is_phrase => Err(error),
+            Err(error) if is_phrase && !self.may_be_nominal(start) => Err(error),
             _ => {
                 self.at = start;
                 Err(refused)
             }
         }
+    }
+
+    /// Whether what a phrase means ever moves.
+    fn moves_about(&self, what: &Reference) -> bool {
+        match &what.target {
+            Target::Any(class) => class.kinds().iter().any(|kind| kind.is_mobile()),
+            Target::Named(ids) => {
+                ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| entity.kind.is_mobile()))
+            }
+            _ => true,
+        }
+    }
+
+    /// Whether what stands there is an order in nouns: "a coffee, please".
+    fn may_be_nominal(&mut self, start: usize) -> bool {
+        self.at = start;
+        let nominal = matches!(self.nominal(), Ok(Some(_)));
+        self.at = start;
+        nominal
+    }
+
+    /// "Cross to the red bench" leads there; "cross the road" and "cross to the other side" lead across.
+    fn leads_across(&self) -> bool {
+        const SIDES: &[&str] = &[
+            "to the other side",
+            "to the other",
+            "over to the other side",
+            "to the opposite side",
+            "over to the opposite side",
+            "to the far side",
+        ];
+        longest_phrase(self.rest(), &["to", "over to", "towards", "over towards"]).is_some()
+            && longest_phrase(self.rest(), SIDES).is_none()
+    }
+
+    /// "Count to ten", "count ten seconds": a second for each.
+    fn count_up(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.eat_any(&["up to", "to", "slowly to", "from one to", "from 1 to", "off"]);
+        let seconds = numbers::duration(self.rest()).or_else(|| numbers::number(self.rest()));
+        let Some((seconds, words)) = seconds.filter(|(seconds, _)| (1.0..=1000.0).contains(seconds)) else {
+            return Err(self.not_understood("say to how many, as in \"count to ten\""));
+        };
+        self.at += words;
+        Ok(vec![Clause::Wait { seconds }])
     }
 
     fn objects(&mut self, verb: Verb, start: usize) -> Result<Vec<Clause>, PlanError> {
@@ -112,21 +217,19 @@ impl Parser<'_> {
             return self.after_place(Clause::Go { to, side: None, pace, within: None }, pace);
         }
         match verb {
+            Verb::Go if self.moves_thing(start) => self.drop(Manner::Deliver),
             Verb::Go => self.go(Pace::Usual, start),
             Verb::Run => self.go(Pace::Run, start),
             Verb::Stroll => self.go(Pace::Slow, start),
-            Verb::Cross => {
-                self.eat_any(&["the", "this", "over"]);
-                self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
-                self.eat_any(&["to the other side", "over", "at the crossing", "at the crosswalk"]);
-                self.eat_any(&["of the street", "of the road", "of the crossing"]);
-                one(Clause::Cross)
+            Verb::Cross if self.leads_across() => self.go(Pace::Usual, start),
+            Verb::Shuttle => {
+                self.eat_any(&["back and forth", "to and fro", "up and down", "backwards and forwards"]);
+                self.eat_any(&["between", "in between", "from"]);
+                self.back_and_forth(Pace::Usual)
             }
-            Verb::Follow => {
-                let whom = self.reference(0)?;
-                self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
-                one(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
-            }
+            Verb::Count => self.count_up(),
+            Verb::Cross => Ok(vec![self.across_the_street()]),
+            Verb::Follow => self.follow(start).map(|clause| vec![clause]),
             Verb::Take => self.take(start),
             Verb::Deliver
                 if self.eat_any(&[
@@ -164,30 +267,11 @@ impl Parser<'_> {
             Verb::Turn => self.turn().map(|turn| vec![turn]),
             Verb::Look => self.look().map(|look| vec![look]),
             Verb::Face => self.face().map(|face| vec![face]),
-            Verb::Point => one(Clause::Point { at: self.reference(0)? }),
-            Verb::Wave => {
-                self.eat_any(&[
-                    "at",
-                    "to",
-                    "your hand at",
-                    "your hand to",
-                    "hand to",
-                    "hands to",
-                    "your hand",
-                ]);
-                let it = Reference::to(Target::It, "it".to_owned());
-                one(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
-            }
+            Verb::Point => self.point_out().map(|clause| vec![clause]),
+            Verb::Wave => self.wave().map(|clause| vec![clause]),
             Verb::Talk | Verb::Greet | Verb::Say | Verb::Tell | Verb::Argue => self.speak(verb),
-            Verb::Open | Verb::Close => {
-                let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
-                self.eat_any(&["up", "for me"]);
-                one(Clause::Door { what, open: verb == Verb::Open })
-            }
-            Verb::Photo => {
-                let times = self.number_of_photos();
-                self.photo(times)
-            }
+            Verb::Open | Verb::Close => self.door(verb == Verb::Open).map(|clause| vec![clause]),
+            Verb::Photo => self.photos(start),
             Verb::Faster | Verb::Slower if self.eat_any(&["to"]) => {
                 one(Clause::Speed { speed: self.speed()? })
             }
@@ -203,163 +287,124 @@ impl Parser<'_> {
         }
     }
 
+    /// "Cross the road to the other side at the crossing".
+    fn across_the_street(&mut self) -> Clause {
+        self.eat_any(&["the", "this", "over"]);
+        self.eat_any(&["road", "street", "crossing", "crosswalk", "zebra crossing", "road here"]);
+        self.eat_any(&["to the other side", "over", "at the crossing", "at the crosswalk"]);
+        self.eat_any(&["of the street", "of the road", "of the crossing"]);
+        Clause::Cross
+    }
+
+    /// "Follow me", "stay close to the statue".
+    fn follow(&mut self, start: usize) -> Result<Clause, PlanError> {
+        if let Some(speaker) = self.view.speaker.filter(|_| self.ends_clause()) {
+            let whom = Reference::to(Target::Id(speaker), "me".to_owned());
+            return Ok(Clause::Follow { whom, pace: Pace::Usual });
+        }
+        let whom = self.reference(0)?;
+        // "Stay close to the statue" is about staying.
+        let stays = ["stay", "keep", "stick", "remain"]
+            .iter()
+            .any(|word| fits(&self.lexemes[start..], word).is_some());
+        if stays && !self.moves_about(&whom) {
+            return Ok(Clause::Go { to: whom, side: None, pace: Pace::Usual, within: None });
+        }
+        self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
+        Ok(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
+    }
+
+    /// "Point out to me the red car".
+    fn point_out(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&[
+            "at",
+            "to",
+            "towards",
+            "out",
+            "over at",
+            "over to",
+            "your finger at",
+            "up at",
+            "in the direction of",
+            "out to me",
+            "me to",
+        ]);
+        Ok(Clause::Point { at: self.reference(0)? })
+    }
+
+    /// "Wave your hand at Ben".
+    fn wave(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&[
+            "at",
+            "to",
+            "over at",
+            "over to",
+            "hello to",
+            "goodbye to",
+            "hi to",
+            "across to",
+            "back at",
+            "hello at",
+            "towards",
+            "in the direction of",
+            "your hand at",
+            "your hand to",
+            "hand to",
+            "hands to",
+            "your hand",
+        ]);
+        let it = Reference::to(Target::It, "it".to_owned());
+        Ok(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
+    }
+
+    /// "Open the door for me", "close it behind you".
+    fn door(&mut self, open: bool) -> Result<Clause, PlanError> {
+        let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
+        let what = what.map(Reference::but_behind);
+        self.eat_any(&["up", "for me", "again", "behind you"]);
+        Ok(Clause::Door { what, open })
+    }
+
+    /// "Take two photos of the fountain".
+    fn photos(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
+        let times = self.number_of_photos();
+        let shoots = fits(&self.lexemes[start..self.at], "shoot").is_some();
+        if shoots && times == 0 {
+            return Err(self.not_understood("say what to take a photo of"));
+        }
+        let times = times.max(1);
+        self.photo(times)
+    }
+
     /// "Stand behind the statue", "stand halfway between": where to stand, and not to get up.
     fn is_place(&self) -> bool {
+        #[rustfmt::skip]
         const PLACES: &[&str] = &[
-            "at",
-            "between",
-            "in between",
-            "halfway",
-            "midway",
-            "half way",
-            "north",
-            "south",
-            "east",
-            "west",
-            "to the north",
-            "to the south",
-            "to the east",
-            "to the west",
+            "at", "on the", "in the", "by", "between", "in between", "halfway", "midway", "half way", "north",
+            "south", "east", "west", "to the north", "to the south", "to the east", "to the west",
         ];
-        longest(self.rest(), RELATIONS).is_some() || longest_phrase(self.rest(), PLACES).is_some()
-    }
-
-    fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&["me to", "us to", "yourself to", "me over to", "us over to", "yourself over to"]) {
-            return self.go(Pace::Usual, start);
-        }
-        let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
-        if brings_me && self.eat_any(&["to", "over to", "back to"]) {
-            return self.go(Pace::Usual, start); // "bring me to the school"
-        }
-        if let Some(clauses) = self.turn_to_take() {
-            return Ok(clauses);
-        }
-        let taken = self.lexemes[start..self.at].iter().map(|lexeme| &lexeme.token);
-        let grip = if taken.eq([&Token::Word("take".to_owned())]) { Grip::LiftOrRide } else { Grip::Lift };
-        self.eat_any(&["me", "us", "yourself"]);
-        if self.counts_steps() {
-            if let Some(clauses) = self.by_the_compass(Pace::Usual)? {
-                return Ok(clauses);
-            }
-            return self.step().map(|step| vec![step]);
-        }
-        let photos = numbers::number(self.rest()).filter(|(number, _)| *number >= 1.0 && *number <= 100.0);
-        if let Some((number, count)) = photos
-            && let Some(words) = longest_phrase(&self.rest()[count..], PHOTOS)
-        {
-            self.at += count + words;
-            return self.photo(number as u32);
-        }
-        let start = self.at;
-        let what = match self.reference(0) {
-            Ok(what) => what,
-            // "Get two bottles of water": what nobody has to hand over is bought.
-            Err(error) => {
-                self.at = start;
-                return self.buy().map_err(|_| error);
-            }
-        };
-        self.eat_any(&["up", "along", "with you"]);
-        let to = self.tail_place(&["to", "over to", "back to", "into"])?;
-        Ok(vec![Clause::Take { what, to, grip }])
-    }
-
-    /// "Snap two photos of": two.
-    fn number_of_photos(&mut self) -> u32 {
-        let start = self.at;
-        let number = numbers::count(self.rest());
-        self.at += number.map_or(0, |(_, count)| count);
-        let Some((number, _)) = number.filter(|_| self.eat_any(PHOTOS)) else {
-            self.at = start;
-            return 1;
-        };
-        number
-    }
-
-    fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
-        let named = self.eat_any(&["of"]) || !self.ends_clause();
-        let of = if named { Some(self.reference(0)?) } else { None };
-        Ok(vec![Clause::Photo { of, times }])
-    }
-
-    fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let first = self.reference(0)?;
-        if let Some(clauses) = self.gesture(&first) {
-            return Ok(clauses);
-        }
-        if self.eat_any(&["to", "over to"]) {
-            return Ok(vec![Clause::Give { what: Some(first), to: self.reference(0)? }]);
-        }
-        if self.ends_clause() {
-            return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
-        }
-        Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
-    }
-
-    /// "Give Ben a wave".
-    fn gesture(&mut self, to: &Reference) -> Option<Vec<Clause>> {
-        let start = self.at;
-        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
-        self.at += number.map_or(0, |(_, count)| count);
-        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
-        if number.is_none() || !self.eat_any(&["wave", "waves", "wave of your hand"]) {
-            self.at = start;
-            return None;
-        }
-        let wave = Clause::Wave { to: to.clone() };
-        let times = number.map_or(1, |(number, _)| number as u32);
-        Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])
-    }
-
-    fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
-        let places = ["at", "to", "in", "on", "into", "over to", "back to", "onto", "with"];
-        self.eat_any(&[
-            "what you hold",
-            "what youre holding",
-            "what you are holding",
-            "what you have",
-            "what you are carrying",
-            "what youre carrying",
-            "what you carry",
-            "whatever you hold",
-            "whatever youre holding",
-            "whatever you are holding",
-            "everything",
-        ]);
-        let what = if self.ends_clause() || longest_phrase(self.rest(), &places).is_some() {
-            None
-        } else {
-            Some(self.reference(0)?)
-        };
-        self.eat_any(&["down", "off", "up"]);
-        let mut at = self.tail_place(&places)?;
-        let what = what.map(|mut what| {
-            // "Put the cone next to the bin" says where to, and not which cone.
-            match what.relation.take() {
-                Some(Stands::To(_, anchor)) if at.is_none() => at = Some(*anchor),
-                relation => what.relation = relation,
-            }
-            what
-        });
-        if at.is_none() && self.eat_any(&["here", "back", "back here"]) {
-            at = Some(Reference::to(Target::Here, "here".to_owned()));
-        }
-        if manner == Manner::Deliver && at.is_none() {
-            if !self.ends_clause()
-                && let Some(to) = what
-            {
-                return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
-            }
-            return Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""));
-        }
-        Ok(vec![Clause::Drop { what, at, manner }])
+        let exactly =
+            longest_phrase(self.rest(), &["exactly", "precisely", "directly", "just", "right"]).unwrap_or(0);
+        longest(self.rest(), RELATIONS).is_some()
+            || longest_phrase(self.rest(), PLACES).is_some()
+            || exactly > 0
+                && longest_phrase(&self.rest()[exactly..], &["between", "in between", "at", "on", "in"])
+                    .is_some()
+            || self.peeks_halfway()
+            || numbers::walked(self.rest()).is_some()
     }
 
     /// A place after one of these words.
     pub(super) fn tail_place(&mut self, words: &[&str]) -> Result<Option<Reference>, PlanError> {
         let side = longest(self.rest(), RELATIONS).map(|(_, count)| count);
         match longest_phrase(self.rest(), words).max(side) {
+            // "... to get to the clinic" says what for.
+            Some(count)
+                if longest_verb(&self.rest()[count..]).is_some()
+                    && category(&self.rest()[count..]).is_none() =>
+            {
+                Ok(None)
+            }
             Some(count) => {
                 self.at += count;
                 self.reference(0).map(Some)
@@ -382,12 +427,26 @@ impl Parser<'_> {
         } else {
             self.reference(0)?
         };
-        Ok(vec![Clause::Board { what, to: self.tail_place(&["to", "over to", "back to"])? }])
+        self.eat_any(&["over", "up", "down", "across", "back"]);
+        Ok(vec![Clause::Board { what, to: self.tail_place(BRINGS)? }])
     }
 
     fn alight(&mut self) -> Clause {
         self.eat_any(&["the", "of the", "of"]);
-        let cars = ["car", "bus", "truck", "taxi", "van", "vehicle", "cab", "lorry"];
+        self.eat_any(&["white", "black", "red", "blue", "green", "yellow", "orange"]);
+        let cars = [
+            "bicycle",
+            "bike",
+            "motorcycle",
+            "car",
+            "bus",
+            "truck",
+            "taxi",
+            "van",
+            "vehicle",
+            "cab",
+            "lorry",
+        ];
         let from = if self.peeks("scooter") {
             Vehicle::Scooter
         } else if longest_phrase(self.rest(), &cars).is_some() {
@@ -427,4 +486,8 @@ impl Parser<'_> {
         let of = longest_phrase(&self.rest()[count..], &["of the", "of those", "of"]).unwrap_or(0);
         Some((Count::Exactly(number), count + of))
     }
+}
+
+fn is_company(lexeme: &Lexeme) -> bool {
+    matches!(&lexeme.token, Token::Word(word) if word == "company")
 }

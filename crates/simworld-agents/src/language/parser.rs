@@ -11,20 +11,20 @@
 //! order     = a verb with its objects (see `orders`); without a verb, that of the order before ("then to the museum")
 //! ```
 
-use simworld_core::action::StepDirection;
 use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Pace, Test};
+use super::blocks::{GOES_ON, IF, UNLESS, UNTIL, WHEN, WHILE};
+use super::clause::{Clause, Pace, Reference, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase};
 use super::motion::LENGTHS;
 use super::names::Names;
 use super::numbers;
-use super::politeness::{FILLERS, JOINTS, NEGATIONS};
+use super::politeness::{NEGATIONS, filler, joint};
 use super::requests;
 use super::resolve::View;
-use super::tails::{ON_THE_WAY, over_and_over};
+use super::tails::ON_THE_WAY;
 use super::verbs::{Verb, longest_verb};
 
 /// What is understood, in one line, for answers.
@@ -33,60 +33,16 @@ pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop o
      \"and\" or \"then\"";
 /// How deep conditions and repetitions may nest.
 const DEEPEST: u32 = 4;
-/// What begins a condition.
-pub(super) const IF: &[&str] = &[
-    "if",
-    "in case",
-    "provided that",
-    "provided",
-    "in the event that",
-    "in the event",
-    "assuming",
-    "assuming that",
-    "supposing",
-    "supposing that",
-    "on condition that",
-    "only if",
-    "but only if",
-    "if and only if",
+/// What begins as politeness does, and says something.
+#[rustfmt::skip]
+const MORE_THAN_FILLERS: &[&str] = &[
+    "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
+    "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "when you can see", "as soon as you can see", "whenever you can see", "when you can spot",
+    "as soon as you can spot", "when you can make out", "as soon as you can make out", "up there is",
+    "go on to", "go on over to", "go on towards", "come on over", "here are",
 ];
-/// What begins an order that goes on.
-const GOES_ON: &[&str] = &[
-    "keep",
-    "keep on",
-    "continue",
-    "continue to",
-    "go on",
-    "carry on",
-    "dont stop",
-    "do not stop",
-    "never stop",
-    "dont quit",
-];
-/// Being somewhere, which one has to go to first: "once you are at the bench, sit down".
-const REACHING: &[&str] = &[
-    "you reach",
-    "you have reached",
-    "youve reached",
-    "you get to",
-    "you have got to",
-    "you are at",
-    "youre at",
-    "you arrive at",
-    "you have arrived at",
-    "youve arrived at",
-    "you come to",
-    "you are next to",
-    "youre next to",
-    "you are beside",
-    "youre beside",
-    "you are near",
-    "youre near",
-    "you make it to",
-    "reaching",
-    "arriving at",
-    "getting to",
-];
+/// How often a statement is tried in other words, in one sentence.
+const MOST_TRIES: u32 = 24;
 
 /// Reads a sentence from left to right.
 pub(super) struct Parser<'a> {
@@ -101,6 +57,14 @@ pub(super) struct Parser<'a> {
     pub(super) bearers: Option<Vec<EntityId>>,
     /// The verb of the order before, for those that leave it out.
     pub(super) verb: Option<Verb>,
+    /// The verb before that.
+    pub(super) previous: Option<Verb>,
+    /// Out of which things "the middle one" is chosen.
+    pub(super) scope: Option<Reference>,
+    /// The goods that "one" stands for.
+    pub(super) wanted: Option<String>,
+    /// How often a statement may still be tried in other words.
+    tries: u32,
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
     pub(super) in_test: bool,
     depth: u32,
@@ -108,7 +72,7 @@ pub(super) struct Parser<'a> {
 
 /// How the orders of a list hang together.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Extent {
+pub(super) enum Extent {
     /// To the end of the words.
     Sentence,
     /// As far as "and" reaches.
@@ -131,6 +95,10 @@ impl<'a> Parser<'a> {
             class: None,
             bearers: None,
             verb: None,
+            previous: None,
+            scope: None,
+            wanted: None,
+            tries: MOST_TRIES,
             in_test: false,
             depth: 0,
         }
@@ -139,6 +107,9 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_joints();
+        if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
+            self.at += 2;
+        }
         if self.skip_remark() {
             self.skip_joints();
         }
@@ -148,30 +119,25 @@ impl<'a> Parser<'a> {
         if clauses.is_empty() { Err(self.not_understood(UNDERSTOOD)) } else { Ok(clauses) }
     }
 
-    fn orders(&mut self, extent: Extent) -> Result<Vec<Clause>, PlanError> {
+    pub(super) fn orders(&mut self, extent: Extent) -> Result<Vec<Clause>, PlanError> {
         let mut clauses: Vec<Clause> = Vec::new();
         let (mut whole, mut group) = (0, 0);
         while self.at < self.lexemes.len() {
-            let statement = self.statement()?;
-            clauses.extend(statement);
+            let before = clauses.len();
+            clauses.extend(self.statement()?);
             self.tails(&mut clauses, whole, group)?;
+            while let Some(instead) = self.correction()? {
+                clauses.truncate(before);
+                clauses.extend(instead);
+                self.tails(&mut clauses, whole, group)?;
+            }
+            while self.skip_instead() {}
             if extent == Extent::Group && !self.goes_on_with_and() {
                 return Ok(clauses);
             }
             let start = self.at;
-            self.skip_fillers();
-            self.at += requests::coda(self.rest());
-            self.skip_manner();
-            self.skip_reason();
-            let joint = self.at;
-            let mut joined = self.skip_joints();
-            joined = self.skip_remark() && self.skip_joints() || joined;
-            if self.lexemes[joint..self.at].iter().any(|lexeme| lexeme.token == Token::Break) {
+            if self.joint()? {
                 whole = clauses.len();
-            }
-            let goes_on = longest_verb(self.rest()).is_some() || self.begins_block();
-            if self.at < self.lexemes.len() && !joined && !goes_on {
-                return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
             }
             if !self.is_and(start) {
                 group = clauses.len();
@@ -180,15 +146,79 @@ impl<'a> Parser<'a> {
         Ok(clauses)
     }
 
-    /// Whether "and", and no comma nor "then", joins what follows.
+    /// Passes what stands between two orders; whether a sentence ends there.
+    fn joint(&mut self) -> Result<bool, PlanError> {
+        if self.skip_purpose() {
+            return Ok(false);
+        }
+        self.skip_fillers();
+        self.at += requests::coda(self.rest());
+        self.skip_manner();
+        self.skip_reason();
+        let joint = self.at;
+        let mut joined = self.skip_joints();
+        joined = self.skip_remark() && self.skip_joints() || joined;
+        let breaks = self.lexemes[joint..self.at].iter().any(|lexeme| lexeme.token == Token::Break);
+        joined = self.skip_purpose() || joined;
+        let goes_on = longest_verb(self.rest()).is_some() || self.begins_block();
+        if self.at < self.lexemes.len() && !joined && !goes_on {
+            return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
+        }
+        Ok(breaks)
+    }
+
+    /// "To" before what is done there: "go to the kiosk to buy water".
+    fn skip_purpose(&mut self) -> bool {
+        const PURPOSES: &[&str] = &[
+            "to",
+            "in order to",
+            "so as to",
+            "so you can",
+            "so that you can",
+            "so you could",
+            "where you can",
+            "where you",
+            "there to",
+            "and there",
+        ];
+        let purpose = longest_phrase(self.rest(), PURPOSES)
+            .filter(|words| longest_verb(self.rest().get(*words..).unwrap_or_default()).is_some());
+        self.at += purpose.unwrap_or(0);
+        purpose.is_some()
+    }
+
+    /// Whether "and" or a purpose, and no comma nor "then", joins what follows.
     fn goes_on_with_and(&mut self) -> bool {
         let start = self.at;
         self.skip_fillers();
-        let goes_on = fits(self.rest(), "and").is_some();
+        let goes_on = fits(self.rest(), "and").is_some() && !self.denies() || {
+            let at = self.at;
+            let purpose = self.skip_purpose();
+            self.at = at;
+            purpose
+        };
         if !goes_on {
             self.at = start;
         }
         goes_on
+    }
+
+    /// Whether "and if not" follows, which belongs to the condition around.
+    fn denies(&self) -> bool {
+        longest_phrase(
+            self.rest(),
+            &[
+                "and if not",
+                "and otherwise",
+                "and else",
+                "and if it",
+                "and if he",
+                "and if she",
+                "and if they",
+                "and if there",
+            ],
+        )
+        .is_some()
     }
 
     /// Whether the words from a place to here are "and" alone.
@@ -200,29 +230,28 @@ impl<'a> Parser<'a> {
     }
 
     fn begins_block(&self) -> bool {
+        #[rustfmt::skip]
         const BLOCKS: &[&str] = &[
-            "if",
-            "unless",
-            "when",
-            "until",
-            "keep",
-            "repeat",
-            "before",
-            "after",
-            "while",
-            "every",
-            "having",
-            "should",
-            "at the next",
-            "dont stop",
+            "if", "unless", "when", "until", "keep", "repeat", "before", "after", "while", "every", "having",
+            "should", "at the next", "dont stop", "as soon as", "as long as", "once", "till",
         ];
         longest_phrase(self.rest(), BLOCKS).is_some()
     }
 
     /// One order or block, without what follows it. What is no order as it stands may be a request in other words.
-    fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
+    pub(super) fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_fillers();
+        if let Some(mut clauses) = self.marked_topic() {
+            clauses.extend(self.statement()?);
+            return Ok(clauses);
+        }
         let start = self.at;
+        if longest_phrase(self.rest(), &["see that", "see to it", "make sure", "ensure"]).is_some() {
+            if let Some(clauses) = self.somebody_gets() {
+                return Ok(clauses);
+            }
+            self.at = start;
+        }
         let refused = match self.plain_statement() {
             Ok(clauses) => return Ok(clauses),
             Err(refused) => refused,
@@ -234,14 +263,90 @@ impl<'a> Parser<'a> {
             }
         }
         self.at = start;
-        Err(refused)
+        self.in_other_words().ok_or_else(|| {
+            self.at = start;
+            refused
+        })
+    }
+
+    /// What is understood only as a whole: a place or a thing before the order, an order in nouns, what is not to be done
+    /// before what is.
+    fn in_other_words(&mut self) -> Option<Vec<Clause>> {
+        self.tries = self.tries.checked_sub(1)?;
+        let start = self.at;
+        let kept = (self.class, self.bearers.clone(), self.verb, self.scope.clone());
+        let mut found = None;
+        for rule in [
+            Self::instead,
+            Self::fronted_place,
+            Self::in_nouns,
+            Self::wants_one,
+            Self::somebody_gets,
+            Self::on_topic,
+            Self::headed,
+        ] {
+            found = rule(self);
+            if found.is_some() {
+                break;
+            }
+            self.at = start;
+            (self.class, self.bearers, self.verb, self.scope) = kept.clone();
+        }
+        found
+    }
+
+    /// "Don't put it down until you get to the museum": later, and not now.
+    fn not_until(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(NEGATIONS);
+        let later = self.order();
+        if let Ok(later) = later
+            && self.eat_any(UNTIL)
+            && let Ok(test) = self.test()
+        {
+            let mut clauses = vec![match test {
+                Test::Near { what, .. } => {
+                    Clause::Go { to: what, side: None, pace: Pace::Usual, within: None }
+                }
+                test => Clause::Until { test, body: Vec::new() },
+            }];
+            clauses.extend(later);
+            return Ok(clauses);
+        }
+        self.at = start;
+        Err(self.not_understood("that says what not to do: say what to do"))
+    }
+
+    fn instead(&mut self) -> Option<Vec<Clause>> {
+        self.other_than_that()?;
+        self.statement().ok()
+    }
+
+    fn in_nouns(&mut self) -> Option<Vec<Clause>> {
+        self.nominal().ok().flatten()
+    }
+
+    /// "Carol wants a tea, get one": a topic, since what follows takes it up.
+    fn wants_one(&mut self) -> Option<Vec<Clause>> {
+        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+        let after = self.rest().iter().position(is_mark)?;
+        let takes_up = self.rest()[after..].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them", "one", "some"].contains(&word.as_str()))
+        });
+        if takes_up { self.on_topic() } else { None }
+    }
+
+    fn on_topic(&mut self) -> Option<Vec<Clause>> {
+        let mut clauses = self.topic()?;
+        clauses.extend(self.statement().ok()?);
+        Some(clauses)
     }
 
     fn plain_statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         let goes_on = longest_phrase(self.rest(), GOES_ON).is_some();
         if !goes_on && longest_phrase(self.rest(), NEGATIONS).is_some() && longest_verb(self.rest()).is_none()
         {
-            return Err(self.not_understood("that says what not to do: say what to do"));
+            return self.not_until();
         }
         if self.depth >= DEEPEST {
             return Err(self.not_understood("put at most four conditions and repetitions into one another"));
@@ -253,149 +358,6 @@ impl<'a> Parser<'a> {
             Some(clauses) => Ok(clauses),
             None => self.order(),
         }
-    }
-
-    fn block(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        if self.eat_any(IF)
-            || self.peeks("should") && longest_verb(&self.rest()[1..]).is_none() && self.eat_any(&["should"])
-        {
-            return self.either(false).map(Some);
-        }
-        if let Some((seconds, count)) = self.peek_interval() {
-            self.at += count;
-            self.skip_joints();
-            let body = self.statement()?;
-            return Ok(Some(vec![over_and_over(body, seconds)]));
-        }
-        if let Some(clauses) = self.at_junction()? {
-            return Ok(Some(clauses));
-        }
-        if self.eat_any(ON_THE_WAY) {
-            let to = self.reference(0)?;
-            self.skip_joints();
-            let mut clauses = self.statement()?;
-            clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
-            return Ok(Some(clauses));
-        }
-        if self.eat_any(&[
-            "having",
-            "start by",
-            "begin by",
-            "start off by",
-            "begin with",
-            "finish by",
-            "end by",
-            "finish off by",
-            "continue by",
-        ]) {
-            return self.statement().map(Some);
-        }
-        if self.eat_any(&["unless", "if not"]) {
-            return self.either(true).map(Some);
-        }
-        if self.eat_any(&["until", "till"]) {
-            let test = self.test()?;
-            self.skip_joints();
-            return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
-        }
-        if self.eat_any(&["while", "as long as"]) {
-            let test = Test::Not(Box::new(self.test()?));
-            self.skip_joints();
-            let start = self.at;
-            if self.eat_any(&["wait", "stop", "stand still", "stay", "wait here", "stand"])
-                && self.ends_clause()
-            {
-                return Ok(Some(vec![Clause::Until { test, body: Vec::new() }]));
-            }
-            self.at = start;
-            return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
-        }
-        if self.eat_any(&[
-            "when",
-            "whenever",
-            "once",
-            "as soon as",
-            "after",
-            "upon",
-            "the moment",
-            "right after",
-            "immediately after",
-        ]) {
-            return self.afterwards().map(Some);
-        }
-        if self.eat_any(&["before"]) {
-            let later = self.statement()?;
-            self.skip_joints();
-            let mut clauses = self.statement()?;
-            clauses.extend(later);
-            return Ok(Some(clauses));
-        }
-        let start = self.at;
-        if self.eat_any(GOES_ON) && !self.ends_clause() && longest_verb(self.rest()).is_some() {
-            return self.keep().map(Some);
-        }
-        self.at = start;
-        self.eat_any(&["repeat", "repeat this", "do this", "do the following", "repeat the following"]);
-        if let Some((times, count)) = numbers::times(self.rest()) {
-            self.at += count;
-            // "Repeat three times: ..." is about all that follows.
-            let colon = matches!(self.rest(), [Lexeme { token: Token::Break, .. }, ..]);
-            self.skip_joints();
-            let extent = if colon { Extent::Sentence } else { Extent::Group };
-            return Ok(Some(vec![Clause::Repeat { times, body: self.orders(extent)? }]));
-        }
-        self.at = start;
-        Ok(None)
-    }
-
-    /// After "if": the test, what to do, and what else.
-    fn either(&mut self, negated: bool) -> Result<Vec<Clause>, PlanError> {
-        let test = self.test()?;
-        let test = if negated { Test::Not(Box::new(test)) } else { test };
-        self.skip_joints();
-        let then = self.orders(Extent::Group)?;
-        let end = self.at;
-        self.skip_joints();
-        let mut otherwise = Vec::new();
-        if self.eat_any(&["otherwise", "else", "or else", "if not", "or"]) {
-            self.skip_joints();
-            otherwise = self.orders(Extent::Group)?;
-        } else {
-            self.at = end;
-        }
-        Ok(vec![Clause::If { test, then, otherwise }])
-    }
-
-    /// After "when": a test to wait for, or an order that comes first.
-    fn afterwards(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let start = self.at;
-        if self.eat_any(REACHING) {
-            let to = self.reference(0)?;
-            self.skip_joints();
-            let mut clauses = vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }];
-            clauses.extend(self.statement()?);
-            return Ok(clauses);
-        }
-        if let Ok(test) = self.test() {
-            self.skip_joints();
-            let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
-            if self.at < self.lexemes.len() {
-                clauses.extend(self.statement()?);
-            }
-            return Ok(clauses);
-        }
-        self.at = start;
-        self.eat_any(&["you", "you have", "youve", "you are", "you had", "having"]);
-        self.statement()
-    }
-
-    /// After "keep": an order that goes on.
-    fn keep(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let mut body = self.order()?;
-        if let [Clause::Step { direction: StepDirection::Forward, .. }] = body[..] {
-            body = vec![Clause::Forward];
-        }
-        Ok(body)
     }
 
     // ---- the cursor ----
@@ -417,20 +379,22 @@ impl<'a> Parser<'a> {
 
     pub(super) fn ends_clause(&self) -> bool {
         const TAILS: &[&str] = &[
-            "until",
-            "till",
-            "if",
-            "unless",
-            "when",
-            "while",
             "before",
             "after",
-            "as soon as",
             "for",
             "because",
+            "instead of",
+            "rather than",
+            "in order to",
+            "so that",
+            "so as to",
+            "forever",
+            "or if",
         ];
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
-            || [JOINTS, FILLERS, TAILS, ON_THE_WAY]
+            || joint(self.rest()).is_some()
+            || filler(self.rest()).is_some()
+            || [TAILS, ON_THE_WAY, UNTIL, WHILE, IF, UNLESS, &WHEN[..3]]
                 .iter()
                 .any(|words| longest_phrase(self.rest(), words).is_some())
             || numbers::times(self.rest()).is_some()
@@ -443,13 +407,27 @@ impl<'a> Parser<'a> {
         let start = self.at;
         loop {
             self.skip_fillers();
+            self.at += self.item_mark();
             let mark =
                 matches!(self.rest().first(), Some(l) if matches!(l.token, Token::Comma | Token::Break));
             if mark {
                 self.at += 1;
-            } else if self.counts_a_step() || !self.eat_any(JOINTS) {
+            } else if self.counts_a_step() || !self.eat_joint() {
                 return self.at > start;
             }
+        }
+    }
+
+    /// "1. ... 2. ...": the number of an item of a list.
+    fn item_mark(&self) -> usize {
+        let step = usize::from(longest_phrase(self.rest(), &["step", "number", "task", "item"]).is_some());
+        match &self.rest()[step..] {
+            [
+                Lexeme { token: Token::Number(number), .. },
+                Lexeme { token: Token::Break | Token::Close, .. },
+                ..,
+            ] if number.fract() == 0.0 && (1.0..20.0).contains(number) => step + 2,
+            _ => 0,
         }
     }
 
@@ -463,10 +441,18 @@ impl<'a> Parser<'a> {
         })
     }
 
+    fn eat_joint(&mut self) -> bool {
+        let words = joint(self.rest());
+        self.at += words.unwrap_or(0);
+        words.is_some()
+    }
+
     /// Passes politeness, unless the words begin an order.
     pub(super) fn skip_fillers(&mut self) {
-        while let Some(count) = longest_phrase(self.rest(), FILLERS) {
-            if longest_verb(self.rest()).is_some_and(|(_, words)| words >= count) {
+        while let Some(count) = filler(self.rest()) {
+            let is_verb = longest_verb(self.rest()).is_some_and(|(_, words)| words >= count);
+            let is_more = longest_phrase(self.rest(), MORE_THAN_FILLERS).is_some_and(|words| words > count);
+            if is_verb || is_more {
                 return;
             }
             self.at += count;

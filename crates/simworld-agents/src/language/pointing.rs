@@ -26,6 +26,21 @@ impl Parser<'_> {
             "where you started from",
             "your starting point",
             "the start",
+            "where you came from",
+            "where you began",
+            "where you are standing",
+            "where you stand",
+            "where you are now",
+            "your start",
+            "your old place",
+            "the place where you started",
+            "the spot where you started",
+            "where we started",
+            "where you set out",
+            "where you set off",
+            "the place you started from",
+            "the starting point",
+            "the point where you started",
         ]) {
             return Ok(Some(Target::Here));
         }

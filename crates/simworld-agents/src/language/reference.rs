@@ -3,83 +3,38 @@
 use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Count, Reference, Side, Stands, Target};
-use super::lexer::{Lexeme, Token};
-use super::lexicon::{
-    COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES, category, fits, longest, longest_phrase,
-};
+use super::clause::{Choice, Reference, Stands, Target, Traits};
+use super::lexer::{Lexeme, Token, written};
+use super::lexicon::{DETERMINERS, category, fits, longest_phrase};
 use super::names::Guess;
-use super::numbers;
 use super::parser::{Parser, shortened};
 
 /// How many things may be described by one another: "the bench near the tree near ...".
-const DEEPEST: u32 = 4;
-/// Between a superlative and what it chooses from.
-const OF_SEVERAL: &[&str] = &["of the", "of these", "of those", "of all the", "of all"];
-/// What is said of anything that is about.
-const YOU_SEE: &[&str] = &[
-    "you see",
-    "that you see",
-    "you can see",
-    "that you can see",
-    "you find",
-    "that you find",
-    "you can find",
-    "you come to",
-    "you come across",
-    "you spot",
-    "there is",
-    "in sight",
-];
-/// Before what is sold somewhere.
-const SELLING: &[&str] = &[
-    "that sells",
-    "which sells",
-    "selling",
-    "that sell",
-    "where they sell",
-    "where you can buy",
-    "who sells",
-];
-const SUPERLATIVES: &[&str] = &["nearest", "closest", "farthest", "furthest"];
-const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
+pub(super) const DEEPEST: u32 = 4;
 /// What doors may be.
-const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
+pub(super) const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
     (&["locked"], (LOCKED, true)),
     (&["unlocked"], (LOCKED, false)),
     (&["open", "opened"], (OPEN, true)),
     (&["closed", "shut"], (OPEN, false)),
 ];
-/// What begins with "by", and names nothing beside which something stands.
-const BY_WAYS: &[&str] = &[
-    "by way of",
-    "by the shortest",
-    "by the quickest",
-    "by the fastest",
-    "by the most direct",
-    "by car",
-    "by foot",
+/// What somebody or something does at a place.
+#[rustfmt::skip]
+const IS_THERE: &[&str] = &[
+    "is", "are", "stands", "sits", "waits", "lies", "is standing", "is sitting", "is waiting", "is lying",
+    "happens to be", "is parked", "is now", "is right now",
 ];
-const INDEFINITE: &[&str] = &["a", "an", "any", "some", "one of the", "one of", "another"];
 
 impl Parser<'_> {
     /// A thing or a place.
     pub(super) fn reference(&mut self, depth: u32) -> Result<Reference, PlanError> {
         self.eat_any(&["the point", "point", "the position", "position", "coordinates", "the coordinates"]);
         let start = self.at;
-        if !self.peeks_place() && self.eat_any(&["where", "wherever"]) {
+        if !self.peeks_place()
+            && self.eat_any(&["where", "wherever", "the place where", "the spot where", "to where"])
+        {
             let there = self.reference(depth)?;
-            self.eat_any(&[
-                "is",
-                "are",
-                "stands",
-                "sits",
-                "waits",
-                "is standing",
-                "is sitting",
-                "is waiting",
-                "happens to be",
-            ]);
+            self.eat_any(IS_THERE);
             return Ok(there);
         }
         if self.peeks("both") && self.is_capital(self.at + 1) {
@@ -94,11 +49,16 @@ impl Parser<'_> {
         let mut reference = Reference::to(Target::Here, String::new());
         self.modifiers(&mut reference);
         let mut text_at = self.at; // answers leave the article out
-        if reference.choice != Choice::Open || reference.traits != super::clause::Traits::default() {
+        if reference.choice != Choice::Open || reference.traits != Traits::default() {
             text_at = start + usize::from(longest_phrase(&self.lexemes[start..], DETERMINERS).is_some());
         }
-        reference.target = self.noun()?;
+        let bare = self.spoken_of(&reference);
+        reference.target = match bare {
+            Some(target) => target,
+            None => self.noun()?,
+        };
         self.compound(&mut reference, text_at);
+        self.within_scope(&mut reference);
         match &reference.target {
             Target::Any(category) => self.class = Some(category),
             Target::Named(bearers) if bearers.len() > 1 => {
@@ -107,7 +67,9 @@ impl Parser<'_> {
             _ => {}
         }
         reference.text = self.text_from(text_at);
+        let spoken_of = (self.class, self.bearers.clone());
         self.described(&mut reference, depth)?;
+        (self.class, self.bearers) = spoken_of; // "one" is not what it stands by
         self.apposition(&mut reference, depth)?;
         if reference.relation.is_some() {
             reference.text = self.text_from(text_at);
@@ -116,19 +78,26 @@ impl Parser<'_> {
         Ok(reference)
     }
 
-    /// "The chair, the one by the tree".
+    /// "The chair, the one by the tree", "the Elm Café, the western one".
     fn apposition(&mut self, reference: &mut Reference, depth: u32) -> Result<(), PlanError> {
         let start = self.at;
-        let [Lexeme { token: Token::Comma, .. }, after @ ..] = self.rest() else { return Ok(()) };
-        let Some(words) = longest_phrase(after, &["the one", "the ones", "that one"]) else { return Ok(()) };
-        self.at += 1 + words;
-        let said = self.at;
-        if reference.relation.is_none() {
+        let [Lexeme { token: Token::Comma, .. }, ..] = self.rest() else { return Ok(()) };
+        self.at += 1;
+        if self.eat_any(&["the one", "the ones", "that one"]) {
+            let said = self.at;
             self.described(reference, depth)?;
+            if self.at > said {
+                return Ok(());
+            }
+        } else if self.peeks("the") {
+            let mut likeness = reference.clone();
+            self.modifiers(&mut likeness);
+            if likeness != *reference && self.eat_any(&["one"]) {
+                *reference = likeness;
+                return self.described(reference, depth);
+            }
         }
-        if self.at == said {
-            self.at = start;
-        }
+        self.at = start;
         Ok(())
     }
 
@@ -153,82 +122,6 @@ impl Parser<'_> {
         Err(PlanError::Ambiguous { wanted, candidates })
     }
 
-    /// Articles, numbers, colours and superlatives before a noun.
-    fn modifiers(&mut self, reference: &mut Reference) {
-        loop {
-            if let Some((count, words)) = self.peek_count() {
-                reference.count = count;
-                self.at += words;
-            } else if let Some(nth) = self.peek_ordinal() {
-                reference.choice = Choice::Nth(nth);
-                self.at += 1;
-            } else if self.eat_any(&["other", "another"]) {
-                reference.traits.other = true;
-            } else if longest_phrase(self.rest(), INDEFINITE).is_some() && self.eat_any(INDEFINITE) {
-                reference.indefinite = true;
-            } else if (self.class.is_some() || self.bearers.is_some())
-                && longest_phrase(self.rest(), &["one", "ones"]).is_some()
-                && category(&self.rest()[1..]).is_none()
-            {
-                return; // "the white one"
-            } else if longest_phrase(self.rest(), &["everybody", "everyone"]).is_some() {
-                reference.count = Count::All;
-                return;
-            } else if self.eat_any(DETERMINERS) {
-            } else if self.eat_any(NEAREST) {
-                if !matches!(reference.choice, Choice::Nth(_)) {
-                    reference.choice = Choice::Nearest;
-                }
-            } else if self.eat_any(FARTHEST) {
-                reference.choice = Choice::Farthest;
-            } else if self.eat_any(FREE) {
-                reference.traits.free = true;
-            } else if self.names_follow() {
-                return;
-            } else if let Some(choice) = self.compass_choice() {
-                reference.choice = choice;
-            } else if let Some(((measure, most), words)) = longest(self.rest(), MOSTS) {
-                reference.choice = Choice::Most(measure, most);
-                self.at += words;
-            } else if let Some((paint, words)) = self.peek_paint() {
-                reference.traits.paint = Some(paint);
-                self.at += words;
-            } else if reference.choice != Choice::Open && self.eat_any(OF_SEVERAL) {
-                // "The smaller of the two boxes".
-                self.at += numbers::count(self.rest()).map_or(0, |(_, words)| words);
-            } else if self.eat_any(&["parked"]) {
-                reference.traits.parked = true;
-            } else if let Some((state, words)) = longest(self.rest(), DOOR_STATES) {
-                reference.traits.state = Some(state);
-                self.at += words;
-            } else {
-                return;
-            }
-        }
-    }
-
-    fn peek_ordinal(&self) -> Option<u32> {
-        let nth = numbers::ordinal(self.rest())?;
-        // "One second" is a time, and nobody calls a thing "second" alone.
-        matches!(self.rest().get(1)?.token, Token::Word(_)).then_some(nth)
-    }
-
-    /// Whether a name begins here with what else would be an adjective: "Blue Spoon", "Little Italy".
-    fn names_follow(&self) -> bool {
-        let adjective =
-            longest(self.rest(), MOSTS).map(|(_, words)| words).or(self.peek_paint().map(|(_, words)| words));
-        let Some(words) = adjective else { return false };
-        let after = &self.rest()[words..];
-        let is_plain = category(after).is_some() && !self.is_capital(self.at);
-        !is_plain && self.names.exact(self.rest()).is_some_and(|(_, count)| count > words)
-    }
-
-    /// Whether the token is written with a capital, as names are.
-    fn is_capital(&self, at: usize) -> bool {
-        let written = self.lexemes.get(at).and_then(|lexeme| self.words[lexeme.start..].chars().next());
-        at > 0 && written.is_some_and(char::is_uppercase)
-    }
-
     /// "The library door": the first noun says whose.
     fn compound(&mut self, reference: &mut Reference, text_at: usize) {
         let Some((head, words)) = category(self.rest()) else { return };
@@ -244,118 +137,36 @@ impl Parser<'_> {
         reference.relation = Some(Stands::Of(Box::new(whose)));
     }
 
-    /// What is said after a noun: where it stands, and what it is like.
-    fn described(&mut self, reference: &mut Reference, depth: u32) -> Result<(), PlanError> {
-        loop {
-            let start = self.at;
-            if self.in_test && longest_phrase(self.rest(), &["is", "are"]).is_some() {
-                return Ok(());
-            }
-            let copula = self.eat_any(COPULAS);
-            if copula && longest_phrase(self.rest().get(1..).unwrap_or_default(), SUPERLATIVES).is_some() {
-                self.eat_any(&["the"]); // "the bench that is the farthest"
-            }
-            self.eat_any(&["over there", "right there"]);
-            if copula
-                && let Some((paint, words)) =
-                    self.peek_paint().filter(|_| self.lexemes[start].token != Token::Word("is".to_owned()))
-            {
-                reference.traits.paint = Some(paint);
-                self.at += words;
-            } else if self.eat_any(&[
-                "nearest",
-                "closest",
-                "nearest you",
-                "closest to you",
-                "nearest to you",
-                "near you",
-                "close to you",
-                "nearby",
-                "close by",
-                "closest to me",
-                "nearest to me",
-                "near me",
-                "around here",
-                "near here",
-            ]) {
-                let bare = ["nearest", "closest"]
-                    .iter()
-                    .any(|word| fits(&self.lexemes[self.at - 1..], word).is_some());
-                if bare
-                    && self.at > start
-                    && let Some(anchor) = self.bare_anchor(depth)
-                {
-                    reference.relation = Some(Stands::NearestTo(Box::new(anchor), true));
-                    continue;
-                }
-                if !(self.peeks("to")) {
-                    if reference.choice == Choice::Open {
-                        reference.choice = Choice::Nearest;
-                    }
-                    continue;
-                }
-                self.at += 1;
-                let anchor = self.reference(depth + 1)?;
-                reference.relation = Some(Stands::NearestTo(Box::new(anchor), true));
-            } else if self.eat_any(&[
-                "farthest away",
-                "furthest away",
-                "farthest from you",
-                "furthest from you",
-                "most distant",
-                "farthest",
-                "furthest",
-                "farthest away from you",
-                "farthest from here",
-                "furthest from here",
-                "farthest from me",
-                "furthest from me",
-                "farthest away from here",
-                "furthest away from here",
-                "furthest away from you",
-            ]) {
-                if !self.eat_any(&["from", "away from"]) {
-                    reference.choice = Choice::Farthest;
-                    continue;
-                }
-                let anchor = self.reference(depth + 1)?;
-                reference.relation = Some(Stands::NearestTo(Box::new(anchor), false));
-            } else if reference.choice == Choice::Open
-                && let Some(compass) = self.in_the_compass()
-            {
-                reference.choice = Choice::Compass(compass);
-            } else if let Some(than) = self.comparison() {
-                reference.traits.than = Some(than);
-            } else if self.eat_any(SELLING) {
-                let Some((goods, words)) = self.names.goods(self.rest()) else {
-                    return Err(self.not_understood(&format!("sold here are {}", self.names.sold())));
-                };
-                reference.traits.sells = Some(goods);
-                self.at += words;
-            } else if self.eat_any(YOU_SEE) {
-                // "The first chair you see" is the nearest.
-            } else if reference.relation.is_none()
-                && let Some(relation) = self.relation(depth)?
-            {
-                reference.relation = Some(relation);
-            } else {
-                self.at = start;
-                return Ok(());
-            }
+    /// The class or the bearers of the name that was spoken of last.
+    fn mentioned(&self) -> Option<Target> {
+        match (self.class, &self.bearers) {
+            (Some(class), _) => Some(Target::Any(class)),
+            (None, bearers) => bearers.clone().map(Target::Named),
         }
     }
 
-    /// "The person nearest the museum": what follows without "to".
-    fn bare_anchor(&mut self, depth: u32) -> Option<Reference> {
-        let start = self.at;
-        let named = longest_phrase(self.rest(), DETERMINERS).is_some()
-            || category(self.rest()).is_some()
-            || self.names.exact(self.rest()).is_some();
-        let anchor = if named && depth < DEEPEST { self.reference(depth + 1).ok() } else { None };
-        if anchor.is_none() {
-            self.at = start;
+    /// Whether "one" was said last: "point at one, then the other".
+    fn said_one(&self) -> bool {
+        self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("one".to_owned())
+    }
+
+    /// Takes over what was said of several before: "on your left are three doors: the middle one".
+    fn within_scope(&self, reference: &mut Reference) {
+        if let Some(scope) = self.scope.as_ref().filter(|scope| scope.target == reference.target) {
+            reference.relation = reference.relation.take().or_else(|| scope.relation.clone());
+            reference.traits.paint = reference.traits.paint.or(scope.traits.paint);
         }
-        anchor
+    }
+
+    /// "The second closest", "the other": a choice without a noun, out of what was spoken of.
+    fn spoken_of(&self, reference: &Reference) -> Option<Target> {
+        let chosen = reference.choice != Choice::Open
+            || reference.traits.other
+            || self.scope.is_some() && self.said_one();
+        let is_bare = self.ends_clause()
+            || longest_phrase(self.rest(), &["on the", "to the", "from", "in the", "that", "there"])
+                .is_some();
+        self.mentioned().filter(|_| chosen && is_bare)
     }
 
     /// "Where you are" is a place of its own.
@@ -395,98 +206,14 @@ impl Parser<'_> {
                     _ => Ok(Target::Any(category)),
                 }
             }
-            _ => {
-                let spoken_of = match (self.class, &self.bearers) {
-                    (Some(class), _) => Some(Target::Any(class)),
-                    (None, bearers) => bearers.clone().map(Target::Named),
-                };
-                match spoken_of {
-                    Some(target) if self.eat_any(&["one", "ones"]) => Ok(target),
-                    _ => self.misspelt(),
-                }
-            }
+            _ => match self.mentioned() {
+                Some(target) if self.eat_any(&["one", "ones"]) => Ok(target),
+                _ => self.misspelt(),
+            },
         }
-    }
-
-    /// How the thing stands to another, if that is said.
-    pub(super) fn relation(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
-        let start = self.at;
-        self.eat_any(COPULAS);
-        if let Some(stands) = self.on_ground(depth)? {
-            return Ok(Some(stands));
-        }
-        if depth < DEEPEST
-            && let Some(stands) = self.by_compass(depth)?
-        {
-            return Ok(Some(stands));
-        }
-        let side = longest(self.rest(), SIDES);
-        let relation =
-            longest(self.rest(), RELATIONS).filter(|_| longest_phrase(self.rest(), BY_WAYS).is_none());
-        if let Some((side, count)) =
-            side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words))
-        {
-            self.at += count;
-            return Ok(Some(Stands::Side(side)));
-        }
-        let between = self.eat_any(&["between", "in between", "halfway between", "midway between"]);
-        let of = !between
-            && relation.is_none()
-            && self.eat_any(&["of", "belonging to", "to"])
-            && self.of_follows(start);
-        if !between && !of && relation.is_none() {
-            self.at = start;
-            return Ok(None);
-        }
-        if depth >= DEEPEST {
-            return Err(self.not_understood("describe a thing by at most four others"));
-        }
-        if between {
-            return self.between(depth).map(Some);
-        }
-        if of {
-            return Ok(Some(Stands::Of(Box::new(self.reference(depth + 1)?))));
-        }
-        let Some((relation, count)) = relation else { return Ok(None) };
-        self.at += count;
-        if self.eat_any(&["you", "me", "yourself"]) {
-            return Ok(Some(Stands::Side(Side::Ahead)));
-        }
-        Ok(Some(Stands::To(relation, Box::new(self.reference(depth + 1)?))))
-    }
-
-    /// "To" says whose only of a door: "the door to the lab", but "bring the parcel to the lab".
-    fn of_follows(&self, start: usize) -> bool {
-        let is_to =
-            self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("to".to_owned()));
-        let is_door = start > 0
-            && matches!(&self.lexemes[start - 1].token, Token::Word(word) if ["door", "doorway", "entrance", "gate"].contains(&word.as_str()));
-        !is_to || is_door
-    }
-
-    /// The two that a plural stands for: "between the two trees".
-    pub(super) fn pair(both: &Reference) -> (Reference, Reference) {
-        let nth = |nth| Reference { choice: Choice::Nth(nth), count: Count::One, ..both.clone() };
-        (nth(1), nth(2))
-    }
-
-    /// "Between the hospital and the museum", "between the two trees".
-    fn between(&mut self, depth: u32) -> Result<Stands, PlanError> {
-        let one = self.reference(depth + 1)?;
-        if self.peeks("and") {
-            self.at += 1;
-            let other = self.reference(depth + 1)?;
-            return Ok(Stands::Between(Box::new(one), Box::new(other)));
-        }
-        let (one, other) = Self::pair(&one);
-        Ok(Stands::Between(Box::new(one), Box::new(other)))
     }
 
     pub(super) fn text_from(&self, start: usize) -> String {
-        match self.lexemes.get(start..self.at) {
-            Some([first, .., last]) => shortened(&self.words[first.start..last.end]),
-            Some([only]) => shortened(&self.words[only.start..only.end]),
-            _ => String::new(),
-        }
+        shortened(written(self.words, self.lexemes.get(start..self.at).unwrap_or_default()))
     }
 }

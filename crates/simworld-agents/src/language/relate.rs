@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use simworld_core::geometry::{Aabb, Point2, Point3, direction};
 use simworld_core::id::RoadId;
 use simworld_core::net::polyline;
-use simworld_core::scene::{EntityRef, Relation};
+use simworld_core::scene::{EntityKind, EntityRef, Relation};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Side, Spot, Stands, Target};
@@ -42,6 +42,7 @@ impl View<'_> {
         purpose: Purpose,
     ) -> Result<Vec<Ranked>, PlanError> {
         match relation {
+            Stands::All(all) => self.in_all_ways(reference, all, purpose),
             Stands::Side(side) => Ok(self.on_side(reference, *side, purpose)),
             Stands::Compass(compass, of) => self.in_direction(reference, *compass, of.as_deref(), purpose),
             Stands::OnStreet(roads) => Ok(self.on_street(reference, roads, purpose)),
@@ -75,6 +76,12 @@ impl View<'_> {
                     relation.holds(entity, anchor)
                         || *relation == Relation::InFrontOf && is_before_door(entity, anchor)
                 })?;
+                if strict.is_empty() && matches!(relation, Relation::Behind | Relation::InFrontOf) {
+                    let from = self.from;
+                    return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                        is_seen_so(from, entity, anchor, *relation)
+                    });
+                }
                 if strict.is_empty() && *relation == Relation::NextTo {
                     return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
                         let in_a_row = entity.kind.is_vehicle() && anchor.kind.is_vehicle();
@@ -84,6 +91,27 @@ impl View<'_> {
                 Ok(strict)
             }
         }
+    }
+
+    /// Whichever stand so in every way, the nearest first.
+    fn in_all_ways(
+        &self,
+        reference: &Reference,
+        all: &[Stands],
+        purpose: Purpose,
+    ) -> Result<Vec<Ranked>, PlanError> {
+        let any = Reference { choice: Choice::Nearest, ..reference.clone() };
+        let mut found: Option<Vec<Ranked>> = None;
+        for one in all {
+            let fits = self.related(&any, one, purpose)?;
+            found = Some(match found {
+                Some(so_far) => {
+                    so_far.into_iter().filter(|(_, id)| fits.iter().any(|(_, other)| other == id)).collect()
+                }
+                None => fits,
+            });
+        }
+        Ok(found.unwrap_or_default())
     }
 
     /// Those that stand in a relation to what the anchor may mean.
@@ -198,8 +226,14 @@ impl View<'_> {
         found
     }
 
-    /// On a side of the agent, the nearest first.
+    /// On a side of the agent, the nearest first; ahead and behind are half a turn wide where nothing is nearer to the
+    /// middle.
     fn on_side(&self, reference: &Reference, side: Side, purpose: Purpose) -> Vec<Ranked> {
+        let found = self.on_side_within(reference, side, purpose, AHEAD);
+        if found.is_empty() { self.on_side_within(reference, side, purpose, 0.1) } else { found }
+    }
+
+    fn on_side_within(&self, reference: &Reference, side: Side, purpose: Purpose, width: f64) -> Vec<Ranked> {
         let ahead = direction(self.heading);
         let mut found = self.around(reference, self.from, BESIDE_ME.min(self.range), purpose);
         found.retain(|(_, id)| {
@@ -210,8 +244,8 @@ impl View<'_> {
             match side {
                 Side::Left => left > 0.1,
                 Side::Right => left < -0.1,
-                Side::Ahead => forward >= AHEAD,
-                Side::Behind => forward <= -AHEAD,
+                Side::Ahead => forward >= width,
+                Side::Behind => forward <= -width,
             }
         });
         found
@@ -260,6 +294,16 @@ impl View<'_> {
     }
 }
 
+/// Whether it stands behind or before a thing for whoever looks from a place: what has no front of its own, or nothing
+/// there, is seen so.
+fn is_seen_so(from: Point2, entity: &EntityRef<'_>, anchor: &EntityRef<'_>, relation: Relation) -> bool {
+    let (sight, way) = (anchor.planar() - from, entity.planar() - anchor.planar());
+    let along = sight.dot(&way);
+    let is_near = gap(anchor, entity) <= RELATED * 0.5;
+    let aligned = along.abs() >= sight.norm() * way.norm() * AHEAD && way.norm() > 1e-6;
+    is_near && aligned && if relation == Relation::Behind { along > 0.0 } else { along < 0.0 }
+}
+
 /// Whether it stands on the side of a house where its door is: that is the front of the house for whoever looks at it.
 fn is_before_door(entity: &EntityRef<'_>, house: &EntityRef<'_>) -> bool {
     let Some(access) = house.info.access else { return false };
@@ -276,16 +320,24 @@ fn gap(anchor: &EntityRef<'_>, entity: &EntityRef<'_>) -> f64 {
 /// A spot on that side of a thing, with room for a body; `None` for relations that name no side.
 pub(super) fn spot_on_side(entity: &EntityRef<'_>, side: Spot, room: f64) -> Option<Point3> {
     let half = entity.info.shape.size() * 0.5;
-    let relation = match side {
-        Spot::Beside(relation) => relation,
-        Spot::Compass(compass) => {
+    let (relation, apart) = match side {
+        Spot::Beside(relation, apart) => (relation, apart),
+        Spot::Compass(compass, apart) => {
             let step = compass.step();
+            if let Some(apart) = apart {
+                let spot = entity.planar() + step * apart;
+                return Some(Point3::new(spot.x, spot.y, entity.position().z));
+            }
             let corners = entity.obb().footprint().map(|corner| (corner - entity.planar()).dot(&step));
             let edge = corners.into_iter().fold(0.0, f64::max);
             let spot = entity.planar() + step * (edge + room);
             return Some(Point3::new(spot.x, spot.y, entity.position().z));
         }
     };
+    if entity.kind == EntityKind::Door {
+        return None; // before a door is at it
+    }
+    let room = apart.unwrap_or(room);
     let local = match relation {
         Relation::InFrontOf => Point3::new(half.x + room, 0.0, 0.0),
         Relation::Behind => Point3::new(-half.x - room, 0.0, 0.0),

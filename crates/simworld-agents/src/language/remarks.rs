@@ -3,30 +3,15 @@
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
-use super::politeness::FILLERS;
+use super::politeness::filler;
 use super::requests;
+use super::verbs::longest_verb;
 
 /// What begins a remark of the speaker's on how he is.
+#[rustfmt::skip]
 const REMARKS: &[&str] = &[
-    "im",
-    "i am",
-    "ive",
-    "i have",
-    "i feel",
-    "i cant",
-    "i cannot",
-    "i dont",
-    "we are",
-    "weve",
-    "because",
-    "my feet",
-    "my legs",
-    "its late",
-    "it is late",
-    "its hot",
-    "its cold",
-    "its getting",
-    "it is getting",
+    "im", "i am", "ive", "i have", "i feel", "i cant", "i cannot", "i dont", "we are", "weve", "because",
+    "my feet", "my legs", "its late", "it is late", "its hot", "its cold", "its getting", "it is getting",
 ];
 /// What begins a reason.
 const BECAUSE: &[&str] = &["because", "since i", "since we", "as i", "as we", "cause i", "cos i"];
@@ -44,7 +29,8 @@ impl Parser<'_> {
 
     fn skip_saying(&mut self, beginnings: &[&str]) -> bool {
         let is_remark = longest_phrase(self.rest(), beginnings).is_some()
-            && longest_phrase(self.rest(), FILLERS).is_none()
+            && filler(self.rest()).is_none()
+            && longest_verb(self.rest()).is_none()
             && requests::beginnings(self.rest()).is_empty();
         let ends = |lexeme: &Lexeme| match &lexeme.token {
             Token::Comma | Token::Break => true,

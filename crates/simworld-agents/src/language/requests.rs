@@ -19,70 +19,23 @@ const SMALL: &str = include_str!("small_words.txt");
 /// Words after which the order itself may follow, with what stands before them.
 const ENDINGS: &str = include_str!("request_endings.txt");
 /// "If you" ends a request only after something that says how welcome it would be.
+#[rustfmt::skip]
 const WELCOME: &[&str] = &[
-    "appreciate",
-    "love",
-    "like",
-    "great",
-    "nice",
-    "lovely",
-    "good",
-    "best",
-    "wonderful",
-    "helpful",
-    "help",
-    "kind",
-    "grateful",
-    "thankful",
-    "happy",
-    "delighted",
-    "glad",
-    "pleased",
-    "mind",
-    "wonder",
-    "wondering",
-    "prefer",
-    "convenient",
-    "better",
+    "appreciate", "love", "like", "great", "nice", "lovely", "good", "best", "wonderful", "helpful", "help",
+    "kind", "grateful", "thankful", "happy", "delighted", "glad", "pleased", "mind", "wonder", "wondering",
+    "prefer", "convenient", "better",
 ];
 /// Small words that may stand between an ending and the verb.
+#[rustfmt::skip]
 const BETWEEN: &[&str] = &[
-    "maybe",
-    "perhaps",
-    "please",
-    "just",
-    "kindly",
-    "possibly",
-    "now",
-    "then",
-    "first",
-    "next",
-    "simply",
-    "also",
-    "really",
-    "quickly",
-    "go ahead and",
-    "try to",
-    "all",
+    "maybe", "perhaps", "please", "just", "kindly", "possibly", "now", "then", "first", "next", "simply",
+    "also", "really", "quickly", "go ahead and", "try to", "all",
 ];
 /// What nobody begins a request with: it says what is, or asks what is.
+#[rustfmt::skip]
 const QUESTIONS: &[&str] = &[
-    "did",
-    "does",
-    "do you see",
-    "do you want",
-    "have you",
-    "has",
-    "had you",
-    "are you",
-    "is it",
-    "was",
-    "were",
-    "when did",
-    "what did",
-    "who",
-    "where",
-    "which",
+    "did", "does", "do you see", "do you want", "have you", "has", "had you", "are you", "is it", "was", "were",
+    "when did", "what did", "who", "where", "which",
 ];
 
 /// Every small word, for the spelling.
@@ -170,33 +123,13 @@ fn without_adverb(words: &[Lexeme]) -> Option<usize> {
 
 /// How many lexemes of politeness end the sentence here: "..., would you?", "if it isn't too much trouble".
 pub(super) fn coda(lexemes: &[Lexeme]) -> usize {
+    #[rustfmt::skip]
     const BEGINNINGS: &[&str] = &[
-        "would you",
-        "will you",
-        "could you",
-        "can you",
-        "wont you",
-        "if",
-        "when",
-        "whenever",
-        "as soon as",
-        "for me",
-        "please",
-        "thanks",
-        "thank you",
-        "there is a good",
-        "theres a good",
-        "thats a good",
-        "okay",
-        "ok",
-        "right",
-        "alright",
-        "that would be",
-        "thatd be",
-        "i beg you",
-        "id be",
-        "i would be",
-        "in case you",
+        "would you", "will you", "could you", "can you", "wont you", "if", "when", "whenever", "as soon as",
+        "for me", "please", "thanks", "thank you", "there is a good", "theres a good", "thats a good", "okay",
+        "ok", "right", "alright", "that would be", "thatd be", "i beg you", "id appreciate",
+        "i would appreciate", "theres a", "there is a", "be a", "would be", "itd be", "it would be",
+        "will you please", "id be", "i would be", "in case you",
     ];
     let start = usize::from(matches!(lexemes.first(), Some(Lexeme { token: Token::Comma, .. })));
     if longest_phrase(&lexemes[start..], BEGINNINGS).is_none() {
@@ -222,26 +155,10 @@ pub(super) fn coda(lexemes: &[Lexeme]) -> usize {
 }
 
 /// What makes politeness of a condition: "if you can", "when you have time".
+#[rustfmt::skip]
 const POLITE: &[&str] = &[
-    "mind",
-    "can",
-    "could",
-    "would",
-    "wouldnt",
-    "please",
-    "possible",
-    "trouble",
-    "bother",
-    "like",
-    "moment",
-    "time",
-    "ready",
-    "chance",
-    "ok",
-    "okay",
-    "convenient",
-    "kind",
-    "want",
+    "mind", "can", "could", "would", "wouldnt", "please", "possible", "trouble", "bother", "like", "moment",
+    "time", "ready", "chance", "ok", "okay", "convenient", "kind", "want",
 ];
 /// Small words that say something at the end of a sentence: "if you see me".
 const MEANT: &[&str] =

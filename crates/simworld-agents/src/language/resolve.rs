@@ -2,13 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use simworld_core::geometry::{Aabb, Point2, yaw_of};
+use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Role, Scene};
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Count, Measure, Reference, Target};
-use super::compass::Compass;
+use super::clause::{Choice, Count, Measure, Reference, Side, Target};
 use super::paint::Paint;
 use super::streets::StreetNames;
 use super::{AmbiguityPolicy, RANGE};
@@ -57,6 +56,8 @@ pub(super) struct View<'a> {
     pub(super) policy: AmbiguityPolicy,
     /// The names of streets, where the scene is spoken of and not what somebody is to do in it.
     pub(super) streets: Option<&'a StreetNames>,
+    /// What is near, as answers say it, where the scene is spoken of: it is looked for once a sentence.
+    pub(super) told: std::cell::OnceCell<String>,
 }
 
 /// Whether goods of that name are sold there.
@@ -84,6 +85,7 @@ impl<'a> View<'a> {
             gone: Vec::new(),
             speaker: None,
             policy,
+            told: std::cell::OnceCell::new(),
             streets: None,
         }
     }
@@ -132,7 +134,7 @@ impl<'a> View<'a> {
         let [best, second, ..] = candidates else { return Ok(()) };
         let open = match reference.choice {
             // A superlative without a single best is open under every policy.
-            Choice::Most(..) | Choice::Compass(_) => same(best.0, second.0),
+            Choice::Most(..) | Choice::Compass(_) | Choice::Side(_) => same(best.0, second.0),
             _ if self.policy != AmbiguityPolicy::Ask || reference.indefinite => false,
             Choice::Open => Self::is_plain(reference) && second.0 <= best.0 + EITHER,
             Choice::Nearest => same(best.0, second.0),
@@ -170,16 +172,50 @@ impl<'a> View<'a> {
             Some(relation) => self.related(reference, relation, purpose)?,
             None => self.plain(reference, purpose)?,
         };
+        if let Some(except) = reference.except.as_ref().filter(|_| self.streets.is_none()) {
+            let spared = self.candidates(except, Purpose::Any)?;
+            let one = except.count == Count::One;
+            let spared = if one { &spared[..spared.len().min(1)] } else { &spared[..] };
+            found.retain(|(_, id)| spared.iter().all(|(_, other)| other != id));
+        }
         match reference.choice {
             Choice::Farthest => found.reverse(),
             Choice::Nth(nth) => {
                 found = found.get(nth.saturating_sub(1) as usize).copied().into_iter().collect();
             }
             Choice::Most(measure, most) => self.rank_by(&mut found, measure, most),
-            Choice::Compass(compass) => self.rank_along(&mut found, compass),
+            Choice::Compass(compass) => self.rank_along(&mut found, compass.step()),
+            Choice::Side(side) => self.rank_along(&mut found, self.step_to(side)),
+            Choice::Middle => self.middle_of(&mut found),
             Choice::Open | Choice::Nearest => {}
         }
+        found.drain(..found.len().min(reference.place.saturating_sub(1) as usize));
         Ok(found)
+    }
+
+    /// A step of a metre to a side of the agent.
+    fn step_to(&self, side: Side) -> Vector2 {
+        let ahead = direction(self.heading);
+        match side {
+            Side::Left => Vector2::new(-ahead.y, ahead.x),
+            Side::Right => Vector2::new(ahead.y, -ahead.x),
+            Side::Ahead => ahead,
+            Side::Behind => -ahead,
+        }
+    }
+
+    /// The one in the middle of a row; none of an even number.
+    fn middle_of(&self, found: &mut Vec<Ranked>) {
+        let place = |id: EntityId| self.scene.entity(id).map(|entity| entity.planar());
+        let ends = found.iter().filter_map(|(_, id)| place(*id)).collect::<Vec<_>>();
+        let apart = |a: &Point2| ends.iter().map(|b| (a - b).norm()).fold(0.0, f64::max);
+        let Some(end) = ends.iter().max_by(|a, b| apart(a).total_cmp(&apart(b))).copied() else { return };
+        for (rank, id) in found.iter_mut() {
+            *rank = place(*id).map_or(f64::INFINITY, |at| (at - end).norm());
+        }
+        sort(found);
+        let middle = if found.len() % 2 == 1 { found.get(found.len() / 2).copied() } else { None };
+        *found = middle.into_iter().collect();
     }
 
     /// The most of a measure first; what has none comes last.
@@ -193,8 +229,7 @@ impl<'a> View<'a> {
     }
 
     /// The farthest in a direction first.
-    fn rank_along(&self, found: &mut [Ranked], compass: Compass) {
-        let step = compass.step();
+    fn rank_along(&self, found: &mut [Ranked], step: Vector2) {
         for (rank, id) in found.iter_mut() {
             let Some(entity) = self.scene.entity(*id) else { continue };
             // To the centimetre, so that things in a row stand level.
@@ -227,17 +262,22 @@ impl<'a> View<'a> {
 
     /// Things of a class, looked for in ever wider circles until there are enough.
     fn of_class(&self, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
+        let spared = usize::from(reference.except.is_some());
         let (enough, first) = match (reference.choice, reference.count) {
-            (_, Count::All) => (usize::MAX, ALL_WITHIN),
+            // Of those about, and not of all in the city.
+            (_, Count::All) | (Choice::Side(_) | Choice::Middle, _) => (usize::MAX, ALL_WITHIN),
             (Choice::Farthest | Choice::Most(..) | Choice::Compass(_), _) => (usize::MAX, self.range),
-            (Choice::Nth(nth), _) => (nth as usize, FIRST_LOOK),
-            (_, Count::Exactly(count)) => (count as usize, FIRST_LOOK),
-            _ => (1, FIRST_LOOK),
+            (Choice::Nth(nth), _) => (nth as usize + spared, FIRST_LOOK),
+            (_, Count::Exactly(count)) => (count as usize + spared, FIRST_LOOK),
+            _ => (1 + spared, FIRST_LOOK),
         };
         let mut reach = first.min(self.range);
         loop {
             let found = self.within(reach, reference, purpose);
-            if found.len() >= enough || reach >= self.range || reference.count == Count::All {
+            let about = reach >= ALL_WITHIN
+                && !found.is_empty()
+                && matches!(reference.choice, Choice::Side(_) | Choice::Middle);
+            if found.len() >= enough || reach >= self.range || reference.count == Count::All || about {
                 let asks = self.policy == AmbiguityPolicy::Ask && reference.choice == Choice::Open;
                 let wider =
                     found.first().map(|nearest| nearest.0 + EITHER).filter(|wider| asks && *wider > reach);
@@ -315,6 +355,8 @@ impl<'a> View<'a> {
             && entity.id != self.who
             && !(traits.other && (self.it == Some(entity.id) || self.them == Some(entity.id)))
             && traits.paint.is_none_or(|paint| entity.info.color.map(Paint::of) == Some(paint))
+            && (traits.unlike.is_empty()
+                || entity.info.color.is_none_or(|color| !traits.unlike.contains(&Paint::of(color))))
             && traits.state.is_none_or(|(key, set)| {
                 entity.info.attributes.get(key).is_some_and(|value| *value == true.into()) == set
             })
@@ -355,6 +397,13 @@ impl<'a> View<'a> {
 
     /// What is near, with distances, for answers.
     pub(super) fn surroundings(&self) -> String {
+        match self.streets {
+            Some(_) => self.told.get_or_init(|| self.look_around()).clone(),
+            None => self.look_around(),
+        }
+    }
+
+    fn look_around(&self) -> String {
         /// How far, m, and how many things are listed.
         const NEAR: f64 = 100.0;
         const MOST: usize = 4;

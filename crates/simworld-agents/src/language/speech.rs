@@ -1,19 +1,21 @@
-//! Orders with words in them: what is said, and what is bought.
+//! Orders with words in them: what is said, and to whom.
 
-use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Count, Reference, Target};
+use super::clause::{Clause, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
-use super::numbers;
-use super::parser::{Parser, shortened};
+use super::parser::Parser;
 use super::verbs::Verb;
 
-/// Who sells what is said before: "the coffee shop".
-const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller", "vendor"];
 /// What one says where no words are given.
 const HELLO: &str = "hello";
+/// What is said to whoever was spoken of.
+#[rustfmt::skip]
+const HELLOS: &[&str] = &[
+    "hello", "hi", "goodbye", "good morning", "good evening", "good afternoon", "good night", "thanks",
+    "thank you", "bye", "sorry", "good day",
+];
 /// The most that is said at once, in characters.
 const LONGEST_SPEECH: usize = 500;
 
@@ -31,7 +33,8 @@ impl Parser<'_> {
             Verb::Say => self.say()?,
             Verb::Tell => {
                 let to = self.reference(0)?;
-                self.eat_any(&["that", "about", "to"]);
+                self.eat_any(&["that", "about", "to", "know that", "know"]);
+                self.at += usize::from(self.opens_quote());
                 let words = self.speech(self.lexemes.len())?;
                 Clause::Say { to, words }
             }
@@ -51,16 +54,91 @@ impl Parser<'_> {
 
     /// "Say good morning to Anna".
     fn say(&mut self) -> Result<Clause, PlanError> {
+        let start = self.at;
+        if let Some(to) = self.addressed() {
+            self.eat_any(&["that"]);
+            self.at += usize::from(self.opens_quote());
+            let words = self.speech(self.lexemes.len())?;
+            return Ok(Clause::Say { to, words: Self::greeting(words) });
+        }
+        let quoted = self.quoted(self.rest()).unwrap_or(0);
         let is_break = |lexeme: &Lexeme| lexeme.token == Token::Break;
         let end = self.rest().iter().position(is_break).map_or(self.lexemes.len(), |count| self.at + count);
         let is_to = |at: &usize| self.lexemes[*at].token == Token::Word("to".to_owned());
-        let Some(to_at) = (self.at..end).rev().find(is_to) else {
+        let mut whom = None;
+        for to_at in (start + quoted.max(1)..end).filter(is_to) {
+            self.at = to_at + 1;
+            let to = self.reference(0);
+            let is_somebody = to.as_ref().is_ok_and(|to| self.is_somebody(to));
+            whom = Some((to_at, self.at, to));
+            if is_somebody {
+                break;
+            }
+        }
+        self.at = start;
+        let Some((to_at, after, to)) = whom else {
+            let words = self.speech(self.lexemes.len())?;
+            if HELLOS.contains(&words.to_lowercase().as_str()) {
+                // "Go to Hana and say hello".
+                return Ok(Clause::Say {
+                    to: Reference::to(Target::Them, "them".to_owned()),
+                    words: Self::greeting(words),
+                });
+            }
+            self.at = start;
             return Err(self.not_understood("say to whom, as in \"say hello to Anna\""));
         };
-        let words = self.speech(to_at)?;
-        self.at = to_at + 1;
-        let words = if words.eq_ignore_ascii_case("hi") { HELLO.to_owned() } else { words };
-        Ok(Clause::Say { to: self.reference(0)?, words })
+        let words = Self::greeting(self.speech(to_at)?);
+        let to = to?;
+        self.at = after;
+        Ok(Clause::Say { to, words })
+    }
+
+    /// "Say to Anna that ...": whom, before the words.
+    fn addressed(&mut self) -> Option<Reference> {
+        let start = self.at;
+        let to = if self.eat_any(&["to"]) { self.somebody_here() } else { None };
+        let words_follow = to.is_some() && !self.rest().is_empty();
+        if !words_follow {
+            self.at = start;
+        }
+        to.filter(|_| words_follow)
+    }
+
+    fn greeting(words: String) -> String {
+        if words.eq_ignore_ascii_case("hi") { HELLO.to_owned() } else { words }
+    }
+
+    /// "Tell Hana: the clinic is closed", with a mark before the words.
+    fn opens_quote(&self) -> bool {
+        let [mark, first, ..] = self.rest() else { return false };
+        let is_colon = mark.token == Token::Break && self.words[mark.start..].starts_with(':');
+        let quotes = self.words[mark.start..first.start].contains(['"', '\'', '“', '‘', '«', '„']);
+        is_colon || matches!(mark.token, Token::Comma | Token::Break) && quotes
+    }
+
+    /// How many tokens stand between quotation marks, if one opens here.
+    fn quoted(&self, said: &[Lexeme]) -> Option<usize> {
+        let first = said.first()?;
+        let (before, text) = self.words.split_at(first.start);
+        let (closes, is_apostrophe) = match before.chars().next_back()? {
+            '"' => ('"', false),
+            '“' => ('”', false),
+            '„' => ('“', false),
+            '«' => ('»', false),
+            '\'' => ('\'', true),
+            '‘' => ('’', true),
+            _ => return None,
+        };
+        // An apostrophe inside a word closes nothing.
+        let mut marks = text.match_indices(closes).map(|(at, _)| at);
+        let ends_word = |at: &usize| {
+            !is_apostrophe
+                || !text[at + closes.len_utf8()..].chars().next().is_some_and(char::is_alphanumeric)
+        };
+        let end = first.start + marks.find(ends_word)?;
+        let count = said.iter().take_while(|lexeme| lexeme.end <= end).count();
+        (count > 0).then_some(count)
     }
 
     /// The words as they were written, up to a token or the end of the sentence.
@@ -74,7 +152,7 @@ impl Parser<'_> {
             }
             _ => false,
         };
-        let count = (0..said.len()).find(ends).unwrap_or(said.len());
+        let count = self.quoted(said).unwrap_or_else(|| (0..said.len()).find(ends).unwrap_or(said.len()));
         let (Some(first), Some(last)) = (said.first().filter(|_| count > 0), said[..count].last()) else {
             return Err(self.not_understood("say what to say"));
         };
@@ -84,71 +162,6 @@ impl Parser<'_> {
         }
         self.at += count;
         Ok(words.to_owned())
-    }
-
-    /// "Buy a coffee at the corner shop": goods are what a place nearby sells.
-    pub(super) fn buy(&mut self) -> Result<Vec<Clause>, PlanError> {
-        const VESSELS: &[&str] = &[
-            "bottle of",
-            "bottles of",
-            "cup of",
-            "cups of",
-            "piece of",
-            "pieces of",
-            "loaf of",
-            "bowl of",
-            "bowls of",
-            "can of",
-            "cans of",
-            "slice of",
-            "slices of",
-            "glass of",
-            "portion of",
-            "bag of",
-            "copy of",
-        ];
-        self.eat_any(&["me", "yourself", "us", "him", "her"]);
-        let mut times = 1;
-        if let Some((Count::Exactly(count), words)) = self.peek_count() {
-            times = count;
-            self.at += words;
-        }
-        while self.eat_any(&["a", "an", "the", "some", "one", "any"]) {}
-        self.eat_any(VESSELS);
-        let Some((goods, count)) = self.names.goods(self.rest()) else {
-            let rest = self.rest();
-            let ends = ["at", "from", "in", "and", "then", "to", "for"];
-            let end = (0..rest.len())
-                .find(|at| {
-                    !matches!(rest[*at].token, Token::Word(_))
-                        || longest_phrase(&rest[*at..], &ends).is_some()
-                })
-                .unwrap_or(rest.len());
-            let Some((first, last)) = rest[..end].first().zip(rest[..end].last()) else {
-                return Err(self.not_understood("say what to buy"));
-            };
-            let wanted = format!("{} to buy", shortened(&self.words[first.start..last.end]));
-            return Err(PlanError::NotFound { wanted, near: self.names.sold() });
-        };
-        self.at += count;
-        let at = self.tail_place(&["at", "from", "in", "inside"])?;
-        let after = numbers::times(self.rest());
-        self.at += after.map_or(0, |(_, count)| count);
-        let times = after.map_or(times, |(more, _)| more * times);
-        Ok(vec![Clause::Buy { goods, times, at }])
-    }
-
-    /// "The coffee shop" is any that sells coffee, unless one is called so.
-    pub(super) fn sellers(&mut self) -> Option<Vec<EntityId>> {
-        let rest = self.rest();
-        (1..4).find(|at| rest.get(*at..).is_some_and(|rest| longest_phrase(rest, SELLERS).is_some()))?;
-        let (goods, count) = self.names.goods(rest)?;
-        let words = count + longest_phrase(&rest[count..], SELLERS)?;
-        if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
-            return None;
-        }
-        self.at += words;
-        Some(self.names.sellers(&goods))
     }
 
     /// Him, her or them: whoever was spoken of last.

@@ -20,6 +20,7 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
 
 /// As [`correct`], where other words are known too.
 pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &dyn Fn(&str) -> bool) {
+    sound_words(lexemes);
     let mut at = 0;
     while at < lexemes.len() {
         let here = at;
@@ -51,6 +52,50 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
         }
     }
 }
+
+/// "Go bye one": a word that sounds like a verb where an order begins and a quantity follows.
+fn sound_words(lexemes: &mut [Lexeme]) {
+    const SAME: &[(&str, &str)] = &[
+        ("bye", "buy"),
+        ("by", "buy"),
+        ("git", "get"),
+        ("wright", "write"),
+        ("weight", "wait"),
+        ("rite", "right"),
+        ("waite", "wait"),
+    ];
+    const BEFORE: &[&str] = &["go", "and", "then", "to", "please", "first", "you"];
+    const BEHIND: &[&str] =
+        &["a", "an", "one", "some", "two", "three", "on", "in", "for", "the", "me", "off", "out", "up"];
+    for at in 0..lexemes.len() {
+        let begins = at == 0
+            || match &lexemes[at - 1].token {
+                Token::Comma | Token::Break => true,
+                Token::Word(word) => BEFORE.contains(&word.as_str()),
+                _ => false,
+            };
+        let goes_on = matches!(lexemes.get(at + 1).map(|next| &next.token), Some(Token::Word(word)) if BEHIND.contains(&word.as_str()));
+        let Token::Word(word) = &lexemes[at].token else { continue };
+        let Some((_, right)) = SAME.iter().find(|(said, _)| said == word).filter(|_| begins && goes_on)
+        else {
+            continue;
+        };
+        // "By the museum" is a place.
+        let is_place = word == "by"
+            && matches!(&lexemes[at + 1].token, Token::Word(next) if next == "the" || next == "two");
+        if !is_place {
+            lexemes[at] =
+                Lexeme { token: Token::Word((*right).to_owned()), lemma: None, ..lexemes[at].clone() };
+        }
+    }
+}
+
+/// What is meant rather than a rarer word as near.
+const FREQUENT: &[&str] = &[
+    "the", "then", "and", "to", "it", "at", "on", "with", "from", "for", "turn", "take", "get", "there",
+    "this", "that", "go", "sit", "pick", "walk", "second", "door", "parcel", "wait", "left", "right",
+    "first", "bench", "chair", "please",
+];
 
 /// Words so frequent that a blank slips into them.
 const SHIFTED: &[&str] = &[
@@ -180,6 +225,17 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
     if follows_verb && best.len() > 1 {
         best.retain(|word| !verbs::is_verb(word));
     }
+    if best.len() > 1 {
+        // A letter is left out rather than added, and frequent words are meant rather than others.
+        let longer = |candidate: &&str| candidate.len() > word.len();
+        let frequent = |candidate: &&str| FREQUENT.contains(candidate);
+        let one_of = |fits: &dyn Fn(&&str) -> bool| best.iter().filter(|word| fits(word)).count() == 1;
+        if one_of(&frequent) {
+            best.retain(|word| frequent(word));
+        } else if one_of(&longer) {
+            best.retain(|word| longer(word));
+        }
+    }
     match best[..] {
         [one] if !least.2 => Some(one.to_owned()),
         _ => None,
@@ -250,7 +306,7 @@ impl<'a> Said<'a> {
         if least > 2 || candidate.len() < 3 || candidate.len().abs_diff(word.len()) > 2 {
             return None;
         }
-        if sounds(word).eq(sounds(candidate)) {
+        if said_alike(word, candidate) {
             // What sounds the same is likelier than letters out of order: "foto" is no "foot".
             return Some((0, Slip::Count));
         }
@@ -272,8 +328,20 @@ impl<'a> Said<'a> {
     }
 }
 
-/// The letters of a word as it sounds, roughly: "foto" and "photo" are one.
-fn sounds(word: &str) -> impl Iterator<Item = char> {
+/// Whether two words sound the same, a silent "e" at the end aside.
+fn said_alike(word: &str, candidate: &str) -> bool {
+    let heard = |word: &str| {
+        let mut heard: Vec<char> = sounds(word).collect();
+        let silent =
+            heard.len() > 2 && heard.last() == Some(&'e') && heard[heard.len() - 3].is_ascii_uppercase();
+        heard.truncate(heard.len() - usize::from(silent));
+        heard
+    };
+    plain(word).eq(plain(candidate)) || heard(word) == heard(candidate)
+}
+
+/// The letters of a word, each once however often it stands in a row, with "ph" as "f".
+fn plain(word: &str) -> impl Iterator<Item = char> {
     let mut letters = word.chars().peekable();
     let mut last = None;
     std::iter::from_fn(move || {
@@ -294,6 +362,55 @@ fn sounds(word: &str) -> impl Iterator<Item = char> {
             }
         }
     })
+}
+
+/// The letters of a word as it sounds, roughly: "foto" and "photo" are one, and so are "wate" and "wait".
+fn sounds(word: &str) -> impl Iterator<Item = char> {
+    let letters: Vec<char> = word.chars().collect();
+    let mut at = 0;
+    let mut last = None;
+    std::iter::from_fn(move || {
+        while at < letters.len() {
+            let (sound, count) = sound(&letters[at..]);
+            at += count;
+            if let Some(sound) = sound
+                && last.replace(sound) != Some(sound)
+            {
+                return Some(sound);
+            }
+        }
+        None
+    })
+}
+
+/// The first sound of some letters, and how many of them make it; long vowels are capital letters.
+fn sound(letters: &[char]) -> (Option<char>, usize) {
+    #[rustfmt::skip]
+    const PAIRS: &[(&str, char)] = &[
+        ("ph", 'f'), ("ck", 'k'), ("wh", 'w'), ("ai", 'A'), ("ay", 'A'), ("ei", 'A'), ("ee", 'E'), ("ea", 'E'),
+        ("ie", 'E'), ("oa", 'O'), ("oe", 'O'), ("oo", 'U'), ("ue", 'U'), ("ui", 'U'), ("gh", 'h'), ("kn", 'n'),
+        ("wr", 'r'), ("sc", 's'), ("qu", 'q'),
+    ];
+    let is_vowel = |letter: &char| "aeiou".contains(*letter);
+    if let [first, second, ..] = letters {
+        let pair = PAIRS.iter().find(|(pair, _)| pair.chars().eq([*first, *second]));
+        let soft = *second != 'c' || letters.get(2).is_some_and(|next| "eiy".contains(*next));
+        if let Some((_, sound)) = pair.filter(|(pair, _)| *pair != "sc" || soft) {
+            return (Some(*sound), 2);
+        }
+        if *first == 'c' && "eiy".contains(*second) {
+            return (Some('s'), 1);
+        }
+    }
+    match letters {
+        // "Wate": the silent letter at the end makes the vowel long.
+        [vowel, between, 'e'] if is_vowel(vowel) && !is_vowel(between) => {
+            (Some(vowel.to_ascii_uppercase()), 1)
+        }
+        ['e'] => (Some('e'), 1),
+        [letter, ..] => (Some(*letter), 1),
+        [] => (None, 1),
+    }
 }
 
 /// Its first letter and the consonants behind it.

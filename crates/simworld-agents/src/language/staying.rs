@@ -4,9 +4,11 @@ use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
-use super::lexicon::{Category, RELATIONS, fits, longest};
+use super::lexer::Token;
+use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
 use super::numbers::{self, MOMENT};
 use super::parser::Parser;
+use super::verbs::Verb;
 
 /// The longest wait, s.
 pub(super) const LONGEST_WAIT: f64 = 86_400.0;
@@ -27,7 +29,21 @@ impl Parser<'_> {
             let seat = Reference { choice: super::clause::Choice::Open, relation: beside, text, ..seat };
             return Ok(vec![Clause::Sit { on: Some(seat) }]);
         }
-        Ok(vec![Clause::Sit { on: self.tail_place(&["on", "in", "onto", "upon", "down on"])? }])
+        Ok(vec![Clause::Sit {
+            on: self.tail_place(&[
+                "on",
+                "in",
+                "onto",
+                "upon",
+                "down on",
+                "into",
+                "down in",
+                "down into",
+                "back on",
+                "back down on",
+                "over on",
+            ])?,
+        }])
     }
 
     pub(super) fn stop(&mut self) -> Result<Vec<Clause>, PlanError> {
@@ -50,6 +66,11 @@ impl Parser<'_> {
         ]) {
             let to = self.reference(0)?;
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
+        let moved = matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive));
+        let there = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("there".to_owned());
+        if moved && (self.eat_any(&["there", "right there"]) || there && self.ends_clause()) {
+            return Ok(Vec::new()); // one stops where one went
         }
         self.eat_any(&[
             "moving",
@@ -91,9 +112,21 @@ impl Parser<'_> {
             self.at += count;
             let to = self.reference(0)?;
             let side = Some(relation);
-            clauses.push(Clause::Go { to, side: side.map(Spot::Beside), pace: Pace::Usual, within: None });
+            clauses.push(Clause::Go {
+                to,
+                side: side.map(|side| Spot::Beside(side, None)),
+                pace: Pace::Usual,
+                within: None,
+            });
+        }
+        if clauses.is_empty() && self.rests_there(&mut clauses)? {
+            return Ok(clauses);
         }
         let is_for = self.eat_any(&["for", "for about", "for at least"]);
+        if !clauses.is_empty() && is_for && self.peek_time().is_none() {
+            clauses.extend(self.wait_for()?); // "wait at the statue for Hana"
+            return Ok(clauses);
+        }
         self.eat_any(&["about"]);
         let number_at = self.at;
         let Some((seconds, count)) = self.peek_time() else {
@@ -115,6 +148,27 @@ impl Parser<'_> {
         Ok(clauses)
     }
 
+    /// "Rest on the red bench", "wait in the library": where, and whether that is all.
+    fn rests_there(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        if longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).is_none() {
+            return Ok(false);
+        }
+        let seated = self.peeks("on");
+        self.at += longest_phrase(self.rest(), &["on", "in", "inside", "over at", "over by"]).unwrap_or(0);
+        let to = self.reference(0)?;
+        let seats = seated
+            && matches!(&to.target, super::clause::Target::Any(class) if class.kinds().iter().any(|kind| kind.is_seat()));
+        clauses.push(if seats {
+            Clause::Sit { on: Some(to) }
+        } else {
+            Clause::Go { to, side: None, pace: Pace::Usual, within: None }
+        });
+        if seats && self.peek_time().is_none() && longest_phrase(self.rest(), &["for"]).is_none() {
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
     /// "Wait for Anna", "wait for a green light".
     fn wait_for(&mut self) -> Result<Vec<Clause>, PlanError> {
         let start = self.at;
@@ -130,7 +184,25 @@ impl Parser<'_> {
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         self.at = start;
+        if let Some(test) = self.sky_to().or_else(|| self.light_to_turn()) {
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = start;
         let what = self.reference(0)?;
+        let at = self.at;
+        if self.eat_any(&["to be", "to become", "to get"])
+            && let Some(test) = self.state_of(what.clone())
+        {
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = at;
+        for (words, open) in [("to open", true), ("to close", false), ("to shut", false)] {
+            if self.eat_any(&[words]) {
+                let test = Test::Open(what);
+                let test = if open { test } else { Test::Not(Box::new(test)) };
+                return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+            }
+        }
         self.eat_any(&["to arrive", "to come", "to come here", "to get here", "to reach you"]);
         let test = Test::Near { what, within: super::tests_of::NEXT_TO_ME };
         Ok(vec![Clause::Until { test, body: Vec::new() }])

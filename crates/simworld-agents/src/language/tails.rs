@@ -3,13 +3,15 @@
 use simworld_core::action::StepDirection;
 use simworld_core::seam::PlanError;
 
+use super::blocks::{IF, UNLESS, UNTIL, WHILE};
 use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{longest, longest_phrase};
+use super::lexicon::longest_phrase;
 use super::numbers;
-use super::parser::{IF, Parser};
+use super::parser::{Extent, Parser};
 use super::politeness::MANNERS;
 use super::requests;
+use super::verbs::longest_verb;
 
 /// Before where one goes in the end.
 pub(super) const ON_THE_WAY: &[&str] = &[
@@ -22,18 +24,22 @@ pub(super) const ON_THE_WAY: &[&str] = &[
 ];
 
 /// Doing what was said last, before how often.
+#[rustfmt::skip]
 const DO_SO: &[&str] = &[
-    "do it",
-    "and do it",
-    "do that",
-    "and do that",
-    "do this",
-    "and do this",
-    "and do so",
-    "repeat it",
-    "and repeat it",
-    "repeat that",
-    "and repeat that",
+    "and do all that", "and do all of that", "do all that", "do all of that", "and do all this", "do all this",
+    "and repeat all that", "and repeat all of that", "repeat all that", "and again", "and repeat this",
+    "repeat this", "repeat the whole thing", "and repeat the whole thing", "and repeat", "repeat",
+    "and do the whole thing", "do the whole thing", "do so", "all of that", "all that", "do it", "and do it",
+    "do that", "and do that", "do this", "and do this", "and do so", "repeat it", "and repeat it",
+    "repeat that", "and repeat that",
+];
+
+/// What comes before the order before it.
+#[rustfmt::skip]
+const AFTER: &[&str] = &[
+    "after", "but first", "but before that", "but first of all", "but beforehand",
+    "but before you do", "but before you do that", "but only after", "right after",
+    "straight after",
 ];
 
 impl Parser<'_> {
@@ -54,29 +60,20 @@ impl Parser<'_> {
             self.skip_fillers();
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
-            let goes_on = comma && {
-                const AFTER_COMMA: &[&str] = &[
-                    "until",
-                    "till",
-                    "unless",
-                    "but first",
-                    "but before that",
-                    "but only if",
-                    "only if",
-                    "if and only if",
-                    "but not if",
-                    "but not before",
-                ];
-                longest_phrase(&self.rest()[1..], AFTER_COMMA).is_some()
-            };
-            let again =
-                usize::from(comma) + longest_phrase(&self.rest()[usize::from(comma)..], DO_SO).unwrap_or(0);
-            if again > usize::from(comma)
+            let goes_on = comma && self.tail_follows();
+            let mark =
+                usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
+            let again = mark + longest_phrase(&self.rest()[mark..], DO_SO).unwrap_or(0);
+            if again > mark
                 && let Some((times, count)) = numbers::times(&self.rest()[again..])
             {
+                let all = self.rest()[..again].iter().any(|lexeme| {
+                    let Token::Word(word) = &lexeme.token else { return lexeme.token == Token::Break };
+                    ["all", "whole", "that", "this", "repeat"].contains(&word.as_str())
+                });
                 self.at += again + count;
-                repeat(clauses, group, times, false);
-            } else if comma && self.but_first(clauses)? {
+                repeat(clauses, if all { whole } else { group }, times, all);
+            } else if self.but_first(clauses, comma)? {
             } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, if comma { whole } else { group }, times, comma);
@@ -85,6 +82,23 @@ impl Parser<'_> {
                 return Ok(());
             }
         }
+    }
+
+    /// Whether what follows the comma belongs to the order before it.
+    fn tail_follows(&self) -> bool {
+        #[rustfmt::skip]
+        const AFTER_COMMA: &[&str] = &[
+            "until", "till", "unless", "but first", "but before that", "but only if", "only if",
+            "if and only if", "but not if", "but not before", "or if", "or in case", "provided",
+            "provided that", "with", "run", "sprint", "at", "but only when", "only when", "forever", "for ever",
+            "for ever and ever", "but go via", "stopping at", "with a stop at", "but before you do", "but via",
+            "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
+            "in a hurry", "but only after", "stopping off at", "stopping by", "but go by way of",
+            "but stop off at", "but pass by", "pausing", "waiting", "but only once", "but not until",
+            "at the double", "on the double", "and wait", "leaving",
+        ];
+        let after = self.rest().get(1..).unwrap_or_default();
+        longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after)
     }
 
     /// ", one after the other": how, where it makes no difference.
@@ -96,19 +110,20 @@ impl Parser<'_> {
     }
 
     /// "..., but stop at the shop first".
-    fn but_first(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+    fn but_first(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {
         let start = self.at;
-        self.at += 1;
+        self.at += usize::from(comma);
         let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
         let end = self.at + self.rest().iter().position(is_mark).unwrap_or(self.rest().len());
-        let is_first = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "first");
+        let is_first = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "first" || word == "beforehand");
         let said = self.eat_any(&["but"]) && self.lexemes[self.at..end].last().is_some_and(is_first);
         if !said || clauses.is_empty() {
             self.at = start;
             return Ok(false);
         }
-        let earlier = self.order()?;
-        if !self.eat_any(&["first"]) {
+        let mut earlier = self.order()?;
+        self.for_a_while(&mut earlier);
+        if !self.eat_any(&["first", "beforehand"]) {
             self.at = start;
             return Ok(false);
         }
@@ -119,107 +134,244 @@ impl Parser<'_> {
 
     fn tail(&mut self, clauses: &mut Vec<Clause>, comma: bool) -> Result<bool, PlanError> {
         self.at += usize::from(comma);
-        let Some(last) = clauses.last() else { return Ok(false) };
+        if clauses.is_empty() {
+            return Ok(false);
+        }
         if let Some((seconds, count)) = self.peek_interval() {
             self.at += count;
             let last = clauses.pop().into_iter().collect();
             clauses.push(over_and_over(last, seconds));
-        } else if self.eat_any(&["until", "till", "up until"]) {
-            let test = self.test()?;
-            if let Some(Clause::Until { test: Test::Never, body }) = clauses.last() {
-                let body = body.clone();
-                clauses.pop();
-                clauses.push(Clause::Until { test, body });
+            return Ok(true);
+        }
+        Ok(self.lasts(clauses)?
+            || self.on_condition(clauses)?
+            || self.in_turn(clauses)?
+            || self.for_a_while(clauses)
+            || self.with_pauses(clauses)
+            || self.at_a_pace(clauses)?)
+    }
+
+    /// "Until it is dark", "while it rains", "for ever".
+    fn lasts(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        #[rustfmt::skip]
+        const FOR_EVER: &[&str] = &[
+            "forever", "for ever", "for ever and ever", "endlessly", "for good", "indefinitely", "without end",
+            "non stop", "nonstop", "forever and ever", "without stopping", "the whole time", "all the time",
+            "all day", "all day long", "until i say stop", "until i tell you to stop", "continuously",
+            "constantly", "until further notice", "and never stop", "for all eternity", "till i say stop",
+            "until i say so",
+        ];
+        if self.eat_any(FOR_EVER) {
+            self.eat_any(&["and never stop", "and dont stop"]);
+            if matches!(clauses.last(), Some(Clause::Until { .. })) {
                 return Ok(true);
             }
-            let body = match (clauses.pop(), &test) {
-                // Whoever walks until he is somewhere goes there.
-                (Some(Clause::Forward), Test::Near { what, .. }) => {
-                    let (to, pace) = (what.clone(), Pace::Usual);
-                    vec![Clause::Go { to, side: None, pace, within: None }]
-                }
-                (last, _) => body_of(last),
-            };
-            clauses.push(Clause::Until { test, body });
-        } else if self.eat_any(&["while", "as long as"]) {
-            let test = Test::Not(Box::new(self.test()?));
             let body = body_of(clauses.pop());
-            clauses.push(Clause::Until { test, body });
-        } else if self.eat_any(IF) {
-            let test = self.test()?;
-            let then = clauses.pop().into_iter().collect();
-            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
-        } else if self.eat_any(&["unless", "but not if"]) {
-            let test = Test::Not(Box::new(self.test()?));
-            let then = clauses.pop().into_iter().collect();
-            clauses.push(Clause::If { test, then, otherwise: Vec::new() });
-        } else if self.eat_any(&["when", "once", "as soon as"]) {
-            let test = self.test()?;
-            clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
-        } else if self.eat_any(ON_THE_WAY) {
-            let to = self.reference(0)?;
-            clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
-        } else if self.eat_any(&["before"]) {
-            clauses.extend(self.order()?);
-        } else if self.eat_any(&[
-            "after",
-            "but first",
-            "but before that",
-            "but first of all",
-            "but beforehand",
-        ]) {
-            self.eat_any(&["youve", "you have", "you had", "having", "you are done", "youre done"]);
-            let earlier = self.order()?;
-            let at = clauses.len() - 1;
-            clauses.splice(at..at, earlier);
-        } else if let Some((seconds, count)) = self.peek_for() {
-            // "Towards the museum for ten seconds" is on the way; "to the museum for ten seconds" is there.
-            let earlier = &self.lexemes[self.at.saturating_sub(6)..self.at];
-            let towards = earlier
-                .iter()
-                .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word.starts_with("toward")));
-            let rests = !towards
-                && matches!(last, Clause::Sit { .. } | Clause::Go { .. } | Clause::StandUp | Clause::Stop);
-            self.at += count;
-            if let Some(Clause::Until { test: test @ Test::Never, .. }) = clauses.last_mut() {
-                *test = Test::Elapsed(seconds);
-            } else if rests && clauses.last_mut().is_some_and(|last| last.plural().is_some()) {
-                let body = clauses.pop().map(Box::new);
-                clauses.extend(body.map(|body| Clause::Stay { body, seconds }));
-            } else if rests {
-                clauses.push(Clause::Wait { seconds });
-            } else {
-                let body = body_of(clauses.pop());
-                clauses.push(Clause::Until { test: Test::Elapsed(seconds), body });
+            clauses.push(Clause::Until { test: Test::Never, body });
+            return Ok(true);
+        }
+        let test = if self.eat_any(UNTIL) {
+            let start = self.at;
+            match (self.test(), clauses.last()) {
+                (Ok(test), _) => test,
+                // "Straight on until the fountain".
+                (
+                    Err(error),
+                    Some(
+                        Clause::Forward | Clause::Step { .. } | Clause::Until { .. } | Clause::FaceCompass(_),
+                    ),
+                ) => {
+                    self.at = start;
+                    let what = self.reference(0).map_err(|_| error)?;
+                    Test::Near { what, within: super::tests_of::NEXT_TO_ME }
+                }
+                (Err(error), _) => return Err(error),
             }
+        } else if self.eat_any(WHILE) {
+            Test::Not(Box::new(self.test()?))
         } else {
             return Ok(false);
+        };
+        let spoken_of = clauses.last().filter(|_| test.is_about_it()).and_then(Clause::about).cloned();
+        if let Some(what) = spoken_of {
+            clauses.insert(clauses.len() - 1, Clause::Mention { what });
+        }
+        if let Some(Clause::Until { test: never @ Test::Never, .. }) = clauses.last_mut() {
+            *never = test;
+            return Ok(true);
+        }
+        let body = match (clauses.pop(), &test) {
+            // Whoever walks until he is somewhere goes there.
+            (Some(Clause::Forward), Test::Near { what, .. }) => {
+                let (to, pace) = (what.clone(), Pace::Usual);
+                vec![Clause::Go { to, side: None, pace, within: None }]
+            }
+            (last, _) => body_of(last),
+        };
+        clauses.push(Clause::Until { test, body });
+        Ok(true)
+    }
+
+    /// "If it rains", "unless it is dark", "when the light is green", "or, if somebody sits there, on the other".
+    fn on_condition(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        if self.or_if(clauses)? {
+            return Ok(true);
+        }
+        let test = if self.eat_any(UNLESS) {
+            Test::Not(Box::new(self.test()?))
+        } else if self.eat_any(IF) {
+            self.test()?
+        } else if self.eat_any(&[
+            "when",
+            "whenever",
+            "once",
+            "as soon as",
+            "the moment",
+            "the instant",
+            "but only when",
+            "only when",
+            "but not before",
+            "but not until",
+            "only once",
+            "but only once",
+        ]) {
+            let test = self.test()?;
+            clauses.insert(clauses.len() - 1, Clause::Until { test, body: Vec::new() });
+            return Ok(true);
+        } else {
+            return Ok(false);
+        };
+        let last = clauses.pop();
+        let spoken_of = last.as_ref().filter(|_| test.is_about_it()).and_then(Clause::about).cloned();
+        let otherwise = self.alternative()?;
+        clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
+        clauses.push(Clause::If { test, then: last.into_iter().collect(), otherwise });
+        Ok(true)
+    }
+
+    /// "..., otherwise to the school", behind a condition that follows its order.
+    fn alternative(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.skip_joints();
+        if self.eat_any(&["otherwise", "else", "or else", "if not", "failing that"]) {
+            self.skip_joints();
+            return self.orders(Extent::Group);
+        }
+        self.at = start;
+        Ok(Vec::new())
+    }
+
+    /// "..., or if somebody is in it, on the one by the table".
+    fn or_if(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        let start = self.at;
+        if !self.eat_any(&["or if", "but if", "or in case", "or when"]) {
+            return Ok(false);
+        }
+        let Some(last) = clauses.last() else { return Ok(false) };
+        let spoken_of = last.about().cloned();
+        let Ok(test) = self.test() else {
+            self.at = start;
+            return Ok(false);
+        };
+        self.skip_joints();
+        let then = self.orders(Extent::Group)?;
+        let otherwise = clauses.pop().into_iter().collect();
+        clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
+        clauses.push(Clause::If { test, then, otherwise });
+        Ok(true)
+    }
+
+    /// "On the way to the museum", "before going home", "after half a minute", "but first wave".
+    fn in_turn(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        let last = clauses.len() - 1;
+        if self.eat_any(ON_THE_WAY) {
+            let to = self.reference(0)?;
+            clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
+        } else if self.eat_any(&[
+            "but go via",
+            "but go by way of",
+            "but via",
+            "going via",
+            "going by way of",
+            "but by way of",
+            "but pass by",
+            "stopping at",
+            "stopping off at",
+            "with a stop at",
+            "stopping by",
+            "calling at",
+            "with a stopover at",
+            "but stop at the",
+            "but stop off at",
+        ]) {
+            let the = self.lexemes[self.at - 1].token == Token::Word("the".to_owned());
+            self.at -= usize::from(the);
+            let to = self.reference(0)?;
+            self.eat_any(&[
+                "on the way",
+                "along the way",
+                "on your way",
+                "first",
+                "en route",
+                "on the way there",
+            ]);
+            clauses.insert(last, Clause::Go { to, side: None, pace: Pace::Usual, within: None });
+        } else if self.eat_any(&["before"]) {
+            self.eat_any(&["you"]);
+            clauses.extend(self.order()?);
+        } else {
+            return self.after_that(clauses);
         }
         Ok(true)
     }
 
-    /// "For ten seconds".
-    fn peek_for(&self) -> Option<(f64, usize)> {
-        let words = longest_phrase(self.rest(), &["for", "for about", "during", "for at least"])?;
-        let (seconds, count) = numbers::duration(&self.rest()[words..])?;
-        (seconds > 0.0 && seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
+    /// "After half a minute", "but first wave", behind the order that comes later.
+    fn after_that(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        if !self.eat_any(AFTER) {
+            return Ok(false);
+        }
+        let last = clauses.len() - 1;
+        if let Some((seconds, count)) = numbers::duration(self.rest()).filter(|(seconds, _)| *seconds > 0.0) {
+            self.at += count;
+            clauses.insert(last, Clause::Wait { seconds });
+            return Ok(true);
+        }
+        self.eat_any(&[
+            "youve",
+            "you have",
+            "you had",
+            "having",
+            "you are done",
+            "youre done",
+            "you",
+            "a visit to",
+            "a stop at",
+        ]);
+        let mut earlier = self.earlier()?;
+        self.for_a_while(&mut earlier);
+        while self.eat_any(&["and then", "then"]) {
+            earlier.extend(self.order()?);
+        }
+        clauses.splice(last..last, earlier);
+        Ok(true)
     }
 
-    /// "Every five seconds", "once a minute".
-    pub(super) fn peek_interval(&self) -> Option<(f64, usize)> {
-        const UNITS: &[(&[&str], f64)] =
-            &[(&["second"], 1.0), (&["minute"], 60.0), (&["hour"], 3600.0), (&["half minute"], 30.0)];
-        const EVERY: &[&str] =
-            &["every", "once every", "each", "once each", "at intervals of", "once a", "once an", "once per"];
-        let words = longest_phrase(self.rest(), EVERY)?;
-        let after = &self.rest()[words..];
-        let (seconds, count) = match longest(after, UNITS) {
-            Some(unit) => unit,
-            // "Every bit" is no time, and a bare number is no interval.
-            None => numbers::duration(after).filter(|(_, count)| *count > 1)?,
-        };
-        (seconds > 0.0 && seconds <= super::staying::LONGEST_WAIT).then_some((seconds, words + count))
+    /// What was done before: an order, or a place alone.
+    fn earlier(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        if longest_verb(self.rest()).is_none()
+            && let Ok(to) = self.reference(0)
+        {
+            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
+        self.at = start;
+        self.order()
     }
+}
+
+/// "For ten seconds", behind a comma.
+fn numbers_for(lexemes: &[Lexeme]) -> bool {
+    longest_phrase(lexemes, &["for"]).is_some_and(|words| numbers::duration(&lexemes[words..]).is_some())
 }
 
 /// The last order, or all of the group if the last one is not a thing that one does twice in a row.
@@ -238,10 +390,11 @@ fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
 }
 
 /// What goes on until something happens: waiting needs no order, and a step forward is the first of many.
-fn body_of(clause: Option<Clause>) -> Vec<Clause> {
+pub(super) fn body_of(clause: Option<Clause>) -> Vec<Clause> {
     match clause {
         None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
         Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],
+        Some(Clause::Repeat { times: 1, body }) => body,
         Some(clause) => vec![clause],
     }
 }

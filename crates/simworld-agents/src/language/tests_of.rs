@@ -34,82 +34,37 @@ const LIGHTS: &[&str] = &[
     "traffic light",
     "the traffic lights",
 ];
+#[rustfmt::skip]
 const BECOMES: &[&str] = &[
-    "is",
-    "are",
-    "turns",
-    "goes",
-    "changes to",
-    "becomes",
-    "shows",
-    "turns to",
-    "switches to",
-    "gets",
-    "has turned",
-    "is showing",
-    "change to",
-    "turn",
+    "is", "are", "turns", "goes", "changes to", "becomes", "shows", "turns to", "switches to", "gets",
+    "has turned", "has gone", "has changed to", "has become", "is on", "jumps to", "has switched to", "stays",
+    "to turn", "to change to", "to go", "to become", "to be", "goes to", "gets to", "turns into", "is showing",
+    "change to", "turn",
 ];
 
+#[rustfmt::skip]
 const STATES: &[(&[&str], State)] = &[
-    (
-        &["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use"],
-        State::Free,
-    ),
-    (&["taken", "occupied", "in use", "not free", "busy", "full"], State::InUse),
+    (&["free", "empty", "available", "vacant", "unoccupied", "not taken", "not occupied", "not in use",
+    "not busy", "free again", "no longer taken", "no longer occupied", "untaken", "clear"], State::Free),
+    (&["taken", "occupied", "in use", "not free", "busy", "full", "not empty", "not available",
+    "no longer free", "used"], State::InUse),
     (&["open", "not closed", "opened", "unlocked"], State::Open),
     (&["closed", "shut", "not open"], State::Closed),
-    (
-        &["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by"],
-        State::Near,
-    ),
-    (
-        &[
-            "next to you",
-            "here",
-            "beside you",
-            "by your side",
-            "there",
-            "at your side",
-            "in front of you",
-            "with you",
-        ],
-        State::Next,
-    ),
-    (&["visible", "in sight", "in view"], State::Seen),
+    (&["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by", "around",
+    "about", "anywhere near"], State::Near),
+    (&["next to you", "here", "beside you", "by your side", "there", "at your side", "in front of you",
+    "with you"], State::Next),
+    (&["visible", "in sight", "in view", "to be seen", "seen", "within sight"], State::Seen),
 ];
+#[rustfmt::skip]
 const ARRIVES: &[&str] = &[
-    "arrives",
-    "comes",
-    "gets here",
-    "comes near",
-    "arrives here",
-    "comes here",
-    "is here",
-    "comes close",
-    "reaches you",
-    "has arrived",
-    "comes back",
-    "comes to you",
-    "turns up",
-    "shows up",
-    "comes near you",
-    "arrive",
-    "come",
-    "turn up",
-    "show up",
-    "come back",
-    "come near",
-    "returns",
-    "return",
-    "is back",
-    "walks up",
-    "comes up to you",
-    "gets to you",
-    "reach you",
-    "comes over",
-    "has come",
-    "joins you",
+    "arrives", "comes", "gets here", "comes near", "arrives here", "comes here", "is here", "comes close",
+    "reaches you", "has arrived", "comes back", "comes to you", "turns up", "shows up", "comes near you",
+    "arrive", "come", "turn up", "show up", "come back", "come near", "returns", "return", "is back",
+    "walks up", "comes up to you", "gets to you", "reach you", "comes over", "is back again", "gets back",
+    "has come back", "has returned", "has shown up", "has turned up", "approaches", "walks over", "draws near",
+    "gets close", "gets near you", "gets close to you", "comes close to you", "walks up to you", "comes by",
+    "drops by", "passes by", "has reached you", "has joined you", "has come", "joins you",
 ];
 const APPEARS: &[&str] = &[
     "comes into view",
@@ -136,24 +91,37 @@ impl Parser<'_> {
     }
 
     fn tests(&mut self) -> Result<Test, PlanError> {
-        let mut test = self.simple_test()?;
+        self.eat_any(&["either", "both"]);
+        let neither = self.eat_any(&["it is neither", "its neither"]);
+        let first = if neither { self.weather_again() } else { None };
+        let mut test = match first {
+            Some(test) => Test::Not(Box::new(test)),
+            None => self.simple_test()?,
+        };
         loop {
             let start = self.at;
-            let (and, or) = (self.peeks("and"), self.peeks("or"));
+            let nor = self.peeks("nor");
+            let (and, or) = (self.peeks("and") || self.peeks("but") || nor, self.peeks("or"));
             if !and && !or {
                 return Ok(test);
             }
             self.at += 1;
-            let Ok(other) = self.simple_test() else {
+            self.eat_any(&["if", "when", "while", "that", "also"]);
+            let again = self.at;
+            let Some(other) = self.weather_again().or_else(|| {
+                self.at = again;
+                self.simple_test().ok()
+            }) else {
                 self.at = start;
                 return Ok(test);
             };
+            let other = if nor { Test::Not(Box::new(other)) } else { other };
             let (one, other) = (Box::new(test), Box::new(other));
             test = if and { Test::Both(one, other) } else { Test::Either(one, other) };
         }
     }
 
-    fn simple_test(&mut self) -> Result<Test, PlanError> {
+    pub(super) fn simple_test(&mut self) -> Result<Test, PlanError> {
         let start = self.at;
         for rule in [Self::weather, Self::light, Self::passed] {
             if let Some(test) = rule(self) {
@@ -177,67 +145,58 @@ impl Parser<'_> {
         ))
     }
 
+    /// "The light to turn green".
+    pub(super) fn light_to_turn(&mut self) -> Option<Test> {
+        self.eat_any(&["the", "a"]);
+        let said = self.eat_any(&["light", "lights", "traffic light", "traffic lights", "signal"])
+            && self.eat_any(&[
+                "to turn",
+                "to change to",
+                "to go",
+                "to be",
+                "to become",
+                "to switch to",
+                "to show",
+                "to turn to",
+                "to get",
+                "to change into",
+            ]);
+        let (shows, words) = longest(self.rest(), ASPECTS).filter(|_| said)?;
+        self.at += words;
+        Some(Test::Light { light: None, shows })
+    }
+
     fn light(&mut self) -> Option<Test> {
         if !self.eat_any(LIGHTS) {
             return None;
         }
+        self.adverbs();
         if !self.eat_any(BECOMES) {
             return None;
         }
-        let not = self.eat_any(&["not", "no longer", "not yet"]);
+        self.adverbs();
+        let not = self.eat_any(&["not", "no longer", "not yet", "anything but"]);
+        self.adverbs();
         let (shows, count) = longest(self.rest(), ASPECTS)?;
         self.at += count;
+        self.adverbs();
+        self.eat_any(&["again"]);
         let test = Test::Light { light: None, shows };
         Some(if not { Test::Not(Box::new(test)) } else { test })
     }
 
-    fn seen(&mut self) -> Result<Option<Test>, PlanError> {
-        const SEE: &[&str] = &[
-            "you see",
-            "you have spotted",
-            "youve seen",
-            "youve spotted",
-            "you catch a glimpse of",
-            "you get to see",
-            "you should see",
-            "you happen to see",
-            "you make out",
-            "you can make out",
-            "you can spot",
-            "you sight",
-            "you can see",
-            "you spot",
-            "you notice",
-            "you find",
-            "you catch sight of",
-            "see",
-            "seeing",
-            "you have seen",
-            "you are able to see",
-            "you encounter",
-            "you come across",
-        ];
-        const BLIND: &[&str] = &[
-            "you dont see",
-            "you cannot see",
-            "you cant see",
-            "you do not see",
-            "you no longer see",
-            "you lose sight of",
-        ];
-        if self.eat_any(BLIND) {
-            return Ok(Some(Test::Not(Box::new(Test::Sees(self.reference(0)?)))));
-        }
-        if !self.eat_any(SEE) {
-            return Ok(None);
-        }
-        self.reference(0).map(|what| Some(Test::Sees(what)))
-    }
-
     /// "Somebody is sitting on the bench", "nobody is in the chair".
-    fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
-        const SOMEBODY: &[&str] =
-            &["somebody", "someone", "anybody", "anyone", "a person", "some person", "another person"];
+    pub(super) fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
+        const SOMEBODY: &[&str] = &[
+            "somebody",
+            "someone",
+            "anybody",
+            "anyone",
+            "a person",
+            "some person",
+            "another person",
+            "anyone at all",
+        ];
         const NOBODY: &[&str] = &["nobody", "no one", "noone", "nobody else", "no person"];
         self.eat_any(&["there is", "theres"]);
         let nobody = self.eat_any(NOBODY);
@@ -245,18 +204,34 @@ impl Parser<'_> {
             return Ok(None);
         }
         self.eat_any(&["else"]);
-        self.eat_any(&["is", "is already"]);
+        self.adverbs();
+        self.eat_any(&["is"]);
+        self.adverbs();
         let not = self.eat_any(&["not"]);
         self.eat_any(&["sitting", "seated", "sits", "sat", "already sitting"]);
-        if !self.eat_any(&["on", "in", "using"]) {
+        let said = self.eat_any(&["on", "in", "using", "uses", "occupying", "has taken", "has"]);
+        let taken = if said {
+            Test::InUse(self.reference(0)?)
+        } else if self.lexemes[self.at - 1].lemma.as_deref() == Some("sit")
+            && self.eat_any(&["there", "there already"])
+        {
+            Test::InUse(Reference::to(Target::It, "it".to_owned()))
+        } else {
             return Ok(None);
-        }
-        let taken = Test::InUse(self.reference(0)?);
+        };
         Ok(Some(if nobody == not { taken } else { Test::Not(Box::new(taken)) }))
     }
 
     fn there_is(&mut self) -> Result<Option<Test>, PlanError> {
-        const IS: &[&str] = &["there is", "theres", "there are", "you find that there is"];
+        const IS: &[&str] = &[
+            "there is",
+            "theres",
+            "there are",
+            "you find that there is",
+            "there should be",
+            "there happens to be",
+            "there is still",
+        ];
         const NOT: &[&str] = &[
             "there is no",
             "theres no",
@@ -275,6 +250,19 @@ impl Parser<'_> {
         what.indefinite = true;
         what.choice = Choice::Open; // "nearby" is what one asks
         self.eat_any(&[
+            "anywhere about",
+            "anywhere around",
+            "anywhere near",
+            "anywhere nearby",
+            "anywhere near you",
+            "anywhere",
+            "somewhere",
+            "somewhere about",
+            "somewhere near",
+            "about",
+            "in the area",
+            "to be seen",
+            "in view",
             "nearby",
             "here",
             "around",
@@ -292,77 +280,6 @@ impl Parser<'_> {
         Ok(Some(if not { Test::Not(Box::new(test)) } else { test }))
     }
 
-    /// About the agent itself.
-    fn mine(&mut self) -> Result<Option<Test>, PlanError> {
-        const HOLD: &[&str] = &[
-            "you are holding",
-            "you hold",
-            "you have",
-            "you are carrying",
-            "you carry",
-            "youre holding",
-            "youve got",
-        ];
-        const EMPTY: &[&str] = &[
-            "your hands are empty",
-            "you are holding nothing",
-            "your hand is empty",
-            "you hold nothing",
-            "your hands are free",
-            "you have nothing in your hands",
-            "you carry nothing",
-        ];
-        const SIT: &[&str] =
-            &["you are sitting", "you are seated", "you sit", "youre sitting", "youre seated"];
-        const STAND: &[&str] = &["you are standing", "you stand", "youre standing", "you are not sitting"];
-        const REACH: &[&str] = &[
-            "you are near",
-            "you are next to",
-            "you are at",
-            "you reach",
-            "you get to",
-            "you arrive at",
-            "you are close to",
-            "you come to",
-            "youre near",
-            "youre at",
-            "you are beside",
-            "you are by",
-            "you have reached",
-            "you get near",
-            "you stand next to",
-            "you are in front of",
-            "youre next to",
-            "reaching",
-            "you arrive in",
-            "you are within reach of",
-        ];
-        const FAR: &[&str] = &["you are far from", "you are away from", "you are not near", "you leave"];
-        if self.eat_any(EMPTY) {
-            return Ok(Some(Test::Not(Box::new(Test::Holds(None)))));
-        }
-        if self.eat_any(SIT) {
-            return Ok(Some(Test::Seated));
-        }
-        if self.eat_any(STAND) {
-            return Ok(Some(Test::Not(Box::new(Test::Seated))));
-        }
-        if self.eat_any(FAR) {
-            let what = self.reference(0)?;
-            return Ok(Some(Test::Not(Box::new(Test::Near { what, within: NEARBY }))));
-        }
-        if self.eat_any(REACH) {
-            return Ok(Some(Test::Near { what: self.reference(0)?, within: NEXT_TO_ME }));
-        }
-        if self.eat_any(HOLD) {
-            if self.eat_any(&["something", "anything"]) {
-                return Ok(Some(Test::Holds(None)));
-            }
-            return Ok(Some(Test::Holds(Some(self.reference(0)?))));
-        }
-        Ok(None)
-    }
-
     /// "Ten seconds have passed".
     fn passed(&mut self) -> Option<Test> {
         self.eat_any(&["after"]);
@@ -371,6 +288,14 @@ impl Parser<'_> {
         let passed = self.eat_any(&[
             "have passed",
             "has passed",
+            "have elapsed",
+            "has elapsed",
+            "are up",
+            "is up",
+            "has gone by",
+            "passes",
+            "went by",
+            "have gone",
             "pass",
             "are over",
             "is over",
@@ -382,7 +307,17 @@ impl Parser<'_> {
 
     /// About a thing: "the chair is free", "Anna arrives".
     fn thing_is(&mut self) -> Result<Option<Test>, PlanError> {
-        let what = self.reference(0)?;
+        #[rustfmt::skip]
+        const BE: &[&str] = &[
+            "is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become",
+            "remains", "stays", "sits", "turns out to be", "comes",
+        ];
+        let speaker = self.view.speaker.filter(|_| self.eat_any(&["i", "we"]));
+        let what = match speaker {
+            Some(speaker) => Reference::to(Target::Id(speaker), "me".to_owned()),
+            None => self.reference(0)?,
+        };
+        self.adverbs();
         if self.eat_any(ARRIVES) {
             return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));
         }
@@ -400,25 +335,22 @@ impl Parser<'_> {
         if let Some(test) = self.light_of(&what) {
             return Ok(Some(test));
         }
-        if !self.eat_any(&[
-            "is",
-            "are",
-            "gets",
-            "stands",
-            "becomes",
-            "be",
-            "should be",
-            "happens to be",
-            "has become",
-        ]) {
+        if !self.eat_any(BE) {
             return Ok(None);
         }
+        Ok(self.state_of(what))
+    }
+
+    /// Behind "the chair is".
+    pub(super) fn state_of(&mut self, what: Reference) -> Option<Test> {
+        self.adverbs();
         // "Is not free" is a state of its own, "is not near you" is not.
         let negated =
             longest(self.rest(), STATES).is_none() && self.eat_any(&["not", "no longer", "not yet"]);
-        let Some((state, count)) = longest(self.rest(), STATES) else { return Ok(None) };
-        self.at += count;
+        self.adverbs();
         let not = |test: Test| Test::Not(Box::new(test));
+        let (state, count) = longest(self.rest(), STATES)?;
+        self.at += count;
         let test = match state {
             State::Free => not(Test::InUse(what)),
             State::InUse => Test::InUse(what),
@@ -428,7 +360,8 @@ impl Parser<'_> {
             State::Next => Test::Near { what, within: NEXT_TO_ME },
             State::Seen => Test::Sees(what),
         };
-        Ok(Some(if negated { not(test) } else { test }))
+        self.adverbs();
+        Some(if negated { not(test) } else { test })
     }
 
     /// "The light at the bus stop is green".

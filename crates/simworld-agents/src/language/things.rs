@@ -19,16 +19,52 @@ impl<'a> Draft<'a> {
         to: Option<&Reference>,
         grip: Grip,
     ) -> Result<(), PlanError> {
+        if self.is_mount(what) {
+            return self.go_on_to(to); // "take the car: drive it to the museum"
+        }
+        if let Some(other) = self.another(what) {
+            return self.take_to(&other, to, grip); // "pick up the letter and the parcel"
+        }
         if self.is_in_hand(what) {
             return to.map_or(Ok(()), |to| self.drop(Some(what), Some(to), Manner::Deliver));
         }
         let item = self.find(what, Purpose::Item)?;
+        if item.kind == EntityKind::Bench && grip == Grip::LiftOrRide && to.is_none() {
+            return self.sit(Some(what)); // "take the blue bench"
+        }
+        if item.kind == EntityKind::Person && self.drives() {
+            self.go_beside(&item)?; // a driver picks people up
+            return self.go_on_to(to);
+        }
         if item.kind.is_vehicle() && grip == Grip::LiftOrRide {
             self.board(&Reference::to(Target::Id(item.id), what.text.clone()))?; // "take the taxi to the school"
             return self.go_on_to(to);
         }
         self.take(what)?;
         to.map_or(Ok(()), |to| self.bring(to, Manner::PutDown))
+    }
+
+    /// Another thing of a class than the one in hand, which nobody takes twice.
+    fn another(&self, what: &Reference) -> Option<Reference> {
+        let is_class = matches!(what.target, Target::Any(_)) && what.relation.is_none();
+        let held = match self.held {
+            Some(Load::Thing(id)) if is_class => id,
+            _ => return None,
+        };
+        let found = self.view.candidates(what, Purpose::Item).ok()?;
+        let is_first = found.first().is_some_and(|(_, id)| *id == held);
+        let (_, other) = found.iter().find(|(_, id)| *id != held).filter(|_| is_first)?;
+        Some(Reference::to(Target::Id(*other), what.text.clone()))
+    }
+
+    /// Whether the words stand for what one sits in or rides.
+    fn is_mount(&self, what: &Reference) -> bool {
+        let aboard = matches!(self.posture, Posture::Aboard | Posture::Riding);
+        let hands_empty = self.held.is_none() && self.carried.is_none();
+        let spoken_of = what.target == Target::It && hands_empty
+            || !matches!(what.target, Target::It | Target::Them | Target::There | Target::Here)
+                && self.view.find(what, Purpose::Any).is_ok_and(|found| self.mount == Some(found.id));
+        aboard && self.mount.is_some() && spoken_of
     }
 
     /// Whether the words stand for what is in hand already.
@@ -82,6 +118,10 @@ impl<'a> Draft<'a> {
         let is_there = at.is_none_or(|at| matches!(at.target, Target::There | Target::Here));
         if is_there && self.is_done(what, None) {
             return Ok(());
+        }
+        if what.is_some_and(|what| self.is_mount(what)) {
+            self.go_on_to(at.filter(|_| !is_there))?; // "drive the car to the clinic and leave it there"
+            return self.alight(Vehicle::Any);
         }
         // What one has in hand is what "it" is about here, whatever was spoken of since.
         let in_hand = self.held.is_some() || self.carried.is_some();
@@ -160,19 +200,19 @@ impl<'a> Draft<'a> {
     fn let_out(&mut self, load: Option<Load>, to: Option<EntityId>) {
         if let Some(Load::Thing(item)) = load {
             self.view.gone.push(item);
-            self.delivered = Some((item, to));
         }
+        self.delivered = load.map(|load| (load, to));
     }
 
     /// Whether the words say again what was done by the last order: "carry it there and leave it there".
     fn is_done(&self, what: Option<&Reference>, to: Option<EntityId>) -> bool {
-        let Some((item, receiver)) = self.delivered else { return false };
+        let Some((load, receiver)) = self.delivered else { return false };
         let same = what.is_none_or(|what| what.target == Target::It);
-        self.held.is_none()
-            && self.carried.is_none()
-            && same
-            && self.view.it == Some(item)
-            && (to.is_none() || to == receiver)
+        let spoken_of = match load {
+            Load::Thing(item) => self.view.it == Some(item),
+            Load::Bought => self.view.it.is_none(),
+        };
+        self.held.is_none() && self.carried.is_none() && same && spoken_of && (to.is_none() || to == receiver)
     }
 
     fn nothing_in_hand(&self, wanted: &str) -> PlanError {
@@ -231,7 +271,9 @@ impl<'a> Draft<'a> {
                     self.view.scene.nearest(vehicle.planar(), PART, &|at| at.kind == EntityKind::Building);
                 return self.go_beside(&house.unwrap_or(vehicle)); // "go in"
             }
-            EntityKind::Building | EntityKind::Door => return self.go_beside(&vehicle),
+            EntityKind::Building | EntityKind::Door | EntityKind::Crosswalk => {
+                return self.go_beside(&vehicle);
+            }
             other => {
                 let near = format!(
                     "a {other} cannot be; scooters, bicycles, motorcycles, cars, trucks and buses can"
@@ -285,7 +327,36 @@ impl<'a> Draft<'a> {
     }
 
     /// At the nearest place that sells it.
-    pub(super) fn buy(&mut self, goods: &str, times: u32, at: Option<&Reference>) -> Result<(), PlanError> {
+    pub(super) fn buy(
+        &mut self,
+        goods: &str,
+        times: u32,
+        at: Option<&Reference>,
+        whom: Option<&Reference>,
+    ) -> Result<(), PlanError> {
+        let before = self.steps_so_far();
+        self.purchase(goods, at)?;
+        if let Some(whom) = whom {
+            self.give(None, whom)?;
+        }
+        if times > 1 {
+            let steps = self.take_back(before);
+            self.push(PlanStep::Repeat { times, steps });
+        }
+        Ok(())
+    }
+
+    /// The house whose door was spoken of last.
+    fn house_of_door(&self) -> Option<EntityRef<'a>> {
+        let door = self
+            .view
+            .it
+            .and_then(|id| self.view.scene.entity(id))
+            .filter(|it| it.kind == EntityKind::Door)?;
+        self.view.scene.nearest(door.planar(), PART, &|at| at.kind == EntityKind::Building)
+    }
+
+    fn purchase(&mut self, goods: &str, at: Option<&Reference>) -> Result<(), PlanError> {
         let sells = |place: &EntityRef<'_>| sells(place, goods);
         self.can(ActionKind::Buy)?;
         let not_sold = |near: String| PlanError::NotFound { wanted: format!("{goods} to buy"), near };
@@ -293,6 +364,7 @@ impl<'a> Draft<'a> {
             self.find(at, Purpose::Any)?
         } else {
             let here = self.beside.and_then(|id| self.view.scene.entity(id)).filter(sells);
+            let here = here.or_else(|| self.house_of_door().filter(sells));
             let nearest = || self.view.scene.nearest(self.view.from, self.view.range, &sells);
             here.or_else(nearest).ok_or_else(|| not_sold(self.view.surroundings()))?
         };
@@ -303,16 +375,10 @@ impl<'a> Draft<'a> {
             let wanted = format!("free hand to buy {goods:?}");
             return Err(PlanError::NotFound { wanted, near: self.in_hand() });
         }
-        let before = self.steps_so_far();
         self.go_beside(&place)?;
         self.held = Some(Load::Bought);
         self.view.it = None;
-        self.act(Action::Buy { goods: goods.to_owned(), from: place.id })?;
-        if times > 1 {
-            let steps = self.take_back(before);
-            self.push(PlanStep::Repeat { times, steps });
-        }
-        Ok(())
+        self.act(Action::Buy { goods: goods.to_owned(), from: place.id })
     }
 
     // ---- conditions ----

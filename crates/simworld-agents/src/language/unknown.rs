@@ -3,11 +3,11 @@
 use simworld_core::seam::PlanError;
 
 use super::clause::Target;
-use super::lexer::{Lexeme, Token};
+use super::lexer::{Lexeme, Token, lex, written};
 use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
-use super::politeness::{FILLERS, JOINTS};
+use super::politeness::{filler, joint};
 
 /// Words that end a phrase whose words are not known.
 const BOUNDARIES: &[&str] = &[
@@ -30,15 +30,32 @@ impl<'a> Parser<'a> {
             (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
             (guess, _) => (guess, phrase),
         };
-        let said = shortened(&self.words[phrase[0].start..phrase[phrase.len() - 1].end]);
+        let said = shortened(written(self.words, phrase));
+        // "The bookshop" sells books.
+        if let (Guess::Nothing(_), Token::Word(word)) = (&guess, &phrase[0].token)
+            && let Some(goods) =
+                ["shop", "store", "stall", "stand"].iter().find_map(|shop| word.strip_suffix(shop))
+            && goods.len() > 2
+        {
+            let sellers = self.names.sellers(goods);
+            if !sellers.is_empty() {
+                self.at += 1;
+                return Ok(Target::Named(sellers));
+            }
+        }
         match guess {
             Guess::Named(ids) => {
                 self.at += phrase.len();
                 Ok(Target::Named(ids))
             }
-            Guess::Category(category) => {
+            Guess::Category(category, word) => {
                 self.at += phrase.len();
-                Ok(Target::Any(category))
+                // "The dinner" is the one that is called a diner.
+                let is_synonym = category.is_place() && word != category.words[0];
+                match if is_synonym { self.names.part(&lex(word)) } else { None } {
+                    Some(Guess::Named(ids)) => Ok(Target::Named(ids)),
+                    _ => Ok(Target::Any(category)),
+                }
             }
             Guess::Ambiguous(labels) => {
                 let near = format!("it could be {}: say which", labels.join(" or "));
@@ -57,7 +74,8 @@ impl<'a> Parser<'a> {
 
     /// Whether an order could go on or end here, so that no noun does.
     fn ends_phrase(&self) -> bool {
-        [JOINTS, BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
+        joint(self.rest()).is_some()
+            || [BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(self.rest(), words).is_some())
     }
 
     /// The words up to where something known goes on.
@@ -66,9 +84,9 @@ impl<'a> Parser<'a> {
         let ends = |at: &usize| {
             let here = &rest[*at..];
             !matches!(here[0].token, Token::Word(_) | Token::Number(_))
-                || [JOINTS, FILLERS, BOUNDARIES, COPULAS]
-                    .iter()
-                    .any(|words| longest_phrase(here, words).is_some())
+                || joint(here).is_some()
+                || filler(here).is_some()
+                || [BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(here, words).is_some())
                 || longest(here, RELATIONS).is_some()
         };
         let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());

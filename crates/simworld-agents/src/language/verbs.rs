@@ -48,6 +48,10 @@ pub(super) enum Verb {
     Park,
     Pass,
     Circle,
+    /// To and fro between places.
+    Shuttle,
+    /// To a number, a second for each.
+    Count,
 }
 
 impl Verb {
@@ -91,6 +95,8 @@ impl Verb {
         (Self::Park, "Park"),
         (Self::Pass, "Pass"),
         (Self::Circle, "Circle"),
+        (Self::Shuttle, "Shuttle"),
+        (Self::Count, "Count"),
     ];
 }
 
@@ -151,39 +157,19 @@ fn longest_from(first: &str, lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
 
 /// The base form of an inflected verb, if the word is one: "sitting", "walked", "goes".
 pub(super) fn base_form(word: &str) -> Option<String> {
+    #[rustfmt::skip]
     const IRREGULAR: &[(&str, &str)] = &[
-        ("went", "go"),
-        ("gone", "go"),
-        ("been", "go"),
-        ("goes", "go"),
-        ("sat", "sit"),
-        ("took", "take"),
-        ("taken", "take"),
-        ("ran", "run"),
-        ("stood", "stand"),
-        ("bought", "buy"),
-        ("gave", "give"),
-        ("given", "give"),
-        ("got", "get"),
-        ("gotten", "get"),
-        ("told", "tell"),
-        ("said", "say"),
-        ("spoken", "speak"),
-        ("ridden", "ride"),
-        ("rode", "ride"),
-        ("drove", "drive"),
-        ("driven", "drive"),
-        ("brought", "bring"),
-        ("met", "meet"),
-        ("found", "find"),
-        ("came", "come"),
-        ("made", "make"),
-        ("kept", "keep"),
-        ("led", "lead"),
-        ("held", "hold"),
-        ("lying", "lie"),
+        ("went", "go"), ("gone", "go"), ("been", "go"), ("goes", "go"), ("sat", "sit"), ("took", "take"),
+        ("taken", "take"), ("ran", "run"), ("stood", "stand"), ("bought", "buy"), ("gave", "give"), ("given",
+        "give"), ("got", "get"), ("had", "have"), ("shown", "show"), ("seen", "see"), ("swung", "swing"),
+        ("caught", "catch"), ("laid", "lay"), ("shook", "shake"), ("hung", "hang"), ("began", "begin"), ("drew",
+        "draw"), ("drawn", "draw"), ("thrown", "throw"), ("threw", "throw"), ("sent", "send"), ("gotten",
+        "get"), ("told", "tell"), ("said", "say"), ("spoken", "speak"), ("ridden", "ride"), ("rode", "ride"),
+        ("drove", "drive"), ("driven", "drive"), ("brought", "bring"), ("met", "meet"), ("found", "find"),
+        ("came", "come"), ("made", "make"), ("kept", "keep"), ("led", "lead"), ("held", "hold"), ("lying",
+        "lie"),
     ];
-    if word == "lets" {
+    if ["lets", "has", "being"].contains(&word) {
         return None; // "let us"
     }
     let is_verb = |stem: &str| VERBS.contains_key(stem);

@@ -8,7 +8,6 @@ use simworld_core::seam::{Goal, PlanError};
 use super::clause::{Clause, Course, Pace, Reference, Target};
 use super::draft::{AT_POINT, Draft, speed_of};
 use super::lexicon::longest_phrase;
-use super::motion::LENGTHS;
 use super::numbers;
 use super::parser::Parser;
 use super::resolve::Purpose;
@@ -20,17 +19,24 @@ const LONGEST_WALK: f64 = 10_000.0;
 /// How far before a thing one stops short of it where nothing else is said, m.
 const SHORT_OF: f64 = 3.0;
 
+#[rustfmt::skip]
 const HALFWAY: &[&str] = &[
-    "halfway",
-    "half way",
-    "midway",
-    "mid way",
-    "half of the way",
-    "half the way",
-    "in the middle",
-    "right in the middle",
-    "exactly in the middle",
-    "exactly halfway",
+    "halfway", "half way", "midway", "mid way", "half of the way", "half the way", "in the middle",
+    "half the distance", "half of the distance", "half way along", "at the midpoint", "at the middle",
+    "in the centre", "in the center", "the middle", "the midpoint", "the centre", "the center", "equidistant",
+];
+/// How exactly something is meant, which changes nothing.
+const EXACTLY: &[&str] = &[
+    "right",
+    "exactly",
+    "precisely",
+    "just",
+    "about",
+    "roughly",
+    "somewhere",
+    "directly",
+    "squarely",
+    "smack",
 ];
 
 impl Parser<'_> {
@@ -38,13 +44,23 @@ impl Parser<'_> {
     /// on until something happens.
     pub(super) fn by_the_compass(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
-        self.eat_any(&["off", "out", "away"]);
+        self.eat_any(&["off", "out", "away", "straight", "for"]);
         let before = self.length();
         let Some(compass) = self.compass() else {
             self.at = start;
             return Ok(None);
         };
         let number_at = self.at;
+        let of_thing = longest_phrase(self.rest(), &["of", "from"]).is_some()
+            && longest_phrase(
+                self.rest(),
+                &["of here", "from here", "of you", "from where you are", "of where you are"],
+            )
+            .is_none();
+        if of_thing {
+            self.at = start; // "two metres north of the hydrant" is a place
+            return Ok(None);
+        }
         let after = if before.is_none() {
             self.eat_any(&["for", "by"]);
             self.length()
@@ -71,10 +87,9 @@ impl Parser<'_> {
 
     /// A length, m; a step is taken for a metre.
     pub(super) fn length(&mut self) -> Option<f64> {
-        let (number, count) = numbers::number(self.rest())?;
-        let unit = longest_phrase(&self.rest()[count..], LENGTHS)?;
-        self.at += count + unit;
-        Some(number)
+        let (length, words) = numbers::walked(self.rest())?;
+        self.at += words;
+        Some(length)
     }
 
     /// "Past the café", "round the fountain", "halfway to the museum".
@@ -97,9 +112,36 @@ impl Parser<'_> {
             return Err(self.not_understood("going along things is not understood: say where to"));
         }
         self.at = start;
-        self.eat_any(&["to a", "to the", "at a", "at the", "to", "at"]);
-        self.eat_any(&["point", "spot", "place", "position"]);
+        self.eat_any(EXACTLY);
+        let at = self.at;
+        self.eat_any(&[
+            "to a",
+            "to the",
+            "at a",
+            "at the",
+            "to",
+            "at",
+            "into",
+            "in",
+            "the exact",
+            "the",
+            "a",
+        ]);
+        self.eat_any(&["point", "spot", "place", "position", "space", "gap"]);
         self.eat_any(&["that is", "thats", "which is"]);
+        self.eat_any(EXACTLY);
+        let middle = longest_phrase(self.rest(), &["middle", "midpoint", "centre", "center"]);
+        if let Some(words) = middle.filter(|words| {
+            longest_phrase(&self.rest()[*words..], &["between", "of the way", "in between"]).is_some()
+        }) {
+            self.at += words;
+            return self.halfway(pace).map(Some);
+        }
+        if longest_phrase(self.rest(), HALFWAY).is_none()
+            && longest_phrase(&self.lexemes[at..], HALFWAY).is_some()
+        {
+            self.at = at;
+        }
         if self.eat_any(HALFWAY) {
             return self.halfway(pace).map(Some);
         }
@@ -110,10 +152,16 @@ impl Parser<'_> {
         Ok(None)
     }
 
+    /// Whether the middle of something is said next.
+    pub(super) fn peeks_halfway(&self) -> bool {
+        let exactly = longest_phrase(self.rest(), EXACTLY).unwrap_or(0);
+        longest_phrase(&self.rest()[exactly..], HALFWAY).is_some()
+    }
+
     /// "Do two laps around the table".
     pub(super) fn laps(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
-        self.eat_any(&["do", "run", "walk", "make", "take", "complete"]);
+        self.eat_any(&["do", "run", "walk", "make", "take", "complete", "go", "jog"]);
         let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
         self.at += number.map_or(0, |(_, count)| count);
         let laps = self
@@ -160,7 +208,7 @@ impl Parser<'_> {
         if self.eat_any(&["to", "towards", "toward", "over to", "up to"]) {
             return Ok(vec![Clause::Halfway { from: None, to: self.reference(0)?, pace }]);
         }
-        self.eat_any(&["point"]);
+        self.eat_any(&["point", "spot"]);
         if !self.eat_any(&["between", "in between", "from", "of"]) {
             return Err(self.not_understood("say halfway to where, or between what"));
         }
@@ -233,33 +281,52 @@ impl Parser<'_> {
         way
     }
 
-    /// What follows a place one goes to: by way of another, or only halfway.
     /// "To the shop for a coffee".
     fn for_goods(&mut self, go: &Clause) -> Option<Clause> {
         let Clause::Go { to, .. } = go else { return None };
         let start = self.at;
-        let goods = if self.eat_any(&["for"]) {
-            self.eat_any(&["a", "an", "some", "a cup of", "a bottle of", "a bit of"]);
-            self.names.goods(self.rest())
-        } else {
-            None
-        };
-        let Some((goods, words)) = goods else {
+        let goods = if self.eat_any(&["for", "and get", "to get", "to fetch"]) { self.goods() } else { None };
+        let Some(goods) = goods else {
             self.at = start;
             return None;
         };
-        self.at += words;
-        Some(Clause::Buy { goods, times: 1, at: Some(to.clone()) })
+        let at = Some(to.clone());
+        Some(Clause::Buy { goods: goods.name, times: goods.times, at, whom: None })
+    }
+
+    /// "To the fountain for a photo".
+    fn for_photo(&mut self, go: &Clause) -> Option<Clause> {
+        let Clause::Go { to, .. } = go else { return None };
+        let start = self.at;
+        let said = self.eat_any(&["for a", "for a quick", "for another", "for a nice"])
+            && self.eat_any(super::orders::PHOTOS);
+        if !said {
+            self.at = start;
+        }
+        said.then(|| Clause::Photo { of: Some(to.clone()), times: 1 })
     }
 
     /// What is said of the way after where it leads.
     pub(super) fn after_place(&mut self, go: Clause, pace: Pace) -> Result<Vec<Clause>, PlanError> {
-        if self.eat_any(&["via", "by way of", "passing by", "passing through", "going via", "through"]) {
+        if self.eat_any(&[
+            "via",
+            "by way of",
+            "passing by",
+            "passing through",
+            "going via",
+            "through",
+            "going through",
+            "and go via",
+            "by going via",
+        ]) {
             let over = Clause::Go { to: self.reference(0)?, side: None, pace, within: None };
             return Ok(vec![over, go]);
         }
         if let Some(buy) = self.for_goods(&go) {
             return Ok(vec![buy]);
+        }
+        if let Some(photo) = self.for_photo(&go) {
+            return Ok(vec![go, photo]);
         }
         self.eat_any(&[
             "by the shortest way",

@@ -60,6 +60,15 @@ impl Parser<'_> {
             return Ok(Some(Stands::To(Relation::Inside, Box::new(area))));
         }
         self.at = start;
+        // "The car at the bus stop".
+        if depth < 3
+            && self.eat_any(&["at", "over at"])
+            && longest_phrase(self.rest(), &["the", "that", "this", "our", "my"]).is_some()
+            && let Ok(thing) = self.reference(depth + 1)
+        {
+            return Ok(Some(Stands::To(Relation::NextTo, Box::new(thing))));
+        }
+        self.at = start;
         Ok(None)
     }
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use simworld_core::event::{Event, EventKind};
 use simworld_core::id::EntityId;
-use simworld_core::scene::Role;
+use simworld_core::scene::{FallCause, Role};
 
 use super::{SceneGraph, Sighting};
 
@@ -102,6 +102,12 @@ pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
         EventKind::ActionFailed { who: actor, action, reason } if *actor == who => {
             format!("{action} failed: {reason}")
         }
+        EventKind::Fell { who: actor, cause } if *actor == who => match cause {
+            FallCause::Tripped => "you tripped and fell".to_owned(),
+            FallCause::Slipped => "you slipped and fell".to_owned(),
+            _ => "you were run into and fell".to_owned(),
+        },
+        EventKind::GotUp { who: actor } if *actor == who => "you are on your feet again".to_owned(),
         EventKind::PlanDone { who: actor } if *actor == who => "plan done".to_owned(),
         EventKind::PlanFailed { who: actor, reason } if *actor == who => format!("plan failed: {reason}"),
         EventKind::IntentRefused { who: actor, reason } if *actor == who => format!("refused: {reason}"),
@@ -133,6 +139,8 @@ fn doing_line(event: &Event, who: EntityId, in_sight: &dyn Fn(EntityId) -> bool)
             Some(format!("{other} does this: {gesture}"))
         }
         EventKind::Said { who: other, to, .. } if seen(other) => Some(format!("{other} talks to {to}")),
+        EventKind::Fell { who: other, .. } if seen(other) => Some(format!("{other} falls")),
+        EventKind::GotUp { who: other } if seen(other) => Some(format!("{other} is on its feet again")),
         _ => None,
     }
 }

@@ -74,6 +74,11 @@ pub(crate) fn simulation(world: World, couriers: &[EntityId]) -> Simulation {
 impl Town {
     pub(crate) fn new(config: DeliveryConfig, couriers: usize, seed: u64) -> Self {
         let (world, ids) = world(couriers);
+        Self::within(world, ids, config, seed)
+    }
+
+    /// In a world of one's own.
+    pub(crate) fn within(world: World, ids: Vec<EntityId>, config: DeliveryConfig, seed: u64) -> Self {
         let mut simulation = simulation(world, &ids);
         let mut task = DeliveryTask::new(config).unwrap();
         let mut out = TaskOutput::default();

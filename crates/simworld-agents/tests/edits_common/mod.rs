@@ -4,7 +4,7 @@ mod ground;
 
 use std::collections::BTreeMap;
 
-use simworld_agents::editing::{Difference, EditError, Edited, SceneEditor, Stand, faults};
+use simworld_agents::editing::{Difference, Edit, EditError, Edited, SceneEditor, Stand, faults};
 use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point2, heading, yaw_of};
 use simworld_core::id::EntityId;
@@ -16,9 +16,13 @@ use simworld_core::traffic::RoadLeg;
 use crate::city::City;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
+/// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
+pub(crate) const SETS: [&str; 4] = ["edits", "later.edits", "third.edits", "fourth.edits"];
 
 /// One thing that is asked, and what must then be true.
 pub(crate) struct Asked {
+    /// Which of [`SETS`] it is of.
+    pub(crate) set: &'static str,
     pub(crate) family: String,
     pub(crate) words: String,
     pub(crate) meaning: String,
@@ -34,17 +38,25 @@ pub(crate) enum Verdict {
     WrongAnswer(String),
 }
 
-/// What is asked in a city: in its own file, and in the one that came later, if it has one.
+/// What is asked in a city: in its own file, and in those that came later, if it has them.
 pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
     let folder = format!("{}/tests/edits", env!("CARGO_MANIFEST_DIR"));
-    let files = ["edits", "later.edits"].map(|set| format!("{folder}/{city}.{set}.toml"));
     let mut asked = Vec::new();
-    for path in files.iter().filter(|path| std::path::Path::new(path).exists()) {
-        let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    for set in SETS {
+        let path = format!("{folder}/{city}.{set}.toml");
+        if !std::path::Path::new(&path).exists() {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
         let families: BTreeMap<String, BTreeMap<String, String>> =
             toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
         asked.extend(families.into_iter().flat_map(|(family, lines)| {
-            lines.into_iter().map(move |(words, meaning)| Asked { family: family.clone(), words, meaning })
+            lines.into_iter().map(move |(words, meaning)| Asked {
+                set,
+                family: family.clone(),
+                words,
+                meaning,
+            })
         }));
     }
     asked
@@ -121,13 +133,19 @@ impl Judge<'_> {
             "remove" => words.iter().try_for_each(|key| take(&mut rest.removed, self.id(key), "removed")),
             "move" => {
                 let thing = self.id(words[0]);
-                take(&mut rest.moved, thing, "moved")?;
+                self.was_moved(thing, rest)?;
                 self.stands(thing, told.split_once(' ').map_or("", |(_, place)| place))
             }
             "rotate" => {
                 let thing = self.id(words[0]);
-                take(&mut rest.moved, thing, "turned")?;
+                self.was_moved(thing, rest)?;
                 let angle: f64 = words[1].parse().map_err(|_| format!("no angle {clause}"))?;
+                // What stands elsewhere may have been turned by that, so that the angle is seen in the edits alone.
+                let turns = |edit: &Edit| matches!(edit, Edit::Rotate { things, angle: by } if things.contains(&thing) && wrap_angle(by - angle.to_radians()).abs() < 1e-6);
+                let stays = (place_of(self.after, thing) - place_of(&self.city.world, thing)).norm() < 1e-6;
+                if !stays && edited.edits.iter().any(turns) {
+                    return Ok(());
+                }
                 let turned = yaw_in(self.after, thing) - yaw_in(&self.city.world, thing);
                 is_near(wrap_angle(turned - angle.to_radians()), 0.0, 1e-6, "is turned wrongly")
             }
@@ -182,6 +200,12 @@ impl Judge<'_> {
             "close" | "open" => self.passages(&words, verb == "close", rest),
             other => panic!("no notation {other} in {clause}"),
         }
+    }
+
+    /// Whether a thing was moved or turned, which may be told twice.
+    fn was_moved(&self, thing: EntityId, rest: &mut Rest) -> Result<(), String> {
+        rest.moved.retain(|id| *id != thing);
+        if self.changed.moved.contains(&thing) { Ok(()) } else { Err(format!("{thing} was not moved")) }
     }
 
     // ---- new things ----

@@ -4,6 +4,7 @@
 //! up to some 5 m/s² across, which careful drivers do not reach.
 
 use crate::action::{Action, ActionSet};
+use crate::control::WHEELBASE;
 use crate::geometry::{Pose, Twist, Vector3, direction, pose_facing, yaw_of};
 use crate::ops::{atan2, cos, tan};
 use crate::scene::Shape;
@@ -23,8 +24,6 @@ const STEERING: f64 = 0.65;
 const LOCK: f64 = 0.6;
 /// Reverse gear goes no faster, m/s.
 const REVERSE: f64 = 4.0;
-/// Axles stand so much of the length apart: a sedan's 2.6 of 4.5 m, a bus's 7 of 12 m.
-const WHEELBASE: f64 = 0.58;
 
 /// A car, bus, truck, motorcycle or bicycle on wheels that do not slip; it passes through walls.
 ///

@@ -2,6 +2,7 @@
 
 mod classes;
 mod entity;
+mod footing;
 mod interaction;
 mod kind;
 mod naming;
@@ -16,6 +17,7 @@ use std::sync::Arc;
 
 pub use classes::ClassIndex;
 pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, MATERIAL, Role, Solidity, Visibility};
+pub use footing::{FOOTING, FallCause, Footing};
 pub use interaction::{
     ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, OPEN, SELLS,
     check_action,
@@ -32,6 +34,7 @@ use crate::environment::Environment;
 use crate::geometry::{Aabb, Point2, Ray, Vector3};
 use crate::ground::Ground;
 use crate::id::EntityId;
+use crate::limbs::JointAngles;
 use crate::net::{Aspect, RoadNetwork};
 use crate::traffic::RoadLeg;
 
@@ -138,6 +141,11 @@ pub trait Scene {
         false
     }
 
+    /// How somebody holds its limbs, if whoever moves it says so.
+    fn joints(&self, _id: EntityId) -> Option<&JointAngles> {
+        None
+    }
+
     /// What everything is called, if the scene keeps an index of names; the world does.
     fn names(&self) -> Option<&NameIndex> {
         None
@@ -233,6 +241,9 @@ macro_rules! forward_scene {
             }
             fn is_closed(&self, leg: RoadLeg) -> bool {
                 (**self).is_closed(leg)
+            }
+            fn joints(&self, id: EntityId) -> Option<&JointAngles> {
+                (**self).joints(id)
             }
             fn names(&self) -> Option<&NameIndex> {
                 (**self).names()

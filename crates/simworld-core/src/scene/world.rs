@@ -7,7 +7,7 @@ mod read;
 mod slots;
 mod snapshot;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 pub use error::WorldError;
@@ -28,6 +28,7 @@ use crate::ground::Ground;
 use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
+use crate::limbs::JointAngles;
 use crate::net::{Aspect, NetworkPatch, PatchError, RoadNetwork};
 use crate::traffic::{RoadLeg, TrafficOrder};
 
@@ -64,6 +65,8 @@ pub struct World {
     is_touched: Vec<bool>,
     /// Free slots; the last is taken first.
     free: Vec<u32>,
+    /// How people hold their limbs; no part of what is saved.
+    joints: BTreeMap<EntityId, JointAngles>,
     /// Slots with a bond, ascending.
     bonded: Vec<u32>,
     tree: Quadtree,
@@ -206,6 +209,7 @@ impl World {
             }
         }
         self.set_bond(slot, None);
+        self.joints.remove(&id);
         self.infos[slot] = None;
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).remove(id, &desc.info);
@@ -229,6 +233,17 @@ impl World {
         check_twist(id, &twist)?;
         self.twists[id.index()] = twist;
         self.place(id, pose);
+        Ok(())
+    }
+
+    /// Says how somebody holds its limbs: for whoever draws it. It has no part in digests or snapshots, since it follows from
+    /// what moves it, which says it anew every step.
+    ///
+    /// # Errors
+    /// No such entity.
+    pub fn set_joints(&mut self, id: EntityId, joints: JointAngles) -> Result<(), WorldError> {
+        self.check_alive(id)?;
+        self.joints.insert(id, joints);
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use simworld_core::geometry::Vector3;
 use simworld_core::ops::wrap_angle;
 use simworld_core::seam::{Embodiment, EmbodimentError};
 
-use super::{Humanoid, Posture};
+use super::{Balance, Humanoid, Pace, Posture};
 
 /// The longest single step, m.
 const LONGEST_STEP: f64 = 10.0;
@@ -76,6 +76,9 @@ impl Humanoid {
         }
         self.motion.posture = posture;
         self.motion.speed = 0.0;
+        self.motion.balance = Balance::default();
+        self.motion.pace = Pace::default();
+        self.motion.support = None;
         self.halt();
     }
 

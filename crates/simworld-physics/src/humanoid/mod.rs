@@ -1,15 +1,32 @@
-//! A person on foot or on a scooter, or a dog: what it is told and in what state it is. How it moves is in `walk`.
+//! A person on foot or on a scooter, or a dog: what it is told and in what state it is. How it moves is in `walk`, how it
+//! falls and gets up in `balance`, `ragdoll` and `recovery`.
 
 mod actions;
+mod balance;
+mod gait;
+mod pace;
+mod physics_body;
+mod push;
+mod ragdoll;
+mod recovery;
 mod surface;
 mod walk;
 
+pub(crate) use push::Shove;
 pub(crate) use walk::SKIN;
 
+use balance::Balance;
+use gait::Gait;
+use pace::Pace;
+use push::Push;
+use ragdoll::Build;
+use rapier3d_f64::prelude::ColliderHandle;
+use recovery::Recovery;
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
-use simworld_core::geometry::{Pose, Twist, Vector3, pose_facing, yaw_of};
-use simworld_core::scene::{EntityKind, EntityRef, Shape};
+use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing, yaw_of};
+use simworld_core::limbs::JointAngles;
+use simworld_core::scene::{EntityKind, EntityRef, FallCause, Footing, Shape};
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
 use crate::error::{PhysicsError, check_range};
@@ -23,6 +40,17 @@ pub enum ColliderForm {
     Cylinder,
     /// A capsule, which slips past edges.
     Capsule,
+}
+
+/// Whether somebody can fall.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Surefootedness {
+    /// As people: who trips, slips or is run into falls, and gets up again.
+    #[default]
+    Human,
+    /// It stays on its feet whatever happens.
+    Unfailing,
 }
 
 /// What a person can do with legs and on a scooter.
@@ -47,6 +75,11 @@ pub struct HumanoidConfig {
     /// Greatest lateral acceleration on a scooter, m/s², 0.1 to 10: it limits the turning rate at speed, and a
     /// rider slows down for sharp turns.
     pub ride_lateral: f64,
+    /// Whether it can fall.
+    pub balance: Surefootedness,
+    /// The greatest force with which it pushes things that are in the way, N, 0 to 1000. Half of all men push a cart
+    /// with 250 N at the start and hold 150 N (Snook and Ciriello, Ergonomics 34, 1991, rounded).
+    pub push_force: f64,
 }
 
 impl Default for HumanoidConfig {
@@ -60,15 +93,18 @@ impl Default for HumanoidConfig {
             ride_acceleration: 1.5,
             ride_braking: 3.5,
             ride_lateral: 4.0,
+            balance: Surefootedness::Human,
+            push_force: 200.0,
         }
     }
 }
 
 impl HumanoidConfig {
     /// A robot dog: up to 3 m/s, as small quadrupeds are sold (the Unitree Go1 does 3.5, Spot 1.6), and half a metre a second
-    /// in single steps.
+    /// in single steps. It does not fall.
     pub fn dog() -> Self {
-        Self { top_speed: 3.0, step_speed: 0.5, ..Self::default() }
+        let balance = Surefootedness::Unfailing;
+        Self { top_speed: 3.0, step_speed: 0.5, balance, push_force: 50.0, ..Self::default() }
     }
 
     /// Checks every field.
@@ -84,7 +120,8 @@ impl HumanoidConfig {
         check("ride_speed", self.ride_speed, 0.1..=20.0, "0.1 to 20 m/s")?;
         check("ride_acceleration", self.ride_acceleration, 0.1..=10.0, "0.1 to 10 m/s²")?;
         check("ride_braking", self.ride_braking, 0.1..=10.0, "0.1 to 10 m/s²")?;
-        check("ride_lateral", self.ride_lateral, 0.1..=10.0, "0.1 to 10 m/s²")
+        check("ride_lateral", self.ride_lateral, 0.1..=10.0, "0.1 to 10 m/s²")?;
+        check("push_force", self.push_force, 0.0..=1000.0, "0 to 1000 N")
     }
 }
 
@@ -103,18 +140,55 @@ pub enum Posture {
     Riding,
 }
 
-/// A person: an upright body on rapier's kinematic character controller.
+/// Mass of a person whose mass nobody gave, kg.
+const MASS: f64 = 75.0;
+
+/// A person: an upright body on rapier's kinematic character controller, and limbs on joints when it falls.
 ///
 /// It walks and slides along walls, takes steps and slopes within the limits of the
-/// [`PhysicsConfig`](crate::PhysicsConfig), falls where there is no ground, and pushes nothing.
+/// [`PhysicsConfig`](crate::PhysicsConfig), slower where they are steep, and falls where there is no ground. It pushes
+/// what is light, makes room for who pushes, and is carried by what it stands on. It trips, slips and is knocked over
+/// (see [`Surefootedness`]); then it is a body of ten limbs with the velocity it had, until it rests, gets up and does what
+/// it was told last.
 #[derive(Clone, Debug)]
 pub struct Humanoid {
     config: HumanoidConfig,
     abilities: ActionSet,
     radius: f64,
     height: f64,
+    mass: f64,
     state: BodyState,
     motion: Motion,
+    plan: Plan,
+}
+
+/// What it found in a substep and does in the same; never saved.
+#[derive(Clone, Debug, Default)]
+struct Plan {
+    /// Where the controller leads, world frame, m.
+    way: Vector3,
+    /// The part of that by which it is only put out of what shares its room, m: feet have no share in it.
+    shifted: Vector3,
+    /// What it stands on.
+    stand: Stand,
+    /// Why it loses its footing.
+    upset: Option<FallCause>,
+    /// What is in the way.
+    pushes: Vec<Push>,
+    /// How its limbs lie while it is limp.
+    limp: Option<JointAngles>,
+    /// What it has to tell at the end of the step: why it fell, and whether it stands again.
+    fell: Option<FallCause>,
+    got_up: bool,
+}
+
+/// What somebody stands on.
+#[derive(Clone, Copy, Debug)]
+struct Stand {
+    /// The slope under the feet, unit length.
+    normal: Vector3,
+    /// Grip as tyres have it, as a share of that of dry asphalt.
+    grip: f64,
 }
 
 /// Everything about a humanoid that changes and is not in its [`BodyState`].
@@ -135,8 +209,15 @@ struct Motion {
     fall_speed: f64,
     /// Whether there is ground under its feet.
     grounded: bool,
-    /// Where the controller leads in this substep, world frame, m.
-    planned: Vector3,
+    /// Where the soles are while it stands or gets up; what is seen of it may lie.
+    feet: Point3,
+    /// What it stands on, if that can move.
+    support: Option<ColliderHandle>,
+    balance: Balance,
+    pace: Pace,
+    gait: Gait,
+    /// How it fares since it fell.
+    recovery: Recovery,
 }
 
 impl Humanoid {
@@ -151,6 +232,7 @@ impl Humanoid {
             abilities: ActionSet::humanoid(),
             radius: 0.25,
             height: 1.75,
+            mass: MASS,
             state: BodyState { pose, twist: Twist::ZERO },
             motion: Motion {
                 posture: Posture::Standing,
@@ -161,8 +243,14 @@ impl Humanoid {
                 step_left: Vector3::zeros(),
                 fall_speed: 0.0,
                 grounded: false,
-                planned: Vector3::zeros(),
+                feet: Point3::origin(),
+                support: None,
+                balance: Balance::default(),
+                pace: Pace::default(),
+                gait: Gait::default(),
+                recovery: Recovery::default(),
             },
+            plan: Plan::default(),
         };
         body.stand_at(&pose);
         Ok(body)
@@ -189,7 +277,8 @@ impl Humanoid {
             EntityKind::Dog => ActionSet::dog(),
             _ => ActionSet::humanoid(),
         };
-        Ok(Self { abilities, radius: width * 0.5, height, ..Self::new(*entity.pose, config)? })
+        let mass = entity.info.mass.filter(|mass| (1.0..=1000.0).contains(mass)).unwrap_or(MASS);
+        Ok(Self { abilities, radius: width * 0.5, height, mass, ..Self::new(*entity.pose, config)? })
     }
 
     /// What it is doing with the body as a whole.
@@ -202,9 +291,24 @@ impl Humanoid {
         self.motion.grounded
     }
 
+    /// How it fares on its feet.
+    pub fn footing(&self) -> Footing {
+        self.motion.recovery.footing()
+    }
+
+    /// The middle of the soles of who stands.
+    fn feet(&self) -> Point3 {
+        self.motion.feet
+    }
+
+    fn build(&self) -> Build {
+        Build { height: self.height, mass: self.mass }
+    }
+
     fn stand_at(&mut self, pose: &Pose) {
         self.motion.yaw = yaw_of(pose);
-        self.state.pose = pose_facing(pose.translation.vector.into(), self.motion.yaw);
+        self.motion.feet = pose.translation.vector.into();
+        self.state.pose = pose_facing(self.motion.feet, self.motion.yaw);
     }
 
     fn halt(&mut self) {
@@ -242,16 +346,19 @@ impl Embodiment for Humanoid {
     }
 
     fn save(&self) -> Vec<u8> {
-        let Self { config, abilities, radius, height, motion, .. } = self;
-        postcard::to_allocvec(&("humanoid", config, abilities, radius, height, motion))
+        let Self { config, abilities, radius, height, mass, motion, .. } = self;
+        postcard::to_allocvec(&("humanoid", config, abilities, [radius, height, mass], motion))
             .expect("plain numbers always serialise")
     }
 
     fn restore(&mut self, state: &BodyState, saved: &[u8]) -> bool {
-        type Saved<'a> = (&'a str, HumanoidConfig, ActionSet, f64, f64, Motion);
+        type Saved<'a> = (&'a str, HumanoidConfig, ActionSet, [f64; 3], Motion);
         match postcard::from_bytes::<Saved<'_>>(saved) {
-            Ok(("humanoid", config, abilities, radius, height, motion)) if config.validate().is_ok() => {
-                *self = Self { config, abilities, radius, height, state: *state, motion };
+            Ok(("humanoid", config, abilities, [radius, height, mass], motion))
+                if config.validate().is_ok() =>
+            {
+                let plan = Plan::default();
+                *self = Self { config, abilities, radius, height, mass, state: *state, motion, plan };
                 true
             }
             _ => false,

@@ -7,23 +7,43 @@ use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use simworld_core::geometry::{Point2, Vector3, pose_facing};
 use simworld_core::ground::Ground;
 
-use super::Humanoid;
 use super::walk::{Company, NEARBY, drop_to_support};
+use super::{Humanoid, Stand};
 use crate::body::Surroundings;
 use crate::convert::{from_vector, to_pose, to_vector};
 use crate::ground::height_at;
 use crate::shape::body_from;
 
 impl Humanoid {
+    /// Goes where it wishes as far as things and the slope let it, and takes in what is under the feet.
+    pub(super) fn cross_country(
+        &mut self,
+        surface: &Ground,
+        around: &Surroundings<'_>,
+        wish: &Vector3,
+        dt: f64,
+    ) {
+        let was_grounded = self.motion.grounded;
+        let moved = self.on_surface(surface, around, wish, dt);
+        let at = self.feet() + moved;
+        let grip = around.conditions().road.grip(around.config().ground);
+        self.plan.stand = Stand { normal: surface.normal(Point2::new(at.x, at.y)), grip };
+        self.motion.support = None;
+        if was_grounded && self.motion.grounded {
+            self.motion.pace.go(moved.xy().norm(), moved.z);
+        }
+        self.plan.way = moved;
+    }
+
     /// Where it goes in this substep, world frame, m: as it wishes, as far as things and the slope let it.
-    pub(super) fn on_surface(
+    fn on_surface(
         &mut self,
         surface: &Ground,
         around: &Surroundings<'_>,
         wish: &Vector3,
         dt: f64,
     ) -> Vector3 {
-        let position = self.state.pose.translation.vector;
+        let position = self.feet().coords;
         let was_grounded = self.motion.grounded;
         let wish = if was_grounded { along_slope(surface, &position, wish) } else { *wish };
         let (mut moved, support) = self.past_things(around, &wish, dt);
@@ -49,7 +69,7 @@ impl Humanoid {
         support: Option<f64>,
         reach: f64,
     ) -> Vector3 {
-        let position = self.state.pose.translation.vector;
+        let position = self.feet().coords;
         let floor = [ground, support].into_iter().flatten().reduce(f64::max);
         let was_grounded = self.motion.grounded;
         self.motion.grounded = match floor {
@@ -68,7 +88,7 @@ impl Humanoid {
         let Some(collider) = around.collider() else { return (*wish, None) };
         let (solid, body_from_solid) = (collider.shape(), body_from(collider));
         let queries = around.queries_above_ground();
-        let position = self.state.pose.translation.vector;
+        let position = self.feet().coords;
         let start = to_pose(&pose_facing(position.into(), self.motion.yaw));
         let company = Company::of(solid, &(start * body_from_solid), wish.norm() + NEARBY, &queries);
         if company == Company::Alone {
@@ -88,7 +108,7 @@ impl Humanoid {
         moved += walk(moved, level).translation;
         let pose = RapierPose::from_translation(moved) * start * body_from_solid;
         let drop = drop_to_support(solid, &pose, around.config().step_height, &queries);
-        let support = drop.map(|drop| position.z + moved.z - drop);
+        let support = drop.map(|(_, drop)| position.z + moved.z - drop);
         (from_vector(moved), support)
     }
 }

@@ -8,19 +8,17 @@ use parry3d_f64::query::details::ShapeCastOptions;
 use parry3d_f64::shape::Shape;
 use rapier3d_f64::control::{CharacterAutostep, CharacterLength, KinematicCharacterController};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
-use rapier3d_f64::prelude::{
-    ColliderBuilder, PhysicsWorld, QueryPipeline, RigidBodyBuilder, RigidBodyHandle, SharedShape,
-};
-use simworld_core::geometry::{Point2, Twist, Vector3, direction, pose_facing};
-use simworld_core::id::EntityId;
+use rapier3d_f64::prelude::{ColliderHandle, QueryPipeline, SharedShape};
+use simworld_core::geometry::{Point2, Vector2, Vector3, direction, pose_facing};
 use simworld_core::ops::wrap_angle;
-use simworld_core::scene::Role;
-use simworld_core::seam::BodyState;
+use simworld_core::scene::{FallCause, Footing};
 
-use super::{ColliderForm, Humanoid, Posture};
-use crate::body::{BodyContext, Bonds, Claim, PhysicsBody, Surroundings};
+use super::balance::look_down;
+use super::{ColliderForm, Humanoid, Posture, Stand};
+use crate::body::{BodyContext, Surroundings};
+use crate::claims::Claim;
 use crate::convert::{from_vector, to_pose, to_vector};
-use crate::shape::{BodyTag, body_from, upright};
+use crate::shape::{BodyTag, body_from, is_walker, upright};
 
 /// The gap that people keep to solids, m.
 pub(crate) const SKIN: f64 = 0.02;
@@ -39,7 +37,7 @@ const TURN_SPEED: f64 = 1.0;
 
 impl Humanoid {
     /// The collider and its place in the body frame.
-    fn collider(&self) -> (SharedShape, RapierPose) {
+    pub(super) fn collider(&self) -> (SharedShape, RapierPose) {
         let half_height = (self.height - SKIN) * 0.5;
         let middle = Vector::new(0.0, 0.0, SKIN + half_height);
         match self.config.form {
@@ -75,6 +73,19 @@ impl Humanoid {
 
     /// Turns and changes speed within the limits; returns the displacement it would like, world frame, m.
     fn intend(&mut self, gravity: f64, dt: f64) -> Vector3 {
+        let rises = self.footing() == Footing::Rising;
+        let way = if rises { Vector2::zeros() } else { self.intend_to_go(dt) };
+        let way = self.motion.balance.hold_back(way / dt) * dt;
+        if self.motion.grounded {
+            self.motion.fall_speed = 0.0;
+        } else {
+            self.motion.fall_speed += gravity * dt;
+        }
+        Vector3::new(way.x, way.y, -self.motion.fall_speed * dt)
+    }
+
+    /// The part of that in the plane.
+    fn intend_to_go(&mut self, dt: f64) -> Vector2 {
         let riding = self.motion.posture == Posture::Riding;
         let turn_left = self.motion.turn_left;
         let mut rate = self.config.turning_rate;
@@ -87,30 +98,23 @@ impl Humanoid {
             };
             rate = rate.min(self.config.ride_lateral / self.motion.speed.max(TURN_SPEED));
         } else {
-            self.motion.speed = self.motion.wanted_speed;
+            self.motion.speed = self.motion.wanted_speed * self.motion.pace.share();
         }
         let turn = turn_left.clamp(-rate * dt, rate * dt);
         self.motion.turn_left = turn_left - turn;
         self.motion.yaw = wrap_angle(self.motion.yaw + turn);
 
         let heading = direction(self.motion.yaw);
-        let mut wish = Vector3::new(heading.x, heading.y, 0.0) * (self.motion.speed * dt);
+        let mut wish = heading * (self.motion.speed * dt);
         let step_left = self.motion.step_left;
         let length = step_left.norm();
         if length > 0.0 {
             let step = step_left * (self.config.step_speed * dt / length).min(1.0);
             self.motion.step_left = step_left - step;
-            wish += Vector3::new(
+            wish += Vector2::new(
                 heading.x * step.x - heading.y * step.y,
                 heading.y * step.x + heading.x * step.y,
-                0.0,
             );
-        }
-        if self.motion.grounded {
-            self.motion.fall_speed = 0.0;
-        } else {
-            self.motion.fall_speed += gravity * dt;
-            wish.z -= self.motion.fall_speed * dt;
         }
         wish
     }
@@ -124,12 +128,12 @@ impl Humanoid {
 
     /// Whether it stands on the ground itself, farther than `reach` from its edge.
     fn is_on_level_ground(&self, half_extent: f64, reach: f64) -> bool {
-        let level = self.state.pose.translation.z.abs() < LEVEL;
+        let level = self.feet().z.abs() < LEVEL;
         self.motion.grounded && level && self.is_over_ground(half_extent, reach)
     }
 
     fn is_over_ground(&self, half_extent: f64, reach: f64) -> bool {
-        let (at, inside) = (self.state.pose.translation, half_extent - reach);
+        let (at, inside) = (self.feet(), half_extent - reach);
         at.z > -LEVEL && at.x.abs() < inside && at.y.abs() < inside
     }
 
@@ -151,7 +155,7 @@ pub(super) fn drop_to_support(
     pose: &RapierPose,
     step_height: f64,
     queries: &QueryPipeline<'_>,
-) -> Option<f64> {
+) -> Option<(ColliderHandle, f64)> {
     let raised = RapierPose::from_translation(Vector::new(0.0, 0.0, RAISE)) * *pose;
     let options = ShapeCastOptions {
         target_distance: SKIN,
@@ -159,9 +163,9 @@ pub(super) fn drop_to_support(
         max_time_of_impact: RAISE + step_height,
         compute_impact_geometry_on_penetration: true,
     };
-    let (_, hit) = queries.cast_shape(&raised, -Vector::Z, solid, options)?;
+    let (handle, hit) = queries.cast_shape(&raised, -Vector::Z, solid, options)?;
     // Walls beside the body are no support, nor is what the raised body is inside of.
-    (hit.normal1.z > 0.5 && hit.time_of_impact > 0.0).then_some(hit.time_of_impact - RAISE)
+    (hit.normal1.z > 0.5 && hit.time_of_impact > 0.0).then_some((handle, hit.time_of_impact - RAISE))
 }
 
 /// What is close to a body.
@@ -196,72 +200,127 @@ impl Company {
     }
 }
 
-impl PhysicsBody for Humanoid {
-    fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
-        let (solid, body_from_solid) = self.collider();
-        let frame = RigidBodyBuilder::kinematic_position_based().pose(to_pose(&self.state.pose));
-        let collider = ColliderBuilder::new(solid)
-            .position(body_from_solid)
-            .user_data(BodyTag::Entity(id).to_user_data());
-        physics.insert(frame, collider).0
-    }
-
-    fn bind(&mut self, bonds: Bonds) {
-        self.assume(match (bonds.carried, bonds.scooter) {
-            (Some(Role::Seated), _) => Posture::Seated,
-            (Some(_), _) => Posture::Aboard,
-            (None, Some(_)) => Posture::Riding,
-            (None, None) => Posture::Standing,
-        });
-    }
-
-    fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
-        let was_grounded = self.motion.grounded;
-        let wish = self.intend(around.config().gravity, dt);
+impl Humanoid {
+    /// Looks around and makes up its mind where to go in this substep.
+    pub(super) fn look_around(&mut self, around: &Surroundings<'_>, dt: f64) {
+        self.plan.pushes.clear();
+        self.plan.upset = None;
+        self.plan.shifted = Vector3::zeros();
+        let (carried, turned) = self.carry(around, dt);
+        self.motion.yaw = wrap_angle(self.motion.yaw + turned);
+        let wish = self.intend(around.config().gravity, dt) + self.give_way(around, dt);
         let Some(collider) = around.collider() else { return };
         let (solid, body_from_solid) = (collider.shape(), body_from(collider));
-        if let Some(surface) = around.surface() {
-            self.motion.planned = self.on_surface(surface, around, &wish, dt);
-            return;
+        let start = to_pose(&pose_facing(self.feet(), self.motion.yaw));
+        if self.is_struck(&wish, &(start * body_from_solid), solid, around, dt) {
+            self.plan.upset = Some(FallCause::Struck);
         }
+        let reach = (wish + carried).norm() + NEARBY;
         let queries = around.queries();
-        let start = to_pose(&pose_facing(self.state.pose.translation.vector.into(), self.motion.yaw));
-        let reach = wish.norm() + NEARBY;
         let company = Company::of(solid, &(start * body_from_solid), reach, &queries);
-        if company == Company::Alone && self.is_on_level_ground(around.config().ground_half_extent, reach) {
+        if let Some(surface) = around.surface() {
+            self.cross_country(surface, around, &(wish + carried), dt);
+        } else if company == Company::Alone
+            && self.is_on_level_ground(around.config().ground_half_extent, reach)
+        {
             // There is nothing to run into: the controller would find out the same at many times the cost.
-            self.motion.planned = Vector3::new(wish.x, wish.y, -self.state.pose.translation.z);
-            return;
+            self.plan.way = Vector3::new(wish.x, wish.y, -self.feet().z);
+            let grip = around.conditions().road.grip(around.config().ground);
+            self.plan.stand = Stand { grip, ..Stand::default() };
+            self.motion.support = None;
+            self.motion.pace.go(wish.xy().norm(), 0.0);
+        } else {
+            self.find_way(&wish, &carried, company, around, dt);
         }
-        let controller = Self::controller(around);
-        let walk = |from: Vector, wish: Vector| {
-            let pose = RapierPose::from_translation(from) * start * body_from_solid;
-            controller.move_shape(dt, &queries, solid, &pose, wish, |_| {})
-        };
-        let mut moved = Vector::ZERO;
-        if company == Company::Overlapping {
-            // Without a wish the controller pushes itself out of what has run into it.
-            moved = walk(moved, Vector::ZERO).translation;
+        let velocity = (self.plan.way - self.plan.shifted).xy() / dt;
+        if self.slips(velocity, around, dt) {
+            self.plan.upset = self.plan.upset.or(Some(FallCause::Slipped));
         }
-        let result = walk(moved, to_vector(&wish));
-        moved += result.translation;
-        self.motion.grounded = result.grounded;
-        if was_grounded {
-            let pose = RapierPose::from_translation(moved) * start * body_from_solid;
-            if let Some(drop) = drop_to_support(solid, &pose, around.config().step_height, &queries) {
-                moved.z -= drop;
-                self.motion.grounded = true;
-            }
-        }
-        if self.is_over_ground(around.config().ground_half_extent, reach) {
-            moved.z = moved.z.max(-self.state.pose.translation.z);
-        }
-        self.motion.planned = from_vector(moved);
+        self.tread(&carried, around, dt);
     }
 
-    fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64) {
-        let position = self.state.pose.translation.vector;
-        let planned = self.motion.planned;
+    /// Lets the character controller find the way among solids.
+    fn find_way(
+        &mut self,
+        wish: &Vector3,
+        carried: &Vector3,
+        company: Company,
+        around: &Surroundings<'_>,
+        dt: f64,
+    ) {
+        let Some(collider) = around.collider() else { return };
+        let (solid, body_from_solid) = (collider.shape(), body_from(collider));
+        let queries = around.queries();
+        let start = to_pose(&pose_facing(self.feet(), self.motion.yaw));
+        let was_grounded = self.motion.grounded;
+        let controller = Self::controller(around);
+        let place = |moved: Vector| RapierPose::from_translation(moved) * start * body_from_solid;
+        let mut met = Vec::new();
+        let mut walk = |from: Vector, wish: Vector| {
+            controller.move_shape(dt, &queries, solid, &place(from), wish, |met_now| met.push(met_now.handle))
+        };
+        // What it stands on takes it along, whatever is in the way of its feet.
+        let mut moved = to_vector(carried);
+        if company == Company::Overlapping {
+            // Without a wish the controller pushes itself out of what has run into it.
+            let out = walk(moved, Vector::ZERO).translation;
+            self.plan.shifted = from_vector(out);
+            moved += out;
+        }
+        let result = walk(moved, to_vector(wish));
+        moved += result.translation;
+        self.motion.grounded = result.grounded;
+        let mut support = None;
+        if was_grounded
+            && let Some((handle, drop)) =
+                drop_to_support(solid, &place(moved), around.config().step_height, &queries)
+        {
+            moved.z -= drop;
+            self.motion.grounded = true;
+            support = Some(handle);
+        }
+        if self.is_over_ground(around.config().ground_half_extent, wish.norm() + NEARBY) {
+            moved.z = moved.z.max(-self.feet().z);
+        }
+        self.stand_on(support, start.translation + moved, around, &queries);
+        let own = from_vector(moved) - carried - self.plan.shifted;
+        if was_grounded && self.motion.grounded {
+            self.motion.pace.go(own.xy().norm(), own.z);
+        }
+        let at = RapierPose::from_translation(moved) * start;
+        if self.trips(wish.xy() - own.xy(), &at, around, &queries) {
+            self.plan.upset = self.plan.upset.or(Some(FallCause::Tripped));
+        }
+        self.find_pushes(&met, wish, &place(moved), solid, around, dt);
+        self.plan.way = from_vector(moved);
+    }
+
+    /// Takes in what is under the feet.
+    fn stand_on(
+        &mut self,
+        support: Option<ColliderHandle>,
+        feet: Vector,
+        around: &Surroundings<'_>,
+        queries: &QueryPipeline<'_>,
+    ) {
+        let moves = |handle: &ColliderHandle| {
+            let collider = around.physics.colliders.get(*handle);
+            // Who steps on somebody's feet is not carried by it.
+            collider.is_some_and(|collider| collider.parent().is_some() && !is_walker(collider.user_data))
+        };
+        self.motion.support = support.filter(moves);
+        // The sole is level and the middle of it over the slope.
+        let reach = around.config().step_height.max(self.radius);
+        self.plan.stand = match look_down(feet, reach, around, queries) {
+            Some(under) => Stand { normal: under.normal, grip: under.grip },
+            None => Stand::default(),
+        };
+    }
+
+    /// Goes where the way leads, as far as others leave room; returns how far that is, m.
+    pub(super) fn step_on(&mut self, context: &mut BodyContext<'_>) -> Vector3 {
+        let position = self.feet().coords;
+        let planned = self.plan.way;
         let share = context.free_share(&self.room(&position), &planned, SKIN);
         // Half a step up would end inside the step, so it is not taken at all.
         let displacement = match share {
@@ -273,22 +332,6 @@ impl PhysicsBody for Humanoid {
         context.claim(self.room(&target));
         let pose = pose_facing(target.into(), self.motion.yaw);
         context.rigid_body().set_next_kinematic_position(to_pose(&pose));
-        if self.motion.posture == Posture::Riding {
-            // A rider who was stopped by a wall has to pick up speed again.
-            let heading = direction(self.motion.yaw);
-            let achieved = displacement.xy().dot(&heading) / dt;
-            self.motion.speed = self.motion.speed.min(achieved.max(0.0) + 1e-9);
-        }
-    }
-
-    fn settle(&mut self, state: &BodyState) {
-        self.state = *state;
-    }
-
-    fn place(&mut self, state: &BodyState) {
-        self.stand_at(&state.pose);
-        self.state.twist = Twist::ZERO;
-        self.motion.grounded = false;
-        self.motion.fall_speed = 0.0;
+        displacement
     }
 }

@@ -65,9 +65,6 @@ impl Driving {
         };
         // A piece of no length has no sides.
         found.path.dedup_by(|a, b| (*a - *b).norm() < 1e-6);
-        // Axles stand 0.58 of the length apart: a sedan's 2.6 of 4.5 m, a bus's 7 of 12 m.
-        let mut driver = Driver::default();
-        driver.wheelbase = own.half_length * 2.0 * 0.58;
         Ok(Self {
             goal,
             berth,
@@ -75,7 +72,7 @@ impl Driving {
             lines: found.lines,
             limits: found.limits,
             changes: found.changes,
-            driver,
+            driver: Driver::of_length(own.half_length * 2.0),
             station: 0.0,
             best: 0.0,
             idle: 0.0,

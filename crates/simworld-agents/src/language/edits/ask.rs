@@ -121,6 +121,12 @@ impl Reader<'_> {
             .unwrap_or(end)
     }
 
+    /// Whether the verb before asks where something is.
+    fn asks_where(&self, start: usize) -> bool {
+        (start.saturating_sub(4)..start)
+            .any(|at| self.word(at).is_some_and(|word| ["where", "wheres"].contains(&word)))
+    }
+
     pub(super) fn list(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
         self.eat_any(&[
@@ -145,9 +151,17 @@ impl Reader<'_> {
         }
         self.at = start;
         let asked = self.word(start.saturating_sub(1)).unwrap_or_default();
-        let mut what = self.asked_about(start, end)?;
+        let mut what = match self.asked_about(start, end) {
+            // "What is the capital of France" is no question about the scene.
+            Err(PlanError::NotFound { .. })
+                if ["is", "whats", "are"].contains(&asked) && !self.asks_where(start) =>
+            {
+                return Err(self.not_understood("ask what is there: how many, which, where"));
+            }
+            read => read?,
+        };
         self.at = end;
-        if ["is", "whats", "wheres"].contains(&asked)
+        if (["is", "whats", "wheres"].contains(&asked) || self.asks_where(start))
             && what.count == Count::One
             && !self.is_plural(start, end)
         {

@@ -3,13 +3,17 @@
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
-use super::super::lexer::{Lexeme, Token, lex};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::{PAINTS, Paint};
 use super::parse::Reader;
 use super::wish::Wish;
-use super::words::FACTORS;
+
+/// Between a thing and where it is to go.
+#[rustfmt::skip]
+const POSED: &[&str] = &["to stand", "to sit", "to wait", "to be", "to go", "to stay", "so that it stands", "so it stands", "so that it is", "so it is", "over to stand", "and put it",
+    "and place it", "and park it", "and set it down", "and set it", "and leave it", "and stick it", "and drop it", "and stand it", "to be placed", "to rest", "to live", "and put them",
+    "and place them", "and park them", "so that they stand", "so they stand", "so that she stands", "so that he stands", "so she stands", "so he stands"];
 
 impl Reader<'_> {
     // ---- the verbs ----
@@ -20,15 +24,27 @@ impl Reader<'_> {
         let mut readings = Vec::new();
         let mut refused = None;
         for cut in start + 1..end {
-            if !self.is_place(cut) {
+            // "Send Gus to stand beside the door".
+            let pose = longest_phrase(&self.lexemes[cut..end], POSED).unwrap_or(0);
+            let place = if pose > 0 && self.is_place((cut + pose).min(end)) { cut + pose } else { cut };
+            if !self.is_place(place)
+                || cut > start + 1 && longest_phrase(&self.lexemes[cut - 1..end], POSED).is_some()
+            {
                 continue;
             }
-            let Ok(what) = self.things(start, cut) else { continue };
-            self.at = cut;
+            let what = match self.things(start, cut) {
+                Ok(what) => what,
+                Err(error @ PlanError::NotFound { .. }) => {
+                    refused = refused.or(Some(error));
+                    continue;
+                }
+                Err(_) => continue,
+            };
+            self.at = place;
             match self.places(end) {
                 Ok(at) if self.at == end => readings.push(Wish::Move { what, at }),
                 Ok(_) => {}
-                Err(error) => refused = Some(error),
+                Err(error) => refused = refused.or(Some(error)),
             }
         }
         if readings.is_empty() {
@@ -165,73 +181,40 @@ impl Reader<'_> {
                 || self.is_joint(next)
                 || longest_phrase(
                     &self.lexemes[next..end],
-                    &["instead", "please", "now", "in colour", "in color", "too"],
+                    &[
+                        "instead",
+                        "please",
+                        "now",
+                        "in colour",
+                        "in color",
+                        "too",
+                        "colour",
+                        "color",
+                        "paint",
+                        "again",
+                    ],
                 )
                 .is_some();
             if let Some(what) = self.things(start, cut).ok().filter(|_| closes) {
                 let rest = longest_phrase(
                     &self.lexemes[next..end],
-                    &["instead", "please", "now", "in colour", "in color", "too"],
+                    &[
+                        "instead",
+                        "please",
+                        "now",
+                        "in colour",
+                        "in color",
+                        "too",
+                        "colour",
+                        "color",
+                        "paint",
+                        "again",
+                    ],
                 );
                 return Some((what, paint, next + rest.unwrap_or(0)));
             }
         }
         None
-    }
-
-    pub(super) fn sized(&mut self, end: usize, usual: f64) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let start = self.at;
-        if let Some(wish) = self.scaled(start, end) {
-            self.at = end;
-            return Ok(vec![vec![wish]]);
-        }
-        let what = self.things_to(end)?;
-        Ok(vec![vec![Wish::Scale { what, factor: usual }]])
-    }
-
-    /// Things, and behind them a size.
-    pub(super) fn scaled(&self, start: usize, end: usize) -> Option<Wish> {
-        for cut in start + 1..end {
-            let rest = &self.lexemes[cut..end];
-            let factor = match longest(rest, FACTORS) {
-                Some((factor, count)) if cut + count == end => factor,
-                _ => match factor_in_numbers(rest) {
-                    Some((factor, count)) if cut + count == end => factor,
-                    _ => continue,
-                },
-            };
-            if let Ok(what) = self.things(start, cut) {
-                return Some(Wish::Scale { what, factor });
-            }
-        }
-        None
-    }
-
-    pub(super) fn double(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let begin = self.at - 1;
-        let verb = (0..=begin).rev().find_map(|at| {
-            let word = self.word(at)?;
-            [("double", 2.0), ("triple", 3.0), ("halve", 0.5)].into_iter().find(|(name, _)| *name == word)
-        });
-        let factor = verb.map_or(2.0, |(_, factor)| factor);
-        let of_number = self.word(begin) == Some("of") && self.word(begin - 1) == Some("number");
-        let sized = self.word(begin) == Some("of") && !of_number;
-        let start = self.at;
-        let what = self.one_to(end)?;
-        let many = matches!(what.count, Count::All) || self.is_plural(start, end);
-        if many && !sized && factor > 1.0 {
-            return Ok(vec![vec![Wish::Multiply { what, times: factor as u32 }]]);
-        }
-        Ok(vec![vec![Wish::Scale { what: vec![what], factor }]])
-    }
-
-    pub(super) fn is_plural(&self, start: usize, end: usize) -> bool {
-        let mut words = self.lexemes[start..end].iter().filter_map(|lexeme| match &lexeme.token {
-            Token::Word(word) => Some(word.as_str()),
-            _ => None,
-        });
-        // The noun is the first word that is in the plural of a class.
-        words.any(|word| word.ends_with('s') && super::super::lexicon::category(&lex(word)).is_some())
     }
 
     pub(super) fn copy(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
@@ -449,46 +432,4 @@ impl Reader<'_> {
         let towards = self.one_to(end)?;
         Ok(Wish::Face { what, towards })
     }
-}
-
-/// "By 150 percent", "by a factor of 1.5", "1.5 times".
-fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
-    let mut at = longest_phrase(
-        lexemes,
-        &["by a factor of", "by factor", "by", "to", "a factor of", "up by", "down by"],
-    )
-    .unwrap_or(0);
-    let relative = longest_phrase(lexemes, &["by"]).is_some();
-    let (number, count) = numbers::number(&lexemes[at..])?;
-    at += count;
-    if let Some(count) = longest_phrase(&lexemes[at..], &["percent", "%", "per cent"]) {
-        at += count;
-        let more = longest_phrase(&lexemes[at..], &["bigger", "larger", "taller"]);
-        let less = longest_phrase(&lexemes[at..], &["smaller", "shorter"]);
-        at += more.or(less).unwrap_or(0);
-        let share = number / 100.0;
-        let factor = match (more, less) {
-            (_, Some(_)) => 1.0 - share,
-            (Some(_), _) => 1.0 + share,
-            _ if relative => 1.0 + share,
-            _ => share,
-        };
-        return Some((factor, at));
-    }
-    at += longest_phrase(
-        &lexemes[at..],
-        &[
-            "times",
-            "x",
-            "times as big",
-            "times bigger",
-            "times the size",
-            "times as large",
-            "times its size",
-            "times larger",
-            "times as tall",
-        ],
-    )
-    .unwrap_or(0);
-    Some((number, at))
 }

@@ -69,10 +69,29 @@ impl Reader<'_> {
         let start = self.at + self.polite_at(self.at);
         let end = self.before_politeness(start, end);
         let phrase = |at: usize, phrases: &[&str]| longest_phrase(&self.lexemes[at..end], phrases);
-        if let Some(words) = phrase(start, &["get", "take"])
-            && (start..end).any(|at| phrase(at, &["off", "out of"]).is_some())
+        if let Some(words) = phrase(
+            start,
+            &[
+                "get", "take", "clear", "remove", "sweep", "throw", "chuck", "move", "kick", "drag", "pull",
+                "haul", "have",
+            ],
+        ) && (start..end).any(|at| phrase(at, &["off", "out of"]).is_some())
         {
-            let what = self.one_of(start + words, end).ok()?;
+            // "Out of the square" is where they are.
+            let whole: Vec<_> = self.lexemes[..end]
+                .iter()
+                .enumerate()
+                .filter(|(at, _)| !(*at > start && phrase(*at, &["out of"]).is_some()))
+                .map(|(at, lexeme)| {
+                    if at > 0 && self.word(at) == Some("of") && self.word(at - 1) == Some("out") {
+                        super::forms::word_at(lexeme, "in")
+                    } else {
+                        lexeme.clone()
+                    }
+                })
+                .collect();
+            let inner = self.over(&whole);
+            let what = inner.one_of(start + words, whole.len()).ok()?;
             let is_there =
                 matches!(&what.relation, Some(Stands::OnStreet(_) | Stands::To(Relation::Inside, _)));
             return is_there.then_some(Wish::Remove { what: vec![what] });

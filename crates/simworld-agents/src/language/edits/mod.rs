@@ -3,21 +3,35 @@
 //! The same words, names and noun phrases as in orders to a body; other verbs. A sentence is read whole first; each wish is
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
+mod apart;
 mod ask;
 mod change;
+mod complaints;
 mod dressed;
+mod follow;
+mod forms;
+mod frames;
 mod given;
 mod ground;
 mod make;
+mod memo;
 mod offsets;
+mod orders;
 mod parse;
+mod parts;
 mod passage;
 mod places;
+mod plain;
+mod polite;
+mod predicates;
 mod resolve;
 mod rows;
+mod says;
+mod sizes;
 pub(super) mod sky;
 mod slips;
 mod stated;
+mod things;
 mod turn;
 mod wish;
 pub(super) mod words;
@@ -28,6 +42,7 @@ use parse::{Reader, UNDERSTOOD};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
+use simworld_core::seam::PlanError;
 use wish::Wish;
 
 use super::names::Names;
@@ -84,9 +99,55 @@ pub(crate) fn read(
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
-    let mut reader = Reader { words, lexemes: &lexemes, names: &names, view: &view, at: 0 };
-    let wishes = reader.sentence()?;
-    Ok(Reading { words: words.to_owned(), wishes })
+    plain::in_plain_words(words, &mut lexemes);
+    let memo = memo::Memo::default();
+    let reader = Reader {
+        words,
+        lexemes: &lexemes,
+        names: &names,
+        view: &view,
+        memo: &memo,
+        text: 0,
+        at: 0,
+        depth: 0,
+    };
+    Ok(Reading { words: words.to_owned(), wishes: wishes_of(reader, scene, stock, focus)? })
+}
+
+/// The wishes of a sentence: as it stands or, if that is not understood, or asks for what nobody has or what is not there,
+/// part by part.
+fn wishes_of(
+    reader: Reader<'_>,
+    scene: &dyn Scene,
+    stock: &Stock,
+    focus: &Focus,
+) -> Result<Vec<Vec<Wish>>, PlanError> {
+    let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
+    let is_known = |wish: &Wish| match wish {
+        Wish::Add { things, .. } => things.iter().all(is_new),
+        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
+        _ => true,
+    };
+    let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
+    // What later wishes are about may be made by earlier ones.
+    let is_there = |wishes: &[Vec<Wish>]| {
+        let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+        let missing = |wish: &Wish| matches!(finder.edits(wish), Err(EditError::NotFound { .. }));
+        !wishes.first().is_some_and(|readings| readings.iter().all(missing))
+    };
+    let plain = Reader { ..reader }.sentence();
+    if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
+        return plain;
+    }
+    let in_parts = reader.in_parts(&is_known, &is_there);
+    match (plain, in_parts) {
+        (_, Some(wishes)) if is_there(&wishes) => Ok(wishes),
+        (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
+        (Err(error), _) => {
+            let unknown = || reader.in_parts(&|_| true, &|_| true);
+            reader.complaint().or_else(unknown).ok_or(error)
+        }
+    }
 }
 
 fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
@@ -108,16 +169,27 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
         gone: Vec::new(),
         policy: AmbiguityPolicy::Nearest,
         streets: Some(&focus.streets),
+        told: std::cell::OnceCell::new(),
     }
 }
 
 /// Edits are about the whole scene, m.
 const EVERYWHERE: f64 = 1.0e5;
 
+/// The words of turns and remarks: none of them is a misspelling, and none is taken for what was meant by one.
+fn other_words() -> impl Iterator<Item = &'static str> {
+    says::words()
+        .chain(frames::words())
+        .chain(follow::words())
+        .chain(parts::words())
+        .chain(apart::words())
+        .chain(predicates::words())
+        .chain(complaints::words())
+}
+
 /// The words of the parts, so that none is taken for a misspelling.
 fn more_words() -> impl Iterator<Item = &'static str> {
-    stated::words()
-        .chain(offsets::words())
+    offsets::words()
         .chain(passage::words())
         .chain(rows::words())
         .chain(dressed::words())

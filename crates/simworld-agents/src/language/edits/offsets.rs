@@ -41,6 +41,8 @@ const MEET: &[&str] = &["meet", "cross", "join", "intersect", "come together", "
 const OWN: &[(&[&str], (f64, f64))] = &[
     (&["forward", "forwards", "ahead", "to the front", "straight ahead"], (1.0, 0.0)),
     (&["back", "backward", "backwards", "to the back"], (-1.0, 0.0)),
+    (&["to the left", "left", "leftwards", "to its left"], (0.0, 1.0)),
+    (&["to the right", "right", "rightwards", "to its right"], (0.0, -1.0)),
 ];
 
 impl Reader<'_> {

@@ -15,59 +15,34 @@ use simworld_core::passage::Passage;
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Reference, Target};
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, written};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::parser::Parser;
 use super::super::resolve::View;
+use super::memo::Memo;
+use super::polite::{CODA, JOINTS, POLITE};
+use super::says::Mood;
 use super::wish::{StreetRef, Wish};
 use super::words::{VERBS, Verb};
 
 /// What is understood, in one line, for answers.
 pub(super) const UNDERSTOOD: &str = "say add, put, move, remove, replace, rotate, swap, paint, make bigger or smaller, copy, name, \
      count, list, describe, or what the weather and the time are to be";
-/// What joins two wishes.
-#[rustfmt::skip]
-pub(super) const JOINTS: &[&str] = &["and", "then", "and then", "also", "plus", "but", "and also", "as well as",
-    "after that", "next", "finally", "too", "as well", "while you are at it", "now", "along with", "together with",
-    "and finally", "afterwards", "first", "so", "or rather", "with"];
-/// What is put before and behind wishes, and says nothing.
-#[rustfmt::skip]
-const POLITE: &[&str] = &["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
-    "um", "well", "could you", "can you", "would you", "will you", "can u", "could u", "i want you to",
-    "i would like you to", "id like you to", "you should", "you must", "lets", "let us", "just", "try to",
-    "go ahead and", "would you mind", "do you mind", "if you can", "if you could", "if possible",
-    "if you dont mind", "for me", "for us", "quickly", "simply", "maybe", "perhaps", "would you please",
-    "could you please", "can you please", "will you please", "yo", "dude", "bro", "mate", "pls", "plz",
-    "i think you should", "i want to", "i would like to", "id like to", "i need to", "we need to", "we should",
-    "we want to", "help me", "be so kind as to", "be so kind and", "why dont you", "how about you",
-    "be so good as to", "i think", "actually", "really", "also", "again", "to", "cheers", "i dont care where",
-    "i dont mind where", "thx", "there", "buddy", "guys", "everyone", "do me a favour and", "do me a favor and",
-    "i ask you to", "need you to", "i need you to", "oh", "oh and", "hmm", "so", "can we", "could we",
-    "may i ask you to", "it would be nice to", "it would be great to", "it would be nice if you could",
-    "id be grateful if you could", "would it be possible to", "is it possible to", "might you",
-    "i reckon we should", "you need to", "you have to", "you can", "you could", "go and", "go", "instead", "now",
-    "kindly please", "sir", "as well", "too", "i wonder if you could", "it is time to", "its time to", "time to",
-    "how about", "what about", "what if we", "shall we", "anymore", "any more", "any longer", "at all",
-    "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"];
-
-/// What is put behind wishes, and says nothing.
-#[rustfmt::skip]
-const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if you can", "if you could",
-    "if possible", "if you dont mind", "pls", "plz", "now", "instead", "too", "as well", "anymore", "any more",
-    "any longer", "at all", "i dont care where", "i dont mind where", "cheers", "thx", "okay", "ok", "mate",
-    "buddy", "bro", "dude", "sir", "quickly", "again", "would you", "will you", "could you", "can you",
-    "if you would", "if you will", "thanks a lot", "if its not too much trouble", "if it is not too much trouble",
-    "right now", "right away", "immediately", "asap", "thank you very much", "thanks in advance", "if its possible",
-    "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time"];
 
 /// Reads one sentence.
+#[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
     pub(super) words: &'a str,
     pub(super) lexemes: &'a [Lexeme],
     pub(super) names: &'a Names<'a>,
     pub(super) view: &'a View<'a>,
     pub(super) at: usize,
+    /// How often the words were put together anew.
+    pub(super) depth: u8,
+    pub(super) memo: &'a Memo,
+    /// Which order of the words it reads.
+    pub(super) text: u32,
 }
 
 impl<'a> Reader<'a> {
@@ -97,7 +72,7 @@ impl<'a> Reader<'a> {
             self.at = end;
             return Ok(vec![vec![wish]]);
         }
-        if let Some(made) = self.rows(end) {
+        if let Some(made) = self.rows(end)? {
             self.at = end;
             return Ok(made);
         }
@@ -109,79 +84,84 @@ impl<'a> Reader<'a> {
             self.at = end;
             return Ok(vec![vec![Wish::Sky(sky)]]);
         }
-        if let Some(made) = self.stated(end)? {
+        if let Some(made) = self.stated(start, end) {
+            self.at = end;
             return Ok(made);
         }
+        self.at = start;
         if let Some(made) = self.place_first(end) {
             return Ok(made);
         }
+        let refused = match self.ordered(start, end) {
+            Ok(Some(made)) => return Ok(made),
+            Ok(None) => None,
+            Err(refused) => Some(refused),
+        };
+        self.at = start;
+        let bare = self.bare(end);
+        if let Ok(Some(wishes)) = bare {
+            return Ok(wishes);
+        }
+        if let Some(made) = self.composed(start, end) {
+            self.at = end;
+            return Ok(made);
+        }
+        self.at = start;
+        // What is not there is a better answer than that nothing is understood.
+        if let Some(error @ PlanError::NotFound { .. }) = refused {
+            return Err(error);
+        }
+        let missing =
+            || self.beginnings(start, end).into_iter().find_map(|begins| self.missing(begins.at, end));
+        let refused = missing().or(refused).or(bare.err());
+        Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD)))
+    }
+
+    /// What is told as a statement: what somebody lacks, and how something should be.
+    fn stated(&mut self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let polite = start + self.polite_at(start);
+        let paint = self.coated(polite, self.before_politeness(polite, end));
+        if let Some(wish) = paint.or_else(|| self.lacking(polite, end)) {
+            return Some(vec![vec![wish]]);
+        }
+        self.beginnings(start, end).into_iter().find_map(|begins| {
+            let mood = if begins.wished { Mood::Wished } else { Mood::Plain };
+            self.says(begins.at, end, mood)
+        })
+    }
+
+    /// The order of the first verb that stands behind small words alone, and is understood.
+    fn ordered(&mut self, start: usize, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let mut refused = None;
         for begin in start..end {
             let Some((verb, count)) = longest(&self.lexemes[begin..end], VERBS) else { continue };
-            // A place before the verb that was not read is no preamble: without it the wish would be another one.
-            if !self.may_skip(start, begin) || self.is_place_before(start, begin) {
-                break;
-            }
             self.at = begin + count;
-            match self.after(verb, end) {
-                Ok(mut wishes) => {
-                    let spoken_of = self.remarked(start, begin);
-                    wishes.iter_mut().flatten().for_each(|wish| wish.is_about(&spoken_of));
-                    return Ok(wishes);
+            let read = self.after(verb, end);
+            // What else stands before a verb may change what is meant; but a thing that is not there is not there.
+            if !self.is_preamble(start, begin) {
+                if let Err(error @ PlanError::NotFound { .. }) = read {
+                    refused = refused.or(Some(error));
                 }
+                continue;
+            }
+            match read {
+                Ok(wishes) => return Ok(Some(wishes)),
                 Err(error) => refused = refused.or(Some(error)),
             }
         }
-        self.at = start;
-        match self.bare(end) {
-            Ok(Some(wishes)) => Ok(wishes),
-            Ok(None) => Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD))),
-            Err(error) => Err(refused.unwrap_or(error)),
-        }
-    }
-
-    /// The things of a remark before a wish: "the blue car is ugly, make it white".
-    fn remarked(&self, start: usize, begin: usize) -> Vec<Reference> {
-        let mut things = Vec::new();
-        let mut at = start;
-        while at < begin {
-            let is_certain =
-                longest_phrase(&self.lexemes[at..begin], &["the", "that", "this", "my", "those"]);
-            let mut parser = self.parser(at, begin);
-            match is_certain.and_then(|_| parser.reference(0).ok()) {
-                Some(thing) if parser.at > at => {
-                    things.push(thing);
-                    at = parser.at;
-                }
-                _ => at += 1,
-            }
-        }
-        things
-    }
-
-    /// Whether a place stands before a verb.
-    fn is_place_before(&self, start: usize, begin: usize) -> bool {
-        let mut reader = Reader { at: start, ..*self };
-        begin > start && self.is_place(start) && reader.places(begin).is_ok()
-    }
-
-    /// Whether what stands before a verb says nothing of its own, or only why: no word of it forbids.
-    fn may_skip(&self, start: usize, begin: usize) -> bool {
-        #[rustfmt::skip]
-    const FORBIDS: &[&str] = &["dont", "not", "never", "no", "without", "stop", "if", "unless", "when", "whenever",
-        "until", "avoid"];
-        let before = &self.lexemes[start..begin];
-        !before
-            .iter()
-            .any(|lexeme| matches!(&lexeme.token, Token::Word(word) if FORBIDS.contains(&word.as_str())))
-            && (before.len() <= 8
-                || before.iter().any(|lexeme| lexeme.token == Token::Break || lexeme.token == Token::Comma))
+        refused.map_or(Ok(None), Err)
     }
 
     fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         match verb {
             Verb::Add => {
                 if let Some(wish) = self.copies(end) {
+                    return Ok(wish);
+                }
+                if self.is_wanted()
+                    && let Some(wish) = self.small_clause(self.at, end)
+                {
+                    self.at = end;
                     return Ok(wish);
                 }
                 match self.posed(end).filter(|_| self.is_definite(self.at)) {
@@ -191,17 +171,14 @@ impl<'a> Reader<'a> {
             }
             // "Put the bench ..." moves it, "put a bench ..." makes one.
             Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
-            Verb::Put if self.is_definite(self.at) => self.moves(end).map(|wish| vec![wish]),
+            Verb::Put if self.is_definite(self.at) => self.puts(end),
             Verb::Put => self.additions(end),
             Verb::Move if !self.is_definite(self.at) && self.word(self.at - 1) == Some("bring") => {
                 self.additions(end)
             }
             Verb::Move => self.moves(end).map(|wish| vec![wish]),
             Verb::Take => self.take(end),
-            Verb::Remove => {
-                let what = self.things_to(end)?;
-                Ok(vec![vec![Wish::Remove { what }]])
-            }
+            Verb::Remove => self.removes(end),
             Verb::Replace => self.replace(end),
             Verb::Turn => self.turns(end),
             Verb::Swap => self.swap(end),
@@ -229,6 +206,40 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// "Put the bench there"; "my castle" need not be there yet.
+    fn puts(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let from = self.at;
+        match self.moves(end) {
+            Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
+                self.at = from + 1;
+                self.additions(end).map_err(|_| refused)
+            }
+            read => read.map(|wish| vec![wish]),
+        }
+    }
+
+    /// "Remove the cone"; "I don't want to see that cone here".
+    fn removes(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let here = self.before_politeness(self.at, end).saturating_sub(1);
+        let is_here = here > self.at && matches!(self.word(here), Some("here" | "around" | "standing"));
+        let what = match if is_here { self.things(self.at, here).ok() } else { None } {
+            Some(what) => what,
+            None => self.things(self.at, end)?,
+        };
+        self.at = end;
+        Ok(vec![vec![Wish::Remove { what }]])
+    }
+
+    /// "I want the bench red": something is wanted of a thing that is there.
+    fn is_wanted(&self) -> bool {
+        #[rustfmt::skip]
+        const WHO: &[&str] = &["i", "we", "id", "wed", "have", "let", "lets", "can", "could", "may", "need", "needs"];
+        let is_who = |at: usize| self.word(at).is_some_and(|word| WHO.contains(&word));
+        (self.at.saturating_sub(6)..self.at).any(is_who)
+            && self.is_definite(self.at)
+            && !self.is_bare_plural(self.at, self.lexemes.len())
+    }
+
     /// "Put me a bench": whoever says so is not put anywhere.
     fn is_for_me(&self, end: usize) -> bool {
         longest_phrase(self.rest(end), &["me", "us"])
@@ -237,8 +248,14 @@ impl<'a> Reader<'a> {
 
     /// "Benches": some that are not there yet.
     pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
-        let class = super::super::lexicon::category(&self.lexemes[at.min(end)..end]);
-        class.is_some_and(|(_, words)| self.is_plural(at, at + words))
+        // "Cherry trees": up to three words say of what kind they are.
+        let ends = |at: usize| {
+            self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], VERBS).is_some()
+        };
+        let noun = (at..end.min(at + 4)).take_while(|next| *next == at || !ends(*next)).find_map(|next| {
+            super::super::lexicon::category(&self.lexemes[next..end]).map(|(_, words)| (next, words))
+        });
+        noun.is_some_and(|(next, words)| self.is_plural(next, next + words)) && !self.is_certain(at)
     }
 
     // ---- things ----
@@ -249,6 +266,8 @@ impl<'a> Reader<'a> {
         if let Ok(what) = whole {
             return Ok(vec![what]);
         }
+        // "Both the truck and the hydrant" are one of each.
+        let start = start + usize::from(matches!(self.word(start), Some("both")));
         for cut in (start + 1..end).rev() {
             let Some(count) = joint(&self.lexemes[cut..end]) else { continue };
             if let (Ok(mut before), Ok(last)) = (self.things(start, cut), self.one_of(cut + count, end)) {
@@ -274,6 +293,10 @@ impl<'a> Reader<'a> {
 
     /// One thing that the words name, all of them but politeness.
     pub(super) fn one_of(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
+        self.memo.thing((self.text, start, end), || self.look_up(start, end))
+    }
+
+    fn look_up(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
         let end = self.before_politeness(start, end);
         let me = longest_phrase(&self.lexemes[start..end], &["me", "myself", "you", "yourself", "i"]);
         if me == Some(end - start) {
@@ -286,6 +309,11 @@ impl<'a> Reader<'a> {
         what.indefinite |= any;
         self.except(&mut parser, &mut what);
         if parser.at < end { Err(parser.not_understood("end here, or go on with \"and\"")) } else { Ok(what) }
+    }
+
+    /// A reader of the same words in another order, or without some of them.
+    pub(super) fn over<'b>(&'b self, lexemes: &'b [Lexeme]) -> Reader<'b> {
+        Reader { lexemes, at: 0, text: self.memo.new_text(), ..*self }
     }
 
     /// The parser of noun phrases, over some of the words.
@@ -320,11 +348,7 @@ impl<'a> Reader<'a> {
 
     /// The words as they were written, without quotes around them.
     pub(super) fn written(&self, start: usize, end: usize) -> String {
-        match self.lexemes.get(start..end) {
-            Some([first, .., last]) => self.words[first.start..last.end].to_owned(),
-            Some([only]) => self.words[only.start..only.end].to_owned(),
-            _ => String::new(),
-        }
+        written(self.words, self.lexemes.get(start..end).unwrap_or_default()).to_owned()
     }
 
     fn skip_joints(&mut self) {

@@ -21,7 +21,7 @@ const CLOSED: &[&str] = &["closed", "blocked", "shut", "barred", "sealed off", "
 #[rustfmt::skip]
 const OPEN: &[&str] = &["open", "reopened", "opened", "unblocked", "passable", "back in use", "traffic may use",
     "cars may use", "traffic can use", "cars can use", "traffic is allowed", "cars are allowed", "cars may drive",
-    "let the cars back", "let cars back", "let traffic back", "let the traffic back", "cars can drive",
+    "let the cars back", "let cars back", "let traffic back", "let the traffic back", "cars can drive", "usable",
     "traffic may return", "cars may return", "opened up"];
 /// What says nothing more.
 #[rustfmt::skip]
@@ -31,7 +31,10 @@ const NOISE: &[&str] = &["to", "traffic", "for", "on", "onto", "from", "again", 
     "vehicles", "along", "in", "any more", "anymore", "any longer", "completely", "entirely", "off", "can you", "could you",
     "would you", "id like", "i would like", "lets", "let us", "there should be", "there must be", "there shall be", "both ways",
     "through", "temporarily", "just", "are", "have", "into", "get", "it is", "time", "its time to", "keep", "declare",
-    "every car", "at once", "immediately", "right away", "stretch", "today", "will be", "so that", "ought to be"];
+    "every car", "at once", "immediately", "right away", "stretch", "today", "will be", "so that", "ought to be", "from now on",
+    "was", "were", "closed half", "closed part", "closed bit", "closed section", "half", "part of", "part", "section of", "bit of",
+    "this", "that", "there", "until further notice", "for good", "for the moment", "for now", "for a while", "for the time being",
+    "both directions", "in both directions", "want", "we", "i", "would like", "see", "high", "what if", "if", "were to be", "a"];
 
 /// Which way a sentence goes.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -1,91 +1,29 @@
 //! New things and places: the noun phrase of what is to be made, and the relations in which it is to stand.
 
 use simworld_core::geometry::Point2;
+use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
-use super::super::paint::PAINTS;
 use super::parse::{Reader, joint};
-use super::wish::{Anchor, NewThing, Where, Wish};
-use super::words::{ABOUT_IT, FACTORS, SIZES, VERBS, Verb, WAYS, Way};
+use super::things::ARTICLES;
+use super::wish::{Anchor, Where, Wish};
+use super::words::{ABOUT_IT, VERBS, Verb, WAYS, Way};
 
-/// What ends the noun of a new thing: what it is called.
-const CALLED: &[&str] = &["called", "named", "with the name", "with the name of", "by the name of"];
-/// Articles and the like before a new thing.
-#[rustfmt::skip]
-const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the", "one more", "a new", "new", "a single",
-    "yet another", "a few", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
-    "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
-    "around"];
+/// Sides of a thing, behind a distance from it.
+const OWN_SIDES: &[(&[&str], Relation)] = &[
+    (&["left"], Relation::LeftOf),
+    (&["right"], Relation::RightOf),
+    (&["forward", "forwards", "ahead", "front"], Relation::InFrontOf),
+    (&["back", "backwards", "behind"], Relation::Behind),
+];
 /// Metres.
 const METRES: &[&str] = &["m", "metres", "metre", "meters", "meter"];
 
 impl Reader<'_> {
-    /// New things and where they stand, in groups: "two benches and a bin next to the fountain and a tree behind it".
-    pub(super) fn additions(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let mut wishes = Vec::new();
-        let mut anchor: Option<Anchor> = None;
-        let mut last: Option<NewThing> = None;
-        while self.at < end {
-            let mut things = vec![self.another(end, last.as_ref()).map_or_else(|| self.new_thing(end), Ok)?];
-            while let Some(count) = joint(self.rest(end)) {
-                let start = self.at;
-                self.at += count;
-                self.skip_joints_to(end);
-                if self.at >= end || self.is_place(self.at) {
-                    self.at = start;
-                    break;
-                }
-                things.push(self.new_thing(end)?);
-            }
-            let from = self.at;
-            if joint(self.rest(end)).is_some() {
-                self.skip_joints_to(end);
-            }
-            let at = if self.at < end && self.is_place(self.at) {
-                let mut at = self.places(end)?;
-                // "A tree behind the school and a bench in front of it": of the school.
-                for place in &mut at {
-                    place.means(&mut anchor);
-                }
-                at
-            } else {
-                self.at = from;
-                Vec::new()
-            };
-            last = things.last().cloned();
-            wishes.push(vec![Wish::Add { things, at }]);
-            self.skip_joints_to(end);
-        }
-        if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
-    }
-
-    /// "Another one": as the thing before.
-    fn another(&mut self, end: usize, last: Option<&NewThing>) -> Option<NewThing> {
-        let last = last?;
-        let count = longest_phrase(
-            self.rest(end),
-            &[
-                "another one",
-                "one more",
-                "another",
-                "a second one",
-                "one",
-                "a third one",
-                "the other one",
-                "the other",
-            ],
-        )?;
-        if !self.is_place(self.at + count) {
-            return None;
-        }
-        self.at += count;
-        Some(NewThing { count: 1, ..last.clone() })
-    }
-
     /// "In front of the gallery there must stand a postbox": the place comes first.
     pub(super) fn place_first(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
         let start = self.at;
@@ -97,7 +35,9 @@ impl Reader<'_> {
     }
 
     fn try_place_first(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
-        self.eat_any(&["from", "right", "and"]);
+        if self.seen_from(self.at, end).is_none() {
+            self.eat_any(&["from", "right", "and"]);
+        }
         if !self.is_place(self.at) {
             return None;
         }
@@ -122,7 +62,10 @@ impl Reader<'_> {
         }
         let made = self.additions(end).ok()?;
         let placed = |wish| match wish {
-            Wish::Add { things, at: own } if own.is_empty() => Some(Wish::Add { things, at: at.clone() }),
+            // "By the museum, put a bench there".
+            Wish::Add { things, at: own } if own.is_empty() || own == [Where::There] => {
+                Some(Wish::Add { things, at: at.clone() })
+            }
             _ => None,
         };
         made.into_iter().map(|readings| readings.into_iter().map(placed).collect()).collect()
@@ -132,65 +75,21 @@ impl Reader<'_> {
         self.word(self.at) == Some(word)
     }
 
-    /// "Three tall red sports cars".
-    pub(super) fn new_thing(&mut self, end: usize) -> Result<NewThing, PlanError> {
-        let start = self.at;
-        let mut thing = NewThing {
-            words: Vec::new(),
-            count: 1,
-            paint: None,
-            scale: 1.0,
-            name: None,
-            text: String::new(),
-        };
-        while self.at < end {
-            let rest = self.rest(end);
-            // "A three-legged stool" is one.
-            let is_part = |words: usize| self.words[rest[words - 1].end..].starts_with('-');
-            if let Some((count, words)) =
-                numbers::count(rest).filter(|(_, words)| thing.words.is_empty() && !is_part(*words))
-            {
-                (thing.count, self.at) = (count, self.at + words);
-            } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
-                self.at += words;
-            } else if let Some(words) = longest_phrase(rest, CALLED) {
-                self.at += words;
-                let from = self.at;
-                while self.at < end && !self.is_place(self.at) && joint(self.rest(end)).is_none() {
-                    self.at += 1;
-                }
-                thing.name = Some(self.written(from, self.at));
-                break;
-            } else if joint(rest).is_some()
-                || self.is_place(self.at)
-                || self.before_politeness(start, end) <= self.at
-            {
-                break;
-            } else if let Some((paint, words)) = longest(rest, PAINTS).filter(|_| thing.paint.is_none()) {
-                (thing.paint, self.at) = (Some(paint), self.at + words);
-            } else if let Some((factor, words)) = longest(rest, FACTORS).filter(|_| !thing.words.is_empty()) {
-                // "A bench twice as big".
-                (thing.scale, self.at) = (factor, self.at + words);
-            } else if let Some((factor, words)) = longest(rest, SIZES).filter(|_| thing.words.is_empty()) {
-                (thing.scale, self.at) = (factor, self.at + words);
-            } else if let Token::Word(word) = &rest[0].token {
-                thing.words.push(word.clone());
-                self.at += 1;
-            } else {
-                break;
-            }
-        }
-        thing.text = self.written(start, self.at);
-        if thing.words.is_empty() {
-            self.at = start;
-            return Err(self.not_understood("say what to add"));
-        }
-        Ok(thing)
-    }
-
     /// Whether a place begins at a token.
     pub(super) fn is_place(&self, at: usize) -> bool {
+        self.memo.place((self.text, at, self.lexemes.len()), || self.begins_place(at))
+    }
+
+    fn begins_place(&self, at: usize) -> bool {
+        if matches!(self.word(at), Some("down" | "up" | "over" | "back" | "out" | "off"))
+            && longest(&self.lexemes[(at + 1).min(self.lexemes.len())..], WAYS).is_some()
+        {
+            return true;
+        }
         let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
+        if self.seen_from(at, self.lexemes.len()).is_some() {
+            return true;
+        }
         if self.begins_offset(at) || self.begins_junction(at) || matches!(over, Ok(Some(_))) {
             return true;
         }
@@ -211,6 +110,11 @@ impl Reader<'_> {
                 self.at += count;
             }
             self.skip_joints_to(end);
+            // Behind a place of its own "instead" says no more than that.
+            if self.word(self.at) == Some("instead") && self.at + 1 >= self.before_politeness(self.at, end) {
+                self.at = end;
+                return Ok(places);
+            }
             if self.at < end
                 && self.is_place(self.at)
                 && let Ok(place) = self.place(end)
@@ -227,7 +131,19 @@ impl Reader<'_> {
         }
     }
 
-    fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+    pub(super) fn place(&mut self, end: usize) -> Result<Where, PlanError> {
+        // "Set it down between the two".
+        let is_particle = matches!(self.word(self.at), Some("down" | "up" | "over" | "back" | "out" | "off"));
+        if is_particle
+            && longest(self.rest(end), WAYS).is_none_or(|(_, words)| words == 1)
+            && self.is_place(self.at + 1)
+        {
+            self.at += 1;
+        }
+        if let Some((place, after)) = self.seen_from(self.at, end) {
+            self.at = after;
+            return Ok(place);
+        }
         if let Some(place) = self.junction(end) {
             return Ok(place);
         }
@@ -256,6 +172,11 @@ impl Reader<'_> {
             let anchor = if mine { Anchor::Viewer } else { Anchor::It };
             return Ok(Where::To(relation, anchor));
         }
+        self.by_way(end)
+    }
+
+    /// A place that begins with a word of relation.
+    fn by_way(&mut self, end: usize) -> Result<Where, PlanError> {
         let Some((way, count)) = longest(self.rest(end), WAYS) else {
             return Err(self.not_understood("say where: next to, near, behind, between ..."));
         };
@@ -285,6 +206,39 @@ impl Reader<'_> {
             },
         };
         Ok(place)
+    }
+
+    /// "From the kiosk on the left side", "from the statue go two metres left".
+    fn seen_from(&self, at: usize, end: usize) -> Option<(Where, usize)> {
+        if !matches!(self.word(at), Some("from" | "seen")) || at >= end {
+            return None;
+        }
+        let from = at + longest_phrase(&self.lexemes[at..end], &["from", "seen from"])?;
+        let mut reader = Reader { at: from, ..*self };
+        // The thing is the shortest phrase that is one: what follows is where from there.
+        (from + 1..end).find_map(|cut| {
+            let thing = self.one_of(from, cut).ok()?;
+            reader.at = cut;
+            reader.eat_any(&[","]);
+            while reader.lexemes.get(reader.at).is_some_and(super::parts::is_mark) {
+                reader.at += 1;
+            }
+            reader.eat_any(&["go", "walk", "take", "count", "measure", "and go", "its"]);
+            if let Some((relation, words)) = longest(reader.rest(end), ABOUT_IT) {
+                return Some((Where::To(relation, Anchor::Thing(thing)), reader.at + words));
+            }
+            let (distance, words) = numbers::length(reader.rest(end))?;
+            reader.at += words;
+            let mut parser = reader.parser(reader.at, end);
+            parser.eat_any(&["to the", "to its", "due"]);
+            if let Some(compass) = parser.compass() {
+                let bearing = super::wish::Bearing::Compass(compass);
+                return Some((Where::Offset(distance, bearing, Anchor::Thing(thing)), parser.at));
+            }
+            let (relation, words) = longest(&self.lexemes[parser.at..end], OWN_SIDES)?;
+            let bearing = super::wish::Bearing::Side(relation);
+            Some((Where::Offset(distance, bearing, Anchor::Thing(thing)), parser.at + words))
+        })
     }
 
     /// "On the other side of Oak Street from the museum".

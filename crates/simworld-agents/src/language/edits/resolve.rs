@@ -11,7 +11,7 @@ use super::super::clause::{Choice, Count, Reference, Stands, Target};
 use super::super::resolve::{Purpose, View};
 use super::places::is_pronoun;
 use super::sky::changed;
-use super::wish::{Anchor, Where, Wish};
+use super::wish::{Anchor, NewThing, Where, Wish};
 use super::{Focus, Reading, view_of};
 use crate::editing::{Edit, EditError, Stand, Stock};
 
@@ -65,20 +65,7 @@ pub(super) struct Finder<'a> {
 impl Finder<'_> {
     pub(super) fn edits(&self, wish: &Wish) -> Result<Vec<Edit>, EditError> {
         let edit = match wish {
-            Wish::Add { things, at } => {
-                if let Some(row) = self.lined_up(things, at)? {
-                    return Ok(vec![row]);
-                }
-                let stands = self.stands(at, &[])?;
-                let add = |thing: &super::wish::NewThing| {
-                    Ok(Edit::Add {
-                        make: thing.make(self.stock)?,
-                        count: thing.count,
-                        stands: stands.clone(),
-                    })
-                };
-                return things.iter().map(add).collect();
-            }
+            Wish::Add { things, at } => return self.added(things, at),
             Wish::Remove { what } => Edit::Remove { things: self.all(what)? },
             Wish::Move { what, at } => return self.moved(what, at),
             Wish::Replace { what, with } => {
@@ -123,6 +110,42 @@ impl Finder<'_> {
             Wish::Sky(skies) => Edit::SetEnvironment(changed(*self.scene.environment(), skies)),
         };
         Ok(vec![edit])
+    }
+
+    fn added(&self, things: &[NewThing], at: &[Where]) -> Result<Vec<Edit>, EditError> {
+        if let Some(each) = self.at_each(things, at)? {
+            return Ok(each);
+        }
+        if let Some(row) = self.lined_up(things, at)? {
+            return Ok(vec![row]);
+        }
+        let stands = self.stands(at, &[])?;
+        let add = |thing: &NewThing| {
+            Ok(Edit::Add { make: thing.make(self.stock)?, count: thing.count, stands: stands.clone() })
+        };
+        things.iter().map(add).collect()
+    }
+
+    /// "A tree in front of each house": the same for every one of them.
+    fn at_each(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Vec<Edit>>, EditError> {
+        let is_each = |place: &Where| match place.anchor() {
+            Some(Anchor::Thing(anchor)) => {
+                let several = anchor.count == Count::All && anchor.choice == Choice::Open;
+                several && !matches!(place, Where::Between(..)) && anchor.target != Target::Them
+            }
+            _ => false,
+        };
+        let [place] = at else { return Ok(None) };
+        let Some(Anchor::Thing(anchor)) = place.anchor().filter(|_| is_each(place)) else { return Ok(None) };
+        let mut edits = Vec::new();
+        for id in self.candidates(&anchor)? {
+            let mut place = place.clone();
+            if let Some(anchor) = place.anchor_mut() {
+                *anchor = Anchor::Thing(Reference::to(Target::Id(id), id.to_string()));
+            }
+            edits.extend(self.edits(&Wish::Add { things: things.to_vec(), at: vec![place] })?);
+        }
+        Ok(Some(edits))
     }
 
     fn moved(&self, what: &[Reference], at: &[Where]) -> Result<Vec<Edit>, EditError> {
@@ -227,7 +250,11 @@ impl Finder<'_> {
     fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
         let mut things = Vec::new();
         for one in what {
-            if one.count == Count::One && !plural(one) {
+            let of_several = one.choice != Choice::Open
+                && [" of the ", " of all ", " of these ", " of those "]
+                    .iter()
+                    .any(|of| one.text.contains(of));
+            if one.count == Count::One && (!plural(one) || of_several) {
                 things.push(self.one(one)?);
             } else {
                 things.extend(self.candidates(one)?);
@@ -355,17 +382,28 @@ impl Finder<'_> {
                 }
                 Where::At(point) => Stand::At { point: *point },
                 Where::Here => Stand::Around { point: self.focus.from },
-                Where::There => {
-                    let wanted = "place that \"there\" could stand for".to_owned();
-                    let missing = || EditError::NotFound { wanted, near: "name it".to_owned() };
-                    Stand::At { point: self.focus.place.ok_or_else(missing)? }
-                }
+                Where::There => self.there(moved)?,
                 Where::Anywhere | Where::Shift(..) | Where::ShiftOwn(..) => continue,
                 place => self.stand_on_ground(place, moved)?,
             };
             stands.push(stand);
         }
         Ok(stands)
+    }
+
+    /// Where what was spoken of last stood; beside it, if it still stands there.
+    fn there(&self, moved: &[EntityId]) -> Result<Stand, EditError> {
+        let wanted = "place that \"there\" could stand for".to_owned();
+        let missing = || EditError::NotFound { wanted, near: "name it".to_owned() };
+        let point = self.focus.place.ok_or_else(missing)?;
+        let stands_there = |it: &EntityId| {
+            let entity = self.scene.entity(*it).filter(|it| it.kind != EntityKind::Ground);
+            !moved.contains(it) && entity.is_some_and(|it| (it.planar() - point).norm() < 1e-6)
+        };
+        Ok(match self.focus.it.filter(stands_there) {
+            Some(anchor) => Stand::To { relation: Relation::NextTo, anchor },
+            None => Stand::At { point },
+        })
     }
 
     pub(super) fn to(&self, relation: Relation, anchor: EntityId) -> Result<Stand, EditError> {

@@ -1,5 +1,7 @@
 //! Rows: "a bench every twenty metres along Oak Street", "a ring of twelve cones around the fountain".
 
+use simworld_core::seam::PlanError;
+
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
@@ -20,7 +22,9 @@ const APART: &[&str] = &["apart", "apart from each other", "from each other", "b
 /// That things stand in a line.
 #[rustfmt::skip]
 const ROWS: &[&str] = &["a row of", "a line of", "in a row", "in a line", "a straight line of", "a queue of", "in a straight line", "a chain of",
-    "an avenue of", "in line", "rows of"];
+    "an avenue of", "in line", "rows of", "evenly spaced",
+    "evenly distributed", "at even distances", "at equal distances", "equally spaced", "at regular intervals", "spaced evenly",
+    "evenly spread", "spread evenly", "lined up", "one after another", "one after the other"];
 /// That things stand in a circle.
 #[rustfmt::skip]
 const RINGS: &[&str] = &["a ring of", "a circle of", "in a ring", "in a circle", "ring of", "circle of"];
@@ -40,19 +44,26 @@ struct Said {
 
 impl Reader<'_> {
     /// Things at even distances, if the words up to the end say so.
-    pub(super) fn rows(&self, end: usize) -> Option<Vec<Vec<Wish>>> {
+    ///
+    /// # Errors
+    /// What it is along is not there.
+    pub(super) fn rows(&self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let mut said = self.row_words(end);
         if said.every.is_none() && said.count.is_none() && !said.in_line && !said.in_ring {
-            return None;
+            return Ok(None);
         }
         if said.in_line {
             from_to_between(&mut said.rest);
         }
-        let mut reader =
-            Reader { words: self.words, lexemes: &said.rest, names: self.names, view: self.view, at: 0 };
+        let mut reader = self.over(&said.rest);
         let stop = reader.before_politeness(0, said.rest.len());
-        let wishes = reader.wish(stop).ok().filter(|_| reader.at >= stop)?;
-        wishes.into_iter().map(|readings| said.as_rows(readings)).collect()
+        match reader.wish(stop) {
+            Ok(wishes) if reader.at >= stop => {
+                Ok(wishes.into_iter().map(|readings| said.as_rows(readings)).collect())
+            }
+            Err(error @ PlanError::NotFound { .. }) if said.every.is_some() => Err(error),
+            _ => Ok(None),
+        }
     }
 
     /// Takes the words about distances, rows and numbers out.

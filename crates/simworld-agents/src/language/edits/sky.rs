@@ -79,7 +79,9 @@ pub(in crate::language) fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Opti
     let half = longest_phrase(lexemes, &["half past"]).unwrap_or(0);
     // "A little rain" is no hour.
     let is_article = ["a", "an"].iter().any(|word| fits(&lexemes[half..], word).is_some());
-    let (number, mut at) = numbers::number(&lexemes[half..]).filter(|_| !is_article)?;
+    // Nor is "half of what it is".
+    let is_half = fits(&lexemes[half..], "half").is_some();
+    let (number, mut at) = numbers::number(&lexemes[half..]).filter(|_| !is_article && !is_half)?;
     at += half;
     let mut hour = number + if half > 0 { 0.5 } else { 0.0 };
     // "20:30" is two numbers with a mark between.

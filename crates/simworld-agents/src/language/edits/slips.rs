@@ -53,6 +53,15 @@ const USUAL: &[(&str, &str)] = &[
     ("thre", "there"),
     ("wiht", "with"),
     ("crat", "crate"),
+    ("wher", "where"),
+    ("whre", "where"),
+    ("shoud", "should"),
+    ("shuold", "should"),
+    ("shold", "should"),
+    ("woud", "would"),
+    ("tow", "two"),
+    ("ona", "on"),
+    ("nera", "near"),
 ];
 
 /// How one spelling comes from another, the likeliest slip first.
@@ -141,6 +150,9 @@ static TABLES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
     words
 });
 
+/// The words around edits.
+static OTHERS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| super::other_words().collect());
+
 /// The words of edits: those of the tables and of a catalogue.
 struct Own<'a> {
     stock: &'a Stock,
@@ -148,7 +160,11 @@ struct Own<'a> {
 
 impl Own<'_> {
     fn contains(&self, word: &str) -> bool {
-        TABLES.contains(word) || self.stock.has_word(word) || is_synonym(word)
+        TABLES.contains(word)
+            || super::forms::is_form(word)
+            || OTHERS.contains(word)
+            || self.stock.has_word(word)
+            || is_synonym(word)
     }
 
     /// All of them, each once.

@@ -60,7 +60,7 @@ impl Reader<'_> {
 }
 
 /// An angle in words, radians, positive to the left; only if all words are of it.
-fn angle(lexemes: &[Lexeme]) -> Option<f64> {
+pub(super) fn angle(lexemes: &[Lexeme]) -> Option<f64> {
     const TURNS: &[(&[&str], f64)] = &[
         (&["a quarter turn", "a quarter of a turn", "quarter turn", "a quarter", "a right angle"], 90.0),
         (&["a half turn", "half a turn", "half way", "halfway", "half way round"], 180.0),
@@ -68,7 +68,7 @@ fn angle(lexemes: &[Lexeme]) -> Option<f64> {
     ];
     #[rustfmt::skip]
     const AROUND: &[&str] = &["around", "round", "backwards", "the other way", "the other way round",
-        "the other way around", "upside down", "back to front", "180", "about face", "all the way around"];
+        "the other way around", "upside down", "the opposite way", "the opposite direction", "in the other direction", "in the opposite direction", "the other direction", "other way", "back to front", "180", "about face", "all the way around"];
     #[rustfmt::skip]
     const LEFT: &[&str] = &["left", "to the left", "counterclockwise", "counter clockwise", "anticlockwise",
         "anti clockwise", "leftwards"];

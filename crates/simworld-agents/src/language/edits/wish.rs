@@ -193,29 +193,96 @@ pub(super) enum Anchor {
 
 impl Wish {
     /// Takes "it" for the first of the things that a remark was about, and behind "far from" and the like for the last of
-    /// several.
+    /// several, or for the only one if the wish itself is about something else.
     pub(super) fn is_about(&mut self, things: &[Reference]) {
-        let Some(first) = things.first() else { return };
-        let (what, at) = match self {
-            Self::Move { what, at } => (&mut what[..], &mut at[..]),
-            Self::Remove { what }
-            | Self::Rotate { what, .. }
-            | Self::Paint { what, .. }
-            | Self::Scale { what, .. } => (&mut what[..], &mut [][..]),
-            Self::Add { at, .. } => (&mut [][..], &mut at[..]),
-            _ => return,
-        };
-        let added = what.is_empty();
-        for one in what.iter_mut().filter(|one| one.target == Target::It) {
-            *one = first.clone();
-        }
-        let other = things.last().filter(|_| added || things.len() > 1);
-        for place in at {
-            if let (Where::To(_, anchor), Some(other)) = (place, other)
-                && *anchor == Anchor::It
-            {
-                *anchor = Anchor::Thing(other.clone());
+        let (Some(first), Some(last)) = (things.first(), things.last()) else { return };
+        let mut taken = false;
+        for one in self.objects_mut() {
+            if matches!(one.target, Target::It | Target::Them) {
+                *one = first.clone();
+                taken = true;
             }
+        }
+        if taken && things.len() == 1 {
+            return;
+        }
+        for anchor in self.places_mut().iter_mut().filter_map(Where::anchor_mut) {
+            if anchor.is_it() {
+                *anchor = Anchor::Thing(last.clone());
+            }
+        }
+    }
+
+    /// What is changed, if it is one thing.
+    pub(super) fn object(&self) -> Option<&Reference> {
+        match self {
+            Self::Move { what, .. }
+            | Self::Remove { what }
+            | Self::Rotate { what, .. }
+            | Self::FaceCompass { what, .. }
+            | Self::Face { what, .. }
+            | Self::Paint { what, .. }
+            | Self::Scale { what, .. } => what.first().filter(|_| what.len() == 1),
+            _ => None,
+        }
+    }
+
+    /// Puts new things where a remark was about, if they have no place of their own.
+    pub(super) fn stands(&mut self, place: &[Where]) {
+        if let Self::Add { at, .. } = self
+            && !place.is_empty()
+            && (at.is_empty() || *at == [Where::There])
+        {
+            *at = place.to_vec();
+        }
+    }
+
+    /// What is changed.
+    fn objects_mut(&mut self) -> Vec<&mut Reference> {
+        match self {
+            Self::Move { what, .. }
+            | Self::Remove { what }
+            | Self::Rotate { what, .. }
+            | Self::FaceCompass { what, .. }
+            | Self::Paint { what, .. }
+            | Self::Scale { what, .. } => what.iter_mut().collect(),
+            Self::Face { what, towards } => what.iter_mut().chain([towards]).collect(),
+            Self::Replace { what, .. }
+            | Self::Copy { what, .. }
+            | Self::Multiply { what, .. }
+            | Self::Name { what, .. }
+            | Self::Describe { what } => vec![what],
+            Self::Swap { one, other } => std::iter::once(one).chain(other).collect(),
+            Self::Passage { which, .. } => which
+                .iter_mut()
+                .filter_map(|street| match street {
+                    StreetRef::To(_, thing) | StreetRef::Around(thing) | StreetRef::Thing(thing) => {
+                        Some(thing)
+                    }
+                    _ => None,
+                })
+                .collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Where something is to stand.
+    fn places_mut(&mut self) -> &mut [Where] {
+        match self {
+            Self::Move { at, .. } | Self::Add { at, .. } | Self::Copy { at, .. } => at,
+            Self::Row { line, .. } => std::slice::from_mut(line),
+            _ => &mut [],
+        }
+    }
+}
+
+impl Anchor {
+    /// Whether it says nothing but what was spoken of.
+    pub(super) const fn is_it(&self) -> bool {
+        match self {
+            Self::It => true,
+            Self::Thing(reference) => matches!(reference.target, Target::It | Target::Them),
+            _ => false,
         }
     }
 }
@@ -223,7 +290,18 @@ impl Wish {
 impl Where {
     /// Takes "it" for what was named before in the same wish, and writes down what is named here.
     pub(super) fn means(&mut self, named: &mut Option<Anchor>) {
-        let anchor = match self {
+        let Some(anchor) = self.anchor_mut() else { return };
+        let is_it = anchor.is_it();
+        match named {
+            Some(named) if is_it => *anchor = named.clone(),
+            _ if !is_it => *named = Some(anchor.clone()),
+            _ => {}
+        }
+    }
+
+    /// What it is to, if it is to something.
+    pub(super) const fn anchor_mut(&mut self) -> Option<&mut Anchor> {
+        match self {
             Self::To(_, anchor)
             | Self::Between(anchor, _)
             | Self::Across(anchor)
@@ -237,24 +315,14 @@ impl Where {
             | Self::Block(anchor)
             | Self::Middle(anchor)
             | Self::Edge(anchor)
-            | Self::Compass(_, anchor) => anchor,
+            | Self::Compass(_, anchor) => Some(anchor),
             Self::At(_)
             | Self::Shift(..)
             | Self::ShiftOwn(..)
             | Self::Junction(..)
             | Self::Here
             | Self::There
-            | Self::Anywhere => return,
-        };
-        let is_it = match anchor {
-            Anchor::It => true,
-            Anchor::Thing(reference) => matches!(reference.target, Target::It | Target::Them),
-            _ => false,
-        };
-        match named {
-            Some(named) if is_it => *anchor = named.clone(),
-            _ if !is_it => *named = Some(anchor.clone()),
-            _ => {}
+            | Self::Anywhere => None,
         }
     }
 }

@@ -28,8 +28,6 @@ const ABOUT: f64 = 0.8;
 /// Half circles are driven at this speed, m/s, and by this much wider than the wheels could.
 const TURNING: f64 = 3.0;
 const WIDER: f64 = 1.3;
-/// Of the length of a vehicle its axles are apart by this share.
-const AXLES: f64 = 0.6;
 
 /// Errands of everybody.
 #[derive(Default)]
@@ -123,9 +121,7 @@ impl Errands {
 impl Following {
     fn new(body: &EntityRef<'_>, way: &[Point2], speed: f64) -> Self {
         let manner = if body.kind.is_vehicle() {
-            let mut driver = Driver::default();
-            driver.wheelbase = body.info.shape.size().x * AXLES;
-            Manner::Driving(driver)
+            Manner::Driving(Driver::of_length(body.info.shape.size().x))
         } else {
             Manner::Walking(-1.0)
         };
@@ -188,8 +184,9 @@ pub(super) fn way_bytes(way: &[Point2]) -> usize {
 /// The points of a half circle as narrow as the vehicle can drive, and a straight way behind it.
 fn half_circle(body: &EntityRef<'_>, side: DrivingSide) -> Vec<Point2> {
     const POINTS: u32 = 12;
-    let (length, lock) = (body.info.shape.size().x, Driver::default().lock);
-    let radius = WIDER * length * AXLES / tan(lock);
+    let length = body.info.shape.size().x;
+    let driver = Driver::of_length(length);
+    let radius = WIDER * driver.wheelbase / tan(driver.lock);
     let across = match side {
         DrivingSide::Right => 1.0,
         DrivingSide::Left => -1.0,

@@ -36,13 +36,15 @@ cancel_share_order(order): takes that back, or steps back from an offer that you
 go_to_meet_point(order): goes to where an order changes hands, and accepts the offer if it is another's
 purchase_scooter(), purchase_drinks(): buys one
 swap_battery(): goes to a charging station and swaps the battery of the scooter
-adjust_speed(decimetres_per_second): moves at another speed from now on
+adjust_speed(decimetres_per_second): moves at another speed from now on; the faster one walks, the more a metre tires
 do_nothing(): lets the moment pass";
 
 impl<'a> CourierMenu<'a> {
-    /// The menu follows from the state of the task, and from nothing that is written anywhere.
-    pub(super) fn new(view: CourierView<'a>) -> Self {
-        let open = view.open_orders().filter(|order| order.closes_in > CLOSING).take(MOST).collect();
+    /// The menu follows from the state of the task, and from nothing that is written anywhere. What is chosen of it is done
+    /// `after` so long, s: auctions that are over by then are not on it.
+    pub(super) fn new(view: CourierView<'a>, after: f64) -> Self {
+        let lasts = |order: &OpenOrder| order.closes_in > after + CLOSING;
+        let open = view.open_orders().filter(lasts).take(MOST).collect();
         Self { view, held: view.held_orders().collect(), open, offers: view.offers().take(MOST).collect() }
     }
 
@@ -161,13 +163,18 @@ impl<'a> CourierMenu<'a> {
             _ => if view.is_riding() { ", riding" } else { "" }.to_owned(),
         };
         let tired = if view.is_exhausted() { ", exhausted" } else { "" };
+        let (low, high) = self.speeds();
+        let went = |share| format!("; the last order went for {:.0} % of what was offered", share * 100.0);
+        let went = view.last_clearing().map(went).unwrap_or_default();
         format!(
-            "{} cents, energy {:.0} of {:.0}{tired}, {:.1} m/s{ride}, {errand}, room for {} more orders; a drink costs {} \
-             cents, a scooter {}",
+            "{} cents, energy {:.0} of {:.0}{tired}, {:.1} m/s of {:.1} to {:.1}{ride}, {errand}, room for {} more orders; a \
+             drink costs {} cents, a scooter {}{went}",
             view.purse().0,
             view.energy(),
             view.config().energy.capacity,
             view.speed(),
+            low as f64 / 10.0,
+            high as f64 / 10.0,
             view.room(),
             view.drink_price().0,
             view.scooter_price().0
@@ -184,8 +191,9 @@ impl<'a> CourierMenu<'a> {
                 _ => "",
             };
             let way = named(held.id, orders, scene);
+            let on = if held.carried { String::new() } else { format!(" and {:.0} m on", held.route) };
             format!(
-                "order {} {way}: {state}, {:.0} m to go there, pays {} cents, due in {:.0} s{shared}",
+                "order {} {way}: {state}, {:.0} m to go there{on}, pays {} cents, due in {:.0} s{shared}",
                 held.id, held.distance, held.pay.0, held.due_in
             )
         };

@@ -20,7 +20,7 @@ use super::persona::{Character, Persona};
 use super::prompts::{Prompt, Prompts, one_line};
 use super::reasoner::{ModelReasoner, Question, ReasonError, Reasoner};
 use super::schema::{object, words};
-use crate::delivery::{CourierAction, DeliveryTask};
+use crate::delivery::{CourierAction, CourierView, DeliveryTask};
 use crate::mind::{Mind, MindError};
 use crate::model::{ChatModel, Image};
 use crate::observer::Frame;
@@ -48,8 +48,9 @@ struct State {
     /// When it thinks next at the latest, and at the earliest, s.
     due: f64,
     rested: f64,
-    /// The notices that it has thought about.
+    /// The notices that it has thought about, and how many of its bids it knows the end of.
     seen: u64,
+    results: u64,
     news: VecDeque<String>,
     faults: u32,
     /// What is decided and not done yet, and when it will be, s.
@@ -218,6 +219,15 @@ impl ModelCourier {
         if borne { Ok(()) } else { Err(MindError { who, reason: error.to_string() }) }
     }
 
+    /// Which of its bids have lost since it last thought; of those that won it is told by what happened.
+    fn hear_of_bids(&mut self, view: &CourierView<'_>) {
+        let (results, known) = view.results_since(self.state.results);
+        self.state.results = known;
+        for result in results.iter().filter(|result| !result.won) {
+            self.hear(&format!("your bid of {} cents for order {} lost", result.price.0, result.order));
+        }
+    }
+
     fn hear(&mut self, line: &str) {
         self.state.news.push_back(one_line(line));
         if self.state.news.len() > NEWS {
@@ -252,13 +262,14 @@ impl Mind<DeliveryTask> for ModelCourier {
             return Ok(());
         }
         let before = self.reasoner.requests();
-        let thought = self.think(task, scene, who, &CourierMenu::new(view));
+        self.hear_of_bids(&view);
+        let latency = self.config.latency * self.questions();
+        let thought = self.think(task, scene, who, &CourierMenu::new(view, latency));
         self.rest(now, self.reasoner.requests() - before);
         match thought {
             Ok(action) => {
                 self.state.faults = 0;
                 self.state.news.clear();
-                let latency = self.config.latency * self.questions();
                 if latency > 0.0 {
                     self.state.decided = Some((now + latency, action.into()));
                 } else {

@@ -6,7 +6,7 @@ use super::{ARM_REACH, CARRY, EARSHOT, InteractionError, LOCKED, PICK_UP, RIDE, 
 use crate::action::{Action, ActionKind, ActionSet};
 use crate::asset::Affordance;
 use crate::id::EntityId;
-use crate::scene::{EntityKind, EntityRef, Role, Scene};
+use crate::scene::{EntityKind, EntityRef, Footing, Role, Scene};
 use crate::value::Value;
 
 /// Whether `who` can do the action now; actions that only move the body always can, as far as the world is concerned:
@@ -16,6 +16,7 @@ use crate::value::Value;
 /// Why not: what no body of that kind does, what is missing, too far, too heavy, taken, locked, or in the way.
 pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result<(), InteractionError> {
     able(scene, who, action.kind())?;
+    on_its_feet(scene, who, action.kind())?;
     match action {
         Action::PickUp { item } => take(scene, who, *item, &PICK_UP),
         Action::CarryHeavy { item } => take(scene, who, *item, &CARRY),
@@ -59,6 +60,34 @@ fn able(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), Inte
     let names: Vec<String> = can.iter().map(|kind| kind.to_string()).collect();
     let able = if names.is_empty() { "do nothing by itself".to_owned() } else { names.join(", ") };
     Err(InteractionError::Unable { who, kind, action, able })
+}
+
+/// Hands, seats, vehicles and doors want somebody who stands; looking, talking and letting go do not.
+fn on_its_feet(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), InteractionError> {
+    use ActionKind::{
+        Buy, CarryHeavy, CloseDoor, EnterCar, Give, OpenDoor, PickUp, RideScooter, SitDown, StandUp,
+    };
+    let needs_feet = ActionSet::of(&[
+        PickUp,
+        CarryHeavy,
+        RideScooter,
+        SitDown,
+        StandUp,
+        EnterCar,
+        OpenDoor,
+        CloseDoor,
+        Give,
+        Buy,
+    ]);
+    let footing = find(scene, who)?.footing();
+    if footing == Footing::Upright || !needs_feet.contains(action) {
+        return Ok(());
+    }
+    let state = match footing {
+        Footing::Rising => "getting up",
+        _ => "lying on the ground",
+    };
+    Err(InteractionError::Busy { who, verb: "use hands and feet", state })
 }
 
 fn in_range(

@@ -10,6 +10,7 @@ use crate::environment::Environment;
 use crate::geometry::{Aabb, Ray};
 use crate::ground::Ground;
 use crate::id::EntityId;
+use crate::limbs::JointAngles;
 use crate::net::{Aspect, RoadNetwork};
 use crate::scene::{ClassIndex, EntityRef, NameIndex, RayCast, RayHit, Scene};
 use crate::traffic::RoadLeg;
@@ -69,6 +70,10 @@ impl Scene for World {
 
     fn is_closed(&self, leg: RoadLeg) -> bool {
         self.closed.contains(&leg)
+    }
+
+    fn joints(&self, id: EntityId) -> Option<&JointAngles> {
+        self.joints.get(&id)
     }
 
     fn names(&self) -> Option<&NameIndex> {

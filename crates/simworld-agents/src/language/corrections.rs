@@ -1,0 +1,101 @@
+//! What takes back what was said before: "go to the clinic, no, the kiosk", "... instead of the museum".
+
+use simworld_core::seam::PlanError;
+
+use super::clause::Clause;
+use super::lexer::{Lexeme, Token};
+use super::lexicon::longest_phrase;
+use super::parser::Parser;
+use super::politeness::NEGATIONS;
+use super::verbs::longest_verb;
+
+/// What says that the order before was a slip.
+#[rustfmt::skip]
+const CORRECTIONS: &[&str] = &[
+    "no wait", "wait no", "no sorry", "sorry no", "sorry i mean", "sorry i meant", "no i mean", "no i meant",
+    "i mean", "i meant", "or rather", "make that", "no make that", "actually make that", "actually no",
+    "no actually", "scratch that", "strike that", "correction", "on second thoughts", "on second thought",
+    "change of plan", "no hang on", "hang on no", "forget that", "better still",
+];
+/// What is not to be done, behind what is.
+const INSTEAD: &[&str] = &["instead of", "rather than", "and not", "not", "in place of", "as opposed to"];
+
+impl Parser<'_> {
+    /// The order that takes the place of the one before, if what follows says that it was a slip.
+    pub(super) fn correction(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        while matches!(self.rest().first().map(|lexeme| &lexeme.token), Some(Token::Comma | Token::Break)) {
+            self.at += 1;
+        }
+        let marked = self.at > start;
+        let lone_no = marked
+            && self.peeks("no")
+            && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. }));
+        if lone_no {
+            self.at += 1;
+        } else if !self.eat_any(CORRECTIONS) {
+            self.at = start;
+            return Ok(None);
+        }
+        self.skip_joints();
+        if self.at >= self.lexemes.len() {
+            self.at = start;
+            return Ok(None);
+        }
+        self.statement().map(Some)
+    }
+
+    /// "... instead of the museum", "..., not to the museum": passed over, if it is understood.
+    pub(super) fn skip_instead(&mut self) -> bool {
+        let start = self.at;
+        if matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]) {
+            self.at += 1;
+        }
+        if self.eat_any(INSTEAD) {
+            self.eat_any(&["to", "at", "on", "in", "from", "with", "into"]);
+            let at = self.at;
+            let named =
+                longest_verb(self.rest()).is_none() && self.reference(0).is_ok() && self.ends_clause();
+            if named {
+                return true;
+            }
+            self.at = at;
+            if self.lexemes.get(at).is_some_and(|lexeme| lexeme.lemma.is_some())
+                && self.order().is_ok()
+                && self.ends_clause()
+            {
+                return true;
+            }
+        }
+        self.at = start;
+        false
+    }
+
+    /// "Don't go to the museum, go to the school", "instead of waiting, sit down": what is not to be done is understood
+    /// and left out, if something is to be done.
+    pub(super) fn other_than_that(&mut self) -> Option<()> {
+        let start = self.at;
+        let negated = self.eat_any(&["instead of", "rather than", "in place of"]) || self.eat_any(NEGATIONS);
+        if negated {
+            let at = self.at;
+            let understood = self.order().is_ok() || {
+                self.at = at;
+                self.eat_any(&["to", "at"]);
+                self.reference(0).is_ok()
+            };
+            let mark =
+                matches!(self.rest().first().map(|lexeme| &lexeme.token), Some(Token::Comma | Token::Break))
+                    || longest_phrase(self.rest(), &["but"]).is_some();
+            if understood
+                && mark
+                && self.skip_joints()
+                && self.at < self.lexemes.len()
+                && longest_phrase(self.rest(), NEGATIONS).is_none()
+            {
+                return Some(());
+            }
+        }
+        self.at = start;
+        None
+    }
+}

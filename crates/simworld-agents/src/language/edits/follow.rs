@@ -1,0 +1,295 @@
+//! What leaves out what was said before: "and one by the clinic too", "the same for the bench", "the chair next to the tree"
+//! behind "move the bench next to the fountain and".
+
+use super::super::clause::{Reference, Target};
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::{category, longest_phrase};
+use super::super::numbers;
+use super::forms::{word_at, words_at};
+use super::parse::Reader;
+use super::wish::{Anchor, NewThing, Where, Wish};
+
+/// What stands for a new thing as the one before.
+#[rustfmt::skip]
+const ONE_MORE: &[&str] = &["one", "another one", "one more", "another", "a second one", "a third one", "the other one", "the other", "the same",
+    "the same thing", "the same again", "a second", "a third", "a fourth", "a fifth", "and another", "one of those", "one of them", "the next one",
+    "the next", "the last one", "the last", "the second", "the third", "the second one", "the third one", "a fourth one", "a last one", "yet another",
+    "same", "ditto", "same again", "a further one", "a further", "one as well", "one also", "another of those", "one of these", "just one more",
+    "a new one", "the same one", "one like it", "another like it", "one just like it", "the first", "the first one", "a final one", "the final one",
+    "it again", "likewise one", "one too", "an identical one", "its twin", "a twin"];
+/// Before several such: "two more", "three of them".
+const MORE: &[&str] = &[
+    "more",
+    "more of them",
+    "more of those",
+    "of them",
+    "of those",
+    "others",
+    "more like it",
+    "of the same",
+];
+/// What says that the same is to be done to something else.
+#[rustfmt::skip]
+const SAME_FOR: &[&str] = &["the same for", "the same with", "the same to", "same for", "same with", "same to", "do the same to", "do the same for",
+    "do the same with", "ditto for", "the same goes for", "same goes for", "likewise for", "likewise", "do that to", "do that for", "do that with",
+    "do it to", "do so with", "do so to", "repeat that for", "repeat this for", "repeat for", "repeat with", "repeat that with", "that goes for",
+    "the same applies to", "same thing for", "same thing with", "same thing to", "do likewise with", "do likewise to", "do the same thing to",
+    "do the same thing for", "do the same thing with", "so should", "so must", "and so should", "as for", "the same treatment for", "ditto",
+    "similarly for", "same treatment for", "and for", "and to", "same deal with", "same deal for", "and with"];
+/// Behind it, that it is so too.
+#[rustfmt::skip]
+const TOO: &[&str] = &["too", "as well", "also", "likewise", "the same", "do too", "does too", "should too", "please", "too please", "as well please",
+    "the same way", "should be too", "should as well", "is too", "gets the same", "get the same", "gets the same treatment", "gets one too",
+    "in the same way", "similarly"];
+/// That somebody gets one too.
+#[rustfmt::skip]
+const GETS_ONE: &[&str] = &["gets one", "gets another", "gets one too", "gets one as well", "needs one", "needs one too", "wants one", "wants one too",
+    "could use one", "should have one", "should get one", "gets the same", "has to have one", "deserves one", "does too", "get one", "need one",
+    "want one", "get one too", "needs one as well", "also gets one", "also needs one", "also wants one", "should get one too", "could do with one"];
+
+/// What was said before a part of a sentence.
+#[derive(Clone, Default)]
+pub(super) struct Said {
+    /// The last wish that was read.
+    pub(super) wish: Option<Wish>,
+    /// The last noun of a class, in the singular.
+    pub(super) noun: Option<Vec<Lexeme>>,
+    /// The place that a remark just before was about.
+    pub(super) place: Vec<Where>,
+}
+
+impl Reader<'_> {
+    /// A part of a sentence that is whole only with what was said before it.
+    pub(super) fn follows(&self, said: &Said, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let last = said.wish.as_ref();
+        let (from, stop) = (self.at, self.before_politeness(self.at, end));
+        self.with_noun(said, from, stop)
+            .and_then(|order| self.read_anew(&order))
+            .or_else(|| self.gapped(said, last?, from, stop))
+    }
+
+    /// "Paint the bench red, and the chair": the same, though nobody says "too".
+    pub(super) fn same_of(&self, said: &Said, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let wish = self.same_for(said.wish.as_ref()?, from, end).filter(|_| self.is_certain(from))?;
+        Some(vec![vec![wish]])
+    }
+
+    /// A part that says no more than where one more of what was made goes, or of what the same holds.
+    pub(super) fn more_of_it(&self, said: &Said, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let last = said.wish.as_ref()?;
+        let from = self.at;
+        let stop = self.before_politeness(from, end);
+        let one = |wish| Some(vec![vec![wish]]);
+        if let Some(words) = longest_phrase(&self.lexemes[from..stop], SAME_FOR)
+            && let Some(wish) = self.same_for(last, from + words, stop)
+        {
+            return one(wish);
+        }
+        let bare = (from + 1..=stop)
+            .find(|at| *at == stop || longest_phrase(&self.lexemes[*at..stop], TOO) == Some(stop - at))
+            .unwrap_or(stop);
+        if let Wish::Add { things, at } = last
+            && let Some(thing) = things.last()
+            && let Some(wish) = self.one_more(thing, at, from, bare)
+        {
+            return one(wish);
+        }
+        if let Wish::Add { things, .. } = last
+            && let Some(thing) = things.last()
+            && let Some(wish) = self.gets_one(thing, from, stop)
+        {
+            return one(wish);
+        }
+        let is_said = |word: &str| ["too", "also", "well", "likewise"].contains(&word);
+        let too = (stop..end).any(|at| self.word(at).is_some_and(is_said));
+        let same = if bare < stop || too { self.same_for(last, from, bare) } else { None };
+        same.and_then(one)
+    }
+
+    /// The words with the noun that was said before in the place of "one": "the white one" behind cars is the white car.
+    pub(super) fn with_noun(&self, said: &Said, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        let noun = said.noun.as_ref()?;
+        let mut words = Vec::with_capacity(end - from + 1);
+        let mut changed = false;
+        for at in from..end {
+            let lexeme = &self.lexemes[at];
+            let stands_for = match self.word(at) {
+                Some("one") => {
+                    // "One of them" is a number, and so is "one bench".
+                    let is_number =
+                        category(&self.lexemes[at + 1..end]).is_some() || self.word(at + 1) == Some("of");
+                    !is_number && at > from
+                }
+                Some("ones") => true,
+                _ => false,
+            };
+            if stands_for {
+                changed = true;
+                let ones = self.word(at) == Some("ones");
+                let (last, head) = noun.split_last()?;
+                words.extend(head.iter().map(|word| Lexeme {
+                    start: lexeme.start,
+                    end: lexeme.end,
+                    ..word.clone()
+                }));
+                let Token::Word(word) = &last.token else { return None };
+                words.push(word_at(lexeme, &if ones { plural_of(word) } else { word.clone() }));
+            } else {
+                words.push(lexeme.clone());
+            }
+        }
+        changed.then_some(words)
+    }
+
+    /// The verb of the wish before, where none is said: "... and the chair next to the tree".
+    fn gapped(&self, said: &Said, last: &Wish, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let verb = match last {
+            Wish::Move { .. } => "move",
+            Wish::Paint { .. } => "paint",
+            Wish::Scale { .. } => "make",
+            Wish::Rotate { .. } | Wish::Face { .. } | Wish::FaceCompass { .. } => "turn",
+            Wish::Swap { .. } => "swap",
+            Wish::Name { .. } => "call",
+            Wish::Copy { .. } => "copy",
+            Wish::Replace { .. } => "replace",
+            _ => return None,
+        };
+        let place = self.lexemes.get(from)?;
+        let words = self.with_noun(said, from, end).unwrap_or_else(|| self.lexemes[from..end].to_vec());
+        let order: Vec<Lexeme> = words_at(place, verb).chain(words).collect();
+        let wishes = self.read_plainly(&order)?;
+        // The verb that was left out is the same one.
+        let same = |wish: &Wish| {
+            std::mem::discriminant(wish) == std::mem::discriminant(last)
+                || matches!(
+                    (wish, last),
+                    (
+                        Wish::Face { .. } | Wish::FaceCompass { .. } | Wish::Rotate { .. },
+                        Wish::Face { .. } | Wish::FaceCompass { .. } | Wish::Rotate { .. }
+                    )
+                )
+        };
+        wishes.iter().flatten().all(same).then_some(wishes)
+    }
+
+    /// The wish before, for something else.
+    fn same_for(&self, last: &Wish, from: usize, end: usize) -> Option<Wish> {
+        let what = self.things(from, end).ok()?;
+        let mut wish = last.clone();
+        match &mut wish {
+            Wish::Move { what: own, .. }
+            | Wish::Remove { what: own }
+            | Wish::Rotate { what: own, .. }
+            | Wish::Face { what: own, .. }
+            | Wish::FaceCompass { what: own, .. }
+            | Wish::Paint { what: own, .. }
+            | Wish::Scale { what: own, .. } => *own = what,
+            Wish::Replace { what: own, .. }
+            | Wish::Copy { what: own, .. }
+            | Wish::Describe { what: own }
+            | Wish::Count { what: own } => {
+                let [only] = &what[..] else { return None };
+                *own = only.clone();
+            }
+            Wish::Add { at, .. } => {
+                let ([place], [only]) = (&mut at[..], &what[..]) else { return None };
+                *place.anchor_mut()? = Anchor::Thing(only.clone());
+            }
+            _ => return None,
+        }
+        Some(wish)
+    }
+
+    /// "One by the clinic", "two more behind it", "the same behind the bookshop", "a red one here".
+    fn one_more(&self, thing: &NewThing, last: &[Where], from: usize, end: usize) -> Option<Wish> {
+        let rest = &self.lexemes[from..end];
+        let counted = numbers::count(rest).and_then(|(count, words)| {
+            let more = longest_phrase(&rest[words..], MORE).unwrap_or(0);
+            Some((count, words + more)).filter(|_| more > 0 || self.is_place(from + words))
+        });
+        let coloured = self.coloured_one(from, end);
+        let (count, paint, words) = match (counted, coloured) {
+            (Some((count, words)), _) => (count, None, words),
+            (None, Some((paint, words))) => (1, Some(paint), words),
+            (None, None) => (1, None, longest_phrase(rest, ONE_MORE)?),
+        };
+        let thing = NewThing { count, paint: paint.or(thing.paint), name: None, ..thing.clone() };
+        let at = from + words;
+        if at >= end {
+            // "And another" stands where the first does.
+            return Some(Wish::Add { things: vec![thing], at: last.to_vec() });
+        }
+        let mut places = self.places_to(at, end)?;
+        let mut anchor = last.iter().find_map(Where::anchor);
+        for place in &mut places {
+            place.means(&mut anchor);
+        }
+        Some(Wish::Add { things: vec![thing], at: places })
+    }
+
+    /// "A red one".
+    fn coloured_one(&self, from: usize, end: usize) -> Option<(super::super::paint::Paint, usize)> {
+        let article = longest_phrase(&self.lexemes[from..end], &["a", "an", "another", "one"])?;
+        let (paint, words) =
+            super::super::lexicon::longest(&self.lexemes[from + article..end], super::super::paint::PAINTS)?;
+        let one = longest_phrase(&self.lexemes[from + article + words..end], &["one"])?;
+        Some((paint, article + words + one))
+    }
+
+    /// "Bo gets one too".
+    fn gets_one(&self, thing: &NewThing, from: usize, end: usize) -> Option<Wish> {
+        let cut =
+            (from + 1..end).find(|at| longest_phrase(&self.lexemes[*at..end], GETS_ONE) == Some(end - at))?;
+        let anchor = Anchor::Thing(self.one_of(from, cut).ok()?);
+        Some(Wish::Add {
+            things: vec![NewThing { name: None, ..thing.clone() }],
+            at: vec![Where::By(anchor)],
+        })
+    }
+
+    /// The last noun of a class among the words, in the singular as far as rules go.
+    pub(super) fn last_noun(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        // The first noun is what a part is about; nouns behind it belong to its place.
+        (from..end).find_map(|at| {
+            let (class, words) = category(&self.lexemes[at..end])?;
+            let said = &self.lexemes[at..at + words];
+            let Token::Word(last) = &said[words - 1].token else { return None };
+            let singular = class
+                .words
+                .iter()
+                .map(|known| known.rsplit(' ').next().unwrap_or(known))
+                .find(|known| *known == last || plural_of(known) == *last)
+                .unwrap_or(last);
+            let mut noun = said.to_vec();
+            noun[words - 1] = word_at(&said[words - 1], singular);
+            Some(noun)
+        })
+    }
+}
+
+fn plural_of(word: &str) -> String {
+    if word.ends_with("sh") || word.ends_with("ch") || word.ends_with('s') || word.ends_with('x') {
+        format!("{word}es")
+    } else if let Some(stem) = word.strip_suffix('y').filter(|stem| !stem.ends_with(['a', 'e', 'o', 'u'])) {
+        format!("{stem}ies")
+    } else {
+        format!("{word}s")
+    }
+}
+
+impl Where {
+    /// What it is to, if it is to one thing.
+    pub(super) fn anchor(&self) -> Option<Anchor> {
+        self.clone().anchor_mut().cloned()
+    }
+}
+
+/// Whether a reference leaves open what it is about.
+pub(super) fn is_open(reference: &Reference) -> bool {
+    matches!(reference.target, Target::It | Target::Them)
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    [ONE_MORE, MORE, SAME_FOR, TOO, GETS_ONE].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+}

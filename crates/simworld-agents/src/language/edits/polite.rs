@@ -1,0 +1,41 @@
+//! What joins wishes, and what is put before and behind them and says nothing.
+
+/// What joins two wishes.
+#[rustfmt::skip]
+pub(super) const JOINTS: &[&str] = &["and", "then", "and then", "also", "plus", "but", "and also", "as well as",
+    "after that", "next", "finally", "too", "as well", "while you are at it", "now", "along with", "together with",
+    "and finally", "afterwards", "first", "so", "or rather", "with"];
+/// What is put before and behind wishes, and says nothing.
+#[rustfmt::skip]
+pub(super) const POLITE: &[&str] = &["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
+    "um", "well", "could you", "can you", "would you", "will you", "can u", "could u", "i want you to",
+    "i would like you to", "id like you to", "you should", "you must", "lets", "let us", "just", "try to",
+    "go ahead and", "would you mind", "do you mind", "if you can", "if you could", "if possible",
+    "if you dont mind", "for me", "for us", "quickly", "simply", "maybe", "perhaps", "would you please",
+    "could you please", "can you please", "will you please", "yo", "dude", "bro", "mate", "pls", "plz",
+    "i think you should", "i want to", "i would like to", "id like to", "i need to", "we need to", "we should",
+    "we want to", "help me", "be so kind as to", "be so kind and", "why dont you", "how about you",
+    "be so good as to", "i think", "actually", "really", "also", "again", "to", "cheers", "i dont care where",
+    "i dont mind where", "thx", "there", "buddy", "guys", "everyone", "do me a favour and", "do me a favor and",
+    "i ask you to", "need you to", "i need you to", "oh", "oh and", "hmm", "so", "can we", "could we",
+    "may i ask you to", "it would be nice to", "it would be great to", "it would be nice if you could",
+    "id be grateful if you could", "would it be possible to", "is it possible to", "might you",
+    "i reckon we should", "you need to", "you have to", "you can", "you could", "go and", "go", "instead", "now",
+    "kindly please", "sir", "as well", "too", "i wonder if you could", "it is time to", "its time to", "time to",
+    "how about", "what about", "what if we", "shall we", "anymore", "any more", "any longer", "at all",
+    "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"];
+/// What is put behind wishes, and says nothing.
+#[rustfmt::skip]
+pub(super) const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if you can", "if you could",
+    "if possible", "if you dont mind", "pls", "plz", "now", "instead", "too", "as well", "anymore", "any more",
+    "any longer", "at all", "i dont care where", "i dont mind where", "cheers", "thx", "okay", "ok", "mate",
+    "buddy", "bro", "dude", "sir", "quickly", "again", "would you", "will you", "could you", "can you",
+    "if you would", "if you will", "thanks a lot", "if its not too much trouble", "if it is not too much trouble",
+    "right now", "right away", "immediately", "asap", "thank you very much", "thanks in advance", "if its possible",
+    "if it is possible", "kindly", "also", "my friend", "when you can", "when you have time",
+    "from the scene", "from the map", "from the world", "from the city", "from the campus", "from town", "from the harbour", "from here",
+    "if you would be so kind", "for good", "for now", "from now on", "as soon as possible", "whenever you can", "this time",
+    "today", "right there", "once and for all", "for once", "would you please", "for heavens sake", "for gods sake", "ya", "no", "eh", "huh",
+    "right", "yeah", "man", "thank you so much", "many thanks", "much appreciated", "ta", "at once", "quick", "i guess", "i think", "i suppose", "dear",
+    "if thats ok", "if that is ok", "if thats okay", "if thats possible", "if that is possible", "if theres room", "if there is room", "if there is space",
+    "if you like", "if you please", "if you want", "somehow", "lol", "already", "first", "next", "or so", "or something", "or whatever", "you know"];

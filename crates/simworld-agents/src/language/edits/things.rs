@@ -1,0 +1,232 @@
+//! New things: the noun phrase of what is to be made, and lists of them with their places.
+
+use simworld_core::seam::PlanError;
+
+use super::super::lexer::Token;
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::numbers;
+use super::super::paint::PAINTS;
+use super::parse::{Reader, joint};
+use super::wish::{Anchor, NewThing, Where, Wish};
+use super::words::{FACTORS, SIZES};
+
+/// What ends the noun of a new thing: what it is called.
+const CALLED: &[&str] = &["called", "named", "with the name", "with the name of", "by the name of"];
+/// Articles and the like before a new thing.
+#[rustfmt::skip]
+pub(super) const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the", "one more", "a new", "new", "a single",
+    "yet another", "a few", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
+    "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
+    "around", "see", "please", "yet another", "one more of", "just one", "just a", "possibly", "ideally", "preferably"];
+/// How something is to be where it stands.
+#[rustfmt::skip]
+const POSTURES: &[&str] = &["standing", "sitting", "waiting", "parked", "placed", "located", "leaning", "lying", "planted", "installed", "that stands", "which stands",
+    "that is", "that are", "which is", "positioned", "situated", "that sits", "resting", "put", "hanging", "set up", "lined up", "to stand", "to be", "to go", "to sit", "to wait",
+    "that goes", "to be placed", "to put", "growing", "built", "set", "to be put", "to be parked", "to park", "to place", "mounted", "stood", "right", "directly", "somewhere", "just",
+    "exactly", "only", "who stands", "who waits", "perched", "balanced", "going", "ready", "and place it", "and put it", "and park it", "and set it", "and stick it", "and put them",
+    "and place them", "and park them", "and leave it", "and plant it", "and stand it", "and drop it", "and put that", "and have it", "and get it"];
+/// Words that are in the name of no thing.
+#[rustfmt::skip]
+const NO_NOUNS: &[&str] = &["is", "are", "was", "were", "has", "have", "needs", "need", "wants", "want", "loves", "should", "must", "would", "could", "i", "you", "he", "she",
+    "we", "they", "them", "it", "my", "your", "nobody", "everybody", "everyone", "there", "ones", "twice", "many", "copy", "copies", "clone", "duplicate", "because", "if",
+    "let", "be", "do", "does", "dont", "not", "never", "gets", "goes", "same", "us", "me", "make", "paint", "move", "remove", "delete", "her", "him",
+    "than", "as", "which", "who", "why", "what", "where", "nowhere", "somewhere", "wouldnt", "isnt", "arent", "doesnt", "cant", "to", "keeps", "keep", "until", "unless",
+    "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those", "put", "add", "erect", "install", "no", "ya"];
+
+impl Reader<'_> {
+    /// New things and where they stand, in groups: "two benches and a bin next to the fountain and a tree behind it".
+    pub(super) fn additions(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let mut wishes = Vec::new();
+        let mut anchor: Option<Anchor> = None;
+        let mut last: Option<NewThing> = None;
+        let there = self.there_first(end);
+        while self.at < end {
+            if anchor.is_some() && self.is_bare_singular(end) {
+                return Err(self.not_understood("say \"next to\" again, or \"a\" before what is to be made"));
+            }
+            let mut things = vec![self.another(end, last.as_ref()).map_or_else(|| self.new_thing(end), Ok)?];
+            while let Some(count) = joint(self.rest(end)) {
+                let start = self.at;
+                self.at += count;
+                self.skip_joints_to(end);
+                let is_more = || Reader { ..*self }.another(end, things.last()).is_some();
+                if self.at >= end || self.is_place(self.at) || is_more() {
+                    self.at = start;
+                    break;
+                }
+                things.push(self.new_thing(end)?);
+            }
+            let whose = self.for_whom(end);
+            let from = self.at;
+            if joint(self.rest(end)).is_some() {
+                self.skip_joints_to(end);
+            }
+            if whose.is_some() {
+                anchor.clone_from(&whose);
+            }
+            let at = if let Some(whose) = whose.filter(|_| self.at >= end || !self.is_place(self.at)) {
+                self.at = from;
+                vec![Where::By(whose)]
+            } else if self.at < end && self.is_place(self.at) {
+                let mut at = self.places(end)?;
+                // "A tree behind the school and a bench in front of it": of the school.
+                for place in &mut at {
+                    place.means(&mut anchor);
+                }
+                at
+            } else {
+                self.at = from;
+                there.clone().unwrap_or_default()
+            };
+            if at.iter().any(|place| matches!(place, Where::Shift(..) | Where::ShiftOwn(..))) {
+                return Err(self.not_understood("say from what it is so far"));
+            }
+            last = things.last().cloned();
+            // "Benches: one by the fountain, one by the kiosk".
+            let is_topic =
+                wishes.is_empty() && at.is_empty() && things.len() == 1 && self.is_topic(last.as_ref(), end);
+            if is_topic {
+                last = last.map(|thing| NewThing { count: 1, ..thing });
+                self.skip_joints_to(end);
+                continue;
+            }
+            wishes.push(vec![Wish::Add { things, at }]);
+            self.skip_joints_to(end);
+        }
+        if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
+    }
+
+    /// "Plant there two palm trees": the place before them, which it passes.
+    fn there_first(&mut self, end: usize) -> Option<Vec<Where>> {
+        let is_there = matches!(self.word(self.at), Some("there" | "here"))
+            && (!self.is_definite(self.at + 1) || self.is_bare_plural(self.at + 1, end));
+        let there = if is_there { self.places_to(self.at, self.at + 1) } else { None };
+        self.at += usize::from(there.is_some());
+        there
+    }
+
+    /// Whether what was named is only what "one" stands for behind it.
+    fn is_topic(&self, last: Option<&NewThing>, end: usize) -> bool {
+        let mut next = *self;
+        next.skip_joints_to(end);
+        next.at > self.at && next.another(end, last).is_some()
+    }
+
+    /// "Another one": as the thing before.
+    pub(super) fn another(&mut self, end: usize, last: Option<&NewThing>) -> Option<NewThing> {
+        let last = last?;
+        let count = longest_phrase(
+            self.rest(end),
+            &[
+                "another one",
+                "one more",
+                "another",
+                "a second one",
+                "one",
+                "a third one",
+                "the other one",
+                "the other",
+            ],
+        )?;
+        if !self.is_place(self.at + count) {
+            return None;
+        }
+        self.at += count;
+        Some(NewThing { count: 1, ..last.clone() })
+    }
+
+    /// "A parasol for the café": whose it is to be, if that is a thing of the scene.
+    fn for_whom(&mut self, end: usize) -> Option<Anchor> {
+        if self.word(self.at) != Some("for") || !self.is_certain(self.at + 1) {
+            return None;
+        }
+        let mut parser = self.parser(self.at + 1, self.before_politeness(self.at, end));
+        let thing = parser.reference(0).ok()?;
+        let after = parser.at;
+        let ends =
+            after >= self.before_politeness(self.at, end) || self.is_joint(after) || self.is_place(after);
+        ends.then(|| {
+            self.at = after;
+            Anchor::Thing(thing)
+        })
+    }
+
+    /// "Next to the fountain, statue and kiosk": a noun without an article, behind a place, is no new thing.
+    fn is_bare_singular(&self, end: usize) -> bool {
+        let rest = self.rest(end);
+        longest_phrase(rest, ARTICLES).is_none()
+            && numbers::number(rest).is_none()
+            && longest(rest, PAINTS).is_none()
+            && longest(rest, SIZES).is_none()
+            && !self.is_bare_plural(self.at, end)
+    }
+
+    /// The name of a new thing, up to its place.
+    fn new_name(&mut self, end: usize) -> String {
+        let from = self.at;
+        while self.at < end && !self.is_place(self.at) && joint(self.rest(end)).is_none() {
+            self.at += 1;
+        }
+        self.written(from, self.at)
+    }
+
+    /// "Three tall red sports cars".
+    pub(super) fn new_thing(&mut self, end: usize) -> Result<NewThing, PlanError> {
+        let start = self.at;
+        let mut thing = NewThing {
+            words: Vec::new(),
+            count: 1,
+            paint: None,
+            scale: 1.0,
+            name: None,
+            text: String::new(),
+        };
+        while self.at < end {
+            let rest = self.rest(end);
+            // "A three-legged stool" is one.
+            let is_part = |words: usize| self.words[rest[words - 1].end..].starts_with('-');
+            if let Some((count, words)) =
+                numbers::count(rest).filter(|(_, words)| thing.words.is_empty() && !is_part(*words))
+            {
+                (thing.count, self.at) = (count, self.at + words);
+            } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
+                self.at += words;
+            } else if let Some(words) = longest_phrase(rest, CALLED) {
+                self.at += words;
+                thing.name = Some(self.new_name(end));
+                break;
+            } else if joint(rest).is_some()
+                || self.is_place(self.at)
+                || self.word(self.at) == Some("for")
+                    && !thing.words.is_empty()
+                    && self.is_certain(self.at + 1)
+                || self.before_politeness(start, end) <= self.at
+            {
+                break;
+            } else if let Some(words) = longest_phrase(rest, POSTURES)
+                .filter(|words| !thing.words.is_empty() && self.is_place((self.at + words).min(end)))
+            {
+                self.at += words;
+                break;
+            } else if let Some((paint, words)) = longest(rest, PAINTS).filter(|_| thing.paint.is_none()) {
+                (thing.paint, self.at) = (Some(paint), self.at + words);
+            } else if let Some((factor, words)) = longest(rest, FACTORS).filter(|_| !thing.words.is_empty()) {
+                // "A bench twice as big".
+                (thing.scale, self.at) = (factor, self.at + words);
+            } else if let Some((factor, words)) = longest(rest, SIZES).filter(|_| thing.words.is_empty()) {
+                (thing.scale, self.at) = (factor, self.at + words);
+            } else if let Token::Word(word) = &rest[0].token {
+                thing.words.push(word.clone());
+                self.at += 1;
+            } else {
+                break;
+            }
+        }
+        thing.text = self.written(start, self.at);
+        if thing.words.is_empty() || thing.words.iter().any(|word| NO_NOUNS.contains(&word.as_str())) {
+            self.at = start;
+            return Err(self.not_understood("say what to add"));
+        }
+        Ok(thing)
+    }
+}

@@ -1,0 +1,300 @@
+//! Orders about things that are taken, handed over, put down or photographed.
+
+use super::clause::{Clause, Grip, Manner, Pace, Reference, Stands, Target};
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{category, fits, longest_phrase};
+use super::numbers;
+use super::orders::{BRINGS, PHOTOS};
+use super::parser::Parser;
+use simworld_core::seam::PlanError;
+
+/// Who is to be driven, before where to.
+#[rustfmt::skip]
+const ME_TO: &[&str] = &[
+    "me up at", "us up at", "me up from", "us up from", "me up by", "me up in front of",
+    "me up outside", "me at", "me to", "us to", "yourself to", "me over to", "us over to",
+    "yourself over to",
+];
+/// What is in hand, whatever it is.
+#[rustfmt::skip]
+const WHAT_YOU_HOLD: &[&str] = &[
+    "what you hold", "what youre holding", "what you are holding", "what you have",
+    "what you are carrying", "what youre carrying", "what you carry", "whatever you hold",
+    "whatever youre holding", "whatever you are holding", "everything",
+];
+/// What leads to where something is put.
+#[rustfmt::skip]
+const PLACES: &[&str] = &[
+    "at", "to", "in", "on", "into", "over to", "back to", "onto", "with", "up to", "down to",
+    "across to", "over at", "by", "along to", "out to", "round to", "off at", "down at", "down by",
+    "down on", "down in", "outside", "straight to",
+];
+
+impl Parser<'_> {
+    pub(super) fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
+        if self.takes_me() {
+            return self.go(Pace::Usual, start);
+        }
+        if let Some(clauses) = self.turn_to_take() {
+            return Ok(clauses);
+        }
+        let taken = self.lexemes[start..self.at].iter().map(|lexeme| &lexeme.token);
+        let grip = if taken.eq([&Token::Word("take".to_owned())]) { Grip::LiftOrRide } else { Grip::Lift };
+        self.eat_any(&["me", "us", "yourself"]);
+        if self.counts_steps() {
+            if let Some(clauses) = self.by_the_compass(Pace::Usual)? {
+                return Ok(clauses);
+            }
+            return self.step().map(|step| vec![step]);
+        }
+        let photos = numbers::number(self.rest()).filter(|(number, _)| *number >= 1.0 && *number <= 100.0);
+        if let Some((number, count)) = photos
+            && let Some(words) = longest_phrase(&self.rest()[count..], PHOTOS)
+        {
+            self.at += count + words;
+            return self.photo(number as u32);
+        }
+        self.eat_any(&["up", "over", "back"]);
+        if let Some(photo) = self.portrait()? {
+            return Ok(photo);
+        }
+        if let Some(clauses) = self.fetched_for()? {
+            return Ok(clauses);
+        }
+        let start = self.at;
+        let what = match self.reference(0) {
+            Ok(what) => what,
+            // "Get two bottles of water": what nobody has to hand over is bought.
+            Err(error) => {
+                self.at = start;
+                return self.buy().map_err(|_| error);
+            }
+        };
+        self.eat_any(&["up", "along", "with you", "over", "across", "back", "off"]);
+        let mut what = what;
+        if what.relation.is_none() && self.eat_any(&["from"]) {
+            what.relation = Some(Stands::Of(Box::new(self.reference(0)?)));
+        }
+        let to = self.tail_place(BRINGS)?;
+        if to.is_none()
+            && self.peeks("for")
+            && let Some(whom) = self.for_whom()
+        {
+            return Ok(vec![Clause::Give { what: Some(what), to: whom }]);
+        }
+        Ok(vec![Clause::Take { what, to, grip }])
+    }
+
+    /// "Take me to the school", "pick me up at the café": who is driven says where to.
+    fn takes_me(&mut self) -> bool {
+        let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
+        self.eat_any(ME_TO) || brings_me && self.eat_any(&["to", "over to", "back to"])
+    }
+
+    /// "Fetch Gus a newspaper", "fetch Hana the letter".
+    fn fetched_for(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        let Some(whom) = self.somebody_here() else { return Ok(None) };
+        let at = self.at;
+        if let Some(goods) = self.goods() {
+            return self.purchase(goods, Some(whom)).map(Some);
+        }
+        self.at = at;
+        let named = !self.ends_clause()
+            && (longest_phrase(self.rest(), &["the", "a", "that", "his", "her", "my"]).is_some()
+                || category(self.rest()).is_some());
+        if named && let Ok(what) = self.reference(0) {
+            return Ok(Some(vec![Clause::Give { what: Some(what), to: whom }]));
+        }
+        self.at = start;
+        Ok(None)
+    }
+
+    /// "Take its picture", "take Anna's photo".
+    pub(super) fn portrait(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        const WHOSE: &[(&[&str], Target)] =
+            &[(&["its", "their"], Target::It), (&["his", "her"], Target::Them)];
+        let start = self.at;
+        for (words, target) in WHOSE {
+            if self.eat_any(words) && self.eat_any(PHOTOS) {
+                let of = Some(Reference::to(target.clone(), self.text_from(start)));
+                return Ok(Some(vec![Clause::Photo { of, times: 1 }]));
+            }
+            self.at = start;
+        }
+        let whose = (1..4).find(|at| {
+            self.rest().get(*at).is_some_and(|_| longest_phrase(&self.rest()[*at..], PHOTOS).is_some())
+        });
+        let possessive = whose.filter(|at| {
+            let last = &self.rest()[at - 1];
+            self.words[last.start..last.end].ends_with("'s")
+                || self.words[last.start..last.end].ends_with("’s")
+        });
+        let Some(words) = possessive else { return Ok(None) };
+        let mut owner: Vec<Lexeme> = self.rest()[..words].to_vec();
+        if let Some(Lexeme { token: Token::Word(word), .. }) = owner.last_mut() {
+            word.pop();
+        }
+        let mut named = Parser::new(self.words, &owner, self.names, self.view);
+        let of = named.reference(0)?;
+        self.at += words;
+        self.eat_any(PHOTOS);
+        Ok(Some(vec![Clause::Photo { of: Some(of), times: 1 }]))
+    }
+
+    /// "Snap two photos of": two; none if no photo is spoken of.
+    pub(super) fn number_of_photos(&mut self) -> u32 {
+        let start = self.at;
+        let number = numbers::count(self.rest());
+        self.at += number.map_or(0, |(_, count)| count);
+        if number.is_none() {
+            self.eat_any(&["a", "an", "another", "some"]);
+        }
+        let said = self.eat_any(PHOTOS);
+        if said && number.is_none() {
+            return 1;
+        }
+        let Some((number, _)) = number.filter(|_| said) else {
+            self.at = start;
+            return 0;
+        };
+        number
+    }
+
+    pub(super) fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
+        let named = self.eat_any(&["of"]) || !self.ends_clause();
+        let of = if named { Some(self.reference(0)?) } else { None };
+        Ok(vec![Clause::Photo { of, times }])
+    }
+
+    pub(super) fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(&["me", "us"]);
+        if let Some(clauses) = self.gesture_to()? {
+            return Ok(clauses);
+        }
+        let somebody = self.somebody_here();
+        if let Some(goods) = self.goods() {
+            return self.purchase(goods, somebody);
+        }
+        self.at = start;
+        let first = self.reference(0)?;
+        if let Some((seconds, words)) = numbers::duration(self.rest())
+            .filter(|(seconds, words)| first.target == Target::It && *words > 1 && *seconds > 0.0)
+        {
+            self.at += words;
+            return Ok(vec![Clause::Wait { seconds }]); // "give it ten seconds"
+        }
+        if let Some(clauses) = self.gesture(&first) {
+            return Ok(clauses);
+        }
+        let over = self.eat_any(&["over", "back"]);
+        if over && self.ends_clause() {
+            let to = Reference::to(Target::Them, "them".to_owned());
+            return Ok(vec![Clause::Give { what: Some(first), to }]);
+        }
+        if self.eat_any(&["to", "over to", "back to", "on to", "up to", "across to"]) {
+            return Ok(vec![Clause::Give { what: Some(first), to: self.reference(0)? }]);
+        }
+        if self.ends_clause() {
+            return Err(self.not_understood("say to whom, as in \"give the parcel to Anna\""));
+        }
+        Ok(vec![Clause::Give { what: Some(self.reference(0)?), to: first }])
+    }
+
+    /// "Give a wave to Ben", "give three waves to Anna".
+    pub(super) fn gesture_to(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
+        self.at += number.map_or(0, |(_, count)| count);
+        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
+        let waves = number.is_some()
+            && self.eat_any(&["wave", "waves", "wave of your hand"])
+            && self.eat_any(&["to", "at", "for", "over to", "towards"]);
+        let Some((number, _)) = number.filter(|_| waves) else {
+            self.at = start;
+            return Ok(None);
+        };
+        let wave = Clause::Wave { to: self.reference(0)? };
+        let times = number as u32;
+        Ok(Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }]))
+    }
+
+    /// "Give Ben a wave".
+    pub(super) fn gesture(&mut self, to: &Reference) -> Option<Vec<Clause>> {
+        let start = self.at;
+        let number = numbers::number(self.rest()).filter(|(number, _)| (1.0..=100.0).contains(number));
+        self.at += number.map_or(0, |(_, count)| count);
+        self.eat_any(&["big", "little", "friendly", "quick", "nice", "small"]);
+        if number.is_none() || !self.eat_any(&["wave", "waves", "wave of your hand"]) {
+            self.at = start;
+            return None;
+        }
+        let wave = Clause::Wave { to: to.clone() };
+        let times = number.map_or(1, |(number, _)| number as u32);
+        Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])
+    }
+
+    pub(super) fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        if manner == Manner::Deliver {
+            let whom = self.receiver();
+            if let Some(goods) = self.goods() {
+                return self.purchase(goods, whom);
+            }
+            self.at = start;
+        }
+        self.eat_any(WHAT_YOU_HOLD);
+        let what = if self.ends_clause() || longest_phrase(self.rest(), PLACES).is_some() {
+            None
+        } else {
+            Some(self.reference(0)?)
+        };
+        self.eat_any(&["down", "off", "up", "over", "across", "back"]);
+        let mut at = self.tail_place(PLACES)?;
+        let what = what.map(|mut what| {
+            // "Put the cone next to the bin" says where to, and not which cone.
+            match what.relation.take() {
+                Some(Stands::To(_, anchor)) if at.is_none() => at = Some(*anchor),
+                relation => what.relation = relation,
+            }
+            what
+        });
+        if at.is_none() && self.eat_any(&["here", "back", "back here"]) {
+            at = Some(Reference::to(Target::Here, "here".to_owned()));
+        }
+        if manner == Manner::Deliver && at.is_none() {
+            return self.delivered_to_somebody(what);
+        }
+        Ok(vec![Clause::Drop { what, at, manner }])
+    }
+
+    /// "Bring Anna the parcel", "bring it over": no place follows.
+    fn delivered_to_somebody(&mut self, what: Option<Reference>) -> Result<Vec<Clause>, PlanError> {
+        let over = self.lexemes[self.at - 1].token == Token::Word("over".to_owned());
+        if over && self.ends_clause() {
+            let to = Reference::to(Target::Them, "them".to_owned());
+            return Ok(vec![Clause::Give { what, to }]);
+        }
+        if !self.ends_clause()
+            && let Some(to) = what
+        {
+            return Ok(vec![Clause::Give { what: Some(self.reference(0)?), to }]); // "bring Anna the parcel"
+        }
+        Err(self.not_understood("say where to, as in \"bring the parcel to the museum\""))
+    }
+
+    /// "Move the letter to the clinic" is about the letter.
+    pub(super) fn moves_thing(&mut self, start: usize) -> bool {
+        let moves = ["move", "shift", "relocate"]
+            .iter()
+            .any(|word| fits(&self.lexemes[start..self.at], word).is_some());
+        let at = self.at;
+        let thing = moves
+            && longest_phrase(self.rest(), &["the", "that", "this", "it", "my", "a"]).is_some()
+            && self.reference(0).is_ok();
+        let leads = thing && longest_phrase(self.rest(), BRINGS).is_some();
+        self.at = at;
+        leads
+    }
+}

@@ -1,0 +1,270 @@
+//! Orders without a verb: "a coffee, please", "two waves for Ben", "next left", "twenty metres straight ahead".
+
+use simworld_core::net::Turn;
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Lights, Pace, Target};
+use super::lexer::{Lexeme, Token};
+use super::lexicon::longest_phrase;
+use super::numbers;
+use super::orders::PHOTOS;
+use super::parser::Parser;
+use super::verbs::Verb;
+
+const WAVES: &[&str] =
+    &["waves", "wave", "big wave", "friendly wave", "wave of the hand", "waves of the hand"];
+/// On which side one turns, without a verb.
+#[rustfmt::skip]
+const TURNS: &[(&[&str], Turn)] = &[
+    (&["left", "a left", "left turn", "turning on the left", "on the left", "street on the left",
+    "road on the left", "left turning"], Turn::Left),
+    (&["right", "a right", "right turn", "turning on the right", "on the right", "street on the right",
+    "road on the right", "right turning"], Turn::Right),
+    (&["straight", "straight on", "straight ahead", "straight over", "straight across", "straight through"],
+    Turn::Straight),
+];
+
+/// Reads one kind of such orders; nothing where it is none.
+type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
+
+impl Parser<'_> {
+    /// An order in nouns alone.
+    pub(super) fn nominal(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let start = self.at;
+        self.skip_fillers();
+        let rules: [Rule<'_>; 7] = [
+            Self::counted_deeds,
+            |parser| Ok(parser.turning()),
+            Self::measured_way,
+            |parser| Ok(parser.up_and_down()),
+            Self::rounds,
+            Self::wanted_goods,
+            Self::destination,
+        ];
+        for rule in rules {
+            let at = self.at;
+            if let Some(clauses) = rule(self)? {
+                return Ok(Some(clauses));
+            }
+            self.at = at;
+        }
+        self.at = start;
+        Ok(None)
+    }
+
+    /// "Two waves for Ben", "a photo of the statue", and "one for Anna" after either.
+    pub(super) fn counted_deeds(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        self.eat_any(&[
+            "give me",
+            "i want",
+            "id like",
+            "i would like",
+            "id love",
+            "i need",
+            "lets have",
+            "how about",
+            "what about",
+        ]);
+        let number = numbers::number(self.rest())
+            .filter(|(number, _)| (1.0..=100.0).contains(number) && number.fract() == 0.0);
+        let Some((number, words)) = number else { return Ok(None) };
+        self.at += words;
+        let times = number as u32;
+        self.eat_any(&["more", "nice", "quick", "good", "another"]);
+        let waves = self.eat_any(WAVES);
+        let photos = !waves && self.eat_any(PHOTOS);
+        let again = !waves
+            && !photos
+            && longest_phrase(self.rest(), &["of", "for", "at", "to", "more of", "more for"]).is_some();
+        if waves || again && self.verb == Some(Verb::Wave) {
+            self.verb = Some(Verb::Wave);
+            if !self.eat_any(&["for", "at", "to", "towards", "more for"]) {
+                return Ok(None);
+            }
+            let wave = Clause::Wave { to: self.reference(0)? };
+            return Ok(Some(vec![if times == 1 {
+                wave
+            } else {
+                Clause::Repeat { times, body: vec![wave] }
+            }]));
+        }
+        if photos || again && self.verb == Some(Verb::Photo) {
+            self.verb = Some(Verb::Photo);
+            let of = if self.eat_any(&["of", "more of"]) { Some(self.reference(0)?) } else { None };
+            return Ok(Some(vec![Clause::Photo { of, times }]));
+        }
+        Ok(None)
+    }
+
+    /// "Next left", "left at the lights", "straight over the crossing after it".
+    fn turning(&mut self) -> Option<Vec<Clause>> {
+        let another = self.eat_any(&["another", "one more"]);
+        self.eat_any(&["the", "a", "then"]);
+        let nth = if self.eat_any(&["next", "very next"]) { Some(1) } else { numbers::ordinal(self.rest()) };
+        self.at += usize::from(numbers::ordinal(self.rest()).is_some());
+        self.eat_any(&["turning", "turn", "street", "road"]);
+        let (turn, words) = super::lexicon::longest(self.rest(), TURNS)?;
+        self.at += words;
+        self.eat_any(&["again", "turn"]);
+        if let Some((nth, lights)) = self.junction_passed().or_else(|| self.junction()) {
+            return Some(vec![Clause::TurnAt { turn, nth, lights }]);
+        }
+        if !self.ends_clause() || turn == Turn::Straight && nth.is_none() {
+            return None;
+        }
+        let drives = self.view.scene.entity(self.view.who).is_some_and(|me| me.kind.is_vehicle());
+        // Who walks and says "left" turns where it stands; who drives takes the next street.
+        let nth = nth.or((another || drives && matches!(turn, Turn::Left | Turn::Right)).then_some(1))?;
+        Some(vec![Clause::TurnAt { turn, nth, lights: Lights::Any }])
+    }
+
+    /// "Over the crossing after it", "across the junction": which junction is passed straight on.
+    pub(super) fn junction_passed(&mut self) -> Option<(u32, Lights)> {
+        let start = self.at;
+        self.eat_any(&["on", "ahead"]);
+        let said = self.at > 0
+            && matches!(&self.lexemes[self.at - 1].token, Token::Word(word) if ["over", "across", "through"].contains(&word.as_str()));
+        let over = self.eat_any(&["over", "across", "through", "past"]) || said;
+        let next = &[
+            "it",
+            "the crossing after it",
+            "the junction after it",
+            "the next one",
+            "the one after it",
+            "the crossing after that",
+            "the junction after that",
+            "the next crossing",
+            "the next junction",
+            "the crossing",
+            "the junction",
+            "the crossroads",
+            "the intersection",
+            "the next intersection",
+            "the next crossroads",
+            "that",
+            "that one",
+        ];
+        if over && self.eat_any(next) && self.ends_clause() {
+            return Some((1, Lights::Any));
+        }
+        self.at = start;
+        None
+    }
+
+    /// "Twenty metres straight ahead", "a quarter turn to the left", "three steps back".
+    fn measured_way(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let is_turn = numbers::angle(self.rest()).is_some_and(|(_, words)| words > 1)
+            && numbers::walked(self.rest()).is_none();
+        if is_turn && !matches!(self.rest().first(), Some(Lexeme { token: Token::Number(_), .. })) {
+            return self.turn().map(|turn| Some(vec![turn]));
+        }
+        if numbers::walked(self.rest()).is_none() {
+            return Ok(None);
+        }
+        if let Some(clauses) = self.by_the_compass(Pace::Usual)? {
+            return Ok(Some(clauses));
+        }
+        let start = self.at;
+        let step = self.step()?;
+        let said = self.lexemes[start..self.at].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["ahead", "forward", "forwards", "left", "right", "back", "backwards", "straight", "on"].contains(&word.as_str()))
+        });
+        Ok(said.then(|| vec![step]))
+    }
+
+    /// "Once around the block".
+    fn rounds(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let Some((times, words)) = numbers::times(self.rest()) else { return Ok(None) };
+        self.at += words;
+        if !self.eat_any(&["around", "round", "all around", "all round"]) {
+            return Ok(None);
+        }
+        let body = self.round(Pace::Usual)?;
+        Ok(Some(if times == 1 { body } else { vec![Clause::Repeat { times, body }] }))
+    }
+
+    /// "Down and up again": to sit and to stand.
+    fn up_and_down(&mut self) -> Option<Vec<Clause>> {
+        let clause = if self.eat_any(&["down", "down again", "back down"]) {
+            Clause::Sit { on: None }
+        } else if self.eat_any(&["up", "up again", "back up", "on your feet"]) {
+            Clause::StandUp
+        } else {
+            return None;
+        };
+        self.ends_clause().then(|| vec![clause])
+    }
+
+    /// "A coffee, please", "soup from the Blue Spoon first".
+    fn wanted_goods(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        self.eat_any(&[
+            "i want",
+            "id like",
+            "i would like",
+            "id love",
+            "i need",
+            "i could do with",
+            "i fancy",
+            "how about",
+            "what about",
+            "we need",
+        ]);
+        let Some(goods) = self.goods() else { return Ok(None) };
+        if self.mark() == Some('?') && self.rest().len() > 1 {
+            return Ok(None); // "what about a coffee? go and buy one"
+        }
+        let clauses = self.purchase(goods, None)?;
+        Ok(self.ends_clause().then_some(clauses))
+    }
+
+    /// "The hospital, please": a building, or where one was going before.
+    fn destination(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        let told = self.eat_any(&[
+            "next stop",
+            "destination",
+            "the destination is",
+            "your destination is",
+            "the next stop is",
+            "our destination is",
+            "first stop",
+            "last stop",
+            "your next stop is",
+            "your first stop is",
+            "your last stop is",
+            "your next destination is",
+            "how about",
+            "what about",
+        ]);
+        if matches!(self.mark(), Some(':')) {
+            self.at += 1;
+        }
+        self.eat_any(&[
+            "to",
+            "over to",
+            "off to",
+            "on to",
+            "into",
+            "up to",
+            "back to",
+            "down to",
+            "across to",
+            "away to",
+        ]);
+        let to = self.reference(0)?;
+        let is_building = match &to.target {
+            Target::Any(class) => class.is_place(),
+            Target::Named(ids) => ids.iter().any(|id| {
+                self.view
+                    .scene
+                    .entity(*id)
+                    .is_some_and(|entity| entity.kind == simworld_core::scene::EntityKind::Building)
+            }),
+            _ => false,
+        };
+        if !is_building && !told || !self.ends_clause() {
+            return Ok(None);
+        }
+        self.verb = Some(Verb::Go);
+        Ok(Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]))
+    }
+}

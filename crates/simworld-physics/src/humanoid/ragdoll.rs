@@ -1,0 +1,307 @@
+//! The body of somebody who falls: ten limbs on joints that give way.
+//!
+//! The trunk takes the place of the upright body's collider on the same rigid body, so its frame stays the entity's: the
+//! origin is where the soles would be. The other nine limbs are rigid bodies beside it. Masses are shares of the body's
+//! mass, lengths shares of its height (Winter, Biomechanics and Motor Control of Human Movement, 2009, table 4.1 and
+//! figure 4.1, after Dempster 1955 and Drillis and Contini 1966); forearm and hand are one limb, and so are shank and
+//! foot. Joints end where those of adults do (Norkin and White, Measurement of Joint Motion, 2016), rounded.
+
+use rapier3d_f64::dynamics::{MotorModel, RevoluteJointBuilder, SphericalJointBuilder};
+use rapier3d_f64::math::{Pose as RapierPose, Vector};
+use rapier3d_f64::prelude::{
+    CoefficientCombineRule, Collider, ColliderBuilder, GenericJoint, Group, InteractionGroups,
+    InteractionTestMode, JointAxis, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape,
+};
+use serde::{Deserialize, Serialize};
+use simworld_core::asset::Material;
+use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
+use simworld_core::ops;
+
+/// What clothes are made of: it decides how far somebody slides.
+const CLOTHES: Material = Material::Fabric;
+/// Limbs meet everything but limbs, their own or those of others: knees do not lock with elbows.
+const LIMB: Group = Group::GROUP_2;
+/// Share of the mass that the trunk has.
+const TRUNK_MASS: f64 = 0.497;
+/// Heights of the hips and the shoulders as shares of the body's.
+const HIP: f64 = 0.530;
+const SHOULDER: f64 = 0.818;
+/// Half the depth and half the width of the trunk as shares of the height.
+const TRUNK: [f64; 2] = [0.055, 0.085];
+/// What muscles and tissue take from the motion of a joint, as a share of what is beyond it: N m s/rad for each kg of
+/// the body's mass. An arm that swings comes to rest within a second.
+const DAMPING: f64 = 0.05;
+
+/// How a joint may turn about the axes of the upright body, x forward, y left, z up: from, to, radians.
+enum Freedom {
+    /// Like a ball in its socket.
+    Ball([[f64; 2]; 3]),
+    /// About y alone.
+    Hinge([f64; 2]),
+}
+
+/// One limb in the upright body; lengths as shares of the height.
+struct Limb {
+    /// The limb that it hangs on, as an index in the list; else the trunk.
+    parent: Option<usize>,
+    mass: f64,
+    radius: f64,
+    /// How far to the left of the middle.
+    left: f64,
+    /// Heights of its lower and its upper end.
+    span: [f64; 2],
+    /// Height of the joint that it hangs by.
+    joint: f64,
+    freedom: Freedom,
+}
+
+const fn degrees(from: f64, to: f64) -> [f64; 2] {
+    [from.to_radians(), to.to_radians()]
+}
+
+/// Turning of a hanging limb about x, inwards and outwards, on the left (1) or the right side (-1).
+const fn sideways(side: f64, inwards: f64, outwards: f64) -> [f64; 2] {
+    if side > 0.0 { degrees(-inwards, outwards) } else { degrees(-outwards, inwards) }
+}
+
+/// Upper arm, forearm, thigh and shank of a side, whose first has that index in the list.
+const fn side_of(side: f64, first: usize) -> [Limb; 4] {
+    let (arm, leg) = (0.129 * side, 0.052 * side);
+    let shoulder = [sideways(side, 30.0, 120.0), degrees(-160.0, 50.0), degrees(-60.0, 60.0)];
+    let hip = [sideways(side, 25.0, 45.0), degrees(-120.0, 20.0), degrees(-40.0, 40.0)];
+    [
+        Limb {
+            parent: None,
+            mass: 0.028,
+            radius: 0.026,
+            left: arm,
+            span: [0.630, SHOULDER],
+            joint: SHOULDER,
+            freedom: Freedom::Ball(shoulder),
+        },
+        Limb {
+            parent: Some(first),
+            mass: 0.022,
+            radius: 0.022,
+            left: arm,
+            span: [0.400, 0.630],
+            joint: 0.630,
+            freedom: Freedom::Hinge(degrees(-145.0, 0.0)),
+        },
+        Limb {
+            parent: None,
+            mass: 0.100,
+            radius: 0.042,
+            left: leg,
+            span: [0.285, HIP],
+            joint: HIP,
+            freedom: Freedom::Ball(hip),
+        },
+        Limb {
+            parent: Some(first + 2),
+            mass: 0.061,
+            radius: 0.030,
+            left: leg,
+            span: [0.0, 0.285],
+            joint: 0.285,
+            freedom: Freedom::Hinge(degrees(0.0, 140.0)),
+        },
+    ]
+}
+
+const HEAD: Limb = Limb {
+    parent: None,
+    mass: 0.081,
+    radius: 0.065,
+    left: 0.0,
+    span: [0.870, 1.0],
+    joint: 0.850,
+    freedom: Freedom::Ball([degrees(-40.0, 40.0), degrees(-55.0, 45.0), degrees(-70.0, 70.0)]),
+};
+
+/// Every limb but the trunk, parents before children.
+const LIMBS: [Limb; 9] = {
+    let [a, b, c, d] = side_of(1.0, 1);
+    let [e, f, g, h] = side_of(-1.0, 5);
+    [HEAD, a, b, c, d, e, f, g, h]
+};
+
+/// How tall and heavy somebody is, m and kg.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Build {
+    pub(super) height: f64,
+    pub(super) mass: f64,
+}
+
+/// The limbs of somebody who falls, beside the trunk.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Ragdoll {
+    limbs: Vec<RigidBodyHandle>,
+}
+
+impl Ragdoll {
+    /// The rigid bodies of the limbs beside the trunk.
+    pub(super) fn limbs(&self) -> &[RigidBodyHandle] {
+        &self.limbs
+    }
+
+    /// Makes a trunk of an upright body's collider and hangs the limbs on it, all of them upright and with the velocity of
+    /// the trunk, which is dynamic already.
+    pub(super) fn of(physics: &mut PhysicsWorld, trunk: RigidBodyHandle, build: Build) -> Self {
+        let Build { height, mass } = build;
+        let rigid = &physics.bodies[trunk];
+        let (pose, velocity) = (*rigid.position(), rigid.linvel());
+        let mark = rigid.colliders().first().map(|first| {
+            let collider = &mut physics.colliders[*first];
+            take_form_of_trunk(collider, build);
+            collider.user_data
+        });
+        physics.bodies[trunk].recompute_mass_properties_from_colliders(&physics.colliders);
+        let mut limbs: Vec<RigidBodyHandle> = Vec::with_capacity(LIMBS.len());
+        for limb in &LIMBS {
+            let frame = RigidBodyBuilder::dynamic().pose(pose).linvel(velocity).can_sleep(true);
+            let solid = limb.solid(height, mass).user_data(mark.unwrap_or_default());
+            let handle = physics.insert(frame, solid).0;
+            physics.bodies[handle].recompute_mass_properties_from_colliders(&physics.colliders);
+            let parent = limb.parent.map_or(trunk, |index| limbs[index]);
+            physics.insert_impulse_joint(parent, handle, limb.joint(build));
+            limbs.push(handle);
+        }
+        Self { limbs }
+    }
+
+    /// How the limbs lie, seen from what they hang on.
+    pub(super) fn angles(&self, physics: &PhysicsWorld, trunk: RigidBodyHandle) -> JointAngles {
+        // Backwards about the axis to the left, of a hanging limb.
+        let turn = |limb: usize| {
+            let parent = LIMBS[limb].parent.map_or(trunk, |index| self.limbs[index]);
+            let (parent, child) = (physics.bodies.get(parent), physics.bodies.get(self.limbs[limb]));
+            let (Some(parent), Some(child)) = (parent, child) else { return 0.0 };
+            let between = parent.rotation().inverse() * *child.rotation();
+            2.0 * ops::atan2(between.y * between.w.signum(), between.w.abs())
+        };
+        let arm = |first: usize| ArmAngles {
+            shoulder_flexion: -turn(first),
+            elbow_flexion: (-turn(first + 1)).max(0.0),
+        };
+        let leg = |first: usize| LegAngles {
+            hip_flexion: -turn(first),
+            knee_flexion: turn(first + 1).max(0.0),
+            ankle_dorsiflexion: 0.0,
+        };
+        JointAngles {
+            left_arm: arm(1),
+            left_leg: leg(3),
+            right_arm: arm(5),
+            right_leg: leg(7),
+            hip_drop: 0.0,
+        }
+    }
+
+    /// Takes the limbs out of the engine.
+    pub(super) fn remove(&mut self, physics: &mut PhysicsWorld) {
+        for limb in self.limbs.drain(..) {
+            physics.remove_body(limb);
+        }
+    }
+}
+
+/// What collides of somebody, upright or not, is dressed.
+pub(super) fn dressed(solid: ColliderBuilder) -> ColliderBuilder {
+    solid
+        .friction(CLOTHES.friction())
+        .friction_combine_rule(CoefficientCombineRule::GeometricMean)
+        .restitution(CLOTHES.restitution())
+}
+
+fn take_form_of_trunk(collider: &mut Collider, build: Build) {
+    let Build { height, mass } = build;
+    let half = Vector::new(TRUNK[0], TRUNK[1], (SHOULDER - HIP) * 0.5) * height;
+    collider.set_shape(SharedShape::cuboid(half.x, half.y, half.z));
+    let middle = Vector::new(0.0, 0.0, (SHOULDER + HIP) * 0.5 * height);
+    collider.set_position_wrt_parent(RapierPose::from_translation(middle));
+    collider.set_mass(mass * TRUNK_MASS);
+}
+
+impl Limb {
+    /// Its collider in the frame of the upright body.
+    fn solid(&self, height: f64, mass: f64) -> ColliderBuilder {
+        let [low, high] = self.span.map(|end| end * height);
+        let radius = self.radius * height;
+        let middle = Vector::new(0.0, self.left * height, (low + high) * 0.5);
+        let solid = SharedShape::capsule_z(((high - low) * 0.5 - radius).max(0.0), radius);
+        let groups = if self.left == 0.0 {
+            InteractionGroups::all() // the head
+        } else {
+            InteractionGroups::new(LIMB, Group::ALL.difference(LIMB), InteractionTestMode::And)
+        };
+        dressed(ColliderBuilder::new(solid))
+            .position(RapierPose::from_translation(middle))
+            .collision_groups(groups)
+            .mass(self.mass * mass)
+    }
+
+    /// The joint that it hangs by; both frames are those of the upright body.
+    fn joint(&self, build: Build) -> GenericJoint {
+        let anchor = Vector::new(0.0, self.left, self.joint) * build.height;
+        // The damping goes with what hangs on the joint: a forearm is stopped by less than a leg.
+        let damping = DAMPING * build.mass * (self.mass / 0.1).min(1.0);
+        match &self.freedom {
+            Freedom::Ball(limits) => {
+                let mut joint = SphericalJointBuilder::new()
+                    .local_anchor1(anchor)
+                    .local_anchor2(anchor)
+                    .contacts_enabled(false);
+                for (axis, limits) in
+                    [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ].into_iter().zip(limits)
+                {
+                    joint = joint
+                        .limits(axis, *limits)
+                        .motor_model(axis, MotorModel::ForceBased)
+                        .motor_velocity(axis, 0.0, damping);
+                }
+                joint.into()
+            }
+            Freedom::Hinge(limits) => RevoluteJointBuilder::new(Vector::Y)
+                .local_anchor1(anchor)
+                .local_anchor2(anchor)
+                .contacts_enabled(false)
+                .limits(*limits)
+                .motor_model(MotorModel::ForceBased)
+                .motor_velocity(0.0, damping)
+                .into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_limbs_weigh_what_the_body_weighs_and_reach_from_the_soles_to_the_crown() {
+        let mass: f64 = LIMBS.iter().map(|limb| limb.mass).sum();
+        assert!((mass + TRUNK_MASS - 1.0).abs() < 1e-12, "{mass}");
+        let low = LIMBS.iter().map(|limb| limb.span[0]).fold(f64::INFINITY, f64::min);
+        let high = LIMBS.iter().map(|limb| limb.span[1]).fold(0.0, f64::max);
+        assert_eq!((low, high), (0.0, 1.0));
+    }
+
+    #[test]
+    fn limbs_stand_beside_the_trunk_and_not_in_it() {
+        for limb in LIMBS.iter().filter(|limb| limb.span[1] > HIP && limb.left != 0.0) {
+            assert!(limb.left.abs() - limb.radius > TRUNK[1], "{}", limb.left);
+        }
+    }
+
+    #[test]
+    fn joints_bend_as_those_of_people() {
+        // About y, to the left, a hanging limb swings back by a positive angle.
+        for limb in &LIMBS {
+            if let Freedom::Hinge([from, to]) = limb.freedom {
+                let knee = limb.joint < HIP;
+                assert!(if knee { from == 0.0 && to > 2.0 } else { to == 0.0 && from < -2.0 });
+            }
+        }
+    }
+}
