@@ -3,28 +3,34 @@
 //! ```sh
 //! cargo run --release --example scene
 //! cargo run --release --example scene -- --words "a village of thirty houses by a river, in the fog" --out out/village
+//! cargo run --release --example scene -- --words "a wooded island with a fishing village and a lighthouse" --out out/island
+//! cargo run --release --example scene -- --words "a wilderness with mountains, a lake and a hut" --out out/wild
 //! cargo run --release --example scene -- --spec out/scene/scene.toml
 //! ```
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::{Duration, Instant};
 
 use clap::Parser;
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
 use simworld_agents::scenes::{GrammarSceneReader, SceneReader, SceneReading};
 use simworld_agents::thought::ModelSceneReader;
+use simworld_citygen::landscape::Landscape;
 use simworld_citygen::settlement::Settlement;
 use simworld_core::geometry::Point2;
-use simworld_core::scene::{EntityKind, World};
+use simworld_core::net::polyline;
+use simworld_core::scene::{EntityKind, Scene, World};
 use simworld_core::seed::Seed;
-use simworld_core::spec::SceneSpec;
+use simworld_core::spec::{SceneKind, SceneSpec};
 use simworld_examples::edit::{Plan, View};
 use simworld_examples::{Outcome, exit_code};
 
-/// Makes a place from a sentence or a file: how many houses, how its streets are, what it has, and its weather.
+/// Makes a place from a sentence or a file: how many houses, how its streets are, what it has, and its weather. A city, a
+/// countryside, a wilderness or an island.
 ///
-/// Writes scene.toml (what was understood, to be changed by hand and given back with --spec), plan.svg, city.simcity (streets and
-/// houses, for --city of other examples) and, with a graphics adapter, scene.png. What was not understood is said.
+/// Writes scene.toml (what was understood, to be changed by hand and given back with --spec), plan.svg, of a city city.simcity
+/// (streets and houses, for --city of other examples) and, with a graphics adapter, scene.png. What was not understood is said.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -66,13 +72,21 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         }
         reading.spec
     };
-    let place = Settlement::build(&spec, Seed(arguments.seed))?;
     std::fs::create_dir_all(&arguments.out)?;
     std::fs::write(arguments.out.join("scene.toml"), toml::to_string(&spec)?)?;
-    place.city.save(&arguments.out.join("city.simcity"))?;
     let mut world = World::new();
-    place.populate(&mut world)?;
-    tell(&spec, &place, &world);
+    if spec.kind == SceneKind::City {
+        let place = Settlement::build(&spec, Seed(arguments.seed))?;
+        place.city.save(&arguments.out.join("city.simcity"))?;
+        place.populate(&mut world)?;
+        tell(&spec, &place, &world);
+    } else {
+        let started = Instant::now();
+        let place = Landscape::build(&spec, Seed(arguments.seed))?;
+        let built = started.elapsed();
+        place.populate(&mut world)?;
+        tell_land(&place, &world, [built, started.elapsed()]);
+    }
     draw(arguments, &spec, &world)
 }
 
@@ -109,6 +123,31 @@ fn tell(spec: &SceneSpec, place: &Settlement, world: &World) {
     );
 }
 
+fn tell_land(place: &Landscape, world: &World, [built, placed]: [Duration; 2]) {
+    let (low, high) = place.ground.extent();
+    let heights = &place.ground.data().heights;
+    let highest = heights.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    println!(
+        "{:.0} by {:.0} m of land and water, up to {highest:.0} m; {} buildings",
+        high.x - low.x,
+        high.y - low.y,
+        place.buildings().count()
+    );
+    let trails: f64 = place.network.footpaths.iter().map(|way| polyline::length(&way.path)).sum();
+    let roads: f64 = place.network.roads.iter().map(|road| polyline::length(&road.centerline)).sum();
+    println!("{roads:.0} m of road, {trails:.0} m of ways for walkers");
+    for area in &place.areas {
+        println!("{} ({})", area.name, area.used_as);
+    }
+    let trees = world.iter().filter(|entity| entity.kind == EntityKind::Tree).count();
+    println!(
+        "{trees} trees of {} things; made in {:.2} s, in the world after {:.2} s",
+        place.things.len(),
+        built.as_secs_f64(),
+        placed.as_secs_f64()
+    );
+}
+
 fn draw(arguments: &Arguments, spec: &SceneSpec, world: &World) -> Outcome<()> {
     let (low, high) =
         world.iter().filter(|entity| entity.kind == EntityKind::Building || entity.info.name.is_some()).fold(
@@ -120,11 +159,21 @@ fn draw(arguments: &Arguments, spec: &SceneSpec, world: &World) -> Outcome<()> {
         );
     let middle = Point2::from((low.coords + high.coords) * 0.5);
     let reach = ((high - low).max() * 0.5 + 10.0).max(50.0);
+    // All of the land, if the place has some.
+    let (middle, reach) = world.ground().map_or((middle, reach), |land| {
+        let (low, high) = land.extent();
+        (nalgebra::center(&low, &high), (high - low).max() * 0.5)
+    });
     let title = spec.title.as_deref().unwrap_or(&arguments.words);
     let plan = Plan { middle, reach, title, touched: &[], placings: &[] };
     std::fs::write(arguments.out.join("plan.svg"), plan.draw(world).to_string())?;
     match View::new() {
-        Ok(mut view) => view.write(world, middle, reach * 1.5, &arguments.out.join("scene.png"))?,
+        Ok(mut view) => view.write(
+            world,
+            middle,
+            reach * if world.ground().is_some() { 1.15 } else { 1.5 },
+            &arguments.out.join("scene.png"),
+        )?,
         Err(reason) => eprintln!("a plan alone: {reason}"),
     }
     println!("written to {}", arguments.out.display());

@@ -38,6 +38,10 @@ fn check(meaning: &str, reading: &SceneReading) -> Result<(), String> {
                 squares_and_parks.1 = number();
                 true
             }
+            "landmark" => {
+                let (name, count) = value.split_once(' ').unwrap_or((value, "1"));
+                spec.features.landmarks.remove(name) == count.parse().ok()
+            }
             "kind" => std::mem::take(&mut spec.kind).as_str() == value,
             "pattern" => named(std::mem::take(&mut spec.streets.pattern), value),
             "width" => named(std::mem::take(&mut spec.streets.width), value),

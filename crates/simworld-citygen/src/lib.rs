@@ -14,6 +14,7 @@ pub mod files;
 mod geo;
 pub mod graph;
 pub mod growth;
+pub mod landscape;
 pub mod lot;
 pub mod map;
 pub mod name;

@@ -14,6 +14,7 @@ pub mod event;
 pub mod exertion;
 pub mod geometry;
 pub mod grid;
+pub mod ground;
 pub mod hash;
 pub mod id;
 pub mod intent;

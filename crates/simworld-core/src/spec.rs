@@ -193,6 +193,9 @@ pub struct FeatureWish {
     pub parks: Vec<String>,
     /// Water beside the place, at most 4.
     pub waters: Vec<Water>,
+    /// Things of the library by name, such as `lighthouse` or `windmill`: exactly so many each, at most 8, and 16 kinds. Beyond
+    /// the city alone.
+    pub landmarks: BTreeMap<String, u32>,
 }
 
 /// Water beside a place.
@@ -267,6 +270,10 @@ impl SceneSpec {
         within("features.squares", self.features.squares.len() as u32, 0, 16, "at most 16")?;
         within("features.parks", self.features.parks.len() as u32, 0, 16, "at most 16")?;
         within("features.waters", self.features.waters.len() as u32, 0, 4, "at most 4")?;
+        within("features.landmarks", self.features.landmarks.len() as u32, 0, 16, "at most 16 kinds")?;
+        for count in self.features.landmarks.values() {
+            within("features.landmarks", *count, 0, 8, "0 to 8 of each")?;
+        }
         Ok(self.environment.validate()?)
     }
 }

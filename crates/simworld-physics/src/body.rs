@@ -1,11 +1,12 @@
 //! The seam by which a body joins the physics: what it implements and what it is given.
 
 use rapier3d_f64::prelude::{
-    Collider, PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody, RigidBodyHandle,
-    RigidBodySet,
+    Collider, ColliderHandle, PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody,
+    RigidBodyHandle, RigidBodySet,
 };
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Vector3;
+use simworld_core::ground::Ground;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Role, World, WorldError};
 use simworld_core::seam::{BodyState, Embodiment};
@@ -154,6 +155,8 @@ pub struct Surroundings<'a> {
     pub(crate) config: &'a PhysicsConfig,
     pub(crate) conditions: &'a Conditions,
     pub(crate) detail: Detail,
+    pub(crate) ground: ColliderHandle,
+    pub(crate) surface: Option<&'a Ground>,
     /// The greatest speed of anything that moves, m/s.
     pub(crate) fastest: f64,
     /// Who pushed whom in the last substep.
@@ -168,6 +171,18 @@ impl Surroundings<'_> {
     pub fn queries(&self) -> QueryPipeline<'_> {
         let filter = QueryFilter::new().exclude_rigid_body(self.rigid);
         QueryPipeline { bodies: self.nobody, ..self.physics.query_pipeline_with_filter(filter) }
+    }
+
+    /// Queries against every solid but the body's own and the ground: for who stands on the
+    /// [surface](Self::surface) by its heights.
+    pub fn queries_above_ground(&self) -> QueryPipeline<'_> {
+        let filter = QueryFilter::new().exclude_rigid_body(self.rigid).exclude_collider(self.ground);
+        QueryPipeline { bodies: self.nobody, ..self.physics.query_pipeline_with_filter(filter) }
+    }
+
+    /// The surface that everything stands on, if the ground is not level at z = 0.
+    pub fn surface(&self) -> Option<&Ground> {
+        self.surface
     }
 
     /// The body's own collider, the first if it has several.

@@ -1,12 +1,13 @@
 //! The physics of a world: which bodies it has, and the step.
 
+use std::sync::Arc;
+
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
-use rapier3d_f64::prelude::{
-    CoefficientCombineRule, ColliderBuilder, PhysicsWorld, RigidBodyHandle, RigidBodySet,
-};
+use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle, RigidBodySet};
 use rayon::prelude::*;
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point2, Point3, Pose, Twist};
+use simworld_core::ground::Ground;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
@@ -17,16 +18,13 @@ use crate::cells::Cells;
 use crate::claims::Claims;
 use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
+use crate::ground;
 use crate::humanoid::Shove;
 use crate::mirror::Moving;
-use crate::shape::{BodyTag, marked};
 use crate::solid::Solids;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
-
-/// Thickness of the ground, m: no body falls through it in a step.
-const GROUND_THICKNESS: f64 = 100.0;
 
 /// More substeps than this in a step are not taken, however finely a body would like to move.
 const MOST_SUBSTEPS: f64 = 1000.0;
@@ -65,6 +63,9 @@ const MOST_SUBSTEPS: f64 = 1000.0;
 pub struct PhysicsDynamics {
     pub(crate) config: PhysicsConfig,
     pub(crate) physics: PhysicsWorld,
+    /// The collider of the ground, and the surface that it is, if the world has one.
+    pub(crate) ground: ColliderHandle,
+    pub(crate) surface: Option<Arc<Ground>>,
     /// What the physics makes of each slot of the world.
     pub(crate) slots: Vec<Slot>,
     /// By ascending id.
@@ -103,7 +104,7 @@ pub(crate) struct Owned {
 }
 
 impl PhysicsDynamics {
-    /// A physics with a ground at z = 0 and no bodies.
+    /// A physics with a ground at z = 0 and no bodies. Where the world has a ground of its own, the first step takes it up.
     ///
     /// # Errors
     /// A setting out of range.
@@ -111,18 +112,13 @@ impl PhysicsDynamics {
         config.validate()?;
         let mut physics = PhysicsWorld::new();
         physics.gravity = Vector::new(0.0, 0.0, -config.gravity);
-        let (reach, depth) = (config.ground_half_extent, GROUND_THICKNESS * 0.5);
-        let ground = ColliderBuilder::cuboid(reach, reach, depth)
-            .position(RapierPose::from_translation(Vector::new(0.0, 0.0, -depth)))
-            .friction(config.ground.friction())
-            .friction_combine_rule(CoefficientCombineRule::GeometricMean)
-            .restitution(config.ground.restitution())
-            .user_data(marked(BodyTag::Ground, config.ground));
-        let ground = physics.insert_collider(ground, None);
+        let ground = physics.insert_collider(ground::level(&config), None);
         let near = config.mirror_radius;
         let mut dynamics = Self {
             config,
             physics,
+            ground,
+            surface: None,
             slots: Vec::new(),
             bodies: Vec::new(),
             contacts: Contacts::default(),
@@ -175,12 +171,23 @@ impl PhysicsDynamics {
         let fastest = self.fastest();
         let (physics, nobody, config, conditions) =
             (&self.physics, &self.nobody, &self.config, &self.conditions);
+        let (ground, surface) = (self.ground, self.surface.as_deref());
         let shoves = &*self.shoves;
         let sense = |owned: &mut Owned| {
             if owned.bonds.carried.is_none() {
                 let (rigid, detail) = (owned.rigid, owned.detail);
-                let around =
-                    Surroundings { physics, nobody, rigid, config, conditions, detail, fastest, shoves };
+                let around = Surroundings {
+                    physics,
+                    nobody,
+                    rigid,
+                    config,
+                    conditions,
+                    detail,
+                    fastest,
+                    shoves,
+                    ground,
+                    surface,
+                };
                 owned.body.sense(&around, dt);
             }
         };

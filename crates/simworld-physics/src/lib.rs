@@ -11,6 +11,7 @@ pub mod convert;
 mod detail;
 mod dynamics;
 mod error;
+mod ground;
 mod humanoid;
 mod mirror;
 pub mod proving;

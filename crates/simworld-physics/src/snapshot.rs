@@ -3,7 +3,7 @@
 //! The saved form is a mark, a digest of the rest, and the rest: settings, the engine with its colliders, warm
 //! starts and search tree, and the bodies. The digest turns away damaged bytes before anything is built from them.
 
-use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle};
+use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point3, Pose, Twist};
 use simworld_core::hash::{StateHash, StateHasher};
@@ -27,6 +27,8 @@ const MARK: [u8; 8] = *b"swphys04";
 struct Written<'a> {
     config: &'a PhysicsConfig,
     physics: &'a PhysicsWorld,
+    ground: ColliderHandle,
+    surface: Option<u64>,
     slots: &'a [Slot],
     touching: &'a [(EntityId, EntityId)],
     conditions: Conditions,
@@ -40,6 +42,9 @@ struct Written<'a> {
 struct Read {
     config: PhysicsConfig,
     physics: PhysicsWorld,
+    ground: ColliderHandle,
+    /// The digest of the surface that the ground is.
+    surface: Option<u64>,
     slots: Vec<Slot>,
     touching: Vec<(EntityId, EntityId)>,
     conditions: Conditions,
@@ -77,6 +82,8 @@ impl PhysicsDynamics {
         let written = Written {
             config: &self.config,
             physics: &self.physics,
+            ground: self.ground,
+            surface: self.surface_digest(),
             slots: &self.slots,
             touching: &self.contacts.touching,
             conditions: self.conditions,
@@ -100,6 +107,12 @@ impl PhysicsDynamics {
         if read.config != self.config {
             return Err(saved_error("it was saved with other settings: make the physics with the same"));
         }
+        let surface = world.ground().filter(|ground| Some(ground.digest().0) == read.surface);
+        if read.surface.is_some() && surface.is_none() {
+            return Err(saved_error(
+                "the world has another ground: restore the world that it was saved with",
+            ));
+        }
         for body in &read.bodies {
             let id = body.id;
             if world.entity(id).is_none() {
@@ -120,6 +133,7 @@ impl PhysicsDynamics {
             owned.detail = body.detail;
         }
         self.physics = read.physics;
+        (self.ground, self.surface) = (read.ground, surface.cloned());
         self.slots = read.slots;
         self.contacts.touching = read.touching;
         self.conditions = read.conditions;

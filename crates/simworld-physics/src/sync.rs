@@ -33,6 +33,7 @@ pub(crate) enum Slot {
 impl PhysicsDynamics {
     /// Brings the engine up to date with the world as it stands at the start of a step.
     pub(crate) fn synchronise(&mut self, world: &World) {
+        self.lay_ground(world.ground());
         self.drop_orphans(world);
         self.near.clear();
         for owned in &mut self.bodies {

@@ -2,6 +2,7 @@
 
 mod made;
 mod plan;
+mod relief;
 mod sheet;
 mod view;
 

@@ -6,12 +6,14 @@ use simworld_core::geometry::{Aabb, Point2, planar};
 use simworld_core::id::EntityId;
 use simworld_core::net::RoadNetwork;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
+use simworld_core::value::Value;
 use std::ops::ControlFlow;
 use svg::node::element::{Circle, Group, Line, Polygon, Polyline, Rectangle, Text, Title};
 
 const PAPER: &str = "#f4f1e8";
 const STREET: &str = "#d9d7d0";
 const WALK: &str = "#ebe8de";
+const PATH: &str = "#8a4b1f";
 const INK: &str = "#33352f";
 /// What is new, moved or altered.
 const TOUCHED: &str = "#b3261e";
@@ -55,6 +57,9 @@ impl Plan<'_> {
                 .set("height", side)
                 .set("fill", PAPER),
         );
+        if let Some(land) = world.ground() {
+            ground = ground.add(super::relief::drawn(land, self.middle, self.reach));
+        }
         if let Some(network) = world.roads() {
             ground = self.streets(ground, network, world);
         }
@@ -62,7 +67,15 @@ impl Plan<'_> {
         let region = Aabb::column_around(self.middle, self.reach * 1.5);
         let _ = world.visit(&region, &mut |entity| {
             let is_area = entity.kind == EntityKind::Ground && entity.info.name.is_some();
-            if is_area {
+            // Water on land is drawn with the land, whose shore it has; its name is drawn here.
+            let used_as = entity.info.attributes.get("area");
+            let is_wet = ["sea", "lake", "river"]
+                .iter()
+                .any(|water| used_as == Some(&Value::Text((*water).to_owned())));
+            let is_water = is_area && is_wet && world.ground().is_some();
+            if is_water {
+                areas.push(self.water_name(&entity, unit));
+            } else if is_area {
                 areas.push(self.area(&entity, unit));
             } else if !matches!(entity.kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk) {
                 things.push((entity.bounds.max.z, self.footprint(&entity, unit)));
@@ -130,6 +143,11 @@ impl Plan<'_> {
             );
             group = group.add(self.band(&middle, road.width, STREET));
         }
+        for way in network.footpaths.iter().filter(|way| near(&way.path)) {
+            let line = self.band(&way.path, way.width.max(self.reach / 320.0), PATH);
+            group = group
+                .add(line.set("stroke-dasharray", format!("{0} {1}", self.reach / 70.0, self.reach / 140.0)));
+        }
         let closed = network.roads.iter().enumerate().filter(|(index, _)| {
             let road = simworld_core::id::RoadId::from_index(*index);
             world.closed_roads().iter().any(|leg| leg.0 == road)
@@ -169,6 +187,21 @@ impl Plan<'_> {
             .set("fill", color)
             .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif");
         Group::new().add(outline.set("opacity", 0.75)).add(name)
+    }
+
+    /// The name of water, in its middle as far as that is on the plan.
+    fn water_name(&self, entity: &EntityRef<'_>, unit: f64) -> Group {
+        let wide = entity.info.shape.size().xy().max() > self.reach * 2.0;
+        let (x, y) = if wide { (0.0, self.reach * 0.94) } else { self.at(entity.planar()) };
+        let name = Text::new(entity.label())
+            .set("x", x)
+            .set("y", y)
+            .set("font-size", 15.0 * unit)
+            .set("font-style", "italic")
+            .set("text-anchor", "middle")
+            .set("fill", "#1d4f73")
+            .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif");
+        Group::new().add(name)
     }
 
     fn footprint(&self, entity: &EntityRef<'_>, unit: f64) -> Group {

@@ -21,7 +21,7 @@ impl View {
     /// # Errors
     /// No graphics adapter.
     pub fn new() -> Result<Self, RenderError> {
-        let renderer = Renderer::new(&RenderConfig::default())?;
+        let renderer = Renderer::new(&RenderConfig { far: 6000.0, ..RenderConfig::default() })?;
         let intrinsics = Intrinsics::from_fov(960, 540, 1.1).map_err(RenderError::from)?;
         Ok(Self { renderer, intrinsics, frame: Frame::new() })
     }
@@ -31,7 +31,7 @@ impl View {
     /// # Errors
     /// The adapter failed, or the file cannot be written.
     pub fn write(&mut self, world: &World, at: Point2, away: f64, path: &Path) -> Result<(), RenderError> {
-        let target = Point3::new(at.x, at.y, 1.0);
+        let target = Point3::new(at.x, at.y, 1.0 + world.ground().map_or(0.0, |land| land.height(at)));
         let eye = clearest(world, target, away);
         let camera = Camera::looking_at(eye, target, self.intrinsics);
         self.renderer.render(world, &camera, &mut self.frame)?;

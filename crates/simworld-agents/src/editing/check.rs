@@ -80,7 +80,7 @@ pub enum Fault {
 }
 
 /// What is wrong with how a thing stands in a world: nothing, if it shares no space with anything and stands on the ground
-/// or on something that holds it up. The ground is that level on which most things nearby stand.
+/// or on something that holds it up. The ground is that of the world, or else that level on which most things nearby stand.
 pub fn faults(world: &World, thing: EntityId) -> Vec<Fault> {
     let Some(entity) = world.entity(thing) else { return vec![Fault::Missing] };
     let own = entity.info.shape.obb(entity.pose);
@@ -127,8 +127,11 @@ fn span(own: &Obb) -> (f64, f64) {
     (middle - own.half_extents.z, middle + own.half_extents.z)
 }
 
-/// The level on which most things within 60 m stand, to the centimetre, m; of two as frequent the lower.
+/// The height of the land, or the level on which most things within 60 m stand, to the centimetre, m; of two as frequent the lower.
 fn ground_level(world: &World, thing: &EntityRef<'_>) -> Option<f64> {
+    if let Some(land) = world.ground() {
+        return Some(land.height(thing.planar()));
+    }
     let mut levels: Vec<i64> = Vec::new();
     let _ = world.visit(&thing.bounds.inflated(60.0), &mut |other| {
         if other.id != thing.id && other.attachment.is_none() {

@@ -182,7 +182,9 @@ impl Placer<'_> {
 
     /// What stands beside a thing on a table stands on the ground.
     fn grounded(&self, stand: &Stand, mut spot: Spot) -> Spot {
-        if matches!(stand, Stand::To { relation: Relation::OnTopOf, .. }) {
+        // On land that rises and falls the spot has the height of the land already.
+        let has_land = self.scene.ground().is_some();
+        if has_land || matches!(stand, Stand::To { relation: Relation::OnTopOf, .. }) {
             return spot;
         }
         let mut below = stand.anchor();
@@ -249,6 +251,7 @@ impl Placer<'_> {
             Some(streets) => streets.suits(subject.kind, solid),
             None => Ok(1.0),
         };
+        let land = land.and_then(|land| land_carries(self.scene, solid, on_top.is_some()).map(|()| land));
         match land {
             Ok(land) => Outcome::Fits { score: 0.5 * (1.0 - spot.odd) + 0.5 * land },
             Err(why) => Outcome::Land { why },
@@ -319,4 +322,19 @@ pub(crate) const fn has_flat_top(kind: EntityKind) -> bool {
 fn carries(anchor: &simworld_core::scene::EntityRef<'_>, solid: &Solid) -> bool {
     let below = Solid::of(anchor);
     has_flat_top(anchor.kind) && solid.corners().into_iter().all(|corner| below.distance_to(corner) <= 1e-6)
+}
+
+/// Nothing is set down where it is steeper, rise over run: dry wood on grass slides from 0.35 on.
+const STANDS_ON: f64 = 0.35;
+
+/// Whether the land carries a thing: dry, and not too steep.
+fn land_carries(scene: &dyn Scene, solid: &Solid, on_top: bool) -> Result<(), &'static str> {
+    let Some(land) = scene.ground().filter(|_| !on_top) else { return Ok(()) };
+    let corners = solid.corners();
+    match () {
+        () if !corners.iter().all(|corner| land.holds(*corner)) => Err("the land ends there"),
+        () if corners.iter().any(|corner| land.is_wet(*corner)) => Err("water is there"),
+        () if land.slope(solid.planar()) > STANDS_ON => Err("the land is too steep there"),
+        () => Ok(()),
+    }
 }

@@ -393,6 +393,9 @@ impl Sampler<'_> {
 
     /// Height of the ground, m: that of the street nearby, or of what stands nearest.
     fn level(&self, at: Point2) -> f64 {
+        if let Some(land) = self.scene.ground() {
+            return land.height(at);
+        }
         let on_road = self.streets.and_then(|streets| {
             let near = |id: RoadId| {
                 let near = polyline::closest(&streets.road(id).centerline, &at)?;

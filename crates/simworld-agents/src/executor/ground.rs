@@ -31,6 +31,8 @@ const MOVES: f64 = 0.1;
 const STRAIGHT: u32 = 10;
 const ASLANT: u32 = 14;
 const ROAD: u32 = 4;
+/// Nobody walks where it is steeper, rise over run: 40°, a little less than what bodies climb.
+const STEEPEST: f64 = 0.84;
 /// A place in a wall is looked for so far beside it, m.
 const BESIDE: f64 = 1.5;
 
@@ -67,17 +69,26 @@ fn stands(me: &EntityRef<'_>, other: &EntityRef<'_>) -> bool {
         && other.bounds.min.z < me.bounds.max.z
 }
 
-/// Whether a wall stands on the straight way between two places.
+/// Whether nobody can walk at a place, whatever stands there: in the water, on a cliff, beyond the edge of the land.
+fn is_impassable(scene: &dyn Scene, at: Point2) -> bool {
+    scene.ground().is_some_and(|land| !land.holds(at) || land.is_wet(at) || land.slope(at) > STEEPEST)
+}
+
+/// Whether a wall or water lies on the straight way between two places.
 pub(super) fn is_blocked(scene: &dyn Scene, me: &EntityRef<'_>, from: Point2, to: Point2) -> bool {
     let (reach, way) = (reach_of(me), to - from);
     let region = Aabb::column(from.inf(&to), from.sup(&to)).inflated(reach);
     let pieces = (way.norm() / CELL).ceil().max(1.0);
+    let along = |piece: u32| from + way * (f64::from(piece) / pieces);
+    if scene.ground().is_some() && (0..=pieces as u32).any(|piece| is_impassable(scene, along(piece))) {
+        return true;
+    }
     let visited = scene.visit(&region, &mut |other| {
         let size = other.info.shape.size();
         let is_wall = other.kind == EntityKind::Building || size.x.max(size.y) > WALL;
         let meets = || {
             (0..=pieces as u32).any(|piece| {
-                let at = from + way * (f64::from(piece) / pieces);
+                let at = along(piece);
                 other.info.shape.planar_distance(other.pose, &at) < reach
             })
         };
@@ -117,6 +128,13 @@ impl Ground {
             }
             ControlFlow::Continue(())
         });
+        if scene.ground().is_some() {
+            for at in 0..ground.cells.len() {
+                if is_impassable(scene, ground.middle(at)) {
+                    ground.cells[at] = Cell::Solid;
+                }
+            }
+        }
         Some(ground)
     }
 

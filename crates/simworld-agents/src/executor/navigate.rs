@@ -316,6 +316,12 @@ impl RuleExecutor {
         let (Some(from), Some(to)) = (ways.nearest(here), ways.nearest(goal)) else {
             return over_ground(scene, me, here, goal);
         };
+        // In open country the walkways are few: who is nearer to the goal than to them goes straight there.
+        let position = |waypoint| ways.waypoint(waypoint).position;
+        let round = (position(from) - here).norm() + (position(to) - goal).norm();
+        if scene.ground().is_some() && (goal - here).norm() <= round {
+            return over_ground(scene, me, here, goal);
+        }
         if (goal - here).norm() <= SHORT && ground::is_blocked(scene, me, here, goal) {
             let legs = over_ground(scene, me, here, goal);
             if legs.len() > 1 {

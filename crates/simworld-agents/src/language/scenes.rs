@@ -17,6 +17,33 @@ const LONGEST: usize = 2000;
 /// The most squares and parks that words ask for, so that a slip of the pen asks for no thousand names.
 const MOST: u32 = 40;
 
+/// Houses where words of a settlement say no number: beyond the city alone, where the number says how large it is.
+const SETTLED: &[(&[&str], u32)] = &[
+    (&["hamlet", "settlement", "farm", "farms"], 8),
+    (&["village"], 18),
+    (&["town", "old town", "quarter", "district", "neighbourhood", "neighborhood"], 45),
+    (&["city", "metropolis"], 120),
+];
+
+/// Things that stand alone beyond the city, by the names of the library.
+#[rustfmt::skip]
+const LANDMARKS: &[(&[&str], &str)] = &[
+    (&["lighthouse", "lighthouses"], "lighthouse"), (&["windmill", "windmills", "mill"], "windmill"),
+    (&["church", "chapel"], "church"), (&["castle"], "castle"), (&["ruin", "ruins"], "ruin"), (&["monastery", "abbey"], "monastery"),
+    (&["observatory"], "observatory"), (&["water tower"], "water_tower"), (&["boathouse", "boat house"], "boathouse"),
+    (&["silo", "silos"], "silo"), (&["stable", "stables"], "stable"), (&["radio tower", "radio mast"], "radio_tower"),
+];
+
+/// What every place of a kind has, so that nothing is left unread there.
+#[rustfmt::skip]
+const NATURAL: &[(&[&str], &[SceneKind])] = &[
+    (&["forest", "forests", "woods", "woodland", "paths", "path", "trails", "trail", "footpaths", "hiking trails", "hills", "rolling hills",
+        "hilly", "meadows", "meadow", "wild"], &[SceneKind::Countryside, SceneKind::Wilderness, SceneKind::Island]),
+    (&["mountains", "mountain", "rocks", "boulders", "peaks", "camp site", "campsite", "camp"], &[SceneKind::Wilderness]),
+    (&["hedges", "hedgerows", "orchards", "orchard", "farms", "farm", "barns", "barn", "crops"], &[SceneKind::Countryside]),
+    (&["beach", "beaches", "sandy", "sandy beaches", "coast", "shore", "rocky"], &[SceneKind::Island]),
+];
+
 /// What a phrase says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fact {
@@ -40,9 +67,8 @@ enum Fact {
 
 #[rustfmt::skip]
 const FACTS: &[(&[&str], Fact)] = &[
-    (&["city", "town", "village", "hamlet", "downtown", "metropolis", "settlement", "neighbourhood",
-    "neighborhood", "quarter", "district", "old town", "city centre", "city center", "inner city", "cities",
-    "towns"], Fact::Kind(SceneKind::City)),
+    (&["city", "town", "village", "hamlet", "downtown", "metropolis", "settlement", "neighbourhood", "neighborhood", "quarter",
+        "district", "old town", "city centre", "city center", "inner city", "cities", "towns"], Fact::Kind(SceneKind::City)),
     (&["suburb", "suburbs", "suburbia", "suburban", "housing estate", "residential area"], Fact::Suburb),
     (&["countryside", "rural", "farmland", "fields", "rural area"], Fact::Kind(SceneKind::Countryside)),
     (&["wilderness", "wild nature", "national park", "untouched nature"], Fact::Kind(SceneKind::Wilderness)),
@@ -51,40 +77,34 @@ const FACTS: &[(&[&str], Fact)] = &[
     (&["small", "little"], Fact::Size(24)),
     (&["big", "large", "great"], Fact::Size(120)),
     (&["huge", "enormous", "giant", "sprawling", "vast"], Fact::Size(300)),
-    (&["grid", "on a grid", "grid pattern", "grid layout", "chequered", "checkerboard", "right angled",
-    "straight streets", "straight roads", "gridded", "grid streets", "manhattan style"],
-    Fact::Pattern(Pattern::Grid)),
-    (&["winding", "winding streets", "winding roads", "crooked", "crooked streets", "organic", "medieval",
-    "winding lanes", "curvy streets", "twisting streets", "meandering streets", "twisty streets",
-    "labyrinthine", "organic street pattern", "curved streets", "historic"], Fact::Pattern(Pattern::Winding)),
-    (&["narrow streets", "narrow roads", "narrow lanes", "narrow alleys", "alleys", "narrow street",
-    "tight streets", "small streets", "little streets", "alleyways"], Fact::Width(Width::Narrow)),
+    (&["grid", "on a grid", "grid pattern", "grid layout", "chequered", "checkerboard", "right angled", "straight streets",
+        "straight roads", "gridded", "grid streets", "manhattan style"], Fact::Pattern(Pattern::Grid)),
+    (&["winding", "winding streets", "winding roads", "crooked", "crooked streets", "organic", "medieval", "winding lanes",
+        "curvy streets", "twisting streets", "meandering streets", "twisty streets", "labyrinthine",
+        "organic street pattern", "curved streets", "historic"], Fact::Pattern(Pattern::Winding)),
+    (&["narrow streets", "narrow roads", "narrow lanes", "narrow alleys", "alleys", "narrow street", "tight streets", "small streets",
+        "little streets", "alleyways"], Fact::Width(Width::Narrow)),
     (&["crooked alleys", "winding alleys", "crooked lanes", "narrow winding streets", "winding narrow streets",
-    "narrow and winding streets", "narrow crooked streets"], Fact::PatternAndWidth(Pattern::Winding,
-    Width::Narrow)),
-    (&["wide streets", "wide roads", "wide avenues", "broad streets", "broad avenues", "boulevards", "avenues",
-    "wide boulevards", "broad roads", "broad boulevards", "spacious streets", "wide lanes", "big streets",
-    "large streets"], Fact::Width(Width::Wide)),
-    (&["building", "buildings", "house", "houses", "cottage", "cottages", "homes", "structures", "huts",
-    "apartment buildings"], Fact::Houses),
-    (&["low houses", "low buildings", "low rise", "low rise buildings", "small houses", "small buildings",
-    "one storey houses", "bungalows", "low roofs"], Fact::HousesOf(Height::Low)),
-    (&["skyscrapers", "skyscraper", "high rises", "high rise", "high rise buildings", "tall buildings",
-    "towers", "high buildings", "tower blocks", "tall houses", "office towers", "highrises"],
-    Fact::HousesOf(Height::High)),
+        "narrow and winding streets", "narrow crooked streets"], Fact::PatternAndWidth(Pattern::Winding, Width::Narrow)),
+    (&["wide streets", "wide roads", "wide avenues", "broad streets", "broad avenues", "boulevards", "avenues", "wide boulevards",
+        "broad roads", "broad boulevards", "spacious streets", "wide lanes", "big streets", "large streets"], Fact::Width(Width::Wide)),
+    (&["building", "buildings", "house", "houses", "cottage", "cottages", "homes", "structures", "huts", "hut", "cabin", "cabins", "log cabin", "log cabins", "apartment buildings"], Fact::Houses),
+    (&["low houses", "low buildings", "low rise", "low rise buildings", "small houses", "small buildings", "one storey houses",
+        "bungalows", "low roofs"], Fact::HousesOf(Height::Low)),
+    (&["skyscrapers", "skyscraper", "high rises", "high rise", "high rise buildings", "tall buildings", "towers", "high buildings",
+        "tower blocks", "tall houses", "office towers", "highrises"], Fact::HousesOf(Height::High)),
     (&["streets", "roads", "street", "road", "lanes"], Fact::Streets),
     (&["trees", "tree", "greenery", "tall trees"], Fact::Trees),
-    (&["tree lined", "trees everywhere", "tall trees everywhere", "leafy", "green streets", "lush",
-    "treelined"], Fact::TreesOf(Amount::Many)),
+    (&["tree lined", "trees everywhere", "tall trees everywhere", "leafy", "green streets", "lush", "treelined"], Fact::TreesOf(Amount::Many)),
+    (&["wooded", "forested", "densely wooded", "thickly wooded"], Fact::TreesOf(Amount::Many)),
     (&["treeless", "barren"], Fact::TreesOf(Amount::None)),
     (&["parked cars", "cars parked", "parked vehicles", "cars", "parking cars"], Fact::Cars),
-    (&["harbour", "harbor", "port", "seaside", "by the sea", "coastal", "sea", "docks", "marina",
-    "on the coast", "at the sea", "waterfront", "harbour basin", "fishing port"], Fact::Water(Water::Harbour)),
+    (&["harbour", "harbor", "port", "seaside", "by the sea", "coastal", "sea", "docks", "marina", "on the coast", "at the sea",
+        "waterfront", "harbour basin", "fishing port"], Fact::Water(Water::Harbour)),
     (&["river", "riverside", "by a river", "canal", "stream"], Fact::Water(Water::River)),
     (&["lake", "pond", "lakeside"], Fact::Water(Water::Lake)),
     (&["market square", "market squares", "market place", "marketplace"], Fact::Square("Market Square")),
-    (&["square", "squares", "town square", "central square", "main square", "piazza", "village square"],
-    Fact::Square("Town Square")),
+    (&["square", "squares", "town square", "central square", "main square", "piazza", "village square"], Fact::Square("Town Square")),
     (&["plaza", "plazas", "central plaza"], Fact::Square("Plaza")),
     (&["park", "parks", "public park", "green space", "green spaces", "gardens"], Fact::Park),
 ];
@@ -134,6 +154,11 @@ struct Scene<'a> {
     number: Option<u32>,
     amount: Option<Amount>,
     size: Option<u32>,
+    /// What is known beyond the city alone: how many houses a settlement has, landmarks with the words for them, what the land
+    /// has anyway. Its words count as unread until the kind is known.
+    settled: Option<u32>,
+    landmarks: Vec<(&'static str, u32, String)>,
+    natural: Vec<(&'static [SceneKind], String)>,
     /// How many facts were found.
     facts: u32,
 }
@@ -170,14 +195,58 @@ impl Scene<'_> {
             self.amount = Some(amount);
             self.at += words;
         } else if let Some((fact, words)) = fact {
+            self.settled = self.settled.max(longest(rest, SETTLED).map(|(houses, _)| houses));
             self.fact(fact);
             self.at += words;
         } else if let Some(words) = longest_phrase(rest, NOISE) {
             self.at += words;
-        } else {
+        } else if !self.beyond() {
             self.unread.push(self.words[rest[0].start..rest[0].end].to_owned());
             self.number = None;
             self.at += 1;
+        }
+    }
+
+    /// A landmark, or what the land has: known beyond the city alone.
+    fn beyond(&mut self) -> bool {
+        let rest = &self.lexemes[self.at..];
+        let landmark = longest(rest, LANDMARKS);
+        let natural = longest(rest, NATURAL);
+        let Some(words) = landmark.map(|(_, words)| words).max(natural.map(|(_, words)| words)) else {
+            return false;
+        };
+        let said = self.words[rest[0].start..rest[words - 1].end].to_owned();
+        self.settled = self.settled.max(longest(rest, SETTLED).map(|(houses, _)| houses));
+        if let Some((name, _)) = landmark {
+            self.landmarks.push((name, self.number.take().unwrap_or(1), said.clone()));
+        } else if let Some((kinds, _)) = natural {
+            self.natural.push((kinds, said.clone()));
+        }
+        self.unread.push(said);
+        (self.number, self.amount) = (None, None);
+        self.at += words;
+        true
+    }
+
+    /// Takes up what is known beyond the city, now that the kind is known.
+    fn settle(&mut self) {
+        let kind = self.spec.kind;
+        let read = |unread: &mut Vec<String>, said: &str| {
+            if let Some(index) = unread.iter().position(|word| word == said) {
+                unread.remove(index);
+            }
+        };
+        for (name, count, said) in std::mem::take(&mut self.landmarks) {
+            *self.spec.features.landmarks.entry(name.to_owned()).or_default() += count;
+            read(&mut self.unread, &said);
+        }
+        for (kinds, said) in std::mem::take(&mut self.natural) {
+            if kinds.contains(&kind) {
+                read(&mut self.unread, &said);
+            }
+        }
+        if kind != SceneKind::Wilderness && self.spec.buildings.count.is_none() {
+            self.spec.buildings.count = self.settled;
         }
     }
 
@@ -322,7 +391,9 @@ impl Scene<'_> {
         if !self.skies.is_empty() {
             self.spec.environment = changed(self.spec.environment, &self.skies);
         }
-        if self.spec.buildings.count.is_none() && self.spec.kind == SceneKind::City {
+        if self.spec.kind != SceneKind::City {
+            self.settle();
+        } else if self.spec.buildings.count.is_none() {
             self.spec.streets.count = self.spec.streets.count.or(self.size);
         }
         Some(SceneReading { spec: self.spec, unread: self.unread })

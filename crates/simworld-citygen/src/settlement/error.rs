@@ -15,11 +15,19 @@ pub enum SettlementError {
     Spec(#[from] SpecError),
     /// Another kind of scene.
     #[error(
-        "a {kind} is no place of streets and houses, and is not made here: ask for a city, a town or a village"
+        "a {kind} is no place of streets and houses: ask for a city, a town or a village, or make it by `landscape::Landscape`"
     )]
     Kind {
         /// Its name.
         kind: &'static str,
+    },
+    /// Landmarks by name.
+    #[error(
+        "{name:?} finds no place of its own in a city: name a use, such as a museum, or ask for an island or a countryside"
+    )]
+    Landmark {
+        /// What was asked for.
+        name: String,
     },
     /// It has too many houses.
     #[error("{wanted} buildings find no room, {most} at most did: ask for fewer, or for more streets")]

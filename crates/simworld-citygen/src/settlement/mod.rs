@@ -65,6 +65,9 @@ impl Settlement {
         if spec.kind != SceneKind::City {
             return Err(SettlementError::Kind { kind: spec.kind.as_str() });
         }
+        if let Some(name) = spec.features.landmarks.keys().next() {
+            return Err(SettlementError::Landmark { name: name.clone() });
+        }
         let wanted = spec.buildings.count.unwrap_or(0).max(spec.features.places.values().sum());
         let mut count = spec.streets.count.unwrap_or(match spec.buildings.count {
             Some(count) => (count / HOUSES).max(6),

@@ -23,6 +23,7 @@ pub struct Ground<'a> {
     pieces: Vec<Piece>,
     /// Pieces by the cells of a grid that they pass, in the order of cells.
     cells: Vec<((i32, i32), u32)>,
+    is_level: bool,
 }
 
 /// A straight piece of a street with the heights of its ends.
@@ -46,7 +47,7 @@ impl Piece {
 impl<'a> Ground<'a> {
     /// The ground of a network on some land.
     pub fn new(network: &RoadNetwork, land: &'a dyn HeightField) -> Self {
-        let mut ground = Self { land, pieces: Vec::new(), cells: Vec::new() };
+        let mut ground = Self { land, pieces: Vec::new(), cells: Vec::new(), is_level: true };
         let is_level = |road: &Road| road.level != 0 || road.profile.iter().all(|(_, height)| *height == 0.0);
         if network.intersections.iter().all(|place| place.height == 0.0) && network.roads.iter().all(is_level)
         {
@@ -65,7 +66,13 @@ impl<'a> Ground<'a> {
         }
         ground.cells.sort_unstable();
         ground.cells.dedup();
+        ground.is_level = ground.pieces.is_empty();
         ground
+    }
+
+    /// The ground of land into which the streets are cut already.
+    pub fn of_land(land: &'a dyn HeightField) -> Self {
+        Self { land, pieces: Vec::new(), cells: Vec::new(), is_level: false }
     }
 
     fn add(&mut self, piece: Piece) {
@@ -80,7 +87,7 @@ impl<'a> Ground<'a> {
 
     /// Whether all of it is at height zero.
     pub fn is_level(&self) -> bool {
-        self.pieces.is_empty()
+        self.is_level
     }
 
     /// The height at a point, m.

@@ -177,6 +177,11 @@ impl RoadNetwork {
             () if !is_within(walk.width, WIDEST) => SIZELESS,
             () => None,
         })?;
+        all("footpath", &self.footpaths, |_, way| match () {
+            () if !is_line(&way.path) => SHAPELESS,
+            () if !is_within(way.width, WIDEST) => SIZELESS,
+            () => None,
+        })?;
         let groups = self.signal_groups();
         all("crossing", &self.crossings, |_, crossing| {
             let signal = crossing.signal.is_none_or(|group| group.index() < groups);

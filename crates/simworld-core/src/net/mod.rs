@@ -25,8 +25,8 @@ pub use gaps::{CriticalGaps, time_over};
 #[cfg(feature = "hierarchy")]
 pub use hierarchy::{Hierarchy, HierarchyScratch, ShortestPath, WeightedEdge};
 pub use network::{
-    Connection, Control, Crossing, Intersection, Lane, Road, RoadClass, RoadNetwork, Side, Sidewalk, Strip,
-    Turn, TurningCircle,
+    Connection, Control, Crossing, Footpath, Intersection, Lane, Road, RoadClass, RoadNetwork, Side,
+    Sidewalk, Strip, Turn, TurningCircle,
 };
 pub use part::PlanPart;
 pub use plan::{DrivingSide, SHORTEST_STREET, Street, StreetPlan};

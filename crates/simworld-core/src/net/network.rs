@@ -278,6 +278,17 @@ pub struct Crossing {
     pub signal: Option<SignalGroup>,
 }
 
+/// A way for walkers alone, away from streets: a trail, a field path, a lane of steps.
+///
+/// It has no lanes and no kerb. Ways that share an end meet there; an end near a sidewalk leads on to it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Footpath {
+    /// Its middle, from end to end, at least two points, m.
+    pub path: Vec<Point2>,
+    /// Width, m.
+    pub width: f64,
+}
+
 /// Roads as data. Build one from a [`StreetPlan`](super::StreetPlan); it is checked, and never changes after.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RoadNetwork {
@@ -297,6 +308,8 @@ pub struct RoadNetwork {
     pub signals: Vec<SignalPlan>,
     /// Names of roads.
     pub names: Vec<String>,
+    /// Ways for walkers alone.
+    pub footpaths: Vec<Footpath>,
     /// The side on which traffic keeps.
     pub driving_side: DrivingSide,
 }

@@ -32,6 +32,7 @@ use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::geometry::{Aabb, Point2, Ray, Vector3};
+use crate::ground::Ground;
 use crate::id::EntityId;
 use crate::limbs::JointAngles;
 use crate::net::{Aspect, RoadNetwork};
@@ -116,6 +117,11 @@ pub trait Scene {
 
     /// The roads, if the scene has any.
     fn roads(&self) -> Option<&Arc<RoadNetwork>> {
+        None
+    }
+
+    /// The surface that everything stands on, if it is not flat at height 0.
+    fn ground(&self) -> Option<&Arc<Ground>> {
         None
     }
 
@@ -223,6 +229,9 @@ macro_rules! forward_scene {
             }
             fn roads(&self) -> Option<&Arc<RoadNetwork>> {
                 (**self).roads()
+            }
+            fn ground(&self) -> Option<&Arc<Ground>> {
+                (**self).ground()
             }
             fn assets(&self) -> Option<&Arc<Catalogue>> {
                 (**self).assets()

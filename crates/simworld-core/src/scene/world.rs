@@ -24,6 +24,7 @@ use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::event::{Event, EventKind};
 use crate::geometry::{Aabb, Pose, Twist};
+use crate::ground::Ground;
 use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
@@ -78,6 +79,7 @@ pub struct World {
     clock: Clock,
     environment: Environment,
     pub(crate) roads: Option<Arc<RoadNetwork>>,
+    ground: Option<Arc<Ground>>,
     assets: Arc<Catalogue>,
     signals: Vec<Aspect>,
     /// Directions of roads that are closed to traffic.
@@ -106,6 +108,12 @@ impl World {
         self.signals = vec![Aspect::Red; roads.signal_groups()];
         self.closed.clear();
         self.roads = Some(roads);
+    }
+
+    /// Gives the world a ground that is not flat; what stands somewhere already stays where it is.
+    pub fn set_ground(&mut self, ground: Arc<Ground>) {
+        self.ground = Some(ground);
+        self.revision += 1;
     }
 
     /// Changes the roads; gives the patch that takes the change back. Signal groups that are new show red. A network that
@@ -421,6 +429,10 @@ impl StateHash for World {
         // Only where something is closed, so that it leaves no trace when it is open again.
         for (road, direction) in &self.closed {
             hasher.u64(u64::from(road.0)).u64(*direction as u64);
+        }
+        // Only where there is one, so that flat worlds are what they were.
+        if let Some(ground) = &self.ground {
+            ground.state_hash(hasher);
         }
         // Free slots at the end count for nothing: what came and is gone leaves no trace.
         let used = self.digests.iter().rposition(|digest| *digest != 0).map_or(0, |last| last + 1);

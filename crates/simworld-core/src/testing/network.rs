@@ -12,6 +12,7 @@ pub fn numbered_in_order(network: &RoadNetwork) -> RoadNetwork {
         intersections: network.intersections.clone(),
         names: network.names.clone(),
         driving_side: network.driving_side,
+        footpaths: network.footpaths.clone(),
         ..RoadNetwork::default()
     };
     let lanes = order_lanes(network, &mut ordered);

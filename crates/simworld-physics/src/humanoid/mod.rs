@@ -9,6 +9,7 @@ mod physics_body;
 mod push;
 mod ragdoll;
 mod recovery;
+mod surface;
 mod walk;
 
 pub(crate) use push::Shove;

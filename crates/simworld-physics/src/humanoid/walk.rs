@@ -25,7 +25,7 @@ pub(crate) const SKIN: f64 = 0.02;
 /// Free width that a person needs on a step to take it, m.
 const TREAD: f64 = 0.1;
 /// How close something must be for the character controller to be asked, beyond the way of a substep, m.
-const NEARBY: f64 = 0.1;
+pub(super) const NEARBY: f64 = 0.1;
 /// How far the soles of someone standing on the ground may be off it, m.
 const LEVEL: f64 = 1e-3;
 /// Height from which the ground is looked for, m.
@@ -52,7 +52,7 @@ impl Humanoid {
         }
     }
 
-    fn controller(around: &Surroundings<'_>) -> KinematicCharacterController {
+    pub(super) fn controller(around: &Surroundings<'_>) -> KinematicCharacterController {
         let config = around.config();
         KinematicCharacterController {
             up: Vector::Z,
@@ -150,7 +150,7 @@ impl Humanoid {
 /// How far down it is to what carries a walker within a step's height, m; negative if it is a little up.
 ///
 /// A cast that starts at the very gap it looks for misses now and then, so it starts above.
-fn drop_to_support(
+pub(super) fn drop_to_support(
     solid: &dyn Shape,
     pose: &RapierPose,
     step_height: f64,
@@ -170,7 +170,7 @@ fn drop_to_support(
 
 /// What is close to a body.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Company {
+pub(super) enum Company {
     /// Nothing but the ground.
     Alone,
     /// Something within reach.
@@ -181,7 +181,7 @@ enum Company {
 
 impl Company {
     /// Who is within `reach` m of the box around a solid.
-    fn of(solid: &dyn Shape, pose: &RapierPose, reach: f64, queries: &QueryPipeline<'_>) -> Self {
+    pub(super) fn of(solid: &dyn Shape, pose: &RapierPose, reach: f64, queries: &QueryPipeline<'_>) -> Self {
         let mut aabb = solid.compute_aabb(pose);
         aabb.mins -= Vector::splat(reach);
         aabb.maxs += Vector::splat(reach);
@@ -218,7 +218,11 @@ impl Humanoid {
         let reach = (wish + carried).norm() + NEARBY;
         let queries = around.queries();
         let company = Company::of(solid, &(start * body_from_solid), reach, &queries);
-        if company == Company::Alone && self.is_on_level_ground(around.config().ground_half_extent, reach) {
+        if let Some(surface) = around.surface() {
+            self.cross_country(surface, around, &(wish + carried), dt);
+        } else if company == Company::Alone
+            && self.is_on_level_ground(around.config().ground_half_extent, reach)
+        {
             // There is nothing to run into: the controller would find out the same at many times the cost.
             self.plan.way = Vector3::new(wish.x, wish.y, -self.feet().z);
             let grip = around.conditions().road.grip(around.config().ground);

@@ -299,6 +299,8 @@ fn read_network(
         crossings: sections.list(Tag::Crossings, counts.crossings)?,
         signals: sections.list(Tag::Signals, counts.signals)?,
         names: sections.list(Tag::Names, counts.names)?,
+        // Cities have none; places beyond the city are saved with their world.
+        footpaths: Vec::new(),
     };
     network.check()?;
     Ok(network)

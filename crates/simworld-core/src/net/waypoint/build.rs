@@ -1,5 +1,7 @@
 //! Builds the levels of the waypoint graph from a road network.
 
+use std::collections::BTreeMap;
+
 use super::{Waypoint, WaypointConfig, WaypointEdge, WaypointGraph, WaypointKind};
 use crate::geometry::{Point2, Vector2};
 use crate::grid::PointGrid;
@@ -8,6 +10,8 @@ use crate::net::{RoadNetwork, Side, polyline};
 
 /// Width of a cell of the grid in which the nearest waypoint is looked for, m.
 const CELL: f64 = 20.0;
+/// An end of a footpath leads on to a sidewalk that is no farther off, m.
+const JOINS: f64 = 15.0;
 
 /// A graph under construction.
 #[derive(Default)]
@@ -108,7 +112,40 @@ pub(super) fn walkable(network: &RoadNetwork, config: &WaypointConfig) -> Waypoi
     for (index, _) in network.crossings.iter().enumerate() {
         join_crossing(&mut builder, network, CrossingId::from_index(index), &ends);
     }
+    add_footpaths(&mut builder, network, config.step);
     builder.finish()
+}
+
+/// Ways for walkers alone: joined where they share an end, and to the nearest sidewalk where one is near an end.
+fn add_footpaths(builder: &mut Builder, network: &RoadNetwork, step: f64) {
+    if network.footpaths.is_empty() {
+        return;
+    }
+    let walks = PointGrid::new(builder.waypoints.iter().map(|waypoint| waypoint.position).collect(), CELL);
+    let mut ends: BTreeMap<[u64; 2], WaypointId> = BTreeMap::new();
+    for footpath in &network.footpaths {
+        let places = interpolated(&footpath.path, step);
+        let mut last: Option<WaypointId> = None;
+        for (rank, place) in places.iter().enumerate() {
+            let is_end = rank == 0 || rank + 1 == places.len();
+            let key = [place.x.to_bits(), place.y.to_bits()];
+            let known = ends.get(&key).copied().filter(|_| is_end);
+            let here = known.unwrap_or_else(|| builder.add(*place, WaypointKind::Footpath));
+            if is_end && known.is_none() {
+                ends.insert(key, here);
+                let near = walks.nearest(*place).map(WaypointId::from_index);
+                let near =
+                    near.filter(|near| (builder.waypoints[near.index()].position - place).norm() <= JOINS);
+                if let Some(near) = near {
+                    builder.join(here, near, footpath.width, None);
+                }
+            }
+            if let Some(last) = last.filter(|last| *last != here) {
+                builder.join(last, here, footpath.width, None);
+            }
+            last = Some(here);
+        }
+    }
 }
 
 /// The path moved away from the road between its ends, which stay.

@@ -31,6 +31,8 @@ pub enum WaypointKind {
     Kerb(CrossingId),
     /// A lane, or a way across an intersection that begins at its end.
     Lane(LaneId),
+    /// A way for walkers alone.
+    Footpath,
 }
 
 /// A place one can be at.
@@ -119,7 +121,7 @@ impl WaypointGraph {
         build::coarse(network)
     }
 
-    /// The fine level for walkers: sidewalks, the corners that join them, and crossings.
+    /// The fine level for walkers: sidewalks, the corners that join them, crossings, and ways for walkers alone.
     ///
     /// # Errors
     /// A setting out of range.

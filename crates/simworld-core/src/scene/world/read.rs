@@ -8,6 +8,7 @@ use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::geometry::{Aabb, Ray};
+use crate::ground::Ground;
 use crate::id::EntityId;
 use crate::limbs::JointAngles;
 use crate::net::{Aspect, RoadNetwork};
@@ -53,6 +54,10 @@ impl Scene for World {
 
     fn roads(&self) -> Option<&Arc<RoadNetwork>> {
         self.roads.as_ref()
+    }
+
+    fn ground(&self) -> Option<&Arc<Ground>> {
+        self.ground.as_ref()
     }
 
     fn assets(&self) -> Option<&Arc<Catalogue>> {

@@ -11,6 +11,7 @@ use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::event::Event;
+use crate::ground::Ground;
 use crate::id::EntityId;
 use crate::intent::Intent;
 use crate::net::{Aspect, RoadNetwork};
@@ -26,6 +27,7 @@ pub struct WorldSnapshot {
     signals: Vec<Aspect>,
     closed: BTreeSet<RoadLeg>,
     roads: Option<Arc<RoadNetwork>>,
+    ground: Option<Arc<Ground>>,
     assets: Arc<Catalogue>,
     generations: Vec<u32>,
     entities: Vec<Option<EntityDesc>>,
@@ -47,6 +49,7 @@ impl World {
             signals: self.signals.clone(),
             closed: self.closed.clone(),
             roads: self.roads.clone(),
+            ground: self.ground.clone(),
             assets: Arc::clone(&self.assets),
             generations: self.generations.clone(),
             entities: (0..self.infos.len()).map(|slot| self.in_slot(slot).map(|e| e.to_desc())).collect(),
@@ -94,6 +97,7 @@ impl World {
             clock: snapshot.clock,
             environment: snapshot.environment,
             roads: snapshot.roads,
+            ground: snapshot.ground,
             assets: snapshot.assets,
             signals: snapshot.signals,
             closed: snapshot.closed,
