@@ -10,7 +10,7 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Parser;
 use simworld_agents::model::{OpenAiChat, OpenAiConfig};
@@ -24,6 +24,7 @@ use simworld_core::scene::{EntityKind, Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::spec::{SceneKind, SceneSpec};
 use simworld_examples::edit::{Plan, View};
+use simworld_examples::timing::timed;
 use simworld_examples::{Outcome, exit_code};
 
 /// Makes a place from a sentence or a file: how many houses, how its streets are, what it has, and its weather. A city, a
@@ -81,11 +82,11 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         place.populate(&mut world)?;
         tell(&spec, &place, &world);
     } else {
-        let started = Instant::now();
-        let place = Landscape::build(&spec, Seed(arguments.seed))?;
-        let built = started.elapsed();
-        place.populate(&mut world)?;
-        tell_land(&place, &world, [built, started.elapsed()]);
+        let (place, built) = timed(|| Landscape::build(&spec, Seed(arguments.seed)));
+        let place = place?;
+        let (populated, peopled) = timed(|| place.populate(&mut world));
+        populated?;
+        tell_land(&place, &world, [built, built + peopled]);
     }
     draw(arguments, &spec, &world)
 }

@@ -183,10 +183,10 @@ impl PhysicsDynamics {
                     config,
                     conditions,
                     detail,
-                    fastest,
-                    shoves,
                     ground,
                     surface,
+                    fastest,
+                    shoves,
                 };
                 owned.body.sense(&around, dt);
             }

@@ -21,7 +21,7 @@ fn land(height: impl Fn(Point2) -> f64) -> Arc<Ground> {
     let covers = vec![Cover::Grass; (columns * rows) as usize];
     Arc::new(
         Ground::new(GroundData { origin, spacing: 2.0, columns, rows, heights, covers, water: None })
-            .unwrap(),
+            .expect("such heights are a ground"),
     )
 }
 

@@ -167,11 +167,11 @@ impl Grid {
     /// Leaves water only where it hangs together with one of some places, and land only where it hangs together with the
     /// largest: puddles are filled, islets drowned.
     pub(super) fn settle_water(&mut self, waters: &[Point2]) {
-        let (part, sizes) = self.parts();
+        let (part, _) = self.parts();
         let kept: Vec<u32> = waters.iter().map(|place| part[self.nearest(*place)]).collect();
-        for index in 0..part.len() {
-            if self.heights[index] < 0.0 && !kept.contains(&part[index]) {
-                self.heights[index] = 0.3;
+        for (height, part) in self.heights.iter_mut().zip(&part) {
+            if *height < 0.0 && !kept.contains(part) {
+                *height = 0.3;
             }
         }
         let (part, sizes_now) = self.parts();
@@ -182,10 +182,9 @@ impl Grid {
         let largest = (0..sizes_now.len())
             .filter(|number| is_dry[*number])
             .max_by_key(|number| (sizes_now[*number], std::cmp::Reverse(*number)));
-        debug_assert!(!sizes.is_empty());
-        for index in 0..part.len() {
-            if self.heights[index] >= 0.0 && largest != Some(part[index] as usize) {
-                self.heights[index] = -0.8;
+        for (height, part) in self.heights.iter_mut().zip(&part) {
+            if *height >= 0.0 && largest != Some(*part as usize) {
+                *height = -0.8;
             }
         }
     }

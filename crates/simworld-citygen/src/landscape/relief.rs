@@ -123,14 +123,13 @@ impl Relief {
             _ => 3.0 + HILLS * 0.5 * (1.0 + at(&self.hills, place)) * 0.9,
         };
         for basin in &self.waters {
-            let (shore, valley) = match basin.water {
-                Water::River => ((place.x - self.river_at(basin, place.y)).abs() - RIVER_HALF, VALLEY),
-                _ => {
-                    let lake = if self.kind == SceneKind::Island { LAKE * 0.55 } else { LAKE };
-                    let wobble = 1.0 + 0.25 * at(&self.bends, place + Vector2::new(311.0, 97.0));
-                    let valley = if self.kind == SceneKind::Island { VALLEY * 1.4 } else { VALLEY };
-                    ((place - basin.middle).norm() - lake * wobble, valley)
-                }
+            let (shore, valley) = if basin.water == Water::River {
+                ((place.x - self.river_at(basin, place.y)).abs() - RIVER_HALF, VALLEY)
+            } else {
+                let lake = if self.kind == SceneKind::Island { LAKE * 0.55 } else { LAKE };
+                let wobble = 1.0 + 0.25 * at(&self.bends, place + Vector2::new(311.0, 97.0));
+                let valley = if self.kind == SceneKind::Island { VALLEY * 1.4 } else { VALLEY };
+                ((place - basin.middle).norm() - lake * wobble, valley)
             };
             // Down to the bank in the valley, then under the water.
             let bank = 0.8 + shore.max(0.0) * 0.04;
@@ -158,7 +157,7 @@ impl Relief {
         let coast = 0.63 + 0.12 * at(&self.bends, place) + 0.05 * at(&self.hills, place);
         let inland = (coast - off) * self.half;
         if inland <= 0.0 {
-            return (inland * 0.08).max(SEA).min(-0.02);
+            return (inland * 0.08).clamp(SEA, -0.02);
         }
         let beach = 0.06 * inland.min(30.0);
         let knolls = 0.5 * (1.0 + at(&self.hills, place));
