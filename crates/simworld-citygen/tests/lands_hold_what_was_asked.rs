@@ -81,12 +81,16 @@ fn trails_keep_their_grade_on_the_finished_ground_and_stay_dry() {
             // By the metre a way passes over the edges of triangles; by five metres it is what one walks. Where ways meet, one
             // bed leads over into the other, and may do so more steeply.
             let (step, meeting, steepest) = (5.0, 8.0, 0.25);
-            let others = || place.network.footpaths.iter().filter(|other| !std::ptr::eq(*other, way));
-            let meets = |at: Point2| {
-                others().any(|other| {
-                    polyline::closest(&other.path, &at).is_some_and(|near| near.distance < meeting)
-                })
+            let others = place.network.footpaths.iter().filter(|other| !std::ptr::eq(*other, way));
+            let others: Vec<_> = others.map(|other| &other.path).collect();
+            let walks: Vec<_> = place.network.sidewalks.iter().map(|walk| &walk.path).collect();
+            let near = |paths: &[&Vec<Point2>], at: Point2, reach: f64| {
+                paths
+                    .iter()
+                    .any(|path| polyline::closest(path, &at).is_some_and(|near| near.distance < reach))
             };
+            // The bed of a road is level to its edge, and a bank wide.
+            let meets = |at: Point2| near(&others, at, meeting) || near(&walks, at, 2.0 * meeting);
             let mut station = meeting;
             while station + step + meeting <= length {
                 let [from, to] = [station, station + step].map(|at| polyline::at(&way.path, at).0);

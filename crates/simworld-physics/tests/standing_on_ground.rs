@@ -78,7 +78,7 @@ fn what_falls_comes_to_rest_on_the_ground() {
 }
 
 #[test]
-fn people_walk_with_their_soles_on_the_ground_as_far_as_on_the_level() {
+fn people_walk_with_their_soles_on_the_ground_and_slower_on_slopes() {
     let ground = land(|at| 1.5 * simworld_core::ops::sin(at.x * 0.2) + 0.1 * at.y);
     let mut stage = stage(&ground);
     let start = Point2::new(-30.0, 4.3);
@@ -93,8 +93,9 @@ fn people_walk_with_their_soles_on_the_ground_as_far_as_on_the_level() {
         way += (now - before).norm();
         before = now;
     }
-    assert!((way - 1.4 * 30.0).abs() < 0.5, "{way} m in 30 s");
-    assert!(before.x > 5.0, "{before}");
+    // By Tobler's function, over grades of up to 30 %: a half to nine tenths of the speed on the level.
+    assert!((0.5..0.9).contains(&(way / (1.4 * 30.0))), "{way} m in 30 s");
+    assert!(before.x > -10.0, "{before}");
 }
 
 #[test]
@@ -127,7 +128,7 @@ fn walls_and_steps_on_a_slope_are_what_they_are_on_the_level() {
     for walker in [blocked, stepping] {
         stage.tell(walker, Action::MoveForward { speed: 1.0 });
     }
-    stage.run(35);
+    stage.run(63);
     let on = stage.position(stepping);
     assert!(on.x > -1.9 && on.x < 0.0 && (on.z - top).abs() < 0.03, "{on} on {top}");
     stage.run(120);
