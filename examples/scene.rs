@@ -135,7 +135,12 @@ fn tell_land(place: &Landscape, world: &World, [built, placed]: [Duration; 2]) {
         place.buildings().count()
     );
     let trails: f64 = place.network.footpaths.iter().map(|way| polyline::length(&way.path)).sum();
-    let roads: f64 = place.network.roads.iter().map(|road| polyline::length(&road.centerline)).sum();
+    let roads = place
+        .network
+        .roads
+        .iter()
+        .map(|road| polyline::length(&road.centerline))
+        .fold(0.0, |all, length| all + length);
     println!("{roads:.0} m of road, {trails:.0} m of ways for walkers");
     for area in &place.areas {
         println!("{} ({})", area.name, area.used_as);
