@@ -23,6 +23,13 @@ pub(super) const BRINGS: &[&str] = &[
     "off to", "all the way to", "straight to", "right to", "back over to",
 ];
 
+/// Between going and what one goes for.
+#[rustfmt::skip]
+const TO_DO: &[&str] = &[
+    "out and", "over and", "along and", "off and", "down and", "up and", "on and", "round and", "out to",
+    "off to", "and",
+];
+
 impl Parser<'_> {
     /// An order; several if one verb says several things.
     pub(super) fn order(&mut self) -> Result<Vec<Clause>, PlanError> {
@@ -42,19 +49,7 @@ impl Parser<'_> {
         };
         if self.goes_to_do(count) {
             self.at += count;
-            self.eat_any(&[
-                "out and",
-                "over and",
-                "along and",
-                "off and",
-                "down and",
-                "up and",
-                "on and",
-                "round and",
-                "out to",
-                "off to",
-                "and",
-            ]);
+            self.eat_any(TO_DO);
             return self.order();
         }
         self.at += count;
@@ -78,22 +73,7 @@ impl Parser<'_> {
         let is_go = count == 1 && (self.peeks("go") || self.peeks("come"));
         let after = &self.rest()[count.min(self.rest().len())..];
         let moves = longest_verb(self.rest()).is_some_and(|(verb, _)| matches!(verb, Verb::Go | Verb::Run));
-        let out = longest_phrase(
-            after,
-            &[
-                "out and",
-                "over and",
-                "along and",
-                "off and",
-                "down and",
-                "up and",
-                "on and",
-                "round and",
-                "out to",
-                "off to",
-                "and",
-            ],
-        );
+        let out = longest_phrase(after, TO_DO);
         if moves
             && out.is_some_and(|words| {
                 longest_verb(&after[words..]).is_some_and(|(verb, _)| verb != Verb::Shuttle)

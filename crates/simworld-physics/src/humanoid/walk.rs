@@ -215,22 +215,22 @@ impl Humanoid {
         if self.is_struck(&wish, &(start * body_from_solid), solid, around, dt) {
             self.plan.upset = Some(FallCause::Struck);
         }
-        let reach = (wish + carried).norm() + NEARBY;
-        let queries = around.queries();
-        let company = Company::of(solid, &(start * body_from_solid), reach, &queries);
         if let Some(surface) = around.surface() {
             self.cross_country(surface, around, &(wish + carried), dt);
-        } else if company == Company::Alone
-            && self.is_on_level_ground(around.config().ground_half_extent, reach)
-        {
-            // There is nothing to run into: the controller would find out the same at many times the cost.
-            self.plan.way = Vector3::new(wish.x, wish.y, -self.feet().z);
-            let grip = around.conditions().road.grip(around.config().ground);
-            self.plan.stand = Stand { grip, ..Stand::default() };
-            self.motion.support = None;
-            self.motion.pace.go(wish.xy().norm(), 0.0);
         } else {
-            self.find_way(&wish, &carried, company, around, dt);
+            let reach = (wish + carried).norm() + NEARBY;
+            let company = Company::of(solid, &(start * body_from_solid), reach, &around.queries());
+            if company == Company::Alone && self.is_on_level_ground(around.config().ground_half_extent, reach)
+            {
+                // There is nothing to run into: the controller would find out the same at many times the cost.
+                self.plan.way = Vector3::new(wish.x, wish.y, -self.feet().z);
+                let grip = around.conditions().road.grip(around.config().ground);
+                self.plan.stand = Stand { grip, ..Stand::default() };
+                self.motion.support = None;
+                self.motion.pace.go(wish.xy().norm(), 0.0);
+            } else {
+                self.find_way(&wish, &carried, company, around, dt);
+            }
         }
         let velocity = (self.plan.way - self.plan.shifted).xy() / dt;
         if self.slips(velocity, around, dt) {

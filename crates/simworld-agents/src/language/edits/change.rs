@@ -15,6 +15,11 @@ const POSED: &[&str] = &["to stand", "to sit", "to wait", "to be", "to go", "to 
     "and place it", "and park it", "and set it down", "and set it", "and leave it", "and stick it", "and drop it", "and stand it", "to be placed", "to rest", "to live", "and put them",
     "and place them", "and park them", "so that they stand", "so they stand", "so that she stands", "so that he stands", "so she stands", "so he stands"];
 
+/// What may stand behind a colour.
+#[rustfmt::skip]
+const BEHIND_PAINT: &[&str] =
+    &["instead", "please", "now", "in colour", "in color", "too", "colour", "color", "paint", "again"];
+
 impl Reader<'_> {
     // ---- the verbs ----
 
@@ -177,40 +182,9 @@ impl Reader<'_> {
                 }
             }
             let next = at + count;
-            let closes = next >= end
-                || self.is_joint(next)
-                || longest_phrase(
-                    &self.lexemes[next..end],
-                    &[
-                        "instead",
-                        "please",
-                        "now",
-                        "in colour",
-                        "in color",
-                        "too",
-                        "colour",
-                        "color",
-                        "paint",
-                        "again",
-                    ],
-                )
-                .is_some();
+            let rest = longest_phrase(&self.lexemes[next..end], BEHIND_PAINT);
+            let closes = next >= end || self.is_joint(next) || rest.is_some();
             if let Some(what) = self.things(start, cut).ok().filter(|_| closes) {
-                let rest = longest_phrase(
-                    &self.lexemes[next..end],
-                    &[
-                        "instead",
-                        "please",
-                        "now",
-                        "in colour",
-                        "in color",
-                        "too",
-                        "colour",
-                        "color",
-                        "paint",
-                        "again",
-                    ],
-                );
                 return Some((what, paint, next + rest.unwrap_or(0)));
             }
         }
