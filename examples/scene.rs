@@ -8,7 +8,7 @@
 //! cargo run --release --example scene -- --spec out/scene/scene.toml
 //! ```
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -65,7 +65,7 @@ fn main() -> ExitCode {
 
 fn job(arguments: &Arguments) -> Outcome<()> {
     let spec = if let Some(path) = &arguments.spec {
-        toml::from_str(&std::fs::read_to_string(path)?)?
+        read_spec(path)?
     } else {
         let reading = read(arguments)?;
         if !reading.unread.is_empty() {
@@ -89,6 +89,14 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         tell_land(&place, &world, [built, built + peopled]);
     }
     draw(arguments, &spec, &world)
+}
+
+/// A spec from a file, or which file it is that is none.
+fn read_spec(path: &Path) -> Outcome<SceneSpec> {
+    let text = std::fs::read_to_string(path).map_err(|error| {
+        format!("{}: {error}; give --spec a scene.toml that this example wrote", path.display())
+    })?;
+    Ok(toml::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))?)
 }
 
 fn read(arguments: &Arguments) -> Outcome<SceneReading> {
