@@ -178,7 +178,9 @@ fn draw(arguments: &Arguments, spec: &SceneSpec, world: &World) -> Outcome<()> {
         let (low, high) = land.extent();
         (nalgebra::center(&low, &high), (high - low).max() * 0.5)
     });
-    let title = spec.title.as_deref().unwrap_or(&arguments.words);
+    // The words are those of the default where a spec is made.
+    let asked = if arguments.spec.is_some() { spec.kind.as_str() } else { &arguments.words };
+    let title = spec.title.as_deref().unwrap_or(asked);
     let plan = Plan { middle, reach, title, touched: &[], placings: &[] };
     std::fs::write(arguments.out.join("plan.svg"), plan.draw(world).to_string())?;
     match View::new() {
