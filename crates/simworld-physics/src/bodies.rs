@@ -1,5 +1,7 @@
 //! Giving entities bodies, taking them away, and asking about them.
 
+use std::any::Any;
+
 use rapier3d_f64::prelude::RigidBodyHandle;
 use simworld_core::geometry::{Twist, Vector3};
 use simworld_core::id::EntityId;
@@ -11,7 +13,9 @@ use crate::convert::from_vector;
 use crate::dynamics::{Owned, PhysicsDynamics};
 use crate::shape::material_of_entity;
 use crate::sync::Slot;
-use crate::{Humanoid, HumanoidConfig, PhysicsError, Rigid, Vehicle, VehicleParameters};
+use crate::{
+    Humanoid, HumanoidConfig, PhysicsError, Quadruped, QuadrupedConfig, Rigid, Vehicle, VehicleParameters,
+};
 
 impl PhysicsDynamics {
     /// Gives a person's entity a body of its pose and size.
@@ -35,6 +39,21 @@ impl PhysicsDynamics {
     /// As [`add_humanoid`](Self::add_humanoid).
     pub fn add_dog(&mut self, world: &World, id: EntityId) -> Result<(), PhysicsError> {
         self.add_humanoid(world, id, HumanoidConfig::dog())
+    }
+
+    /// Gives a robot dog's entity a body on legs: twelve motors under the laws of mechanics near what is of interest, and the
+    /// cylinder of [`add_dog`](Self::add_dog) elsewhere.
+    ///
+    /// # Errors
+    /// As [`add_humanoid`](Self::add_humanoid).
+    pub fn add_quadruped(
+        &mut self,
+        world: &World,
+        id: EntityId,
+        config: QuadrupedConfig,
+    ) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        self.insert(world, id, Box::new(Quadruped::of(&entity, config)?))
     }
 
     /// Gives a vehicle's entity a body of its pose, velocity, size and mass.
@@ -114,6 +133,20 @@ impl PhysicsDynamics {
     /// The body of an entity, if it has one.
     pub fn body(&self, id: EntityId) -> Option<&dyn PhysicsBody> {
         self.position(id).ok().map(|place| &*self.bodies[place].body)
+    }
+
+    /// The body of an entity, if it has one of that type.
+    pub fn body_as<B: PhysicsBody>(&self, id: EntityId) -> Option<&B> {
+        let body: &dyn Any = self.body(id)?;
+        body.downcast_ref()
+    }
+
+    /// The body of an entity, if it has one of that type, to be told what no action says. What it is told is a part of saved
+    /// states, and no part of the commands that a world records: who replays a run tells it again.
+    pub fn body_as_mut<B: PhysicsBody>(&mut self, id: EntityId) -> Option<&mut B> {
+        let place = self.position(id).ok()?;
+        let body: &mut dyn Any = &mut *self.bodies[place].body;
+        body.downcast_mut()
     }
 
     /// Where the body of an entity is and how it moves, if it has one.

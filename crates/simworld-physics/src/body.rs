@@ -1,5 +1,7 @@
 //! The seam by which a body joins the physics: what it implements and what it is given.
 
+use std::any::Any;
+
 use rapier3d_f64::prelude::{
     Collider, ColliderHandle, PhysicsWorld, QueryFilter, QueryPipeline, QueryPipelineMut, RigidBody,
     RigidBodyHandle, RigidBodySet,
@@ -99,7 +101,7 @@ pub struct Bonds {
 /// assert!((world.entity(id).unwrap().position().z - 6.0).abs() < 1e-3); // 1 m up in 1 s
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub trait PhysicsBody: Embodiment + Send {
+pub trait PhysicsBody: Embodiment + Send + Any {
     /// Puts its rigid body and colliders into the engine at its present state. The frame of the rigid body is
     /// the entity's body frame; colliders carry the entity's mark ([`collider_for`](crate::collider_for) sets it).
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle;

@@ -29,6 +29,11 @@ use crate::{PhysicsConfig, PhysicsError};
 /// More substeps than this in a step are not taken, however finely a body would like to move.
 const MOST_SUBSTEPS: f64 = 1000.0;
 
+/// How many times the solver goes over a substep, as its makers set it.
+const ITERATIONS: usize = 4;
+/// In substeps up to this length it does so once, s.
+const SHORT_SUBSTEP: f64 = 0.0051;
+
 /// The bodies of a world under the laws of physics.
 ///
 /// Solid things that do not move by themselves become fixed colliders, by the hulls of their asset's model if it has
@@ -147,6 +152,13 @@ impl PhysicsDynamics {
             self.bodies.iter().map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
         let needed = (dt / longest - 1e-9).ceil().clamp(1.0, MOST_SUBSTEPS);
         self.config.substeps.max(needed as u32)
+    }
+
+    /// How many times the solver goes over a substep: once where a body asks for substeps so short that as many passes a second
+    /// are made as with the usual ones.
+    fn iterations(&self) -> usize {
+        let short = |owned: &Owned| owned.body.longest_substep() <= SHORT_SUBSTEP;
+        if self.bodies.iter().any(short) { 1 } else { ITERATIONS }
     }
 
     /// Passes on what bodies were told; what they refuse becomes an event.
@@ -299,6 +311,7 @@ impl Dynamics for PhysicsDynamics {
         let count = self.substeps(dt);
         let substeps = f64::from(count);
         self.physics.integration_parameters.dt = dt / substeps;
+        self.physics.integration_parameters.num_solver_iterations = self.iterations();
         for substep in 1..=count {
             self.substep(dt / substeps, f64::from(substep) / substeps)?;
         }

@@ -15,6 +15,7 @@ mod ground;
 mod humanoid;
 mod mirror;
 pub mod proving;
+mod quadruped;
 mod query;
 mod rigid;
 mod shape;
@@ -30,6 +31,10 @@ pub use config::PhysicsConfig;
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;
 pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture, Surefootedness};
+pub use quadruped::{
+    Command, GaitParameters, ImuReading, JointCommand, JointReading, LEGS, Quadruped, QuadrupedConfig,
+    QuadrupedModel, Readings,
+};
 /// The physics engine underneath, for bodies of one's own: its types appear in [`PhysicsBody`].
 pub use rapier3d_f64 as rapier;
 pub use rigid::Rigid;

@@ -125,6 +125,18 @@ impl HumanoidConfig {
     }
 }
 
+/// What is left of what somebody was told, for bodies that go by it in a way of their own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Orders {
+    /// Speed along the heading, m/s.
+    pub(crate) speed: f64,
+    /// What is left of a single step, body frame, m, and its speed, m/s.
+    pub(crate) step: Vector3,
+    pub(crate) step_speed: f64,
+    /// What is left of a turn, radians.
+    pub(crate) turn: f64,
+}
+
 /// What a person is doing with the body as a whole.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -294,6 +306,17 @@ impl Humanoid {
     /// How it fares on its feet.
     pub fn footing(&self) -> Footing {
         self.motion.recovery.footing()
+    }
+
+    /// What is left of what it was told.
+    pub(crate) fn orders(&self) -> Orders {
+        let Motion { wanted_speed, step_left, turn_left, .. } = self.motion;
+        Orders { speed: wanted_speed, step: step_left, step_speed: self.config.step_speed, turn: turn_left }
+    }
+
+    /// Notes how much of a step and a turn is left.
+    pub(crate) fn set_orders(&mut self, orders: &Orders) {
+        (self.motion.step_left, self.motion.turn_left) = (orders.step, orders.turn);
     }
 
     /// The middle of the soles of who stands.

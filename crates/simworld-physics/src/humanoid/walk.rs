@@ -37,7 +37,7 @@ const TURN_SPEED: f64 = 1.0;
 
 impl Humanoid {
     /// The collider and its place in the body frame.
-    pub(super) fn collider(&self) -> (SharedShape, RapierPose) {
+    pub(crate) fn collider(&self) -> (SharedShape, RapierPose) {
         let half_height = (self.height - SKIN) * 0.5;
         let middle = Vector::new(0.0, 0.0, SKIN + half_height);
         match self.config.form {

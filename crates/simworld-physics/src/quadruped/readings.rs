@@ -1,0 +1,110 @@
+//! What is told to a quadruped's joints and body, and what is read from them.
+
+use nalgebra::UnitQuaternion;
+use serde::{Deserialize, Serialize};
+use simworld_core::geometry::Vector3;
+
+/// How a quadruped is to go, all in its own frame: x forward, y left, z up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Command {
+    /// Speed forward, backward if negative, m/s.
+    pub forward: f64,
+    /// Speed to the left, m/s.
+    pub lateral: f64,
+    /// Rate of turning to the left, rad/s.
+    pub turning: f64,
+    /// How far the nose is to point above the ground's slope, radians, -0.4 to 0.4.
+    pub pitch: f64,
+    /// How much lower than standing the trunk is to be carried, m, 0 to 0.12.
+    pub crouch: f64,
+}
+
+impl Command {
+    /// The nearest one that a body of such speeds (forward, aside, turning) carries out; what is no number is 0.
+    pub(super) fn within(self, [forward, lateral, turning]: [f64; 3]) -> Self {
+        let held =
+            |value: f64, low: f64, high: f64| if value.is_nan() { 0.0 } else { value.clamp(low, high) };
+        Self {
+            forward: held(self.forward, -forward, forward),
+            lateral: held(self.lateral, -lateral, lateral),
+            turning: held(self.turning, -turning, turning),
+            pitch: held(self.pitch, -0.4, 0.4),
+            crouch: held(self.crouch, 0.0, 0.12),
+        }
+    }
+}
+
+/// What the motor of one joint is told: a torque of `stiffness` times the angle and `damping` times the speed that is
+/// missing, and `torque`, within what the motor gives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct JointCommand {
+    /// Angle to go to, radians.
+    pub angle: f64,
+    /// Speed to have, rad/s.
+    pub speed: f64,
+    /// N m/rad, 0 to 200.
+    pub stiffness: f64,
+    /// N m s/rad, 0 to 3; a stiffer one would swing within a substep.
+    pub damping: f64,
+    /// N m.
+    pub torque: f64,
+}
+
+impl JointCommand {
+    /// The torque it asks for at an angle and a speed, N m.
+    pub(super) fn torque_at(&self, angle: f64, speed: f64) -> f64 {
+        self.stiffness.clamp(0.0, 200.0) * (self.angle - angle)
+            + self.damping.clamp(0.0, 3.0) * (self.speed - speed)
+            + self.torque
+    }
+
+    /// Whether every part of it is a finite number.
+    pub(super) fn is_finite(&self) -> bool {
+        [self.angle, self.speed, self.stiffness, self.damping, self.torque]
+            .iter()
+            .all(|part| part.is_finite())
+    }
+}
+
+/// How one joint is and what its motor does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct JointReading {
+    /// Angle, radians.
+    pub angle: f64,
+    /// Speed, rad/s.
+    pub speed: f64,
+    /// Torque of the motor, N m: exactly what acts in the engine.
+    pub torque: f64,
+}
+
+/// What an inertial measuring unit in the middle of the trunk reads.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ImuReading {
+    /// How the trunk is turned in the world.
+    pub orientation: UnitQuaternion<f64>,
+    /// Angular velocity, trunk frame, rad/s.
+    pub angular_velocity: Vector3,
+    /// Acceleration less that of free fall, trunk frame, m/s²: at rest gravity upwards. It is the mean over a substep.
+    pub acceleration: Vector3,
+}
+
+impl Default for ImuReading {
+    fn default() -> Self {
+        let (angular_velocity, acceleration) = (Vector3::zeros(), Vector3::zeros());
+        Self { orientation: UnitQuaternion::identity(), angular_velocity, acceleration }
+    }
+}
+
+/// What can be read from a quadruped on its legs, as of the start of the last substep. Legs come as in
+/// [`LEGS`](super::LEGS), the joints of each as abduction, thigh and knee.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Readings {
+    /// Joints and motors.
+    pub joints: [[JointReading; 3]; 4],
+    /// Force of the ground on each foot, N; zero in the air.
+    pub feet: [f64; 4],
+    /// The inertial measuring unit.
+    pub imu: ImuReading,
+}
