@@ -8,7 +8,7 @@ use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::Dynamics;
-use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics};
+use simworld_physics::{Command, HumanoidConfig, PhysicsConfig, PhysicsDynamics, Quadruped, QuadrupedConfig};
 
 /// A person's shape.
 pub const PERSON: Shape = Shape::Capsule { radius: 0.25, height: 1.75 };
@@ -48,6 +48,47 @@ impl Stage {
         let id = self.spawn(EntityKind::Person, pose, PERSON);
         self.physics.add_humanoid(&self.world, id, HumanoidConfig::default()).unwrap();
         id
+    }
+
+    /// A robot dog on legs.
+    pub fn legged_dog(&mut self, pose: Pose) -> EntityId {
+        let id = self.spawn(EntityKind::Dog, pose, Shape::cuboid(0.7, 0.35, 0.5));
+        self.physics.add_quadruped(&self.world, id, QuadrupedConfig::default()).unwrap();
+        id
+    }
+
+    pub fn quadruped(&self, id: EntityId) -> &Quadruped {
+        self.physics.body_as(id).unwrap()
+    }
+
+    pub fn quadruped_mut(&mut self, id: EntityId) -> &mut Quadruped {
+        self.physics.body_as_mut(id).unwrap()
+    }
+
+    pub fn command(&mut self, id: EntityId, command: Command) {
+        self.quadruped_mut(id).command(command);
+    }
+
+    /// How far upward the trunk's upward axis points.
+    pub fn up(&self, id: EntityId) -> f64 {
+        (self.world.entity(id).unwrap().pose.rotation * Vector3::z()).z
+    }
+
+    /// A ball of 0.1 m that flies from a place with a velocity.
+    pub fn ball(&mut self, place: Point3, velocity: Vector3, mass: f64) -> EntityId {
+        let shape = Shape::Sphere { radius: 0.1 };
+        let mut desc = EntityDesc::new(EntityKind::Prop, pose_facing(place, 0.0), shape).weighing(mass);
+        desc.twist.linear = velocity;
+        let id = self.world.spawn(desc).unwrap();
+        self.physics.add_rigid(&self.world, id).unwrap();
+        id
+    }
+
+    /// One step of `dt` s, whatever the clock says.
+    pub fn tick(&mut self, dt: f64) {
+        self.world.begin_step();
+        self.physics.step(&mut self.world, dt).unwrap();
+        self.world.finish_step();
     }
 
     pub fn tell(&mut self, who: EntityId, action: Action) {
