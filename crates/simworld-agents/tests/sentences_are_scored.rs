@@ -11,9 +11,10 @@ use sentences_common::city::City;
 use sentences_common::{PLACES, Said, Verdict, said_in, verdict};
 
 /// What each family scores at least, in percent. Raise it when the grammar learns; never lower it.
-const FLOORS: [(&str, f64); 18] = [
+const FLOORS: [(&str, f64); 19] = [
     ("ambiguous", 100.0),
     ("call", 100.0),
+    ("called", 95.0),
     ("compass", 95.0),
     ("conditional", 95.0),
     ("counted", 95.0),

@@ -18,7 +18,7 @@ pub(super) const IF: &[&str] = &[
     "in the event that", "in the event", "in the event of", "assuming", "assuming that", "supposing",
     "supposing that", "on condition that", "only if", "but only if", "if and only if",
     "if it should happen that", "if it so happens that", "if it turns out that", "if it happens that",
-    "given that", "seeing that", "if you find that", "if you notice that", "if you see that",
+    "suppose", "suppose that", "lets suppose", "imagine", "imagine that", "say that", "given that", "given", "subject to", "whether", "seeing that", "if you find that", "if you notice that", "if you see that",
 ];
 pub(super) const UNLESS: &[&str] =
     &["unless", "if not", "except if", "except when", "but not if", "so long as not"];
@@ -31,6 +31,22 @@ pub(super) const UNTIL: &[&str] = &[
     "right until",
     "until such time as",
     "until the moment",
+    "and dont stop until",
+    "and do not stop until",
+    "and dont cease until",
+    "and do not cease until",
+    "dont stop until",
+    "do not stop until",
+    "do not cease until",
+    "never stopping until",
+    "not stopping until",
+    "without stopping until",
+    "as far as when",
+    "all the way until",
+    "right up until",
+    "and dont give up until",
+    "just until",
+    "only until",
 ];
 pub(super) const WHILE: &[&str] =
     &["while", "as long as", "so long as", "for as long as", "for so long as", "whilst", "all the while"];
@@ -45,7 +61,7 @@ pub(super) const WHEN: &[&str] = &[
 #[rustfmt::skip]
 pub(super) const GOES_ON: &[&str] = &[
     "keep", "keep on", "continue", "continue to", "go on", "carry on", "dont stop", "do not stop", "never stop",
-    "dont quit", "keep up", "dont cease",
+    "dont quit", "keep up", "dont cease", "do not cease", "dont give up", "never cease", "never quit", "loop",
 ];
 /// Being somewhere, which one has to go to first: "once you are at the bench, sit down".
 #[rustfmt::skip]
@@ -76,6 +92,17 @@ const SO: &[&str] = &[
     "then",
     "if there is",
     "if it does",
+    "if he does",
+    "if she does",
+    "if you do",
+    "if you can",
+    "if you have",
+    "if it has",
+    "if you see one",
+    "then if so",
+    "yes",
+    "if thats so",
+    "if thats the case",
 ];
 const NOT_SO: &[&str] = &[
     "if not",
@@ -87,6 +114,13 @@ const NOT_SO: &[&str] = &[
     "if there is not",
     "if he isnt",
     "if she isnt",
+    "if it doesnt",
+    "if you dont",
+    "if you cant",
+    "if you havent",
+    "no",
+    "if none",
+    "otherwise",
 ];
 
 impl Parser<'_> {
@@ -114,7 +148,10 @@ impl Parser<'_> {
             return self.either(false).map(Some);
         }
         if let Some(test) = self.asked() {
-            self.skip_joints();
+            while matches!(self.rest().first(), Some(Lexeme { token: Token::Break | Token::Comma, .. })) {
+                self.at += 1;
+            }
+            self.eat_any(&["well", "and"]);
             let not = self.eat_any(NOT_SO);
             if not || self.eat_any(SO) {
                 let test = if not { Test::Not(Box::new(test)) } else { test };

@@ -58,6 +58,8 @@ pub(super) enum Clause {
     Turn { angle: f64 },
     /// Turns towards something.
     Face { what: Reference },
+    /// Turns away from something.
+    TurnFrom { what: Reference },
     /// Turns to a direction of the compass.
     FaceCompass(Compass),
     /// Drives on to a junction, the nth from here, and takes a turn there.

@@ -15,12 +15,44 @@ const CORRECTIONS: &[&str] = &[
     "no wait", "wait no", "no sorry", "sorry no", "sorry i mean", "sorry i meant", "no i mean", "no i meant",
     "i mean", "i meant", "or rather", "make that", "no make that", "actually make that", "actually no",
     "no actually", "scratch that", "strike that", "correction", "on second thoughts", "on second thought",
-    "change of plan", "no hang on", "hang on no", "forget that", "better still",
+    "change of plan", "no hang on", "hang on no", "forget that", "better still", "that is", "that is to say",
+    "in other words", "by which i mean", "as in", "or should i say", "or better", "no forget it", "forget it",
+    "never mind", "wait what no", "belay that", "cancel that", "no no", "oh no", "oops no", "i said", "rather",
+    "well make it", "make it", "no make it", "i take that back", "my mistake", "or perhaps better",
 ];
 /// What is not to be done, behind what is.
 const INSTEAD: &[&str] = &["instead of", "rather than", "and not", "not", "in place of", "as opposed to"];
 
 impl Parser<'_> {
+    /// "Strike that; ...", "no, no, ...": what takes back what was said in another sentence.
+    pub(super) fn skip_first_correction(&mut self) {
+        loop {
+            let start = self.at;
+            let said = self.eat_any(CORRECTIONS)
+                || self.eat_any(&[
+                    "no",
+                    "cut",
+                    "action",
+                    "not there",
+                    "not that",
+                    "not that one",
+                    "not this one",
+                    "not him",
+                    "not her",
+                    "not yet",
+                    "as you were",
+                    "wrong",
+                    "stop stop",
+                ]);
+            let marked =
+                matches!(self.rest().first().map(|lexeme| &lexeme.token), Some(Token::Comma | Token::Break));
+            if !said || !marked || !self.skip_joints() || self.at >= self.lexemes.len() {
+                self.at = start;
+                return;
+            }
+        }
+    }
+
     /// The order that takes the place of the one before, if what follows says that it was a slip.
     pub(super) fn correction(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
@@ -29,7 +61,7 @@ impl Parser<'_> {
         }
         let marked = self.at > start;
         let lone_no = marked
-            && self.peeks("no")
+            && (self.peeks("no") || self.peeks("well"))
             && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. }));
         if lone_no {
             self.at += 1;

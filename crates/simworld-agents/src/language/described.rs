@@ -44,7 +44,7 @@ const NEAR_MOST: &[&str] = &[
     "nearer to you", "closer to you", "next to you", "beside you", "by you", "closest to here",
     "nearest to here", "nearest here", "closest to where you are", "nearest to where you are",
     "closest to where you stand", "nearest to where you stand", "closest to your position",
-    "nearest to your position", "nearer to here", "closer to here",
+    "nearest to your position", "nearer to here", "closer to here", "nearest us", "nearest to us", "closest to us", "near us", "close to us", "nearest me", "closest by", "nearest by", "closest at hand", "nearest at hand", "by us", "next to us", "beside us", "next to me",
 ];
 /// The greatest.
 #[rustfmt::skip]

@@ -179,6 +179,11 @@ impl<'a> Draft<'a> {
                 self.act(Action::Rotate { angle: wrap_angle(*angle) })
             }
             Clause::Face { what } => self.face(what),
+            Clause::TurnFrom { what } => {
+                self.face(what)?;
+                self.view.heading += std::f64::consts::PI;
+                self.act(Action::Rotate { angle: std::f64::consts::PI })
+            }
             Clause::FaceCompass(compass) => self.face_compass(*compass),
             Clause::LookUp { angle } if *angle > 0.0 => self.act(Action::LookUp { angle: *angle }),
             Clause::LookUp { angle } => self.act(Action::LookDown { angle: -angle }),
@@ -351,6 +356,10 @@ impl<'a> Draft<'a> {
             (_, side) => {
                 let entity = self.find(to, Purpose::Any)?;
                 let beside = side.and_then(|side| spot_on_side(&entity, side, self.room()));
+                let stays = side.is_some() && beside.is_none() && within.is_none() && pace == Pace::Usual;
+                if stays && self.beside == Some(entity.id) {
+                    return Ok(()); // "go to the truck and stand next to it"
+                }
                 if let Some(spot) = beside {
                     (Goal::Point(spot), AT_POINT)
                 } else {

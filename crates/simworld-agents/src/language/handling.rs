@@ -162,7 +162,9 @@ impl Parser<'_> {
     }
 
     pub(super) fn photo(&mut self, times: u32) -> Result<Vec<Clause>, PlanError> {
-        let named = self.eat_any(&["of"]) || !self.ends_clause();
+        let named = self.eat_any(&["of", "showing", "with"])
+            || longest_phrase(self.rest(), &["from the", "from my"]).is_some() && self.eat_any(&["from"])
+            || !self.ends_clause();
         let of = if named { Some(self.reference(0)?) } else { None };
         Ok(vec![Clause::Photo { of, times }])
     }
@@ -230,6 +232,7 @@ impl Parser<'_> {
             self.at = start;
             return None;
         }
+        self.eat_any(&["from me", "from us", "for me"]);
         let wave = Clause::Wave { to: to.clone() };
         let times = number.map_or(1, |(number, _)| number as u32);
         Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])

@@ -1,5 +1,6 @@
 //! What is heard before it is read: sounds of thinking, contractions and forms of address are put aside.
 
+use super::dialects::in_plain_words;
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{category, longest_phrase};
 use super::politeness::{HESITATIONS, filler};
@@ -33,6 +34,8 @@ const STATES: &[&str] = &[
 pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
     let mut lexemes = lex_speech(text);
     without_abbreviations(&mut lexemes);
+    in_plain_words(&mut lexemes, text);
+    without_example_words(&mut lexemes);
     with_dashes(&mut lexemes, text);
     if let Some(name) = name {
         drop_address(&mut lexemes, &lex(name));
@@ -47,6 +50,52 @@ fn without_abbreviations(lexemes: &mut Vec<Lexeme>) {
         let short = matches!(&lexemes[at - 1].token, Token::Word(word) if ["st", "mr", "mrs", "ms", "dr"].contains(&word.as_str()));
         if short && lexemes[at].token == Token::Break && at + 1 < lexemes.len() {
             lexemes.remove(at);
+        }
+        at += 1;
+    }
+}
+
+/// "Turn left, say 30 degrees", "for a bit, like two minutes": the number says what was meant.
+fn without_example_words(lexemes: &mut Vec<Lexeme>) {
+    let mut at = 1;
+    while at + 2 < lexemes.len() {
+        let said = is_comma(lexemes, at)
+            && longest_phrase(
+                &lexemes[at + 1..],
+                &["say", "like", "maybe", "perhaps", "let us say", "lets say", "about", "roughly"],
+            )
+            .is_some();
+        let words = longest_phrase(
+            &lexemes[at + 1..],
+            &["let us say", "lets say", "maybe", "perhaps", "say", "like", "about", "roughly"],
+        )
+        .unwrap_or(0);
+        let after = &lexemes[(at + 1 + words).min(lexemes.len())..];
+        let preposition = longest_phrase(after, &["for", "to", "at", "for about", "of"]).unwrap_or(0);
+        let number = super::numbers::number(&after[preposition..]).is_some()
+            && longest_phrase(&after[preposition..], &["a", "an"]).is_none_or(|_| {
+                super::numbers::duration(&after[preposition..]).is_some_and(|(_, count)| count > 1)
+            });
+        if said && number {
+            let vague =
+                ["for a bit", "for a while", "for a moment", "for a little while", "for a short while"];
+            let from = (1..=4).find(|count| {
+                at >= *count
+                    && vague
+                        .iter()
+                        .any(|phrase| super::lexicon::fits(&lexemes[at - count..], phrase) == Some(*count))
+            });
+            match from {
+                Some(count) if preposition == 0 => {
+                    lexemes.drain(at - count + 1..=at + words);
+                }
+                Some(count) => {
+                    lexemes.drain(at - count..=at + words);
+                }
+                None => {
+                    lexemes.drain(at..=at + words);
+                }
+            }
         }
         at += 1;
     }
@@ -163,7 +212,7 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
             && end >= lexemes.len()
             && matches!(&lexemes[at - 1].token, Token::Word(word)
                 if ["me", "here", "please", "now", "boy", "girl", "down", "still", "it", "back", "home", "there"].contains(&word.as_str()));
-        let begins = begins || called;
+        let begins = begins || called || end >= lexemes.len() && at > 1 && stands_apart(&lexemes[..at]);
         let ends = end >= lexemes.len() || is_mark(end) || at == 0 && longest_verb(&lexemes[end..]).is_some();
         if same && begins && ends && lexemes.len() > name.len() {
             let between =
@@ -173,6 +222,19 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
             at += 1;
         }
     }
+}
+
+/// Whether a name behind these words is a form of address: no preposition and no verb stands before it.
+fn stands_apart(before: &[Lexeme]) -> bool {
+    #[rustfmt::skip]
+    const LEADS: &[&str] = &[
+        "to", "at", "with", "for", "of", "from", "by", "near", "behind", "beside", "after", "and", "or", "the", "a", "my",
+        "than", "like", "in", "on", "towards", "around", "round", "past", "under", "between", "called", "named", "not",
+        "next", "front", "toward", "via", "only", "just", "see", "is", "are", "until", "till", "if", "when",
+    ];
+    let last = &before[before.len() - 1];
+    matches!(&last.token, Token::Word(word) if !LEADS.contains(&word.as_str()))
+        && longest_verb(&before[before.len() - 1..]).is_none()
 }
 
 /// Whether the words are politeness alone: "come on Rex, ...".

@@ -7,13 +7,16 @@
 //!
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
+mod asides;
 mod blocks;
 mod call;
 mod clause;
+mod clipped;
 mod compass;
 mod corrections;
 mod deeds;
 mod described;
+mod dialects;
 mod draft;
 mod driving;
 pub(crate) mod edits;

@@ -371,7 +371,27 @@ impl Parser<'_> {
     }
 
     pub(super) fn turn(&mut self) -> Result<Clause, PlanError> {
+        if self.eat_any(&["your back on", "your back to", "your back towards", "away from", "your back upon"])
+        {
+            return Ok(Clause::TurnFrom { what: self.reference(0)? });
+        }
+        self.eat_any(&[
+            "a little",
+            "a bit",
+            "a little bit",
+            "slightly",
+            "just a little",
+            "your whole body",
+            "your body",
+            "sideways",
+        ]);
         let mut sense = self.sense();
+        self.eat_any(&["a little", "a bit", "a little bit", "slightly"]);
+        if matches!(self.mark(), Some(','))
+            && numbers::angle(self.rest().get(1..).unwrap_or_default()).is_some_and(|(_, words)| words > 1)
+        {
+            self.at += 1;
+        }
         self.eat_any(&["by", "for"]);
         let number_at = self.at;
         let mut angle = FRAC_PI_2;
@@ -404,6 +424,7 @@ impl Parser<'_> {
             let turn = if angle > 0.0 { Turn::Left } else { Turn::Right };
             return Ok(Clause::TurnAt { turn, nth, lights });
         }
+        self.turned = Some(angle.signum());
         Ok(Clause::Turn { angle })
     }
 

@@ -103,7 +103,9 @@ pub(super) fn times(lexemes: &[Lexeme]) -> Option<(u32, usize)> {
     #[rustfmt::skip]
     const UNITS: &[&str] = &[
         "times", "time", "more times", "times over", "times in a row", "times running", "times in total",
-        "times in all", "times each", "times altogether", "times more", "times through", "x",
+        "times in all", "times each", "times altogether", "times more", "times through", "x", "repetitions", "reps",
+        "repeats", "goes", "rounds of it", "rounds of that", "repetitions of that", "times running please", "rounds in all",
+        "times back to back", "times without a break", "times on the trot",
     ];
     const ONES: &[(&[&str], u32)] = &[
         (&["once", "once each", "just once", "only once", "a single time", "one single time"], 1),

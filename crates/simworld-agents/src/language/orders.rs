@@ -13,7 +13,8 @@ use super::verbs::{Verb, longest_verb};
 #[rustfmt::skip]
 pub(super) const PHOTOS: &[&str] = &[
     "snaps", "snap", "photograph", "shot", "selfie", "pic", "snapshot", "photos", "photo", "pictures",
-    "picture", "photographs", "snapshots", "shots", "selfies", "pics",
+    "picture", "photographs", "snapshots", "shots", "selfies", "pics", "still", "stills", "portrait", "portraits",
+    "image", "images", "screenshot", "screenshots", "close up", "close ups", "headshot",
 ];
 
 /// What leads to where something is brought.
@@ -34,6 +35,10 @@ impl Parser<'_> {
     /// An order; several if one verb says several things.
     pub(super) fn order(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_fillers();
+        let ours = self.peeks("we") && self.rest().get(1).is_some_and(|next| next.lemma.is_none());
+        if ours && longest_verb(&self.rest()[1..]).is_some() {
+            self.at += 1; // "then we sit on the bench"
+        }
         let start = self.at;
         if let Some(laps) = self.laps()? {
             return Ok(laps);

@@ -39,7 +39,7 @@ const MORE_THAN_FILLERS: &[&str] = &[
     "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
     "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "when you can see", "as soon as you can see", "whenever you can see", "when you can spot",
     "as soon as you can spot", "when you can make out", "as soon as you can make out", "up there is",
-    "go on to", "go on over to", "go on towards", "come on over", "here are",
+    "instead of", "go on to", "go on over to", "go on towards", "come on over", "here are",
 ];
 /// How often a statement is tried in other words, in one sentence.
 const MOST_TRIES: u32 = 24;
@@ -63,6 +63,12 @@ pub(super) struct Parser<'a> {
     pub(super) scope: Option<Reference>,
     /// The goods that "one" stands for.
     pub(super) wanted: Option<String>,
+    /// To which side one turned last: 1 is left.
+    pub(super) turned: Option<f64>,
+    /// What was asked last: "until it is".
+    pub(super) tested: Option<super::clause::Test>,
+    /// The words that were said last: "and tell Dmitri the same".
+    pub(super) said: Option<String>,
     /// How often a statement may still be tried in other words.
     tries: u32,
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
@@ -98,6 +104,9 @@ impl<'a> Parser<'a> {
             previous: None,
             scope: None,
             wanted: None,
+            said: None,
+            turned: None,
+            tested: None,
             tries: MOST_TRIES,
             in_test: false,
             depth: 0,
@@ -113,6 +122,7 @@ impl<'a> Parser<'a> {
         if self.skip_remark() {
             self.skip_joints();
         }
+        self.skip_first_correction();
         // "To the museum, then to the school" leaves the verb out.
         self.verb = longest_phrase(self.rest(), &["to", "over to", "back to", "on to"]).map(|_| Verb::Go);
         let clauses = self.orders(Extent::Sentence)?;
@@ -158,6 +168,9 @@ impl<'a> Parser<'a> {
         let joint = self.at;
         let mut joined = self.skip_joints();
         joined = self.skip_remark() && self.skip_joints() || joined;
+        while joined && self.at < self.lexemes.len() && self.skip_aside() {
+            self.skip_joints();
+        }
         let breaks = self.lexemes[joint..self.at].iter().any(|lexeme| lexeme.token == Token::Break);
         joined = self.skip_purpose() || joined;
         let goes_on = longest_verb(self.rest()).is_some() || self.begins_block();
@@ -280,10 +293,14 @@ impl<'a> Parser<'a> {
             Self::instead,
             Self::fronted_place,
             Self::in_nouns,
+            Self::clipped,
+            Self::which_one,
+            Self::itinerary,
             Self::wants_one,
             Self::somebody_gets,
             Self::on_topic,
             Self::headed,
+            Self::aside,
         ] {
             found = rule(self);
             if found.is_some() {
@@ -317,9 +334,21 @@ impl<'a> Parser<'a> {
         Err(self.not_understood("that says what not to do: say what to do"))
     }
 
+    /// Whether something may still be read on trial.
+    pub(super) fn may_try(&mut self) -> bool {
+        let left = self.tries.checked_sub(1);
+        self.tries = left.unwrap_or(0);
+        left.is_some()
+    }
+
     fn instead(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
         self.other_than_that()?;
-        self.statement().ok()
+        let order = std::mem::replace(&mut self.at, start);
+        let mut clauses = self.names_within(order);
+        self.at = order;
+        clauses.extend(self.statement().ok()?);
+        Some(clauses)
     }
 
     fn in_nouns(&mut self) -> Option<Vec<Clause>> {

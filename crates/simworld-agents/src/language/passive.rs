@@ -19,7 +19,7 @@ const CAUSES: &[&str] = &[
     "i want", "i need", "i would like", "id like", "id love", "we want", "we need", "get", "have",
     "i want to see", "id like to see", "id like to have", "i want to have", "make sure", "make sure that",
     "see that", "see to it that", "see to it", "ensure", "ensure that", "be sure that", "i would like to have",
-    "i would like to see", "let",
+    "i would like to see", "let", "lets have", "lets get", "let us have", "lets see", "please have", "please get", "kindly have", "then have", "i wish to have", "i want to get",
 ];
 /// A question for the same: "could the door be opened?".
 const ASKING: &[&str] = &["could", "can", "should", "must", "may", "might", "would", "shall", "will"];

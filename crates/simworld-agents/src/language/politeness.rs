@@ -62,7 +62,7 @@ pub(super) const JOINTS: &[&str] = &[
     "on arriving", "once you arrive there", "when you arrive there", "when youve arrived", "once youve arrived",
     "having arrived", "having got there", "when you have arrived", "once youre done there",
     "when youre done with that", "when that happens", "done", "when finished", "once finished",
-    "once youre finished", "when youre finished", "and from there", "and also", "and not before", "not before",
+    "once youre finished", "when youre finished", "and from there", "and also", "and not before", "not before", "and not earlier", "not earlier", "and no sooner", "and not a moment before", "and not sooner", "after it",
     "first thing", "from here on", "from here on in", "from now on in", "and after youve done that",
     "and after you have done that", "and once thats done",
 ];
@@ -92,7 +92,12 @@ pub(super) const FILLERS: &[&str] = &[
     "i want to see you", "it is time to", "its time to", "time to", "start to", "begin to", "start", "begin",
     "would you kindly", "i would appreciate it if you could", "i would appreciate if you could", "i ask you to",
     "im asking you to", "can i ask you to", "could i ask you to", "may i ask you to", "the next thing is to",
-    "after all", "there", "would you be so good as to", "would you be so kind as to", "if you would",
+    "after all", "there", "instead", "please to",
+    "you alone", "you there", "young man", "young lady", "if any", "if need be", "from the top", "in this shot", "you shall", "you are hereby asked to", "on my mark", "heads up", "in the first place", "kindly do",
+    "straight off", "for goodness sake", "for heavens sake", "for crying out loud", "no buts", "once you feel ready",
+    "whatever happens", "in any case", "at any rate", "rain or shine", "rain or no rain", "nevertheless", "by the by",
+    "as a matter of fact", "in fact", "if you ask me", "i tell you", "i repeat", "this time", "your turn", "your go",
+    "would you be so good as to", "would you be so kind as to", "if you would",
     "if you wouldnt mind", "over there", "i think you should", "i suggest you", "im begging you", "somewhere",
     "anywhere", "i want to", "i would like to", "id like to", "i need to", "im going to", "oh", "ah", "ahem",
     "hmm", "erm", "uh", "um", "er", "good boy", "good girl", "good dog", "good lad", "boy", "girl", "lad",
@@ -188,7 +193,12 @@ pub(super) const MANNERS: &[&str] = &[
     "the nearer first", "closest first", "the closest first", "closest one first", "starting with the nearest",
     "starting with the closest", "nearer first", "whichever you like", "whichever you prefer",
     "whichever you want", "any will do", "either will do", "it doesnt matter which", "no matter which",
-    "with you",
+    "with you", "with it", "with them", "with both hands", "with both arms", "in both arms", "in your arms",
+    "as you are", "from me", "off the ground", "off the floor", "from the ground", "from the floor", "in silence",
+    "in peace", "of your own", "in your own words", "to be precise", "to be exact", "no further", "no more", "no less",
+    "for a better angle", "each", "apiece", "a while", "for now", "for good measure", "for safety", "just in case",
+    "just to be safe", "just to be sure", "without stopping", "without a break", "without pausing", "already",
+    "with all speed", "with care", "with a smile", "in the first place", "up there", "after me", "behind you", "after you",
 ];
 
 /// Sounds of hesitation; they are dropped wherever they stand.

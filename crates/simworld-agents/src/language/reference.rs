@@ -37,7 +37,10 @@ impl Parser<'_> {
             self.eat_any(IS_THERE);
             return Ok(there);
         }
-        if self.peeks("both") && self.is_capital(self.at + 1) {
+        if self.peeks("both")
+            && (self.is_capital(self.at + 1) || self.names.exact(&self.rest()[1..]).is_some())
+            && category(&self.rest()[1..]).is_none()
+        {
             self.at += 1; // "both Anna and Ben" are each named
         }
         if let Some(them) = self.somebody() {
@@ -58,6 +61,7 @@ impl Parser<'_> {
             None => self.noun()?,
         };
         self.compound(&mut reference, text_at);
+        self.by_name(&mut reference)?;
         self.within_scope(&mut reference);
         match &reference.target {
             Target::Any(category) => self.class = Some(category),
@@ -87,6 +91,13 @@ impl Parser<'_> {
             let said = self.at;
             self.described(reference, depth)?;
             if self.at > said {
+                return Ok(());
+            }
+        } else if self.eat_any(&["any", "any old", "whichever"]) {
+            // "A chair, any chair".
+            let class = if let Target::Any(class) = &reference.target { Some(*class) } else { None };
+            if class.is_some() && category(self.rest()).map(|(class, _)| class) == class {
+                self.at += category(self.rest()).map_or(0, |(_, words)| words);
                 return Ok(());
             }
         } else if self.peeks("the") {
@@ -122,9 +133,66 @@ impl Parser<'_> {
         Err(PlanError::Ambiguous { wanted, candidates })
     }
 
+    /// "The dog called Rex", "the building by the name of Maple House".
+    fn by_name(&mut self, reference: &mut Reference) -> Result<(), PlanError> {
+        const CALLED: &[&str] = &[
+            "called",
+            "named",
+            "by the name of",
+            "known as",
+            "that is called",
+            "thats called",
+            "which is called",
+            "who is called",
+            "whos called",
+            "whose name is",
+            "with the name",
+            "going by the name of",
+            "which is named",
+            "that is named",
+            "that they call",
+            "they call",
+            "which they call",
+            "labelled",
+            "labeled",
+            "marked",
+            "who goes by the name of",
+            "who goes by",
+            "of the name of",
+            "with the name of",
+            "that goes by the name of",
+        ];
+        let Target::Any(class) = &reference.target else { return Ok(()) };
+        let start = self.at;
+        if !self.eat_any(CALLED) {
+            return Ok(());
+        }
+        self.eat_any(&["the"]);
+        let is_one = |id: &simworld_core::id::EntityId| {
+            self.view.scene.entity(*id).is_some_and(|entity| class.holds(&entity))
+        };
+        let (ids, words) = match self.names.exact(self.rest()) {
+            Some(found) => found,
+            None => match self.misspelt()? {
+                Target::Named(ids) => (ids, 0),
+                _ => {
+                    self.at = start;
+                    return Ok(());
+                }
+            },
+        };
+        self.at += words;
+        let fitting: Vec<_> = ids.iter().copied().filter(is_one).collect();
+        reference.target = Target::Named(if fitting.is_empty() { ids } else { fitting });
+        Ok(())
+    }
+
     /// "The library door": the first noun says whose.
     fn compound(&mut self, reference: &mut Reference, text_at: usize) {
         let Some((head, words)) = category(self.rest()) else { return };
+        if super::dialects::in_quotes(self.words, self.rest()[0].start) {
+            return; // "tell Ben 'green'"
+        }
         if matches!(&reference.target, Target::Any(category) if *category == head) {
             return;
         }

@@ -14,7 +14,8 @@ const HELLO: &str = "hello";
 #[rustfmt::skip]
 const HELLOS: &[&str] = &[
     "hello", "hi", "goodbye", "good morning", "good evening", "good afternoon", "good night", "thanks",
-    "thank you", "bye", "sorry", "good day",
+    "thank you", "bye", "sorry", "good day", "bye bye", "welcome", "congratulations", "cheers", "well done",
+    "happy birthday", "good luck", "goodnight", "farewell", "hey", "howdy", "cheese",
 ];
 /// The most that is said at once, in characters.
 const LONGEST_SPEECH: usize = 500;
@@ -32,16 +33,42 @@ impl Parser<'_> {
             }
             Verb::Say => self.say()?,
             Verb::Tell => {
+                let calls = self.at > 1 && ["to", "at"].contains(&self.word_before());
                 let to = self.reference(0)?;
-                self.eat_any(&["that", "about", "to", "know that", "know"]);
+                self.eat_any(&[
+                    "that",
+                    "about",
+                    "to",
+                    "know that",
+                    "know",
+                    "with",
+                    "the following",
+                    "the words",
+                    "for me",
+                ]);
+                if self.eat_any(&[
+                    "the same",
+                    "the same thing",
+                    "that too",
+                    "the very same",
+                    "it too",
+                    "likewise",
+                ]) && let Some(words) = self.said.clone()
+                {
+                    return Ok(vec![Clause::Say { to, words }]);
+                }
                 self.at += usize::from(self.opens_quote());
+                if self.ends_clause() && calls {
+                    return Ok(vec![Clause::Say { to, words: HELLO.to_owned() }]);
+                }
                 let words = self.speech(self.lexemes.len())?;
                 Clause::Say { to, words }
             }
             _ => {
                 self.eat_any(&["to", "with"]);
                 let to = self.reference(0)?;
-                let words = if self.eat_any(&["about", "of"]) {
+                let quotes = self.eat_any(&["with", "by saying", "and say", "saying"]) && self.opens_words();
+                let words = if quotes || self.opens_words() || self.eat_any(&["about", "of"]) {
                     self.speech(self.lexemes.len())?
                 } else {
                     HELLO.to_owned()
@@ -55,6 +82,22 @@ impl Parser<'_> {
     /// "Say good morning to Anna".
     fn say(&mut self) -> Result<Clause, PlanError> {
         let start = self.at;
+        if let Some(words) = self.said.clone()
+            && self.eat_any(&[
+                "to",
+                "the same to",
+                "it to",
+                "that to",
+                "the same thing to",
+                "likewise to",
+                "so to",
+            ])
+        {
+            if let Some(to) = self.somebody_here().filter(|_| self.ends_clause()) {
+                return Ok(Clause::Say { to, words });
+            }
+            self.at = start;
+        }
         if let Some(to) = self.addressed() {
             self.eat_any(&["that"]);
             self.at += usize::from(self.opens_quote());
@@ -64,7 +107,16 @@ impl Parser<'_> {
         let quoted = self.quoted(self.rest()).unwrap_or(0);
         let is_break = |lexeme: &Lexeme| lexeme.token == Token::Break;
         let end = self.rest().iter().position(is_break).map_or(self.lexemes.len(), |count| self.at + count);
-        let is_to = |at: &usize| self.lexemes[*at].token == Token::Word("to".to_owned());
+        let is_to = |at: &usize| {
+            let after_quote = quoted > 0 && *at == start + quoted;
+            longest_phrase(
+                &self.lexemes[*at..],
+                if after_quote { &["to", "at", "into", "towards"] } else { &["to"] },
+            )
+            .is_some()
+        };
+        // After words in quotation marks, whom they are said to follows at once.
+        let end = if quoted > 0 { end.min(start + quoted + 3) } else { end };
         let mut whom = None;
         for to_at in (start + quoted.max(1)..end).filter(is_to) {
             self.at = to_at + 1;
@@ -78,7 +130,7 @@ impl Parser<'_> {
         self.at = start;
         let Some((to_at, after, to)) = whom else {
             let words = self.speech(self.lexemes.len())?;
-            if HELLOS.contains(&words.to_lowercase().as_str()) {
+            if quoted > 0 || HELLOS.contains(&words.to_lowercase().as_str()) {
                 // "Go to Hana and say hello".
                 return Ok(Clause::Say {
                     to: Reference::to(Target::Them, "them".to_owned()),
@@ -107,6 +159,11 @@ impl Parser<'_> {
 
     fn greeting(words: String) -> String {
         if words.eq_ignore_ascii_case("hi") { HELLO.to_owned() } else { words }
+    }
+
+    /// Whether words between quotation marks stand here.
+    fn opens_words(&self) -> bool {
+        self.quoted(self.rest()).is_some()
     }
 
     /// "Tell Hana: the clinic is closed", with a mark before the words.
@@ -161,6 +218,7 @@ impl Parser<'_> {
             return Err(self.not_understood("say it in at most 500 characters"));
         }
         self.at += count;
+        self.said = Some(words.to_owned());
         Ok(words.to_owned())
     }
 

@@ -4,7 +4,7 @@ use simworld_core::scene::Relation;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
-use super::lexer::Token;
+use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
 use super::numbers::{self, MOMENT};
 use super::parser::Parser;
@@ -69,6 +69,12 @@ impl Parser<'_> {
         }
         let moved = matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive));
         let there = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("there".to_owned());
+        if there && self.at > 2 && fits(&self.lexemes[self.at - 3..], "go stand there").is_some()
+            || there && self.at > 3 && fits(&self.lexemes[self.at - 4..], "go and stand there").is_some()
+        {
+            let to = Reference::to(super::clause::Target::There, "there".to_owned());
+            return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
         if moved && (self.eat_any(&["there", "right there"]) || there && self.ends_clause()) {
             return Ok(Vec::new()); // one stops where one went
         }
@@ -129,7 +135,12 @@ impl Parser<'_> {
         }
         self.eat_any(&["about"]);
         let number_at = self.at;
-        let Some((seconds, count)) = self.peek_time() else {
+        let bare = numbers::number(self.rest()).filter(|(_, words)| {
+            let after = self.rest().get(*words..).unwrap_or_default();
+            !matches!(after.first(), Some(Lexeme { token: Token::Word(_) | Token::Number(_), .. }))
+                || super::politeness::joint(after).is_some()
+        });
+        let Some((seconds, count)) = self.peek_time().or(bare) else {
             if !clauses.is_empty() {
                 clauses.push(Clause::Wait { seconds: MOMENT });
                 return Ok(clauses);

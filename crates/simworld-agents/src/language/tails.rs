@@ -31,7 +31,9 @@ const DO_SO: &[&str] = &[
     "repeat this", "repeat the whole thing", "and repeat the whole thing", "and repeat", "repeat",
     "and do the whole thing", "do the whole thing", "do so", "all of that", "all that", "do it", "and do it",
     "do that", "and do that", "do this", "and do this", "and do so", "repeat it", "and repeat it",
-    "repeat that", "and repeat that",
+    "repeat that", "and repeat that", "do both", "lets do both", "and do both", "do them all", "do the lot", "and that",
+    "and all that", "and all of that", "and the whole thing", "the whole thing", "this", "that", "all this", "all of this",
+    "and this", "lets do that", "lets do it", "lets do this", "do these", "do that whole thing", "same again", "and the same",
 ];
 
 /// What comes before the order before it.
@@ -71,8 +73,12 @@ impl Parser<'_> {
                     let Token::Word(word) = &lexeme.token else { return lexeme.token == Token::Break };
                     ["all", "whole", "that", "this", "repeat"].contains(&word.as_str())
                 });
+                let both = self.rest()[..again].iter().any(|lexeme| {
+                    matches!(&lexeme.token, Token::Word(word) if ["both", "lot", "everything", "these"].contains(&word.as_str()))
+                });
                 self.at += again + count;
-                repeat(clauses, if all { whole } else { group }, times, all);
+                let from = if both { 0 } else { whole };
+                repeat(clauses, if all { from } else { group }, times, all);
             } else if self.but_first(clauses, comma)? {
             } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
@@ -98,7 +104,23 @@ impl Parser<'_> {
             "at the double", "on the double", "and wait", "leaving",
         ];
         let after = self.rest().get(1..).unwrap_or_default();
-        longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after)
+        // "..., after you've greeted her" ends the sentence; "..., after that, ..." goes on.
+        let end = after.iter().position(|lexeme| matches!(lexeme.token, Token::Comma | Token::Break));
+        let last = end.is_none_or(|end| after[end].token == Token::Break);
+        let earlier = last
+            && longest_phrase(
+                after,
+                &[
+                    "after youve",
+                    "after you have",
+                    "after having",
+                    "before you",
+                    "once youve",
+                    "once you have",
+                ],
+            )
+            .is_some();
+        longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after) || earlier
     }
 
     /// ", one after the other": how, where it makes no difference.
@@ -284,6 +306,9 @@ impl Parser<'_> {
     /// "On the way to the museum", "before going home", "after half a minute", "but first wave".
     fn in_turn(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
         let last = clauses.len() - 1;
+        if self.stopped_over(clauses) {
+            return Ok(true);
+        }
         if self.eat_any(ON_THE_WAY) {
             let to = self.reference(0)?;
             clauses.push(Clause::Go { to, side: None, pace: Pace::Usual, within: None });
@@ -323,6 +348,35 @@ impl Parser<'_> {
             return self.after_that(clauses);
         }
         Ok(true)
+    }
+
+    /// "Walk to the bench and pass by the light on the way": the last place comes before the one before it.
+    fn stopped_over(&mut self, clauses: &mut [Clause]) -> bool {
+        const SO: &[&str] = &[
+            "on the way",
+            "on your way",
+            "along the way",
+            "en route",
+            "on the way there",
+            "on your way there",
+            "in passing",
+            "on route",
+        ];
+        let start = self.at;
+        let said = self.eat_any(SO) && self.ends_clause();
+        let [.., goal @ (Clause::Go { .. } | Clause::Drive { .. }), over] = clauses else {
+            self.at = start;
+            return false;
+        };
+        if !said || !matches!(over, Clause::Go { .. } | Clause::Past { .. } | Clause::Buy { .. }) {
+            self.at = start;
+            return false;
+        }
+        if let Clause::Past { what, pace } = over {
+            *over = Clause::Go { to: what.clone(), side: None, pace: *pace, within: None };
+        }
+        std::mem::swap(goal, over);
+        true
     }
 
     /// "After half a minute", "but first wave", behind the order that comes later.

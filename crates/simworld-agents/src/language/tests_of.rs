@@ -51,10 +51,10 @@ const STATES: &[(&[&str], State)] = &[
     (&["open", "not closed", "opened", "unlocked"], State::Open),
     (&["closed", "shut", "not open"], State::Closed),
     (&["near you", "close to you", "near", "nearby", "with you", "close", "within reach", "close by", "around",
-    "about", "anywhere near"], State::Near),
+    "about", "anywhere near", "in range", "within range", "at hand", "near us", "close to us"], State::Near),
     (&["next to you", "here", "beside you", "by your side", "there", "at your side", "in front of you",
     "with you"], State::Next),
-    (&["visible", "in sight", "in view", "to be seen", "seen", "within sight"], State::Seen),
+    (&["findable", "to be found", "visible", "in sight", "in view", "to be seen", "seen", "within sight"], State::Seen),
 ];
 #[rustfmt::skip]
 const ARRIVES: &[&str] = &[
@@ -71,6 +71,13 @@ const APPEARS: &[&str] = &[
     "come into view",
     "appear",
     "can be seen",
+    "can be found",
+    "can be made out",
+    "can be spotted",
+    "shows himself",
+    "shows herself",
+    "comes in sight",
+    "comes in view",
     "is in view",
     "appears",
     "comes into sight",
@@ -123,6 +130,65 @@ impl Parser<'_> {
 
     pub(super) fn simple_test(&mut self) -> Result<Test, PlanError> {
         let start = self.at;
+        if let Some(test) = self.same_test() {
+            return Ok(test);
+        }
+        let test = self.new_test(start)?;
+        self.tested = Some(test.clone());
+        Ok(test)
+    }
+
+    /// "Until it is", "unless you don't": what was asked before.
+    fn same_test(&mut self) -> Option<Test> {
+        let start = self.at;
+        let asked = match self.tested.clone()? {
+            Test::Not(asked) => *asked,
+            asked => asked,
+        };
+        let not = self.eat_any(&[
+            "it isnt",
+            "it is not",
+            "its not",
+            "he isnt",
+            "she isnt",
+            "they arent",
+            "you dont",
+            "you cant",
+            "it doesnt",
+            "he doesnt",
+            "she doesnt",
+            "there isnt",
+            "he is not",
+            "she is not",
+        ]);
+        let so = !not
+            && self.eat_any(&[
+                "it is",
+                "its",
+                "he is",
+                "she is",
+                "they are",
+                "you do",
+                "you can",
+                "it does",
+                "he does",
+                "she does",
+                "there is",
+                "you see it",
+                "you are",
+                "it has",
+                "he has",
+                "she has",
+                "you have",
+            ]);
+        if (so || not) && self.ends_at_mark() {
+            return Some(if not { Test::Not(Box::new(asked)) } else { asked });
+        }
+        self.at = start;
+        None
+    }
+
+    fn new_test(&mut self, start: usize) -> Result<Test, PlanError> {
         for rule in [Self::weather, Self::light, Self::passed] {
             if let Some(test) = rule(self) {
                 return Ok(test);

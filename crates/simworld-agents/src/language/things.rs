@@ -120,7 +120,8 @@ impl<'a> Draft<'a> {
             return Ok(());
         }
         if what.is_some_and(|what| self.is_mount(what)) {
-            self.go_on_to(at.filter(|_| !is_there))?; // "drive the car to the clinic and leave it there"
+            let stays = |at: &&Reference| at.target != Target::There;
+            self.go_on_to(at.filter(stays))?; // "drive the car to the clinic and leave it there"
             return self.alight(Vehicle::Any);
         }
         // What one has in hand is what "it" is about here, whatever was spoken of since.

@@ -85,6 +85,9 @@ impl Parser<'_> {
         let begins =
             longest_phrase(self.rest(), &["see", "spot", "show me", "look", "find", "remember", "notice"])
                 .is_some();
+        if let Some(clauses) = self.seen_by_you() {
+            return Some(clauses);
+        }
         let mark = self.rest().iter().take(LONGEST).find(|lexeme| lexeme.token == Token::Break)?;
         let is_topic = begins && self.words[mark.start..].starts_with(['?', ':']);
         let start = self.at;
@@ -93,6 +96,24 @@ impl Parser<'_> {
             self.at = start;
         }
         found
+    }
+
+    /// "Can you see the tree next to the chair go over to that one": a question without its mark.
+    fn seen_by_you(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        if self.eat_any(&["can you see", "do you see", "you see", "see", "do you know", "you know"])
+            && let Ok(what) = self.reference(0)
+        {
+            self.eat_any(&["over there", "there"]);
+            let takes_up = self.rest().iter().any(|lexeme| {
+                matches!(&lexeme.token, Token::Word(word) if ["it", "there", "that", "him", "her", "them"].contains(&word.as_str()))
+            });
+            if longest_verb(self.rest()).is_some() && takes_up {
+                return Some(self.mention(what));
+            }
+        }
+        self.at = start;
+        None
     }
 
     /// Whether a mark stands here and something after it; the mark is passed.

@@ -176,6 +176,9 @@ pub(super) fn base_form(word: &str) -> Option<String> {
     if let Some((_, base)) = IRREGULAR.iter().find(|(form, _)| *form == word) {
         return (*base != word).then(|| (*base).to_owned());
     }
+    if let Some(stem) = word.strip_suffix("ied").or_else(|| word.strip_suffix("ies")) {
+        return Some(format!("{stem}y")).filter(|base| is_verb(base));
+    }
     for ending in ["ing", "ed", "es", "s"] {
         let Some(stem) = word.strip_suffix(ending).filter(|stem| stem.len() >= 2) else { continue };
         let mut forms = vec![stem.to_owned(), format!("{stem}e")];

@@ -32,7 +32,7 @@ pub(crate) struct Said {
 pub(crate) fn said_in(city: &str) -> Vec<Said> {
     let mut said = if city == "town" { Vec::new() } else { said_in_file(&format!("{city}.sentences")) };
     said.extend(said_in_file(&format!("{city}.paraphrases")));
-    for later in ["unheard", "later", "fifth", "sixth"] {
+    for later in ["unheard", "later", "fifth", "sixth", "seventh"] {
         said.extend(said_in_file(&format!("{city}.{later}")));
     }
     said
