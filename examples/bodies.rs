@@ -1,4 +1,5 @@
-//! Vehicles as real bodies: what each class does beside what vehicles of its kind are known to do.
+//! Vehicles as real bodies: what each class does beside what vehicles of its kind are known to do; and robot dogs on their
+//! motors: their gait, and what many cost.
 //!
 //! ```sh
 //! cargo run --release --example bodies -- --out out/bodies
@@ -12,14 +13,15 @@ use clap::Parser;
 use comfy_table::{Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
 use simworld_core::geometry::Point3;
-use simworld_examples::bodies::{Curve, braking_chart};
-use simworld_physics::proving::{Figure, Fleet, ProvingError, braking_distance, measure};
+use simworld_examples::bodies::{Curve, braking_chart, gait_chart};
+use simworld_examples::timing::timed;
+use simworld_physics::proving::{Figure, Fleet, Pack, ProvingError, braking_distance, measure};
 use simworld_physics::{RoadCondition, VehicleClass};
 
 /// Measures every class of vehicles on the proving ground and prints each figure beside its band.
 #[derive(Parser)]
 struct Arguments {
-    /// Directory for the picture of braking distances.
+    /// Directory for the pictures of braking distances and of the gait of robot dogs.
     #[arg(long, default_value = "out/bodies")]
     out: PathBuf,
     /// Only this class: `small_car`, `sedan`, `suv`, `van`, `truck`, `bus` or `scooter`.
@@ -28,6 +30,9 @@ struct Arguments {
     /// Cars in the measurement of speed; 0 leaves it out.
     #[arg(long, default_value_t = 1000)]
     cars: usize,
+    /// Robot dogs on their legs in the measurement of speed; 0 leaves them and their gait out.
+    #[arg(long, default_value_t = 50)]
+    dogs: usize,
     /// Succeed even if a figure is off its band.
     #[arg(long)]
     report_only: bool,
@@ -79,6 +84,13 @@ fn job(arguments: &Arguments) -> Result<usize, ProvingError> {
     println!("braking distances: {}", path.display());
     if arguments.cars > 0 {
         speed(arguments.cars)?;
+    }
+    if arguments.dogs > 0 {
+        let path = arguments.out.join("gait.svg");
+        let mut dog = Pack::new(1, 0.6)?;
+        std::fs::write(&path, gait_chart(&dog.watch(5.0)?))?;
+        println!("gait of a robot dog: {}", path.display());
+        dogs_speed(arguments.dogs)?;
     }
     Ok(off)
 }
@@ -139,5 +151,24 @@ fn speed(cars: usize) -> Result<(), ProvingError> {
             fleet.mean_speed()
         );
     }
+    Ok(())
+}
+
+/// How fast many robot dogs on their legs are computed.
+fn dogs_speed(dogs: usize) -> Result<(), ProvingError> {
+    let mut pack = Pack::new(dogs, 0.6)?;
+    for _ in 0..20 {
+        pack.step(0.1)?;
+    }
+    let mut best = f64::INFINITY;
+    for _ in 0..3 {
+        let (done, time) = timed(|| (0..10).try_for_each(|_| pack.step(0.1)));
+        done?;
+        best = best.min(time.as_secs_f64());
+    }
+    println!(
+        "{dogs} robot dogs on twelve motors each, 200 substeps a second: {:.2} times real time; bar: 1 on two cores",
+        1.0 / best
+    );
     Ok(())
 }

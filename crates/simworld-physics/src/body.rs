@@ -103,7 +103,8 @@ pub struct Bonds {
 /// ```
 pub trait PhysicsBody: Embodiment + Send + Any {
     /// Puts its rigid body and colliders into the engine at its present state. The frame of the rigid body is
-    /// the entity's body frame; colliders carry the entity's mark ([`collider_for`](crate::collider_for) sets it).
+    /// the entity's body frame, or [`settle`](Self::settle) undoes the difference; colliders carry the entity's mark
+    /// ([`collider_for`](crate::collider_for) sets it).
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle;
 
     /// The rigid bodies that it has in the engine beside the first; none for most bodies. They have the entity's mark, and are

@@ -178,6 +178,8 @@ fn pushed_from_any_side_it_steps_and_stands_again() {
             stage.run(40);
             assert_eq!(stage.quadruped(dog).footing(), Footing::Upright, "from {x}, {y} at {speed} m/s");
             assert!(stage.up(dog) > 0.97, "from {x}, {y} at {speed} m/s: {}", stage.up(dog));
+            let height = stage.quadruped(dog).trunk_height();
+            assert!(height > 0.28, "from {x}, {y} at {speed} m/s: {height}");
         }
     }
 }

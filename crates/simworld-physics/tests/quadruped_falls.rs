@@ -255,3 +255,22 @@ fn it_is_put_elsewhere_and_taken_away() {
     stage.run(20);
     assert!(stage.up(dog) > 0.98 && !fell(&stage));
 }
+
+/// As above, at every third step of falls to eight sides. Under `SIMWORLD_SOAK=1`: it takes minutes.
+#[test]
+fn saved_at_any_moment_it_goes_on_to_the_bit() {
+    let whole = std::env::var("SIMWORLD_SOAK").is_ok_and(|value| value == "1");
+    for turn in 0..if whole { 8 } else { 1 } {
+        let (sin, cos) = ops::sin_cos(f64::from(turn) * 0.785 + 0.2);
+        let mut stage = Stage::new();
+        let dog = stage.legged_dog(at(0.0, 0.0, 0.0));
+        stage.run(8);
+        knock_over(&mut stage, dog, (cos, sin));
+        for _ in 0..if whole { 40 } else { 8 } {
+            let (world, saved) = (stage.world.clone(), stage.physics.save().unwrap());
+            let again = restored(world, &saved, &stage);
+            stage.run(7);
+            assert_eq!(digest(&again), digest(&stage));
+        }
+    }
+}

@@ -1,5 +1,8 @@
-//! Pictures of what vehicles do.
+//! Pictures of what bodies do.
 
+mod gait;
+
+pub use gait::gait_chart;
 use simworld_physics::{RoadCondition, VehicleClass};
 use svg::Document;
 use svg::node::element::{Line, Polyline, Rectangle, Text};

@@ -2,10 +2,12 @@
 //!
 //! The ground is a level plane of asphalt without end. [`measure`] puts the figures of a class of vehicles beside the
 //! bands that data sheets, regulations and road tests give; a vehicle of your own is measured by the same manoeuvres.
+//! [`Pack`] lets robot dogs trot there.
 
 mod bands;
 mod fleet;
 mod manoeuvre;
+mod pack;
 
 pub use bands::{Figure, measure};
 pub use fleet::Fleet;
@@ -13,6 +15,7 @@ pub use manoeuvre::{
     LaneChange, SteadyTurn, acceleration_time, braking_distance, lane_change, lateral_limit, steady_turn,
     top_speed,
 };
+pub use pack::{Pack, Stance};
 
 use simworld_core::action::Action;
 use simworld_core::environment::Environment;
