@@ -5,12 +5,12 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{Stage, at};
+use common::{Stage, at, ramp};
 use simworld_core::action::Action;
 use simworld_core::geometry::{Point2, Point3, Vector2, pose_facing};
 use simworld_core::ground::{Cover, Ground, GroundData};
 use simworld_core::ops;
-use simworld_core::scene::Footing;
+use simworld_core::scene::{EntityKind, Footing};
 use simworld_physics::Command;
 
 fn forward(speed: f64) -> Command {
@@ -51,6 +51,26 @@ fn it_walks_over_hills() {
     assert!((place.z - land.height(Point2::new(place.x, place.y))).abs() < 0.1, "{place}");
 }
 
+/// Put on a slope in any direction, it finds its feet there.
+#[test]
+fn it_is_put_on_a_slope_and_stands() {
+    let slope = 20f64.to_radians();
+    for yaw in [0.0, 1.5708, 3.1416, 4.0] {
+        let mut stage = Stage::new();
+        let (pose, shape) = ramp(0.0, slope);
+        stage.spawn(EntityKind::Building, pose, shape);
+        stage.run(1);
+        let place = Point3::new(3.0, 0.0, 3.0 * ops::tan(slope) + 0.01);
+        let dog = stage.legged_dog(pose_facing(place, yaw));
+        stage.run(30);
+        let moved = stage.position(dog) - place;
+        println!("put on a slope, facing {yaw}: {moved}");
+        assert_eq!(stage.quadruped(dog).footing(), Footing::Upright, "facing {yaw}");
+        assert!(moved.norm() < 0.15 && stage.quadruped(dog).trunk_height() > 0.27, "facing {yaw}: {moved}");
+        assert!(stage.events.is_empty(), "{:?}", stage.events);
+    }
+}
+
 #[test]
 fn it_climbs_stairs() {
     let mut stage = Stage::new();
@@ -68,6 +88,15 @@ fn it_climbs_stairs() {
     let place = stage.position(dog);
     println!("up stairs to {place}");
     assert!(place.z > 0.57 && place.x > 3.5, "{place}");
+    // And backwards down again.
+    stage.command(dog, forward(-0.4));
+    for _ in 0..140 {
+        stage.run(1);
+        assert_eq!(stage.quadruped(dog).footing(), Footing::Upright, "{}", stage.position(dog));
+    }
+    let place = stage.position(dog);
+    println!("down stairs to {place}");
+    assert!(place.z.abs() < 0.03 && place.x < 0.7, "{place}");
 }
 
 /// People are no part of the solver while they stand: they stop it, and it them.

@@ -18,7 +18,7 @@ use super::control::{Field, heading_of};
 use super::recovery::Task;
 use super::{JointReading, Quadruped};
 use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
-use crate::convert::{to_pose, to_vector};
+use crate::convert::{to_point, to_pose, to_vector};
 use crate::shape::{BodyTag, walker_mark};
 
 /// The length of a substep on legs, s: 200 a second.
@@ -180,13 +180,36 @@ impl Quadruped {
         let linear = self.state.twist.linear;
         let linear = linear * (fastest / linear.norm().max(fastest));
         let twist = Twist { linear, angular: Vector3::zeros() };
-        let angles = self.standing(self.config.model.standing_height());
+        let angles = self.standing_on_ground(physics, &pose);
         let links = Links::build(physics, rigid, id, (&self.config.model, &angles), (&pose, &twist));
         self.state = BodyState { pose, twist };
         self.motion.links = Some(links);
         self.motion.is_fresh = true;
         self.motion.task = Task::Walk;
         self.motion.before = linear;
+    }
+
+    /// The angles at which the legs of a body at a pose reach the ground under its hips, as far as they do.
+    fn standing_on_ground(&self, physics: &PhysicsWorld, pose: &Pose) -> PerJoint {
+        let model = &self.config.model;
+        let (standing, own) = (model.standing_height(), self.id);
+        let is_other = move |_: ColliderHandle, collider: &Collider| {
+            BodyTag::from_user_data(collider.user_data).entity() != own
+        };
+        let filter = QueryFilter::new().predicate(&is_other);
+        std::array::from_fn(|leg| {
+            let geometry = model.leg(leg);
+            let hip = nalgebra::Point3::new(geometry.hip.x, geometry.hip.y + geometry.offset, standing);
+            let ray = Ray::new(to_point(&(pose * hip)), -Vector::Z);
+            let met = physics.cast_ray_and_get_normal(&ray, SIGHT, true, filter);
+            let height = met.map_or(standing, |(_, hit)| hit.time_of_impact);
+            let mut angles = model.standing(leg, height);
+            for (joint, angle) in angles.iter_mut().enumerate() {
+                let [low, high] = model.limits_of(leg, joint);
+                *angle = angle.clamp(low, high);
+            }
+            angles
+        })
     }
 
     /// Notes what can be read of it.
