@@ -55,7 +55,7 @@ fn it_walks_over_hills() {
 #[test]
 fn it_is_put_on_a_slope_and_stands() {
     let slope = 20f64.to_radians();
-    for yaw in [0.0, 1.5708, 3.1416, 4.0] {
+    for yaw in [0.0, 1.5, 3.1, 4.0] {
         let mut stage = Stage::new();
         let (pose, shape) = ramp(0.0, slope);
         stage.spawn(EntityKind::Building, pose, shape);
