@@ -140,6 +140,9 @@ impl Parser<'_> {
 
     /// "If", "unless", and a question with "if so".
     fn conditional(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
+        if let Some(clauses) = self.checked() {
+            return Ok(Some(clauses));
+        }
         let should = self.peeks("should") && longest_verb(&self.rest()[1..]).is_none();
         if self.eat_any(UNLESS) {
             return self.either(true).map(Some);

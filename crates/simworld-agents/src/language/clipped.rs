@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use simworld_core::action::StepDirection;
 
 use super::clause::{Clause, Grip, Manner, Pace, Reference, Target, Test};
-use super::lexer::{Lexeme, Token};
+use super::lexer::Token;
 use super::numbers;
 use super::parser::Parser;
 use super::verbs::longest_verb;
@@ -52,13 +52,13 @@ impl Parser<'_> {
             Self::drilled,
             Self::forward_so_far,
             Self::bare_wait,
-            Self::from_to,
+            Self::between_two,
             Self::there_and_back,
             Self::paced_to,
             Self::lifted,
             Self::headed_by_weather,
             Self::on_a_signal,
-            Self::to_and_fro_so_often,
+            Self::shuttle_runs,
         ] {
             if let Some(clauses) = rule(self) {
                 return Some(clauses);
@@ -207,13 +207,12 @@ impl Parser<'_> {
             "of doing nothing",
         ]);
         self.eat_any(&["there", "here", "where you are", "on the spot", "at that spot"]);
-        let waits =
-            self.ends_clause() && numbers::times(self.rest()).is_none() && self.at < self.lexemes.len() + 1;
+        let waits = self.ends_clause() && numbers::times(self.rest()).is_none();
         (waits && seconds <= super::staying::LONGEST_WAIT).then(|| vec![Clause::Wait { seconds }])
     }
 
     /// "From the café to the bakery and back".
-    fn from_to(&mut self) -> Option<Vec<Clause>> {
+    fn between_two(&mut self) -> Option<Vec<Clause>> {
         if !self.eat_any(&["from"]) {
             return None;
         }
@@ -397,7 +396,7 @@ impl Parser<'_> {
     }
 
     /// "Ten shuttle runs between the sign and the bench", "two rounds between them".
-    fn to_and_fro_so_often(&mut self) -> Option<Vec<Clause>> {
+    fn shuttle_runs(&mut self) -> Option<Vec<Clause>> {
         self.eat_any(&["do", "run", "walk", "make", "give me", "go"]);
         let (number, words) = numbers::number(self.rest())?;
         if !(1.0..=100.0).contains(&number) || number.fract() != 0.0 {
@@ -431,101 +430,6 @@ impl Parser<'_> {
             }
             _ => body,
         })
-    }
-
-    /// "Which bench is closest? Bring me there", "who is nearer, Fay or Gus? Go to that one".
-    pub(super) fn which_one(&mut self) -> Option<Vec<Clause>> {
-        let start = self.at;
-        let who = self.eat_any(&["whos", "who is"]);
-        if !who && !self.eat_any(&["which of the", "which", "which one of the", "what"]) {
-            return None;
-        }
-        let mut what = Reference::to(Target::Here, String::new());
-        let noun = if who { None } else { super::lexicon::category(self.rest()) };
-        if let Some((class, words)) = noun {
-            what.target = Target::Any(class);
-            self.at += words;
-            self.class = Some(class);
-        }
-        if !who && !self.eat_any(&["is", "are", "stands", "lies"]) {
-            return None;
-        }
-        self.eat_any(&["the"]);
-        if self.eat_any(&[
-            "nearest",
-            "closest",
-            "nearer",
-            "closer",
-            "nearest to you",
-            "closest to you",
-            "nearest you",
-            "nearest to us",
-            "closest to us",
-        ]) {
-            what.choice = super::clause::Choice::Nearest;
-        } else if self.eat_any(&[
-            "farthest",
-            "furthest",
-            "farther",
-            "further",
-            "farthest away",
-            "furthest away",
-            "farther away",
-            "further away",
-        ]) {
-            what.choice = super::clause::Choice::Farthest;
-        } else {
-            let ((measure, most), words) = super::lexicon::longest(self.rest(), super::lexicon::MOSTS)?;
-            self.at += words;
-            what.choice = super::clause::Choice::Most(measure, most);
-        }
-        if matches!(self.mark(), Some(',')) {
-            self.at += 1;
-            let mut ids = Vec::new();
-            loop {
-                let one = self.named_alone()?;
-                ids.push(one);
-                self.at += usize::from(matches!(self.mark(), Some(',')));
-                if !self.eat_any(&["or", "and"]) {
-                    break;
-                }
-            }
-            what.target = Target::Named(ids);
-        }
-        what.text = self.text_from(start);
-        let asked = self.mark() == Some('?') && what.target != Target::Here;
-        if !asked || !self.skip_joints() || self.at >= self.lexemes.len() {
-            return None;
-        }
-        self.eat_any(&["that one", "it is that"]);
-        let mut clauses = vec![Clause::Mention { what }];
-        clauses.extend(self.statement().ok()?);
-        Some(clauses)
-    }
-
-    /// One thing of a choice: "the school or the hospital".
-    fn named_alone(&mut self) -> Option<simworld_core::id::EntityId> {
-        let mut what = Reference::to(Target::Here, String::new());
-        self.modifiers(&mut what);
-        let (at, end) = (self.at, (self.at..self.lexemes.len()).find(|at| ends_choice(&self.lexemes[*at]))?);
-        let whole = self.lexemes;
-        self.lexemes = &whole[..end];
-        self.at = at;
-        let found = self.reference(0).ok();
-        self.lexemes = whole;
-        let found = self
-            .view
-            .find(&Reference { choice: what.choice, ..found? }, super::resolve::Purpose::Any)
-            .ok()?;
-        Some(found.id)
-    }
-}
-
-fn ends_choice(lexeme: &Lexeme) -> bool {
-    match &lexeme.token {
-        Token::Comma | Token::Break => true,
-        Token::Word(word) => word == "or",
-        _ => false,
     }
 }
 

@@ -2,7 +2,8 @@
 
 use simworld_core::seam::PlanError;
 
-use super::clause::Clause;
+use super::blocks::UNTIL;
+use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
@@ -129,5 +130,38 @@ impl Parser<'_> {
         }
         self.at = start;
         None
+    }
+
+    /// "Don't put it down until you get to the museum": later, and not now.
+    pub(super) fn not_until(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let start = self.at;
+        self.eat_any(NEGATIONS);
+        let later = self.order();
+        if let Ok(later) = later
+            && self.eat_any(UNTIL)
+            && let Ok(test) = self.test()
+        {
+            let mut clauses = vec![match test {
+                Test::Near { what, .. } => {
+                    Clause::Go { to: what, side: None, pace: Pace::Usual, within: None }
+                }
+                test => Clause::Until { test, body: Vec::new() },
+            }];
+            clauses.extend(later);
+            return Ok(clauses);
+        }
+        self.at = start;
+        Err(self.not_understood("that says what not to do: say what to do"))
+    }
+
+    /// What is done instead of what is not to be done.
+    pub(super) fn instead(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        self.other_than_that()?;
+        let order = std::mem::replace(&mut self.at, start);
+        let mut clauses = self.names_within(order);
+        self.at = order;
+        clauses.extend(self.statement().ok()?);
+        Some(clauses)
     }
 }

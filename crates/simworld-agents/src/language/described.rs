@@ -117,7 +117,8 @@ impl Parser<'_> {
             if copula && longest_phrase(self.rest().get(1..).unwrap_or_default(), SUPERLATIVES).is_some() {
                 self.eat_any(&["the"]); // "the bench that is the farthest"
             }
-            let likeness = copula && !plain_is && self.likeness_behind(reference)
+            let whichever = plain_is && !self.in_test && self.said_whichever();
+            let likeness = copula && (!plain_is || whichever) && self.likeness_behind(reference)
                 || copula && !self.in_test && self.most_behind(reference);
             if likeness
                 || self.use_behind(reference)
@@ -133,6 +134,14 @@ impl Parser<'_> {
             self.at = start;
             return Ok(());
         }
+    }
+
+    /// "Whichever chair is free": the "is" says which.
+    fn said_whichever(&self) -> bool {
+        const NEAR: usize = 5;
+        self.lexemes[self.at.saturating_sub(NEAR)..self.at].iter().any(
+            |lexeme| matches!(&lexeme.token, Token::Word(word) if word == "whichever" || word == "whatever"),
+        )
     }
 
     /// "That is", "standing right", "which is located": what leads from a noun to where it is.

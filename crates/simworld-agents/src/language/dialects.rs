@@ -70,7 +70,8 @@ fn plain(lexemes: &[Lexeme], at: usize, text: &str) -> Option<&'static str> {
         return None; // north
     }
     // "Ten min" is known as it is.
-    (!quoted && !capital && !kept && !(is_number && word.starts_with("min"))).then_some(*plain)
+    let as_it_is = quoted || capital || kept || is_number && word.starts_with("min");
+    (!as_it_is).then_some(*plain)
 }
 
 /// "Go 2 the stop", "wait 4 me".

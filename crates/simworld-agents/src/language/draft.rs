@@ -149,6 +149,33 @@ impl<'a> Draft<'a> {
             Clause::Buy { goods, times, at, whom } => self.buy(goods, *times, at.as_ref(), whom.as_ref()),
             Clause::Mention { what } => self.speak_of(what),
             Clause::Sit { on } => self.sit(on.as_ref()),
+            Clause::Board { what, to } => self.board(what).and_then(|()| self.go_on_to(to.as_ref())),
+            Clause::Drive { to, pace } => self.drive(to, *pace),
+            Clause::Alight { from } => self.alight(*from),
+            Clause::If { test, then, otherwise } => self.either(test, then, otherwise),
+            Clause::Until { test, body } => {
+                // What is done is said first: "look at Fay until she is near you".
+                let steps = self.block(body)?;
+                let condition = self.condition(test)?;
+                if let (Condition::Near { what: Which::Entity(id), .. }, []) = (&condition, &steps[..]) {
+                    self.beside = Some(*id); // who came to me need not be gone to
+                }
+                self.push(PlanStep::Until { condition, steps });
+                Ok(())
+            }
+            Clause::Repeat { times: 1, body } => self.add_all(body),
+            Clause::Repeat { times, body } => {
+                let steps = self.block(body)?;
+                self.push(PlanStep::Repeat { times: *times, steps });
+                Ok(())
+            }
+            other => self.bear(other),
+        }
+    }
+
+    /// How one stands, waits, steps and turns.
+    fn bear(&mut self, clause: &Clause) -> Result<(), PlanError> {
+        match clause {
             Clause::StandUp => {
                 self.posture = Posture::Standing;
                 self.act(Action::StandUp)
@@ -159,9 +186,6 @@ impl<'a> Draft<'a> {
                 self.push(PlanStep::Wait { seconds: *seconds });
                 Ok(())
             }
-            Clause::Board { what, to } => self.board(what).and_then(|()| self.go_on_to(to.as_ref())),
-            Clause::Drive { to, pace } => self.drive(to, *pace),
-            Clause::Alight { from } => self.alight(*from),
             Clause::Step { direction: StepDirection::Left, .. } if self.drives() => {
                 self.turn_driving(FRAC_PI_2)
             }
@@ -178,6 +202,13 @@ impl<'a> Draft<'a> {
                 self.view.heading += angle;
                 self.act(Action::Rotate { angle: wrap_angle(*angle) })
             }
+            other => self.express(other),
+        }
+    }
+
+    /// What one shows or says, and does with doors, cameras and eyes.
+    fn express(&mut self, clause: &Clause) -> Result<(), PlanError> {
+        match clause {
             Clause::Face { what } => self.face(what),
             Clause::TurnFrom { what } => {
                 self.face(what)?;
@@ -211,23 +242,7 @@ impl<'a> Draft<'a> {
             Clause::Door { what, open } => self.door(what.as_ref(), *open),
             Clause::Photo { of, times } => self.photo(of.as_ref(), *times),
             Clause::Speed { speed } => self.act(Action::ChangeSpeed { speed: *speed }),
-            Clause::If { test, then, otherwise } => self.either(test, then, otherwise),
-            Clause::Until { test, body } => {
-                // What is done is said first: "look at Fay until she is near you".
-                let steps = self.block(body)?;
-                let condition = self.condition(test)?;
-                if let (Condition::Near { what: Which::Entity(id), .. }, []) = (&condition, &steps[..]) {
-                    self.beside = Some(*id); // who came to me need not be gone to
-                }
-                self.push(PlanStep::Until { condition, steps });
-                Ok(())
-            }
-            Clause::Repeat { times: 1, body } => self.add_all(body),
-            Clause::Repeat { times, body } => {
-                let steps = self.block(body)?;
-                self.push(PlanStep::Repeat { times: *times, steps });
-                Ok(())
-            }
+            _ => Ok(()),
         }
     }
 

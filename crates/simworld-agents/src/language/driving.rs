@@ -1,6 +1,6 @@
 //! What drivers are told: turns at junctions, the block, the kerb.
 
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use simworld_core::action::{ActionKind, StepDirection};
 use simworld_core::geometry::{Point2, Point3};
@@ -150,6 +150,17 @@ impl Parser<'_> {
             && let Some((nth, lights)) = self.junction()
         {
             return Some(vec![Clause::TurnAt { turn, nth, lights }]);
+        }
+        let walks = self.view.scene.entity(self.view.who).is_some_and(|me| !me.kind.is_vehicle());
+        if walks
+            && nth.is_none()
+            && !turning
+            && let Some(turn) = turn.filter(|_| said && self.ends_clause())
+        {
+            // Who walks and takes a left turns where it stands.
+            return Some(vec![Clause::Turn {
+                angle: if turn == Turn::Left { FRAC_PI_2 } else { -FRAC_PI_2 },
+            }]);
         }
         let turn = turn.filter(|_| said && self.ends_clause());
         if turn.is_none() {

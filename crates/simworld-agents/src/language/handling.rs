@@ -300,4 +300,47 @@ impl Parser<'_> {
         self.at = at;
         leads
     }
+
+    /// "Point out to me the red car".
+    pub(super) fn point_out(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&[
+            "at",
+            "to",
+            "towards",
+            "out",
+            "over at",
+            "over to",
+            "your finger at",
+            "up at",
+            "in the direction of",
+            "out to me",
+            "me to",
+        ]);
+        Ok(Clause::Point { at: self.reference(0)? })
+    }
+
+    /// "Wave your hand at Ben".
+    pub(super) fn wave(&mut self) -> Result<Clause, PlanError> {
+        self.eat_any(&[
+            "at",
+            "to",
+            "over at",
+            "over to",
+            "hello to",
+            "goodbye to",
+            "hi to",
+            "across to",
+            "back at",
+            "hello at",
+            "towards",
+            "in the direction of",
+            "your hand at",
+            "your hand to",
+            "hand to",
+            "hands to",
+            "your hand",
+        ]);
+        let it = Reference::to(Target::It, "it".to_owned());
+        Ok(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
+    }
 }

@@ -10,6 +10,7 @@
 mod asides;
 mod blocks;
 mod call;
+mod choices;
 mod clause;
 mod clipped;
 mod compass;

@@ -320,15 +320,6 @@ impl Parser<'_> {
             && longest(&self.rest()[count..], DIRECTIONS).is_none()
     }
 
-    pub(super) fn reverse(&mut self) -> Result<Clause, PlanError> {
-        match self.step()? {
-            Clause::Step { distance, .. } => {
-                Ok(Clause::Step { direction: StepDirection::Backward, distance })
-            }
-            other => Ok(other),
-        }
-    }
-
     pub(super) fn step(&mut self) -> Result<Clause, PlanError> {
         self.eat_any(&["aside", "a bit", "a little", "a little bit", "slightly"]);
         let mut direction = self.direction();
@@ -348,7 +339,16 @@ impl Parser<'_> {
         } else {
             self.at = number_at;
         }
-        self.eat_any(&["further", "farther", "more"]);
+        self.eat_any(&[
+            "further",
+            "farther",
+            "more",
+            "a bit",
+            "a little",
+            "a little bit",
+            "slightly",
+            "a tad",
+        ]);
         direction = direction.or_else(|| self.direction());
         if measured && distance > LONGEST_STEP && distance <= 10_000.0 {
             let course = Course::Relative(direction.unwrap_or(StepDirection::Forward));

@@ -24,6 +24,26 @@ const TURNS: &[(&[&str], Turn)] = &[
     Turn::Straight),
 ];
 
+/// What heads a list of places.
+#[rustfmt::skip]
+const TOURS: &[&str] = &[
+    "waypoints", "route", "your route", "the route", "stops", "round trip", "tour", "path", "itinerary",
+    "your itinerary", "the tour", "rounds", "round", "circuit", "trip", "lap", "course", "destinations",
+    "the stops", "places to visit", "stations", "checkpoints",
+];
+/// What says when it is the turn of a place, before it.
+#[rustfmt::skip]
+const IN_TURN: &[&str] = &[
+    "first", "first to", "then", "then to", "next", "finally", "second", "third", "last", "and then",
+    "and finally",
+];
+/// The same behind it.
+#[rustfmt::skip]
+const TURNS_BEHIND: &[&str] = &[
+    "first", "second", "third", "fourth", "next", "last", "after that", "afterwards", "to begin with",
+    "to end with",
+];
+
 /// Reads one kind of such orders; nothing where it is none.
 type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
 
@@ -143,6 +163,14 @@ impl Parser<'_> {
             "the next crossroads",
             "that",
             "that one",
+            "the lights",
+            "the light",
+            "the traffic lights",
+            "the traffic light",
+            "the next lights",
+            "the green light",
+            "the signal",
+            "the signals",
         ];
         if over && self.eat_any(next) && self.ends_clause() {
             return Some((1, Lights::Any));
@@ -271,67 +299,21 @@ impl Parser<'_> {
     /// "Waypoints: the fountain, the hydrant, the sign", "hydrant first, cone second, crate last": where one goes in turn.
     pub(super) fn itinerary(&mut self) -> Option<Vec<Clause>> {
         const FEWEST: usize = 2;
-        let headed = self.eat_any(&[
-            "waypoints",
-            "route",
-            "your route",
-            "the route",
-            "stops",
-            "round trip",
-            "tour",
-            "path",
-            "itinerary",
-            "your itinerary",
-            "the tour",
-            "rounds",
-            "round",
-            "circuit",
-            "trip",
-            "lap",
-            "course",
-            "destinations",
-            "the stops",
-            "places to visit",
-            "stations",
-            "checkpoints",
-        ]) && self.mark() == Some(':');
+        let headed = self.eat_any(TOURS) && self.mark() == Some(':');
         self.at += usize::from(headed);
         let mut clauses = Vec::new();
         let mut sorted = headed;
         let mut end = self.at;
         loop {
             let at = end;
-            sorted |= self.eat_any(&[
-                "first",
-                "first to",
-                "then",
-                "then to",
-                "next",
-                "finally",
-                "second",
-                "third",
-                "last",
-                "and then",
-                "and finally",
-            ]);
+            sorted |= self.eat_any(IN_TURN);
             self.eat_any(&["to", "on to", "over to"]);
             let Some(stop) = self.stop_on_the_way(sorted) else {
                 self.at = at;
                 break;
             };
             clauses.push(stop);
-            sorted |= self.eat_any(&[
-                "first",
-                "second",
-                "third",
-                "fourth",
-                "next",
-                "last",
-                "after that",
-                "afterwards",
-                "to begin with",
-                "to end with",
-            ]);
+            sorted |= self.eat_any(TURNS_BEHIND);
             end = self.at;
             let joined = matches!(self.mark(), Some(',' | ';')) || matches!(self.mark(), Some('.')) && sorted;
             self.at += usize::from(joined);

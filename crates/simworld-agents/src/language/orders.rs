@@ -239,6 +239,14 @@ impl Parser<'_> {
                 self.tail_place(&["from"])?; // from which seat is no choice
                 one(Clause::StandUp)
             }
+            _ => self.deed(verb, start),
+        }
+    }
+
+    /// The objects of verbs of the body, of vehicles, of speech and of speed.
+    fn deed(&mut self, verb: Verb, start: usize) -> Result<Vec<Clause>, PlanError> {
+        let one = |clause| Ok(vec![clause]);
+        match verb {
             Verb::Stop => self.stop(),
             Verb::Park => self.park(),
             Verb::Pass => self.past(Pace::Usual),
@@ -262,6 +270,13 @@ impl Parser<'_> {
             }
             Verb::Faster => one(Clause::Speed { speed: 2.0 }),
             Verb::Slower => one(Clause::Speed { speed: super::draft::STROLLING }),
+            Verb::SetSpeed
+                if fits(&self.lexemes[start..], "stay at").is_some()
+                    && numbers::number(self.rest()).is_none() =>
+            {
+                let to = self.reference(0)?;
+                one(Clause::Go { to, side: None, pace: Pace::Usual, within: None })
+            }
             Verb::SetSpeed => {
                 let speed = self.speed()?;
                 if longest_phrase(self.rest(), &["to", "towards", "over to"]).is_some() {
@@ -269,6 +284,7 @@ impl Parser<'_> {
                 }
                 one(Clause::Speed { speed })
             }
+            _ => Err(self.not_understood(UNDERSTOOD)),
         }
     }
 
@@ -295,51 +311,35 @@ impl Parser<'_> {
         if stays && !self.moves_about(&whom) {
             return Ok(Clause::Go { to: whom, side: None, pace: Pace::Usual, within: None });
         }
-        self.eat_any(&["around", "about", "everywhere", "wherever they go"]);
+        self.eat_any(&[
+            "around",
+            "about",
+            "everywhere",
+            "wherever they go",
+            "goes",
+            "walks",
+            "moves",
+            "is going",
+            "may go",
+            "might go",
+            "wherever he goes",
+            "wherever she goes",
+            "wherever it goes",
+            "as she walks",
+            "as he walks",
+            "as it walks",
+            "wherever he may go",
+            "wherever she may go",
+            "on foot",
+            "at a distance",
+            "from a distance",
+            "closely",
+            "keeping your distance",
+            "as closely as you can",
+            "where he goes",
+            "where she goes",
+        ]);
         Ok(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
-    }
-
-    /// "Point out to me the red car".
-    fn point_out(&mut self) -> Result<Clause, PlanError> {
-        self.eat_any(&[
-            "at",
-            "to",
-            "towards",
-            "out",
-            "over at",
-            "over to",
-            "your finger at",
-            "up at",
-            "in the direction of",
-            "out to me",
-            "me to",
-        ]);
-        Ok(Clause::Point { at: self.reference(0)? })
-    }
-
-    /// "Wave your hand at Ben".
-    fn wave(&mut self) -> Result<Clause, PlanError> {
-        self.eat_any(&[
-            "at",
-            "to",
-            "over at",
-            "over to",
-            "hello to",
-            "goodbye to",
-            "hi to",
-            "across to",
-            "back at",
-            "hello at",
-            "towards",
-            "in the direction of",
-            "your hand at",
-            "your hand to",
-            "hand to",
-            "hands to",
-            "your hand",
-        ]);
-        let it = Reference::to(Target::It, "it".to_owned());
-        Ok(Clause::Wave { to: if self.ends_clause() { it } else { self.reference(0)? } })
     }
 
     /// "Open the door for me", "close it behind you".

@@ -312,43 +312,11 @@ impl<'a> Parser<'a> {
         found
     }
 
-    /// "Don't put it down until you get to the museum": later, and not now.
-    fn not_until(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let start = self.at;
-        self.eat_any(NEGATIONS);
-        let later = self.order();
-        if let Ok(later) = later
-            && self.eat_any(UNTIL)
-            && let Ok(test) = self.test()
-        {
-            let mut clauses = vec![match test {
-                Test::Near { what, .. } => {
-                    Clause::Go { to: what, side: None, pace: Pace::Usual, within: None }
-                }
-                test => Clause::Until { test, body: Vec::new() },
-            }];
-            clauses.extend(later);
-            return Ok(clauses);
-        }
-        self.at = start;
-        Err(self.not_understood("that says what not to do: say what to do"))
-    }
-
     /// Whether something may still be read on trial.
     pub(super) fn may_try(&mut self) -> bool {
         let left = self.tries.checked_sub(1);
         self.tries = left.unwrap_or(0);
         left.is_some()
-    }
-
-    fn instead(&mut self) -> Option<Vec<Clause>> {
-        let start = self.at;
-        self.other_than_that()?;
-        let order = std::mem::replace(&mut self.at, start);
-        let mut clauses = self.names_within(order);
-        self.at = order;
-        clauses.extend(self.statement().ok()?);
-        Some(clauses)
     }
 
     fn in_nouns(&mut self) -> Option<Vec<Clause>> {

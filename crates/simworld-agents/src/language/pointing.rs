@@ -56,6 +56,19 @@ impl Parser<'_> {
                 Ok(Some(Target::Id(id)))
             }
             [Lexeme { token: Token::Open, .. }, ..] => self.point().map(Some),
+            // "Go to 10, 20": two numbers without a unit.
+            [
+                Lexeme { token: Token::Number(x), .. },
+                Lexeme { token: Token::Comma, .. },
+                Lexeme { token: Token::Number(y), .. },
+                after @ ..,
+            ] if !matches!(after.first(), Some(Lexeme { token: Token::Word(_), .. }))
+                || super::politeness::joint(after).is_some() =>
+            {
+                let (x, y) = (*x, *y);
+                self.at += 3;
+                Ok(Some(Target::Point { x, y, z: None }))
+            }
             _ => Ok(None),
         }
     }

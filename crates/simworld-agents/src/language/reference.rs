@@ -173,13 +173,13 @@ impl Parser<'_> {
         };
         let (ids, words) = match self.names.exact(self.rest()) {
             Some(found) => found,
-            None => match self.misspelt()? {
-                Target::Named(ids) => (ids, 0),
-                _ => {
+            None => {
+                let Target::Named(ids) = self.misspelt()? else {
                     self.at = start;
                     return Ok(());
-                }
-            },
+                };
+                (ids, 0)
+            }
         };
         self.at += words;
         let fitting: Vec<_> = ids.iter().copied().filter(is_one).collect();
@@ -258,7 +258,8 @@ impl Parser<'_> {
                     || fits(&self.lexemes[next..], "of").is_some()
             }
         };
-        let named = if may_be_name { self.names.exact(self.rest()) } else { None };
+        let named =
+            if may_be_name { self.names.exact(self.rest()).or_else(|| self.owner_named()) } else { None };
         match (named, class) {
             (Some((ids, count)), class) if class.is_none_or(|(_, words)| count >= words) => {
                 self.at += count;
@@ -279,6 +280,22 @@ impl Parser<'_> {
                 _ => self.misspelt(),
             },
         }
+    }
+
+    /// Whose name it is before "'s": "the Noodle Bar's door".
+    fn owner_named(&self) -> Option<(Vec<simworld_core::id::EntityId>, usize)> {
+        const LONGEST: usize = 5;
+        let rest = &self.rest()[..self.rest().len().min(LONGEST)];
+        let is_owner = |lexeme: &Lexeme| {
+            let written = &self.words[lexeme.start..lexeme.end];
+            written.ends_with("'s") || written.ends_with("’s")
+        };
+        let at = rest.iter().position(is_owner).filter(|at| *at > 0)?;
+        let mut owner = rest[..=at].to_vec();
+        if let Token::Word(word) = &mut owner[at].token {
+            word.pop();
+        }
+        self.names.exact(&owner).filter(|(_, words)| *words == owner.len())
     }
 
     pub(super) fn text_from(&self, start: usize) -> String {

@@ -32,38 +32,7 @@ impl Parser<'_> {
                 Clause::Argue { with }
             }
             Verb::Say => self.say()?,
-            Verb::Tell => {
-                let calls = self.at > 1 && ["to", "at"].contains(&self.word_before());
-                let to = self.reference(0)?;
-                self.eat_any(&[
-                    "that",
-                    "about",
-                    "to",
-                    "know that",
-                    "know",
-                    "with",
-                    "the following",
-                    "the words",
-                    "for me",
-                ]);
-                if self.eat_any(&[
-                    "the same",
-                    "the same thing",
-                    "that too",
-                    "the very same",
-                    "it too",
-                    "likewise",
-                ]) && let Some(words) = self.said.clone()
-                {
-                    return Ok(vec![Clause::Say { to, words }]);
-                }
-                self.at += usize::from(self.opens_quote());
-                if self.ends_clause() && calls {
-                    return Ok(vec![Clause::Say { to, words: HELLO.to_owned() }]);
-                }
-                let words = self.speech(self.lexemes.len())?;
-                Clause::Say { to, words }
-            }
+            Verb::Tell => return self.tell(),
             _ => {
                 self.eat_any(&["to", "with"]);
                 let to = self.reference(0)?;
@@ -79,24 +48,64 @@ impl Parser<'_> {
         Ok(vec![clause])
     }
 
+    /// "Tell Anna that the shop is closed", "call out to Ben".
+    fn tell(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let calls = self.at > 1 && ["to", "at"].contains(&self.word_before());
+        self.eat_any(&["both"]);
+        let to = self.reference(0)?;
+        let others = self.others_told();
+        self.eat_any(&[
+            "that",
+            "about",
+            "to",
+            "know that",
+            "know",
+            "with",
+            "the following",
+            "the words",
+            "for me",
+        ]);
+        if self.eat_any(&["the same", "the same thing", "that too", "the very same", "it too", "likewise"])
+            && let Some(words) = self.said.clone()
+        {
+            return Ok(vec![Clause::Say { to, words }]);
+        }
+        self.at += usize::from(self.opens_quote());
+        if self.ends_clause() && calls {
+            return Ok(vec![Clause::Say { to, words: HELLO.to_owned() }]);
+        }
+        let words = self.speech(self.lexemes.len())?;
+        if !others.is_empty() {
+            let all = [to].into_iter().chain(others);
+            return Ok(all.map(|to| Clause::Say { to, words: words.clone() }).collect());
+        }
+        Ok(vec![Clause::Say { to, words }])
+    }
+
+    /// "Tell Anna and Ben that ...": whoever else is told.
+    fn others_told(&mut self) -> Vec<Reference> {
+        let mut others = Vec::new();
+        loop {
+            let start = self.at;
+            self.at += usize::from(matches!(self.rest().first(), Some(Lexeme { token: Token::Comma, .. })));
+            self.eat_any(&["and", "and then", "and also"]);
+            let next = if self.at > start { self.somebody_here() } else { None };
+            let words_follow = !self.ends_at_mark() || self.opens_quote();
+            match next.filter(|_| words_follow) {
+                Some(next) => others.push(next),
+                None => {
+                    self.at = start;
+                    return others;
+                }
+            }
+        }
+    }
+
     /// "Say good morning to Anna".
     fn say(&mut self) -> Result<Clause, PlanError> {
         let start = self.at;
-        if let Some(words) = self.said.clone()
-            && self.eat_any(&[
-                "to",
-                "the same to",
-                "it to",
-                "that to",
-                "the same thing to",
-                "likewise to",
-                "so to",
-            ])
-        {
-            if let Some(to) = self.somebody_here().filter(|_| self.ends_clause()) {
-                return Ok(Clause::Say { to, words });
-            }
-            self.at = start;
+        if let Some(said) = self.said_again() {
+            return Ok(said);
         }
         if let Some(to) = self.addressed() {
             self.eat_any(&["that"]);
@@ -144,6 +153,28 @@ impl Parser<'_> {
         let to = to?;
         self.at = after;
         Ok(Clause::Say { to, words })
+    }
+
+    /// "Say bye to Fay, then to Gus": the same words to somebody else.
+    fn said_again(&mut self) -> Option<Clause> {
+        let start = self.at;
+        if let Some(words) = self.said.clone()
+            && self.eat_any(&[
+                "to",
+                "the same to",
+                "it to",
+                "that to",
+                "the same thing to",
+                "likewise to",
+                "so to",
+            ])
+        {
+            if let Some(to) = self.somebody_here().filter(|_| self.ends_clause()) {
+                return Some(Clause::Say { to, words });
+            }
+            self.at = start;
+        }
+        None
     }
 
     /// "Say to Anna that ...": whom, before the words.

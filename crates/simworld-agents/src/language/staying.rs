@@ -13,6 +13,15 @@ use super::verbs::Verb;
 /// The longest wait, s.
 pub(super) const LONGEST_WAIT: f64 = 86_400.0;
 
+/// What somebody is waited for to do.
+#[rustfmt::skip]
+const TO_COME: &[&str] = &[
+    "to arrive", "to come", "to come here", "to get here", "to reach you", "to come closer", "to come nearer",
+    "to come near", "to come over", "to approach", "to come to you", "to be here", "to be near",
+    "to come near you", "to get near", "to get close", "to come up", "to return", "to come back", "to walk up",
+    "to show up", "to turn up", "to join you", "to catch up",
+];
+
 impl Parser<'_> {
     pub(super) fn sit(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.eat_any(&["there", "here", "down"]);
@@ -49,6 +58,9 @@ impl Parser<'_> {
     pub(super) fn stop(&mut self) -> Result<Vec<Clause>, PlanError> {
         if self.peeks("for") || self.peeks("until") || self.peeks("till") || self.peek_time().is_some() {
             return self.wait();
+        }
+        if let Some(clauses) = self.stop_of_it() {
+            return Ok(clauses);
         }
         if let Some(clauses) = self.short_of()? {
             return Ok(clauses);
@@ -100,6 +112,33 @@ impl Parser<'_> {
             "dead",
         ]);
         Ok(vec![Clause::Stop])
+    }
+
+    /// What is stopped, or on which side of what.
+    fn stop_of_it(&mut self) -> Option<Vec<Clause>> {
+        // "Stop following Tom": what is stopped is not begun.
+        let start = self.at;
+        let stopped = matches!(self.rest().first(), Some(Lexeme { token: Token::Word(word), lemma: Some(_), .. }) if word.ends_with("ing"));
+        if stopped && self.order().is_ok() && self.ends_clause() {
+            return Some(vec![Clause::Stop]);
+        }
+        self.at = start;
+        // "Stop behind the van".
+        let side = longest(self.rest(), RELATIONS).filter(|(relation, _)| {
+            !matches!(relation, Relation::NextTo | Relation::Near | Relation::Inside | Relation::OnTopOf)
+        });
+        if let Some((relation, words)) = side
+            && longest_phrase(self.rest(), &["outside", "in front of"]).is_none()
+        {
+            let start = self.at;
+            self.at += words;
+            if let Ok(to) = self.reference(0) {
+                let side = Some(Spot::Beside(relation, None));
+                return Some(vec![Clause::Go { to, side, pace: Pace::Usual, within: None }]);
+            }
+            self.at = start;
+        }
+        None
     }
 
     pub(super) fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
@@ -214,7 +253,7 @@ impl Parser<'_> {
                 return Ok(vec![Clause::Until { test, body: Vec::new() }]);
             }
         }
-        self.eat_any(&["to arrive", "to come", "to come here", "to get here", "to reach you"]);
+        self.eat_any(TO_COME);
         let test = Test::Near { what, within: super::tests_of::NEXT_TO_ME };
         Ok(vec![Clause::Until { test, body: Vec::new() }])
     }

@@ -142,7 +142,8 @@ impl Parser<'_> {
     fn same_test(&mut self) -> Option<Test> {
         let start = self.at;
         let asked = match self.tested.clone()? {
-            Test::Not(asked) => *asked,
+            // "Closed" and "free" are states of their own.
+            Test::Not(asked) if !matches!(*asked, Test::Open(_) | Test::InUse(_)) => *asked,
             asked => asked,
         };
         let not = self.eat_any(&[
@@ -417,6 +418,16 @@ impl Parser<'_> {
         let not = |test: Test| Test::Not(Box::new(test));
         let (state, count) = longest(self.rest(), STATES)?;
         self.at += count;
+        // "Anna is near the bin" is about the two of them, and not about who is told.
+        let of_another = matches!(state, State::Near | State::Next)
+            && longest_phrase(
+                self.rest(),
+                &["the", "a", "an", "my", "his", "her", "that", "this", "it", "him", "them", "to"],
+            )
+            .is_some();
+        if of_another {
+            return None;
+        }
         let test = match state {
             State::Free => not(Test::InUse(what)),
             State::InUse => Test::InUse(what),

@@ -119,12 +119,17 @@ impl Parser<'_> {
         self.subject();
         if self.eat_any(BLIND) {
             self.adverbs();
-            return Ok(Some(Test::Not(Box::new(Test::Sees(self.reference(0)?)))));
+            let what = self.reference(0)?;
+            let seen = if what.traits.free { Test::There { what, free: true } } else { Test::Sees(what) };
+            return Ok(Some(Test::Not(Box::new(seen))));
         }
         if !self.eat_any(SEE) {
             return Ok(None);
         }
-        self.reference(0).map(|what| Some(Test::Sees(what)))
+        self.reference(0).map(|what| {
+            // Whether a seat is free is asked of those near.
+            Some(if what.traits.free { Test::There { what, free: true } } else { Test::Sees(what) })
+        })
     }
 
     /// About the agent itself.

@@ -39,6 +39,11 @@ const EXACTLY: &[&str] = &[
     "smack",
 ];
 
+/// Not round a thing, but behind it.
+const BEHIND: &[&str] = &["round the back of", "around the back of", "around behind", "round behind"];
+/// Not round a thing, but by it.
+const ROUND_BY: &[&str] = &["round by", "around by", "round past", "around past"];
+
 impl Parser<'_> {
     /// So many metres in a direction of the compass, in either order; a direction without a length only where one goes
     /// on until something happens.
@@ -95,6 +100,10 @@ impl Parser<'_> {
     /// "Past the café", "round the fountain", "halfway to the museum".
     pub(super) fn special_way(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
+        if longest_phrase(self.rest(), BEHIND).is_some() {
+            return Ok(None);
+        }
+        self.at += longest_phrase(self.rest(), ROUND_BY).map_or(0, |_| 1);
         self.eat_any(&["right", "straight", "all the way", "once", "completely"]);
         if !self.peeks("around here")
             && self.eat_any(&["around", "round", "in a circle around", "in circles around", "all around"])
@@ -355,6 +364,15 @@ impl Parser<'_> {
                 Ok(vec![Clause::Halfway { from: None, to, pace }])
             }
             go => Ok(vec![go]),
+        }
+    }
+
+    pub(super) fn reverse(&mut self) -> Result<Clause, PlanError> {
+        match self.step()? {
+            Clause::Step { distance, .. } => {
+                Ok(Clause::Step { direction: StepDirection::Backward, distance })
+            }
+            other => Ok(other),
         }
     }
 }
