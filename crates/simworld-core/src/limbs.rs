@@ -27,6 +27,9 @@ pub struct ArmAngles {
 ///
 /// Whoever moves people gives them out by [`World::set_joints`](crate::scene::World::set_joints), once a step; readers ask
 /// [`Scene::joints`](crate::scene::Scene::joints). They follow from what else is known and are no part of what is saved.
+///
+/// A robot dog's fore legs stand here as arms and its hind legs as legs. All its knees bend the way elbows do, so those of the
+/// hind legs are negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointAngles {
     /// The left leg.
