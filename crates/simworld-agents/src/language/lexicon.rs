@@ -295,21 +295,38 @@ fn is_plural(said: &str, noun: &str) -> bool {
 
 /// The entry whose phrase is the longest at the start of `lexemes`, with the number of its words.
 pub(super) fn longest<T: Copy>(lexemes: &[Lexeme], table: &[(&[&str], T)]) -> Option<(T, usize)> {
+    let first = initial(lexemes)?;
     let hits = table.iter().flat_map(|(phrases, entry)| {
-        phrases.iter().filter_map(|phrase| fits(lexemes, phrase).map(|count| (*entry, count)))
+        let begin = phrases.iter().filter(|phrase| begins(phrase, first));
+        begin.filter_map(|phrase| fits(lexemes, phrase).map(|count| (*entry, count)))
     });
     longer(hits)
 }
 
 /// The number of words of the longest of the phrases at the start of `lexemes`.
 pub(super) fn longest_phrase(lexemes: &[Lexeme], phrases: &[&str]) -> Option<usize> {
-    phrases.iter().filter_map(|phrase| fits(lexemes, phrase)).max()
+    let first = initial(lexemes)?;
+    phrases.iter().filter(|phrase| begins(phrase, first)).filter_map(|phrase| fits(lexemes, phrase)).max()
+}
+
+/// The first byte of the first word. Most phrases of a table are told from it by that alone.
+fn initial(lexemes: &[Lexeme]) -> Option<u8> {
+    match &lexemes.first()?.token {
+        Token::Word(word) => word.as_bytes().first().copied(),
+        _ => None,
+    }
+}
+
+fn begins(phrase: &str, first: u8) -> bool {
+    phrase.as_bytes().first() == Some(&first)
 }
 
 /// The class named at the start of `lexemes` with the most words, with their number.
 pub(super) fn category(lexemes: &[Lexeme]) -> Option<(&'static Category, usize)> {
+    let first = initial(lexemes)?;
     longer(CATEGORIES.iter().filter_map(|category| {
-        let count = category.words.iter().filter_map(|word| fits_noun(lexemes, word)).max()?;
+        let begin = category.words.iter().filter(|word| begins(word, first));
+        let count = begin.filter_map(|word| fits_noun(lexemes, word)).max()?;
         Some((category, count))
     }))
 }
