@@ -21,7 +21,7 @@ const AWAY: &[&str] = &["away", "out", "off", "out of here", "out of there", "ou
     "out of sight", "to the dump", "to the scrapyard", "out of my sight", "from the map", "from my sight", "out of the picture", "off the scene",
     "into the trash", "in the trash", "go away", "go", "disappear", "vanish", "gone", "removed", "deleted", "out of town", "out of existence",
     "off the face of the earth", "away from here", "go byebye", "byebye", "bye bye", "off the street", "away for good", "out for good", "leave",
-    "out of the city", "out of the campus", "from the city", "off campus", "off site", "taken away", "taken out", "thrown out", "thrown away", "to the tip"];
+    "towed away", "towed", "hauled away", "carted off", "carted away", "collected", "scrapped", "cleared away", "cleared", "taken off", "dug out", "cut down", "felled", "out of the city", "out of the campus", "from the city", "off campus", "off site", "taken away", "taken out", "thrown out", "thrown away", "to the tip"];
 /// As [`AWAY`], behind verbs of cutting and pulling.
 const DOWN: &[&str] = &["down"];
 const CUTS: &[&str] = &[
@@ -231,8 +231,29 @@ impl Reader<'_> {
 
     /// "Only keep the white car": all others of its class go.
     fn kept(&self, at: usize, end: usize) -> Option<Wish> {
-        let words = longest_phrase(&self.lexemes[at..end], KEEPS)?;
-        let kept = self.one_of(at + words, end).ok()?;
+        const STAYS: &[&str] = &[
+            "may stay",
+            "can stay",
+            "should stay",
+            "stays",
+            "stay",
+            "may remain",
+            "should remain",
+            "remains",
+            "is to stay",
+            "must stay",
+            "shall stay",
+            "gets to stay",
+            "shall remain",
+            "is to remain",
+        ];
+        // "Only the tallest tree may stay".
+        let stays =
+            (at + 1..end).find(|cut| longest_phrase(&self.lexemes[*cut..end], STAYS) == Some(end - cut));
+        let only = longest_phrase(&self.lexemes[at..end], &["only"]).and_then(|words| Some((words, stays?)));
+        let keeps = longest_phrase(&self.lexemes[at..end], KEEPS).map(|words| (words, end));
+        let (words, stop) = only.or(keeps)?;
+        let kept = self.one_of(at + words, stop).ok()?;
         let Target::Any(_) = &kept.target else { return None };
         let all = Reference::to(kept.target.clone(), kept.text.clone());
         Some(Wish::Remove {

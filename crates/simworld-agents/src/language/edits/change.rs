@@ -62,9 +62,14 @@ impl Reader<'_> {
 
     /// Whether the words from here name something that is there, and no new thing.
     pub(super) fn is_definite(&self, start: usize) -> bool {
-        longest_phrase(&self.lexemes[start..], &["a", "an", "some", "another", "one", "new", "more"])
-            .is_none()
-            && numbers::count(&self.lexemes[start..]).is_none()
+        let rest = &self.lexemes[start.min(self.lexemes.len())..];
+        // "Two of the chairs" are there.
+        let of = ["of the", "of these", "of those", "of my", "of our", "of them", "of your"];
+        if numbers::number(rest).is_some_and(|(_, words)| longest_phrase(&rest[words..], &of).is_some()) {
+            return true;
+        }
+        longest_phrase(rest, &["a", "an", "some", "another", "one", "new", "more"]).is_none()
+            && numbers::count(rest).is_none()
     }
 
     /// "Take the bench and put it ...", "take the bench away", "get a bench".
@@ -82,12 +87,41 @@ impl Reader<'_> {
             return Ok(vec![wish]);
         }
         self.at = start;
+        if let Some(wish) = self.made_to(end) {
+            return Ok(vec![vec![wish]]);
+        }
         if self.is_definite(start) {
             // What is taken up is what "it" stands for in the next wish.
             self.one_to(end)?;
             return Ok(vec![vec![Wish::List { what: Some(self.one_of(start, end)?), at: Vec::new() }]]);
         }
         self.additions(end)
+    }
+
+    /// "Get Bo to look at Ada".
+    fn made_to(&mut self, end: usize) -> Option<Wish> {
+        const LOOK: &[&str] = &[
+            "to look at",
+            "to look towards",
+            "to look toward",
+            "to look to",
+            "to face",
+            "to turn to",
+            "to turn towards",
+            "to watch",
+            "to look over to",
+            "facing",
+            "looking at",
+        ];
+        let start = self.at;
+        (start + 1..end).find_map(|cut| {
+            let words = longest_phrase(&self.lexemes[cut..end], LOOK)?;
+            let what = self.things(start, cut).ok()?;
+            let mut reader = Reader { at: cut + words, ..*self };
+            let wish = reader.towards(what, end).ok()?;
+            self.at = end;
+            Some(wish)
+        })
     }
 
     pub(super) fn replace(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
@@ -136,6 +170,19 @@ impl Reader<'_> {
             else {
                 continue;
             };
+            // "Trade the moped for a bicycle" makes one.
+            if !self.is_definite(cut + count)
+                && cut + count < stop
+                && let Ok(what) = self.one_of(start, cut)
+            {
+                let mut reader = Reader { at: cut + count, ..*self };
+                if let Ok(with) = reader.new_thing(end)
+                    && reader.at >= self.before_politeness(reader.at.saturating_sub(1), end)
+                {
+                    self.at = end;
+                    return Ok(vec![vec![Wish::Replace { what, with }]]);
+                }
+            }
             if let (Ok(one), Ok(other)) = (self.one_of(start, cut), self.one_of(cut + count, stop)) {
                 self.at = end;
                 return Ok(vec![vec![Wish::Swap { one, other: Some(other) }]]);
@@ -184,6 +231,16 @@ impl Reader<'_> {
             let next = at + count;
             let rest = longest_phrase(&self.lexemes[next..end], BEHIND_PAINT);
             let closes = next >= end || self.is_joint(next) || rest.is_some();
+            if let Ok(mut what) = self.things(start, cut)
+                && let [only] = &mut what[..]
+            {
+                // "Paint every car white except the blue one".
+                let mut parser = self.parser(next, self.before_politeness(start, end));
+                self.except(&mut parser, only);
+                if parser.at > next && only.except.is_some() {
+                    return Some((what, paint, parser.at));
+                }
+            }
             if let Some(what) = self.things(start, cut).ok().filter(|_| closes) {
                 return Some((what, paint, next + rest.unwrap_or(0)));
             }
@@ -259,26 +316,45 @@ impl Reader<'_> {
             let Ok(what) = self.one_of(start, cut) else { continue };
             let mut from = cut;
             from += longest_phrase(&self.lexemes[cut..end], &["to", "as", "into", "it"]).unwrap_or(0);
-            if from >= end || longest(&self.lexemes[from..end], super::words::WAYS).is_some() {
+            let is_later = self.quoted(from.min(end - 1)).is_none()
+                && (from + 1..end).any(|at| self.quoted(at).is_some());
+            if from >= end || is_later || longest(&self.lexemes[from..end], super::words::WAYS).is_some() {
                 continue;
             }
             if matches!(
                 what.target,
                 Target::Any(_) | Target::Named(_) | Target::It | Target::Them | Target::Id(_)
             ) {
-                let name = self.quoted(from).unwrap_or_else(|| self.written(from, end));
-                self.at = end;
-                return Ok(vec![vec![Wish::Name { what, name }]]);
+                // Behind a name in quotes goes on what else is asked for.
+                let quoted = self.quoted(from);
+                let closes = quoted.as_ref().map(|name| self.lexemes[from].start + name.len());
+                let after = |close: usize| (from..end).find(|at| self.lexemes[*at].start >= close);
+                self.at = closes.and_then(after).filter(|at| self.is_joint(*at)).unwrap_or(end);
+                // "Name the statue Bob and the fountain Alice".
+                let other = (from + 1..end).filter(|_| quoted.is_none()).find_map(|at| {
+                    let words = longest_phrase(&self.lexemes[at..end], &["and"])
+                        .filter(|words| self.is_certain(at + words))?;
+                    let mut reader = Reader { at: at + words, ..*self };
+                    Some((at, reader.name(end).ok()?))
+                });
+                let stop = other.as_ref().map_or(end, |(at, _)| *at);
+                let name = quoted.unwrap_or_else(|| self.written(from, stop));
+                let wishes = std::iter::once(vec![Wish::Name { what, name }]);
+                return Ok(wishes.chain(other.into_iter().flat_map(|(_, more)| more)).collect());
             }
         }
         Err(self.not_understood("say what to name, and how"))
     }
 
     /// What stands between quotation marks from here on.
-    fn quoted(&self, from: usize) -> Option<String> {
+    pub(super) fn quoted(&self, from: usize) -> Option<String> {
         let start = self.lexemes.get(from)?.start;
         let mark = self.words[..start].chars().next_back().filter(|mark| ['\'', '"'].contains(mark))?;
-        self.words[start..].split_once(mark).map(|(inside, _)| inside.to_owned())
+        // "'Mayor's Library'" ends with its last mark: behind one that ends it stands no letter.
+        let rest = &self.words[start..];
+        let closes = |at: &usize| !rest[at + mark.len_utf8()..].starts_with(char::is_alphanumeric);
+        let end = rest.match_indices(mark).map(|(at, _)| at).find(closes)?;
+        Some(rest[..end].to_owned())
     }
 
     /// "Make the bench blue", "make the tree bigger", "let the two cars trade places", "make a bench ...".
@@ -301,16 +377,11 @@ impl Reader<'_> {
             return Ok(vec![vec![wish]]);
         }
         for cut in start + 1..end {
-            let verb: &[&str] = &[
-                "trade places",
-                "swap places",
-                "change places",
-                "switch places",
-                "exchange places",
-                "swap positions",
-            ];
-            if longest_phrase(&self.lexemes[cut..end], verb) == Some(end - cut) {
-                return self.swap(end);
+            if longest_phrase(&self.lexemes[cut..end], super::predicates::TRADES) == Some(end - cut)
+                && let Ok(wish) = self.pair_up(start, cut)
+            {
+                self.at = end;
+                return Ok(vec![vec![wish]]);
             }
             let looks: &[&str] = &[
                 "face",

@@ -18,9 +18,9 @@ enum Dress {
 
 #[rustfmt::skip]
 const DRESS: &[(&[&str], Dress)] = &[
-    (&["line", "edge", "flank", "border", "fringe", "line both sides of", "line the side of", "line the sides of"], Dress::Along),
-    (&["surround", "encircle", "ring", "circle", "enclose", "frame"], Dress::Around),
-    (&["fill", "furnish", "dot", "sprinkle", "equip", "populate", "decorate", "strew", "provide"], Dress::In),
+    (&["line", "edge", "flank", "border", "fringe", "line both sides of", "line the side of", "line the sides of", "plant the edge of", "hem"], Dress::Along),
+    (&["surround", "encircle", "ring", "circle", "enclose", "frame", "seal", "seal off", "fence", "fence in", "fence off", "hem in", "wall in", "cordon", "protect", "secure", "guard"], Dress::Around),
+    (&["fill", "furnish", "dot", "sprinkle", "equip", "populate", "decorate", "strew", "provide", "plant", "adorn", "dress", "embellish", "grace", "stock", "beautify", "supply", "fit out", "kit out", "outfit"], Dress::In),
 ];
 /// What is to be rid of things.
 const CLEAR: &[&str] = &["clear", "rid", "empty", "free", "clean", "strip"];

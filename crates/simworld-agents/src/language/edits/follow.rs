@@ -102,7 +102,9 @@ impl Reader<'_> {
         }
         let is_said = |word: &str| ["too", "also", "well", "likewise"].contains(&word);
         let too = (stop..end).any(|at| self.word(at).is_some_and(is_said));
-        let same = if bare < stop || too { self.same_for(last, from, bare) } else { None };
+        // "And a table too" is one more thing, and not where the first goes.
+        let is_certain = !matches!(last, Wish::Add { .. }) || self.is_certain(from);
+        let same = if is_certain && (bare < stop || too) { self.same_for(last, from, bare) } else { None };
         same.and_then(one)
     }
 
@@ -143,21 +145,24 @@ impl Reader<'_> {
 
     /// The verb of the wish before, where none is said: "... and the chair next to the tree".
     fn gapped(&self, said: &Said, last: &Wish, from: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
-        let verb = match last {
-            Wish::Move { .. } => "move",
-            Wish::Paint { .. } => "paint",
-            Wish::Scale { .. } => "make",
-            Wish::Rotate { .. } | Wish::Face { .. } | Wish::FaceCompass { .. } => "turn",
-            Wish::Swap { .. } => "swap",
-            Wish::Name { .. } => "call",
-            Wish::Copy { .. } => "copy",
-            Wish::Replace { .. } => "replace",
+        let verbs: &[&str] = match last {
+            Wish::Move { .. } => &["move"],
+            Wish::Paint { .. } => &["paint"],
+            Wish::Scale { .. } => &["make"],
+            Wish::Rotate { .. } | Wish::Face { .. } | Wish::FaceCompass { .. } => &["turn", "make"],
+            Wish::Swap { .. } => &["swap"],
+            Wish::Name { .. } => &["call"],
+            Wish::Copy { .. } => &["copy"],
+            Wish::Replace { .. } => &["replace"],
             _ => return None,
         };
         let place = self.lexemes.get(from)?;
         let words = self.with_noun(said, from, end).unwrap_or_else(|| self.lexemes[from..end].to_vec());
-        let order: Vec<Lexeme> = words_at(place, verb).chain(words).collect();
-        let wishes = self.read_plainly(&order)?;
+        let read = |verb: &&str| {
+            let order: Vec<Lexeme> = words_at(place, verb).chain(words.iter().cloned()).collect();
+            self.read_plainly(&order)
+        };
+        let wishes = verbs.iter().find_map(read)?;
         // The verb that was left out is the same one.
         let same = |wish: &Wish| {
             std::mem::discriminant(wish) == std::mem::discriminant(last)
@@ -251,6 +256,9 @@ impl Reader<'_> {
     pub(super) fn last_noun(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
         // The first noun is what a part is about; nouns behind it belong to its place.
         (from..end).find_map(|at| {
+            if let Some(species) = species(&self.lexemes[at]) {
+                return Some(vec![word_at(&self.lexemes[at], species)]);
+            }
             let (class, words) = category(&self.lexemes[at..end])?;
             let said = &self.lexemes[at..at + words];
             let Token::Word(last) = &said[words - 1].token else { return None };
@@ -265,6 +273,16 @@ impl Reader<'_> {
             Some(noun)
         })
     }
+}
+
+/// The kind of tree that a word is, in the singular: of which kind the trees of a scene are is not known.
+pub(super) fn species(lexeme: &Lexeme) -> Option<&'static str> {
+    const SPECIES: &[&str] = &[
+        "oak", "lime", "birch", "pine", "maple", "elm", "ash", "willow", "cedar", "poplar", "chestnut",
+        "linden", "spruce", "fir", "beech",
+    ];
+    let Token::Word(word) = &lexeme.token else { return None };
+    SPECIES.iter().copied().find(|one| one == word || *word == plural_of(one))
 }
 
 fn plural_of(word: &str) -> String {

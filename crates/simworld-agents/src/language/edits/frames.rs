@@ -16,7 +16,7 @@ const LONGEST: usize = 16;
 /// The small words of preambles.
 const SMALL: &str = "a able about absolutely actually ahead all alright also am an and any anybody anyone appreciate are as \
      ask asking asks awesome be beg begging believe best better bit boss can care chance cheers client could course curious \
-     customer dear decided definitely delighted demand do dream dude ensure everybody everyone everything expect fab fancy \
+     customer dear decided definitely delighted demand do dream dude ensure everybody everyone expect fab fancy \
      fantastic favor favour feel feeling fine finally folks for get getting glad go going gonna good got gotta grand grateful \
      great guess guys had happy have having help helpful hey hi hmm hope hoping how i id idea if ill im imagine insist is \
      it itd its ive job just keen kind kindly let lets like listen little lot love lovely make mate may maybe me mean meant \
@@ -36,7 +36,7 @@ const TURNS: &[&str] = &["if you dont mind", "if you do not mind", "why dont you
     "dont hesitate to", "shouldnt we", "shouldnt", "wouldnt", "couldnt", "isnt it time", "is it not time", "no rush but",
     "no worries but", "i wouldnt mind if", "i wouldnt mind", "we wouldnt mind", "i wouldnt say no to", "i dont suppose you could",
     "if its no trouble", "if you would be so kind", "do not forget to", "when you get a chance", "when you have a moment",
-    "when you have time", "first of all", "first", "last but not least", "one more thing", "another thing", "next up",
+    "when you have time", "first of all", "first", "last but not least", "one more thing", "another thing", "next up", "arrange that", "arrange it so that", "arrange for it that", "see to it that", "make sure that", "ensure that", "take care that", "make it so that", "it is requested that", "it is my wish that", "it is our wish that", "it would be pleasing if", "the plan is that", "the idea is that", "i declare that", "i hereby declare that", "as your mayor", "as mayor",
     "from now on", "by the way", "on second thought", "on second thoughts", "come to think of it", "for starters",
     "to start with", "to begin with", "for a start", "here is what i want", "heres what i want", "in that case",
     "would it kill you to", "the least you could do is", "do me a solid and", "id be over the moon if", "up next",
@@ -48,7 +48,7 @@ const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "
     "ensure", "nice", "great", "good", "lovely", "awesome", "cool", "neat", "wonderful", "better", "best", "if", "idea",
     "happy", "glad", "grateful", "appreciate", "please", "let", "time", "could", "can", "would", "should", "wouldnt",
     "couldnt", "shouldnt", "may", "might", "must", "reckon", "plan", "see", "how", "fun", "expect", "dream", "have",
-    "get", "shall", "not", "rather", "going", "gonna", "lets", "id", "wed", "theyd", "hed", "shed", "loves", "likes"];
+    "get", "shall", "not", "rather", "arrange", "care", "requested", "pleasing", "declare", "idea", "plan", "going", "gonna", "lets", "id", "wed", "theyd", "hed", "shed", "loves", "likes"];
 /// What asks what is or was so: no request.
 #[rustfmt::skip]
 const QUESTIONS: &[&str] = &["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
@@ -90,7 +90,12 @@ impl Reader<'_> {
             at += words;
             found.push(Beginning { at, wished });
         }
-        found.retain(|beginning| beginning.at < end);
+        // "The green one": an article belongs to what follows.
+        let is_article =
+            |at: usize| matches!(self.word(at), Some("the" | "my" | "our" | "their" | "these" | "those"));
+        found.retain(|beginning| {
+            beginning.at < end && (beginning.at == start || !is_article(beginning.at - 1))
+        });
         found
     }
 
@@ -133,6 +138,25 @@ impl Reader<'_> {
     pub(super) fn is_preamble(&self, start: usize, begin: usize) -> bool {
         start == begin || self.beginnings(start, begin + 1).iter().any(|found| found.at == begin)
     }
+}
+
+/// Whether a word says nothing of what is asked for.
+pub(super) fn is_small(word: &str) -> bool {
+    const NEEDED: &[&str] = &[
+        "needed",
+        "wanted",
+        "required",
+        "missing",
+        "requested",
+        "due",
+        "wants",
+        "needs",
+        "belongs",
+        "goes",
+        "stands",
+        "sits",
+    ];
+    WORDS.contains(word) || NEEDED.contains(&word)
 }
 
 /// Every word here, for the spelling.

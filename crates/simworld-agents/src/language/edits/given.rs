@@ -13,7 +13,8 @@ use super::wish::Wish;
 /// If there is something.
 #[rustfmt::skip]
 const IF: &[&str] = &["if there is", "if there are", "if you find", "if you see", "in case there is", "if we have",
-    "provided there is", "when there is", "should there be", "if there exists", "as long as there is"];
+    "provided there is", "when there is", "should there be", "if there exists", "as long as there is", "in the event that there is", "in case of", "if we find", "if i see", "if we see", "if you come across",
+    "should you see", "should you find", "if theres", "provided that there is", "if there should be", "if there happens to be", "in the event of", "if there stands", "assuming there is"];
 /// If there is nothing of the kind.
 #[rustfmt::skip]
 const UNLESS: &[&str] = &["unless there is", "unless there are", "unless you find", "unless we have", "if there isnt",
@@ -44,44 +45,171 @@ impl Reader<'_> {
         let from = at + words;
         let none = longest_phrase(&self.lexemes[from..end], &["no", "not any", "not a single", "none"]);
         let (there, from) = (there && none.is_none(), from + none.unwrap_or(0));
+        let (least, there, from) = match self.at_least(from, end) {
+            Some((least, so, words)) => (least, there == so, from + words),
+            None => (1, there, from),
+        };
         if at > start {
-            // "Put a bench there unless there is one": the wish stands before it.
-            let what = self.coloured(from, end).map_or_else(|| self.one_of(from, end), Ok)?;
-            let mut what = what;
-            let mut reader = Reader { at: start, ..*self };
-            let stop = if joint(&self.lexemes[at - 1..at]).is_some() { at - 1 } else { at };
-            let wishes = reader.wish(stop)?;
-            if super::says::is_it(&what) {
-                // "Remove the hydrant unless it is red".
-                let object = wishes.first().and_then(|readings| readings.first()?.object().cloned());
-                let Some(object) = object else {
-                    return Err(self.not_understood("say what the condition is about"));
-                };
-                what.traits = super::super::clause::Traits { paint: what.traits.paint, ..object.traits };
-                what = Reference { traits: what.traits, ..object };
-            }
-            self.at = end;
-            return Ok(Some(on_condition(wishes, &what, there)));
+            return self.given_behind(at, (from, end), (least, there)).map(Some);
         }
+        self.given_before(from, end, (least, there)).map(Some)
+    }
+
+    /// "Put a bench there unless there is one": the wish stands before its condition, which begins at `at`.
+    fn given_behind(
+        &mut self,
+        at: usize,
+        (from, end): (usize, usize),
+        so: (u32, bool),
+    ) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        let stop = self.before_politeness(from, end);
+        let mut what = if from >= stop {
+            // "If there are more than three": of what the wish is about.
+            Reference::to(Target::It, "it".to_owned())
+        } else {
+            self.coloured(from, end).map_or_else(|| self.one_of(from, end), Ok)?
+        };
+        let mut reader = Reader { at: start, ..*self };
+        let stop = if joint(&self.lexemes[at - 1..at]).is_some() { at - 1 } else { at };
+        let wishes = reader.wish(stop)?;
+        if super::says::is_it(&what) {
+            // "Remove the hydrant unless it is red".
+            let object = wishes.first().and_then(|readings| readings.first()?.object().cloned());
+            let Some(object) = object else {
+                return Err(self.not_understood("say what the condition is about"));
+            };
+            what.traits = super::super::clause::Traits { paint: what.traits.paint, ..object.traits };
+            what = Reference { traits: what.traits, ..object };
+        }
+        self.at = end;
+        Ok(on_condition(wishes, &what, so))
+    }
+
+    /// "If there is a fountain, put a dog next to it; otherwise ...".
+    fn given_before(
+        &mut self,
+        from: usize,
+        end: usize,
+        (least, there): (u32, bool),
+    ) -> Result<Vec<Vec<Wish>>, PlanError> {
         let ends = |at: &usize| {
             matches!(self.lexemes[*at].token, Token::Comma | Token::Break)
                 || longest_phrase(&self.lexemes[*at..end], &["then"]).is_some()
         };
-        let Some(cut) = (from + 1..self.lexemes.len().min(end)).find(ends) else {
+        // "If there is a fountain put a dog next to it": without a comma the verb begins the wish.
+        let orders = |at: &usize| {
+            longest(&self.lexemes[*at..end], super::words::VERBS).is_some()
+                && self.one_of(from, self.without_there(from, *at)).is_ok()
+        };
+        let marked = (from + 1..self.lexemes.len().min(end)).find(ends);
+        let Some((cut, next)) =
+            marked.map(|cut| (cut, cut + 1)).or_else(|| (from + 1..end).find(orders).map(|cut| (cut, cut)))
+        else {
             self.at = end;
             return Err(self.not_understood("put a comma behind the condition"));
         };
-        let what = self.coloured(from, cut).map_or_else(|| self.one_of(from, cut), Ok)?;
-        self.at = cut + 1;
+        let stop = self.without_there(from, cut);
+        let what = self.coloured(from, stop).map_or_else(|| self.one_of(from, stop), Ok)?;
+        self.at = next;
         self.skip_joints_to(end);
         if super::says::is_it(&what) {
             return Err(self.not_understood("say what the condition is about"));
         }
-        let wishes = match self.one_of_those(&what, end) {
+        let (stop, other) = self.otherwise(self.at, end);
+        let wishes = match self.one_of_those(&what, stop) {
             Some(wish) => vec![vec![wish]],
-            None => self.wish(end)?,
+            None => self.wish(stop)?,
         };
-        Ok(Some(on_condition(wishes, &what, there)))
+        let mut all = on_condition(wishes, &what, (least, there));
+        if let Some(from) = other.filter(|from| !self.is_nothing(*from, end)) {
+            self.at = from;
+            let wishes = match self.one_of_those(&what, end) {
+                Some(wish) => vec![vec![wish]],
+                None => self.wish(end)?,
+            };
+            all.extend(on_condition(wishes, &what, (least, !there)));
+        }
+        self.at = end;
+        Ok(all)
+    }
+
+    /// Where the words end without "somewhere", "around" and the like.
+    fn without_there(&self, from: usize, end: usize) -> usize {
+        const THERE: &[&str] = &[
+            "somewhere",
+            "around",
+            "anywhere",
+            "here",
+            "there",
+            "about",
+            "around here",
+            "at all",
+            "somewhere around",
+            "anywhere around",
+            "nearby",
+            "left",
+            "in sight",
+        ];
+        (from + 1..end)
+            .find(|at| longest_phrase(&self.lexemes[*at..end], THERE) == Some(end - at))
+            .unwrap_or(end)
+    }
+
+    /// Where a wish ends that is followed by another for the other case, and where that begins.
+    fn otherwise(&self, from: usize, end: usize) -> (usize, Option<usize>) {
+        const OTHERWISE: &[&str] =
+            &["otherwise", "else", "or else", "if not", "if there is none", "if there is not", "if none"];
+        for at in from + 1..end {
+            let Some(words) = longest_phrase(&self.lexemes[at..end], OTHERWISE) else { continue };
+            let mut stop = at;
+            while stop > from + 1 && joint(&self.lexemes[stop - 1..stop]).is_some() {
+                stop -= 1;
+            }
+            let mut next = at + words;
+            while next < end && super::parts::is_mark(&self.lexemes[next]) {
+                next += 1;
+            }
+            return (stop, Some(next));
+        }
+        (end, None)
+    }
+
+    /// "Otherwise nothing shall be done".
+    fn is_nothing(&self, from: usize, end: usize) -> bool {
+        from >= end
+            || longest_phrase(
+                &self.lexemes[from..end],
+                &[
+                    "nothing",
+                    "do nothing",
+                    "leave it",
+                    "leave everything",
+                    "never mind",
+                    "dont",
+                    "dont bother",
+                    "forget it",
+                    "then nothing",
+                    "leave them",
+                ],
+            )
+            .is_some()
+    }
+
+    /// "More than two", "at least three", "fewer than four": how many there are at least, or with `false` are not.
+    fn at_least(&self, from: usize, end: usize) -> Option<(u32, bool, usize)> {
+        let rest = &self.lexemes[from..end];
+        let (more, is_so, words) = [
+            (1, true, longest_phrase(rest, &["more than", "over"])),
+            (0, true, longest_phrase(rest, &["at least", "no fewer than", "no less than", "not less than"])),
+            (0, false, longest_phrase(rest, &["fewer than", "less than", "not even"])),
+            (1, false, longest_phrase(rest, &["at most", "no more than", "not more than"])),
+        ]
+        .into_iter()
+        .find_map(|(more, is_so, words)| Some((more, is_so, words?)))?;
+        let (number, count) = super::super::numbers::number(&rest[words..])?;
+        (number.fract() == 0.0 && (0.0..1000.0).contains(&number))
+            .then(|| (number as u32 + more, is_so, words + count))
     }
 
     /// "If Ada is in the park": how a thing that is there stands.
@@ -172,8 +300,8 @@ impl Reader<'_> {
     }
 }
 
-fn on_condition(wishes: Vec<Vec<Wish>>, what: &Reference, there: bool) -> Vec<Vec<Wish>> {
-    let given = |wish| Wish::Given { what: what.clone(), there, then: Box::new(wish) };
+fn on_condition(wishes: Vec<Vec<Wish>>, what: &Reference, (least, there): (u32, bool)) -> Vec<Vec<Wish>> {
+    let given = |wish| Wish::Given { what: what.clone(), least, there, then: Box::new(wish) };
     wishes.into_iter().map(|readings| readings.into_iter().map(given).collect()).collect()
 }
 

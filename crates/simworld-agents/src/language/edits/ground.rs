@@ -74,14 +74,19 @@ impl Finder<'_> {
 
     // ---- conditions ----
 
-    pub(super) fn given(&self, what: &Reference, there: bool, then: &Wish) -> Result<Vec<Edit>, EditError> {
+    pub(super) fn given(
+        &self,
+        what: &Reference,
+        (least, there): (u32, bool),
+        then: &Wish,
+    ) -> Result<Vec<Edit>, EditError> {
         let all = Reference { count: Count::All, ..what.clone() };
         let found = match self.candidates(&all) {
             Ok(found) => found,
             Err(EditError::NotFound { .. }) => Vec::new(),
             Err(error) => return Err(error),
         };
-        if found.is_empty() == there {
+        if (found.len() >= least as usize) != there {
             let why = match found.first().and_then(|thing| self.scene.entity(*thing)) {
                 Some(entity) => format!("nothing was changed: there is {} ({})", entity.label(), entity.id),
                 None => format!("nothing was changed: there is no {}", what.text),
@@ -95,7 +100,19 @@ impl Finder<'_> {
 
     /// Every second, third ... of all that fit, in the order in which they stand.
     pub(super) fn every_nth(&self, reference: &Reference, nth: u32) -> Result<Vec<EntityId>, EditError> {
-        let mut all = self.candidates(&Reference { choice: Choice::Open, ..reference.clone() })?;
+        let all = self.in_a_row(&Reference { choice: Choice::Open, ..reference.clone() })?;
+        let step = nth.max(1) as usize;
+        let chosen: Vec<EntityId> = all.into_iter().skip(step - 1).step_by(step).collect();
+        if chosen.is_empty() {
+            let near = format!("there are fewer than {nth}");
+            return Err(EditError::NotFound { wanted: reference.text.clone(), near });
+        }
+        Ok(chosen)
+    }
+
+    /// All that fit, from west to east or from south to north, whichever way they spread.
+    pub(super) fn in_a_row(&self, reference: &Reference) -> Result<Vec<EntityId>, EditError> {
+        let mut all = self.candidates(reference)?;
         let place = |id: &EntityId| self.scene.entity(*id).map_or(Point2::origin(), |entity| entity.planar());
         let spread = |pick: fn(&Point2) -> f64| {
             let values = || all.iter().map(|id| pick(&place(id)));
@@ -110,13 +127,7 @@ impl Finder<'_> {
                 a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x))
             }
         });
-        let step = nth.max(1) as usize;
-        let chosen: Vec<EntityId> = all.into_iter().skip(step - 1).step_by(step).collect();
-        if chosen.is_empty() {
-            let near = format!("there are fewer than {nth}");
-            return Err(EditError::NotFound { wanted: reference.text.clone(), near });
-        }
-        Ok(chosen)
+        Ok(all)
     }
 
     // ---- places ----
@@ -243,6 +254,7 @@ impl Finder<'_> {
                 };
                 Ok(roads.iter().copied().filter(lies).collect())
             }
+            StreetRef::Half(roads, compass) => Ok(half_of(network, roads, *compass)),
             StreetRef::To(relation, thing) => {
                 self.road_beside(network, *relation, self.one(thing)?, &thing.text)
             }
@@ -326,6 +338,22 @@ impl Finder<'_> {
         let found: Vec<RoadId> = (0..4).filter_map(first).collect();
         if found.is_empty() { Err(missing()) } else { Ok(found) }
     }
+}
+
+/// The pieces of a street that lie on a side of its middle.
+fn half_of(network: &RoadNetwork, roads: &[RoadId], compass: super::super::compass::Compass) -> Vec<RoadId> {
+    let way = direction(compass.heading());
+    let middles: Vec<(RoadId, f64)> = roads
+        .iter()
+        .filter_map(|road| {
+            let line = &network.roads.get(road.index())?.centerline;
+            let (middle, _) = polyline::at(line, polyline::length(line) * 0.5);
+            Some((*road, middle.coords.dot(&way)))
+        })
+        .collect();
+    let least = middles.iter().map(|(_, far)| *far).fold(f64::INFINITY, f64::min);
+    let most = middles.iter().map(|(_, far)| *far).fold(f64::NEG_INFINITY, f64::max);
+    middles.into_iter().filter(|(_, far)| *far * 2.0 > least + most).map(|(road, _)| road).collect()
 }
 
 /// The junctions at which some roads end.

@@ -46,7 +46,13 @@ impl NewThing {
                     format!("nothing here is {modifiers}; say it without, or name it by colour and size");
                 Err(EditError::UnknownThing { wanted: self.text.clone(), near })
             }
-            (Choice::Unsure(hits), None) => Err(unknown(&words, near(&hits))),
+            // "A soda" is any of those that are told apart by a number alone.
+            (Choice::Unsure(hits), None) => {
+                match hits.first().filter(|_| are_one(&hits)).and_then(|hit| stock.catalogue.get(hit.asset)) {
+                    Some(asset) => Ok(self.made_from(asset, self.scale, season)),
+                    None => Err(unknown(&words, near(&hits))),
+                }
+            }
         }
     }
 
@@ -83,6 +89,15 @@ impl NewThing {
 
 fn unknown(words: &[&str], near: String) -> EditError {
     EditError::UnknownThing { wanted: words.join(" "), near }
+}
+
+/// Whether all that was found is called the same but for a number.
+fn are_one(hits: &[Hit]) -> bool {
+    let stem = |hit: &Hit| {
+        hit.name.trim_end_matches(|letter: char| letter.is_ascii_digit()).trim_end_matches('_').to_owned()
+    };
+    let first = hits.first().map(stem);
+    hits.len() > 1 && hits.iter().all(|hit| Some(stem(hit)) == first && stem(hit) != hit.name)
 }
 
 /// What an answer says of what is near.

@@ -2,33 +2,29 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::collections::hash_map::DefaultHasher;
+use std::hash::{Hash, Hasher};
 
 use simworld_core::seam::PlanError;
 
 use super::super::clause::Reference;
+use super::super::lexer::{Lexeme, Token};
 
 /// As many phrases are looked up for one sentence; who says more is not understood. A phrase takes some 20 µs.
 const MOST: u32 = 500;
 
-/// The text that words are of, and where they begin and end in it.
-type Words = (u32, usize, usize);
+/// What words say: they are asked about in many orders, and mean the same in each.
+type Words = u64;
 
 /// Answers by the words that were asked about.
 #[derive(Default)]
 pub(super) struct Memo {
     things: RefCell<BTreeMap<Words, Result<Reference, PlanError>>>,
     places: RefCell<BTreeMap<Words, bool>>,
-    texts: Cell<u32>,
     asked: Cell<u32>,
 }
 
 impl Memo {
-    /// A number for words that stand in another order than those before.
-    pub(super) fn new_text(&self) -> u32 {
-        self.texts.set(self.texts.get() + 1);
-        self.texts.get()
-    }
-
     /// Whether enough was tried.
     pub(super) fn is_spent(&self) -> bool {
         self.asked.get() >= MOST
@@ -58,4 +54,18 @@ impl Memo {
         self.places.borrow_mut().insert(key, found);
         found
     }
+}
+
+/// What some words say, whatever order they were found in.
+pub(super) fn said(lexemes: &[Lexeme]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for lexeme in lexemes {
+        lexeme.start.hash(&mut hasher);
+        match &lexeme.token {
+            Token::Word(word) => word.hash(&mut hasher),
+            Token::Number(number) => number.to_bits().hash(&mut hasher),
+            other => std::mem::discriminant(other).hash(&mut hasher),
+        }
+    }
+    hasher.finish()
 }

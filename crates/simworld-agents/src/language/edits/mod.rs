@@ -8,6 +8,7 @@ mod ask;
 mod change;
 mod complaints;
 mod dressed;
+mod facing;
 mod follow;
 mod forms;
 mod frames;
@@ -24,13 +25,18 @@ mod places;
 mod plain;
 mod polite;
 mod predicates;
+mod repairs;
 mod resolve;
+mod respelt;
 mod rows;
 mod says;
+mod shares;
 mod sizes;
 pub(super) mod sky;
 mod slips;
+mod standing;
 mod stated;
+mod supposed;
 mod things;
 mod turn;
 mod wish;
@@ -98,20 +104,79 @@ pub(crate) fn read(
     let view = view_of(scene, focus);
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
+    respelt::in_plain_spelling(words, &mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
-    plain::in_plain_words(words, &mut lexemes);
+    plain::in_plain_words(words, &mut lexemes, &names);
+    repairs::put_right(&mut lexemes);
     let memo = memo::Memo::default();
-    let reader = Reader {
-        words,
-        lexemes: &lexemes,
-        names: &names,
-        view: &view,
-        memo: &memo,
-        text: 0,
-        at: 0,
-        depth: 0,
-    };
-    Ok(Reading { words: words.to_owned(), wishes: wishes_of(reader, scene, stock, focus)? })
+    let reader =
+        Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+    let mut wishes = wishes_of(reader, scene, stock, focus)?;
+    dress_new(&mut wishes);
+    let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
+    paint_at_once(&mut wishes, &finder);
+    Ok(Reading { words: words.to_owned(), wishes })
+}
+
+/// "Eight stools round the fountain, and paint them orange": what is said of new things behind them is how they are made.
+fn dress_new(wishes: &mut Vec<Vec<Wish>>) {
+    let mut at = 1;
+    while at < wishes.len() {
+        let (before, behind) = wishes.split_at_mut(at);
+        let taken = match (before.last_mut().map(Vec::as_mut_slice), behind.first().map(Vec::as_slice)) {
+            (Some([Wish::Add { things, .. }]), Some([Wish::Paint { what, paint }]))
+                if are_those(what, things) =>
+            {
+                for thing in things.iter_mut() {
+                    thing.paint = Some(*paint);
+                }
+                true
+            }
+            (Some([Wish::Add { things, .. }]), Some([Wish::Scale { what, factor }]))
+                if are_those(what, things) =>
+            {
+                for thing in things.iter_mut() {
+                    thing.scale *= factor;
+                }
+                true
+            }
+            _ => false,
+        };
+        if taken {
+            wishes.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+}
+
+/// "Make the red bench blue and the blue bench red": which are meant is decided before any is painted.
+fn paint_at_once(wishes: &mut [Vec<Wish>], finder: &resolve::Finder<'_>) {
+    let all_paint =
+        wishes.len() > 1 && wishes.iter().all(|readings| matches!(&readings[..], [Wish::Paint { .. }]));
+    if !all_paint {
+        return;
+    }
+    let found: Option<Vec<Vec<EntityId>>> = wishes
+        .iter()
+        .map(|readings| match &readings[..] {
+            [Wish::Paint { what, .. }] if !what.iter().any(says::is_it) => finder.all(what).ok(),
+            _ => None,
+        })
+        .collect();
+    for (readings, things) in wishes.iter_mut().zip(found.into_iter().flatten()) {
+        if let [Wish::Paint { what, .. }] = &mut readings[..] {
+            let id =
+                |id: EntityId| super::clause::Reference::to(super::clause::Target::Id(id), id.to_string());
+            *what = things.into_iter().map(id).collect();
+        }
+    }
+}
+
+/// Whether what is spoken of are several new things, and nothing else.
+fn are_those(what: &[super::clause::Reference], things: &[wish::NewThing]) -> bool {
+    let several = things.len() > 1 || things.iter().any(|thing| thing.count > 1);
+    several && matches!(what, [only] if only.target == super::clause::Target::Them)
 }
 
 /// The wishes of a sentence: as it stands or, if that is not understood, or asks for what nobody has or what is not there,
@@ -185,6 +250,12 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(apart::words())
         .chain(predicates::words())
         .chain(complaints::words())
+        .chain(repairs::words())
+        .chain(facing::words())
+        .chain(shares::words())
+        .chain(supposed::words())
+        .chain(plain::words())
+        .chain(respelt::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -14,13 +14,42 @@ impl Reader<'_> {
         if self.depth >= super::says::DEEPEST || self.memo.is_spent() {
             return None;
         }
-        self.behind_preamble(start, end)
+        self.shared_out(start, end)
+            .or_else(|| self.looking(start, end))
+            .or_else(|| self.behind_preamble(start, end))
             .or_else(|| self.others_want(start, end))
             .or_else(|| self.cleft(start, self.before_politeness(start, end)))
             .or_else(|| self.fronted(start, end))
             .or_else(|| self.told_in_pieces(start, end))
             .or_else(|| self.reordered(start, end))
             .or_else(|| self.without_reason(start, end))
+            .or_else(|| self.without_aside(start, end))
+    }
+
+    /// "The moped, being unlicensed, is to go": what stands between two commas and says nothing of what is asked.
+    fn without_aside(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let commas: Vec<usize> =
+            (start + 1..end).filter(|at| self.lexemes[*at].token == Token::Comma).take(MOST).collect();
+        commas.windows(2).find_map(|pair| {
+            let (from, to) = (pair[0] + 1, pair[1]);
+            let says_more = |at: usize| {
+                self.is_place(at)
+                    || longest(&self.lexemes[at..to], VERBS).is_some()
+                    || longest(&self.lexemes[at..to], super::super::paint::PAINTS).is_some()
+                    || super::super::numbers::number(&self.lexemes[at..to]).is_some()
+                        && self.word(at) != Some("a")
+            };
+            if to - from > LONGEST_ASIDE
+                || to <= from
+                || (from..to).any(says_more)
+                || category(&self.lexemes[from..to]).is_some()
+            {
+                return None;
+            }
+            let order: Vec<Lexeme> =
+                self.lexemes[start..pair[0]].iter().chain(&self.lexemes[to + 1..end]).cloned().collect();
+            self.read_anew(&order)
+        })
     }
 
     /// What should be first, and of what behind it: "twice as big, the chair", "by the museum, please, one bench".
@@ -144,6 +173,10 @@ impl Reader<'_> {
         for to in ends {
             let piece = &self.lexemes[from..to];
             let number = super::super::numbers::count(piece).filter(|(_, words)| *words == piece.len());
+            if self.polite_at(from) >= to - from && to > from {
+                from = to + 1;
+                continue;
+            }
             let found = if let Some((number, _)) = number {
                 count.replace(number).is_none()
             } else if let Some(at) = self.places_to(from, to) {
@@ -163,7 +196,12 @@ impl Reader<'_> {
             }
             from = to + 1;
         }
-        let (mut thing, mut at) = (made?, places?);
+        let mut at = places?;
+        let Some(mut thing) = made else {
+            // "Hana, next to Fay".
+            let what = vec![topic.filter(|_| count.is_none() && marks.len() == 1)?];
+            return Some(vec![vec![Wish::Move { what, at }]]);
+        };
         thing.count = count.unwrap_or(thing.count);
         let mut anchor = topic.map(super::wish::Anchor::Thing);
         for place in &mut at {
@@ -292,6 +330,10 @@ impl Reader<'_> {
         reader.wish(stop).ok().filter(|_| reader.at >= last)
     }
 }
+
+/// So many commas are looked at, and an aside has no more words.
+const MOST: usize = 5;
+const LONGEST_ASIDE: usize = 8;
 
 /// Whether the words begin with no pronoun.
 fn is_it_not(words: &[Lexeme]) -> bool {

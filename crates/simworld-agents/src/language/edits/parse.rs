@@ -20,7 +20,7 @@ use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::parser::Parser;
 use super::super::resolve::View;
-use super::memo::Memo;
+use super::memo::{Memo, said};
 use super::polite::{CODA, JOINTS, POLITE};
 use super::says::Mood;
 use super::wish::{StreetRef, Wish};
@@ -41,8 +41,6 @@ pub(super) struct Reader<'a> {
     /// How often the words were put together anew.
     pub(super) depth: u8,
     pub(super) memo: &'a Memo,
-    /// Which order of the words it reads.
-    pub(super) text: u32,
 }
 
 impl<'a> Reader<'a> {
@@ -135,6 +133,11 @@ impl<'a> Reader<'a> {
         let mut refused = None;
         for begin in start..end {
             let Some((verb, count)) = longest(&self.lexemes[begin..end], VERBS) else { continue };
+            // "A tow truck" is no order to tow.
+            let is_noun = |word: &str| ["a", "an", "the", "my", "your", "our", "his", "its"].contains(&word);
+            if begin > start && self.word(begin - 1).is_some_and(is_noun) {
+                continue;
+            }
             self.at = begin + count;
             let read = self.after(verb, end);
             // What else stands before a verb may change what is meant; but a thing that is not there is not there.
@@ -154,6 +157,8 @@ impl<'a> Reader<'a> {
 
     fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         match verb {
+            // "Show me the shops" asks for a list.
+            Verb::Add if self.is_shown() => self.list(end),
             Verb::Add => {
                 if let Some(wish) = self.copies(end) {
                     return Ok(wish);
@@ -206,10 +211,22 @@ impl<'a> Reader<'a> {
         }
     }
 
+    fn is_shown(&self) -> bool {
+        self.at > 1
+            && self.word(self.at - 2) == Some("show")
+            && matches!(self.word(self.at - 1), Some("me" | "us"))
+            && matches!(self.word(self.at), Some("the" | "all" | "every" | "which" | "what" | "where"))
+    }
+
     /// "Put the bench there"; "my castle" need not be there yet.
     fn puts(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let from = self.at;
         match self.moves(end) {
+            // "Put books on the bench": what is not there, and is spoken of without an article.
+            Err(refused @ PlanError::NotFound { .. }) if !self.is_certain(from) => {
+                self.at = from;
+                self.additions(end).map_err(|_| refused)
+            }
             Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
                 self.at = from + 1;
                 self.additions(end).map_err(|_| refused)
@@ -255,7 +272,13 @@ impl<'a> Reader<'a> {
         let noun = (at..end.min(at + 4)).take_while(|next| *next == at || !ends(*next)).find_map(|next| {
             super::super::lexicon::category(&self.lexemes[next..end]).map(|(_, words)| (next, words))
         });
-        noun.is_some_and(|(next, words)| self.is_plural(next, next + words)) && !self.is_certain(at)
+        // "Throw the bins out" holds an order, and certain things.
+        let is_new = |next: usize| {
+            (at..next).all(|at| !self.is_certain(at))
+                && (next == at || longest(&self.lexemes[at..end], VERBS).is_none())
+        };
+        noun.is_some_and(|(next, words)| is_new(next) && self.is_plural(next, next + words))
+            && !self.is_certain(at)
     }
 
     // ---- things ----
@@ -266,23 +289,20 @@ impl<'a> Reader<'a> {
         if let Ok(what) = whole {
             return Ok(vec![what]);
         }
+        // What stands somewhere is one thing.
+        let is_list = !(start..end).any(|at| self.is_place(at));
         // "Both the truck and the hydrant" are one of each.
         let start = start + usize::from(matches!(self.word(start), Some("both")));
         for cut in (start + 1..end).rev() {
-            let Some(count) = joint(&self.lexemes[cut..end]) else { continue };
+            // "The white car the black car and the green car".
+            let unmarked = || (is_list && self.word(cut) == Some("the")).then_some(0);
+            let Some(count) = joint(&self.lexemes[cut..end]).or_else(unmarked) else { continue };
             if let (Ok(mut before), Ok(last)) = (self.things(start, cut), self.one_of(cut + count, end)) {
                 before.push(last);
                 return Ok(before);
             }
         }
         whole.map(|what| vec![what])
-    }
-
-    /// As [`Self::things`], and goes on behind them.
-    pub(super) fn things_to(&mut self, end: usize) -> Result<Vec<Reference>, PlanError> {
-        let what = self.things(self.at, end)?;
-        self.at = end;
-        Ok(what)
     }
 
     pub(super) fn one_to(&mut self, end: usize) -> Result<Reference, PlanError> {
@@ -293,7 +313,7 @@ impl<'a> Reader<'a> {
 
     /// One thing that the words name, all of them but politeness.
     pub(super) fn one_of(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
-        self.memo.thing((self.text, start, end), || self.look_up(start, end))
+        self.memo.thing(said(self.lexemes.get(start..end).unwrap_or_default()), || self.look_up(start, end))
     }
 
     fn look_up(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
@@ -305,15 +325,22 @@ impl<'a> Reader<'a> {
         let mut parser = self.parser(start, end);
         parser.eat_any(&["all of", "every single", "each and every"]);
         let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);
+        let is_one = longest_phrase(parser.rest(), &["one of", "just one of", "only one of"]).is_some();
         let mut what = parser.reference(0)?;
         what.indefinite |= any;
+        if (any || is_one)
+            && what.count == super::super::clause::Count::One
+            && matches!(what.target, Target::Any(_))
+        {
+            what.count = super::super::clause::Count::Exactly(1);
+        }
         self.except(&mut parser, &mut what);
         if parser.at < end { Err(parser.not_understood("end here, or go on with \"and\"")) } else { Ok(what) }
     }
 
     /// A reader of the same words in another order, or without some of them.
     pub(super) fn over<'b>(&'b self, lexemes: &'b [Lexeme]) -> Reader<'b> {
-        Reader { lexemes, at: 0, text: self.memo.new_text(), ..*self }
+        Reader { lexemes, at: 0, ..*self }
     }
 
     /// The parser of noun phrases, over some of the words.

@@ -18,7 +18,7 @@ const MOST_TRIED: usize = 160;
 /// What begins a part beside the joints of wishes.
 #[rustfmt::skip]
 const CUTS: &[&str] = &["because", "since", "as", "so", "so that", "cause", "cos", "coz", "for", "while", "which", "where", "in order to", "due to", "given that",
-    "seeing that", "considering", "or else", "otherwise"];
+    "seeing that", "considering", "or else", "otherwise", "have it", "have him", "have her", "have them"];
 /// What begins a reason, which asks for nothing.
 #[rustfmt::skip]
 const REASONS: &[&str] = &["because", "since", "as", "so that", "cause", "cos", "coz", "for", "while", "in order to", "due to", "given that",
@@ -57,12 +57,20 @@ const ASKS: &[&str] = &["should", "must", "ought", "shall", "please", "let", "le
 /// Who does something in a remark, whatever it is.
 #[rustfmt::skip]
 const PEOPLE: &[&str] = &["nobody", "no one", "noone", "everybody", "everyone", "people", "somebody", "someone", "i", "we", "they", "he", "she", "folks", "kids", "students",
-    "visitors", "customers", "tourists", "pedestrians", "drivers", "guests", "residents", "locals", "passersby", "children", "nothing", "everything", "hardly anybody",
+    "visitors", "customers", "tourists", "pedestrians", "drivers", "guests", "residents", "locals", "passersby", "children", "hardly anybody",
     "hardly anyone", "not everybody", "half the people"];
 /// A subject and its verb in one word.
 #[rustfmt::skip]
 const SHORT: &[&str] = &["im", "its", "thats", "theres", "theyre", "youre", "hes", "shes", "ive", "weve", "theyve", "too many", "too much", "so many", "so much",
     "not enough", "what a", "such a", "no more room for", "nowhere", "hardly any", "quite some", "thanks to", "many", "much"];
+/// Words that say what is to become of something.
+#[rustfmt::skip]
+const DEMANDS: &[&str] = &["removed", "deleted", "painted", "moved", "placed", "added", "installed", "gone", "away", "bigger", "smaller", "taller", "twice", "rotated", "turned", "swapped",
+    "copied", "renamed", "called", "named", "closed", "shut", "off", "out", "replace", "replaced", "repainted", "relocated", "scaled", "resized", "doubled", "halved", "facing", "need", "needs", "want",
+    "wants", "instead", "apiece", "each", "every", "except"];
+/// As [`DEMANDS`], where nothing says how things are.
+#[rustfmt::skip]
+const ASKING: &[&str] = &["could", "can", "may", "might", "will", "if", "unless", "no", "not", "how", "which", "what", "who", "where", "wherever", "whichever", "whatever"];
 /// Sounds and greetings that stand alone.
 #[rustfmt::skip]
 const CALLS: &[&str] = &["vroom", "beep", "boom", "wow", "ugh", "argh", "phew", "yay", "yikes", "oops", "hooray", "woof", "meow", "brr", "brrr", "ahoy", "ouch",
@@ -103,8 +111,7 @@ impl Reader<'_> {
     ) -> Option<Vec<Vec<Wish>>> {
         let mut start = Reader { at: from, ..*self };
         // "Everyone" may be spoken to, or be who a remark is about.
-        let joints = (from..self.lexemes.len()).take_while(|at| is_mark(&self.lexemes[*at])).count();
-        let remark = from + joints;
+        let remark = from + self.lexemes[from..].iter().take_while(|lexeme| is_mark(lexeme)).count();
         start.skip_joints_to(self.lexemes.len());
         let from = start.at;
         if from >= self.lexemes.len() {
@@ -138,7 +145,8 @@ impl Reader<'_> {
         }
         // A remark ends at any of the next marks: "the crate, I think, is ugly".
         for end in cuts.iter().copied().take(4) {
-            if !self.is_remark(from, end) && !self.is_remark(remark.min(from), end) {
+            let is_heading = said.wish.is_none() && end < self.lexemes.len() && self.is_heading(from, end);
+            if !is_heading && !self.is_remark(from, end) && !self.is_remark(remark.min(from), end) {
                 continue;
             }
             let mut things = self.spoken_of(from, end);
@@ -203,9 +211,30 @@ impl Reader<'_> {
                 || !self.is_place(*at)
                     && (joint(&self.lexemes[*at..]).is_some()
                         || longest_phrase(&self.lexemes[*at..], CUTS).is_some()
+                        || self.runs_on(from, *at)
                         || self.is_purpose(from, *at))
         };
         (from + 1..all).filter(is_cut).chain([all]).collect()
+    }
+
+    /// "The bin is full put another one beside it": an order behind a remark with no mark between.
+    fn runs_on(&self, from: usize, at: usize) -> bool {
+        #[rustfmt::skip]
+        const BEFORE: &[&str] = &["to", "and", "should", "could", "can", "must", "will", "you", "not", "dont", "lets", "let", "have", "would", "may", "i", "we", "please", "just", "then", "or", "never", "also", "be", "the", "a", "so", "because", "since", "therefore"];
+        #[rustfmt::skip]
+        const ORDERS: &[&str] = &["put", "move", "get", "get rid of", "take", "remove", "paint", "make", "turn", "add", "give", "shift", "swap", "please", "throw", "bin", "delete", "bring", "send", "replace", "scrap", "lose",
+            "say", "colour", "place", "set", "push", "pull", "drag", "tow"];
+        let Some(words) = longest_phrase(&self.lexemes[at..], ORDERS).filter(|_| at > from + 2) else {
+            return false;
+        };
+        let what = longest_phrase(
+            &self.lexemes[at + words..],
+            &[
+                "it", "them", "him", "her", "another", "one", "a", "an", "two", "three", "some", "that",
+                "put", "move", "take", "remove", "get", "make", "paint", "turn",
+            ],
+        );
+        what.is_some() && self.word(at - 1).is_some_and(|word| !BEFORE.contains(&word))
     }
 
     /// Whether "to" says here what for: no place begins with it, and no verb wants it.
@@ -279,6 +308,44 @@ impl Reader<'_> {
             || (from..end).any(|at| is_word(at, STATES))
             || longest_phrase(words, SHORT).is_some();
         about && states && !self.asks(from, end)
+    }
+
+    /// What stands before a mark that ends a sentence, and neither asks for anything nor names a new thing and its place: "craft
+    /// fair!", "market day tomorrow, so", "the waterfront lacks seating:".
+    fn is_heading(&self, from: usize, end: usize) -> bool {
+        // "The parade forms up outside the school, so four coaches ...".
+        let is_so = |at: usize| self.word(at) == Some("so") && self.word(at + 1) != Some("that");
+        let ends = self.lexemes.get(end).is_some_and(|lexeme| lexeme.token == Token::Break)
+            || is_so(end)
+            || self.lexemes.get(end).is_some_and(is_mark) && is_so(end + 1);
+        let is_change = |at: usize| {
+            let verb = longest(&self.lexemes[at..end], VERBS).map(|(verb, _)| verb);
+            verb.is_some_and(|verb| !matches!(verb, Verb::Name | Verb::Describe | Verb::List | Verb::Add))
+                || self.word(at).is_some_and(|word| DEMANDS.contains(&word))
+        };
+        // A verb stands first, behind "and" or "to", or behind who is spoken to.
+        let may_order = |at: usize| {
+            at == from
+                || is_mark(&self.lexemes[at - 1])
+                || matches!(
+                    self.word(at - 1),
+                    Some("and" | "to" | "then" | "please" | "you" | "just" | "now" | "so" | "be")
+                )
+        };
+        let places = || (from + 1..end).any(|at| self.is_place(at) && self.places_to(at, end).is_some());
+        let is_new = !self.is_definite(from) || self.is_bare_plural(from, end);
+        let states = (from..end).any(|at| self.word(at).is_some_and(|word| STATES.contains(&word)));
+        let is_asking = |at: usize| self.word(at).is_some_and(|word| ASKING.contains(&word));
+        if !states && (from..end).any(is_asking)
+            || longest_phrase(&self.lexemes[from..end], &["if", "unless", "when", "should"]).is_some()
+        {
+            return false;
+        }
+        let is_plain = states || !(is_new && places()) && self.spoken_of(from, end).is_empty();
+        ends && !self.asks(from, end)
+            && !(from..end).any(|at| may_order(at) && is_change(at))
+            && !(from..end).any(|at| self.word(at).is_some_and(|word| DEMANDS.contains(&word)))
+            && is_plain
     }
 
     /// "Carol wants a bench next to her": more than how somebody feels.

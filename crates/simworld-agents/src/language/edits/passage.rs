@@ -103,12 +103,47 @@ impl Reader<'_> {
         let streets = self.view.streets?;
         let skip = longest_phrase(&self.lexemes[at..end], &["the", "all of", "the whole of", "the whole"])
             .unwrap_or(0);
+        if let Some(found) = self.half_street(at + skip, end) {
+            return Some(found);
+        }
         if let Some(street) = streets.at(&self.lexemes[at + skip..end]) {
             let after = at + skip + street.words;
+            if let Some((compass, after)) = self.half(after, end) {
+                return Some((StreetRef::Half(street.roads.to_vec(), compass), after));
+            }
             let (between, after) = self.crossing_streets(after, end);
             return Some((StreetRef::Named { roads: street.roads.to_vec(), between }, after));
         }
         self.described_street(at, end).or_else(|| self.unknown_street(at, end))
+    }
+
+    /// "The eastern half of Oak Street".
+    fn half_street(&self, at: usize, end: usize) -> Option<(StreetRef, usize)> {
+        let (compass, after) = self.half(at, end)?;
+        let from = after + longest_phrase(&self.lexemes[after..end], &["of the", "of", "on"])?;
+        let street = self.view.streets?.at(&self.lexemes[from..end])?;
+        Some((StreetRef::Half(street.roads.to_vec(), compass), from + street.words))
+    }
+
+    /// "At the west end", "eastern half", and where that ends.
+    fn half(&self, at: usize, end: usize) -> Option<(super::super::compass::Compass, usize)> {
+        let mut parser = self.parser(at, end);
+        parser.eat_any(&["at its", "at the", "on its", "on the", "at"]);
+        let compass = parser.compass()?;
+        parser
+            .eat_any(&[
+                "half",
+                "part",
+                "end",
+                "bit",
+                "section",
+                "stretch",
+                "piece",
+                "side",
+                "portion",
+                "most half",
+            ])
+            .then_some((compass, parser.at))
     }
 
     /// "Between Harbour Road and Station Road".

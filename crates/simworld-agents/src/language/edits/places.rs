@@ -8,6 +8,7 @@ use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
+use super::memo::said;
 use super::parse::{Reader, joint};
 use super::things::ARTICLES;
 use super::wish::{Anchor, Where, Wish};
@@ -20,8 +21,6 @@ const OWN_SIDES: &[(&[&str], Relation)] = &[
     (&["forward", "forwards", "ahead", "front"], Relation::InFrontOf),
     (&["back", "backwards", "behind"], Relation::Behind),
 ];
-/// Metres.
-const METRES: &[&str] = &["m", "metres", "metre", "meters", "meter"];
 
 impl Reader<'_> {
     /// "In front of the gallery there must stand a postbox": the place comes first.
@@ -77,7 +76,7 @@ impl Reader<'_> {
 
     /// Whether a place begins at a token.
     pub(super) fn is_place(&self, at: usize) -> bool {
-        self.memo.place((self.text, at, self.lexemes.len()), || self.begins_place(at))
+        self.memo.place(said(self.lexemes.get(at..).unwrap_or_default()), || self.begins_place(at))
     }
 
     fn begins_place(&self, at: usize) -> bool {
@@ -193,6 +192,7 @@ impl Reader<'_> {
             Way::Across => Where::Across(self.anchor(end)?),
             Way::Along => Where::Along(self.anchor(end)?),
             Way::Corner => Where::Corner(self.anchor(end)?),
+            Way::Corners => Where::Corners(self.anchor(end)?),
             Way::At => Where::By(self.anchor(end)?),
             Way::Around => Where::Around(self.anchor(end)?),
             Way::Both => Where::BothSides(self.anchor(end)?),
@@ -325,10 +325,27 @@ impl Reader<'_> {
     fn shift(&self, at: usize) -> Option<(f64, f64, usize)> {
         let rest = &self.lexemes[at.min(self.lexemes.len())..];
         let by = longest_phrase(rest, &["by", "for"]).unwrap_or(0);
-        let (distance, count) = numbers::number(&rest[by..])?;
-        let unit = longest_phrase(&rest[by + count..], METRES)?;
-        let from = at + by + count + unit;
+        // "Five south" is so many metres.
+        let digits = matches!(rest.get(by).map(|lexeme| &lexeme.token), Some(Token::Number(_)));
+        let plain = || numbers::number(&rest[by..]).filter(|_| digits);
+        let (distance, count) = numbers::length(rest.get(by..)?).or_else(plain)?;
+        let from = at + by + count;
         let mut parser = self.parser(from, self.lexemes.len());
+        parser.eat_any(&[
+            "towards",
+            "towards the",
+            "toward",
+            "toward the",
+            "to the",
+            "further to the",
+            "further",
+            "due",
+            "more to the",
+            "farther",
+            "farther to the",
+            "straight",
+            "over to the",
+        ]);
         let compass = parser.compass()?;
         if parser.eat_any(&["of", "from"]) {
             return None;

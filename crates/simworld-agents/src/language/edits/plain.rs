@@ -1,14 +1,15 @@
 //! Words that are put plainly before they are read: contractions, what is said twice, what makes a wish no other.
 
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::lexicon::{category, is_animate, longest, longest_phrase};
+use super::super::names::Names;
 use super::forms::word_at;
 use super::parts::is_mark;
 
 /// Words that make a wish stronger or weaker, and no other.
 #[rustfmt::skip]
 const ADVERBS: &[&str] = &["really", "definitely", "certainly", "absolutely", "totally", "seriously", "honestly", "literally", "basically", "desperately", "badly", "sorely",
-    "urgently", "frankly", "truly", "obviously", "clearly", "surely", "undoubtedly", "ideally", "preferably", "presumably", "urgent", "personally", "sincerely", "finally"];
+    "urgently", "frankly", "truly", "obviously", "clearly", "surely", "undoubtedly", "ideally", "preferably", "presumably", "urgent", "personally", "sincerely", "finally", "hereby", "henceforth", "forthwith", "allegedly", "reportedly", "hereafter", "thereupon", "gladly"];
 /// Where a name may follow, which is any word.
 const CALLS: &[&str] = &["call", "name", "rename", "christen", "label", "title", "called", "named"];
 
@@ -23,9 +24,14 @@ const TWICE: &[&str] = &[
 ];
 
 /// A word twice in a row says no more than once, and "more small" is "smaller".
-pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
+pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
     contractions(words, lexemes);
+    numbered(lexemes, names);
+    judged(words, lexemes, names);
+    called_to(lexemes);
+    of_colour(lexemes);
     relatives(lexemes);
+    super::supposed::in_plain_words(lexemes);
     let is_call =
         |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if CALLS.contains(&word.as_str()));
     if !lexemes.iter().any(is_call) && lexemes.len() > 2 {
@@ -38,6 +44,14 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
         let twice =
             lexemes[at].token == lexemes[at - 1].token && TWICE.iter().any(|word| is(&lexemes[at], word));
         let marks = is_mark(&lexemes[at]) && lexemes[at].token == lexemes[at - 1].token;
+        // "Stand together beside the statue".
+        let is_both = is(&lexemes[at - 1], "together")
+            && !is(&lexemes[at], "with")
+            && longest(&lexemes[at..], super::words::WAYS).is_some();
+        if is_both {
+            lexemes.remove(at - 1);
+            continue;
+        }
         let than = MORE.iter().find(|(plain, _)| is(&lexemes[at - 1], "more") && is(&lexemes[at], plain));
         if twice || marks {
             lexemes.remove(at);
@@ -50,12 +64,17 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     }
 }
 
+/// The words of who is called, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    CALLED.iter().chain(JUDGED).flat_map(|phrase| phrase.split(' '))
+}
+
 /// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".
 fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
     const STATES: &[&str] = &["in", "too", "a", "on", "at", "so", "facing", "looking", "way", "always", "really", "just", "very", "not", "got", "ugly", "nice", "far",
         "much", "blocking", "still", "standing", "behind", "next", "near", "an", "been", "kind", "boring", "broken", "old", "empty", "dirty", "lonely", "quite", "rather", "wrong"];
-    const SIDES: &[&str] = &["corner", "edge", "middle", "centre", "center", "side"];
+    const SIDES: &[&str] = &["corner", "corners", "edge", "middle", "centre", "center", "side"];
     let mut at = 0;
     while at + 1 < lexemes.len() {
         let (Token::Word(word), Token::Word(next)) = (&lexemes[at].token, &lexemes[at + 1].token) else {
@@ -74,6 +93,17 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
         } else if ["on", "inside", "onto", "behind", "under"].contains(&word.as_str()) && next == "there" {
             let place = lexemes[at + 1].clone();
             lexemes[at + 1] = word_at(&place, "it");
+        } else if (written.ends_with("'s") || written.ends_with("’s"))
+            && next == "side"
+            && at > 0
+            && matches!(&lexemes[at - 1].token, Token::Word(word) if ["to", "by", "at", "on"].contains(&word.as_str()))
+        {
+            // "Over to Anna's side" is next to her.
+            let (place, stem) = (lexemes[at].clone(), word.strip_suffix('s').unwrap_or(word).to_owned());
+            lexemes.splice(
+                at - 1..=at + 1,
+                [word_at(&place, "next"), word_at(&place, "to"), word_at(&place, &stem)],
+            );
         } else if word == "what" && category(&lexemes[at + 1..]).is_some() {
             let place = lexemes[at].clone();
             lexemes[at] = word_at(&place, "which");
@@ -95,6 +125,120 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
                 at..=at + 1,
                 [word_at(&place, "the"), side, word_at(&place, "of"), word_at(&place, "it")],
             );
+        }
+        at += 1;
+    }
+}
+
+/// Who is spoken to, and what is said before one speaks.
+#[rustfmt::skip]
+const CALLED: &[&str] = &["right lads", "lads", "class", "kids", "children", "folks", "team", "guys", "boys", "girls", "ladies and gentlemen", "mate", "dear", "my dear", "love", "lass", "laddie", "sir", "madam",
+    "boss", "chief", "friends", "my friend", "my friends", "citizens", "buddy", "pal", "gents", "arr", "ahoy", "yes", "right", "okay", "ok", "now then", "listen", "look", "oh dear", "dear me", "oh", "sorry",
+    "excuse me", "pardon", "pardon me", "hello", "hey", "hi", "good morning", "good day", "good evening", "bro", "dude", "yo", "nah", "sorry my english", "dear all", "colleagues", "crew", "everyone", "everybody",
+    "attention", "note", "be a love and", "be a dear and", "all right", "alright", "well then", "so then", "come on", "comrades", "shipmates", "dear sir", "dear madam", "old chap", "my lad", "man", "gosh", "blimey",
+    "for the record", "as i said", "as agreed", "as discussed", "as promised", "as per the report", "as ordered", "per the plan", "lastly", "firstly", "secondly", "thirdly", "furthermore", "moreover", "additionally",
+    "in addition", "notwithstanding the above", "for clarity", "to be clear", "to be precise", "honest", "in short", "long story short", "if you please", "if i may", "if you would", "with your permission"];
+
+/// "Spot seven" is called Spot 7.
+fn numbered(lexemes: &mut [Lexeme], names: &Names<'_>) {
+    for at in 1..lexemes.len() {
+        let Some((number, 1)) = super::super::numbers::number(&lexemes[at..])
+            .filter(|_| matches!(lexemes[at].token, Token::Word(_)))
+        else {
+            continue;
+        };
+        let in_digits =
+            [lexemes[at - 1].clone(), Lexeme { token: Token::Number(number), ..lexemes[at].clone() }];
+        if names.exact(&in_digits).is_some_and(|(_, words)| words == 2) {
+            lexemes[at].token = Token::Number(number);
+        }
+    }
+}
+
+/// What somebody thinks of a thing, which tells it from nothing else.
+#[rustfmt::skip]
+const JUDGED: &[&str] = &["naughty", "nasty", "ugly", "dirty", "poor", "silly", "stupid", "shabby", "lonely", "noisy", "pretty", "beautiful", "rusty", "dusty", "broken", "damaged", "unattended", "unlicensed", "famous",
+    "historic", "dull", "boring", "awful", "horrible", "hideous", "dreadful", "annoying", "bloody", "damn", "darn", "wretched", "blasted", "stinking", "smelly", "filthy", "dear", "lovely", "nice", "sweet", "kind",
+    "young", "clumsy", "crooked", "battered", "tired", "tatty", "scruffy", "worn", "wonky", "wobbly", "useless", "pointless", "superfluous", "unnecessary", "offending", "troublesome", "charming", "gorgeous", "friendly",
+    "grumpy", "cheerful", "elegant", "magnificent", "splendid", "proud", "mighty", "humble", "beloved", "cherished", "precious", "aforementioned", "abovementioned", "respective", "neglected", "abandoned", "forlorn",
+    "weird", "strange", "odd", "funny", "freaking", "frigging", "flipping", "cursed", "goddamn", "good", "brave", "loyal", "faithful", "venerable", "stately", "obstructing", "said", "existing", "current", "present", "solitary"];
+
+/// "The naughty dog" is the dog, and "the young man Bo" is Bo.
+fn judged(words: &str, lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
+    let is_capital = |lexeme: &Lexeme| words[lexeme.start..].starts_with(char::is_uppercase);
+    let certain = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["the", "that", "this", "my", "our", "your", "those", "these"].contains(&word.as_str()));
+    let mut at = 0;
+    while at + 2 < lexemes.len() {
+        if !certain(&lexemes[at]) {
+            at += 1;
+            continue;
+        }
+        let is_judged = |lexeme: &Lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if JUDGED.contains(&word.as_str()))
+                && !is_capital(lexeme)
+        };
+        while at + 2 < lexemes.len()
+            && is_judged(&lexemes[at + 1])
+            && matches!(lexemes[at + 2].token, Token::Word(_))
+        {
+            lexemes.remove(at + 1);
+        }
+        if let Some((class, count)) = category(&lexemes[at + 1..])
+            && class.kinds().iter().any(|kind| is_animate(*kind))
+        {
+            let called = at + 1 + count;
+            let named = called
+                + longest_phrase(&lexemes[called..], &["named", "called", "by the name of"]).unwrap_or(0);
+            if lexemes.get(named).is_some_and(is_capital) && names.exact(&lexemes[named..]).is_some() {
+                lexemes.drain(at..named);
+            }
+        }
+        at += 1;
+    }
+}
+
+/// "Class, we need a chair": who is called is not asked for.
+fn called_to(lexemes: &mut Vec<Lexeme>) {
+    while let Some(words) = longest_phrase(lexemes, CALLED)
+        && lexemes.get(words).is_some_and(is_mark)
+        && words + 2 < lexemes.len()
+    {
+        let marks = lexemes[words..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        lexemes.drain(..words + marks);
+    }
+}
+
+/// "The bench of red colour" is the red bench.
+fn of_colour(lexemes: &mut Vec<Lexeme>) {
+    const COLOUR: &[&str] = &["colour", "color", "colours", "colors"];
+    const BEFORE: &[&str] = &[
+        "of the colour",
+        "of the color",
+        "in the colour",
+        "in the color",
+        "of colour",
+        "of color",
+        "coloured in",
+        "colored in",
+    ];
+    let mut at = 1;
+    while at < lexemes.len() {
+        let rest = &lexemes[at..];
+        let paint_at =
+            |from: usize| longest(rest.get(from..)?, super::super::paint::PAINTS).map(|(_, words)| words);
+        let named = longest_phrase(rest, BEFORE).and_then(|before| Some((before, paint_at(before)?, 0)));
+        let told = longest_phrase(rest, &["of a", "of", "in"]).and_then(|before| {
+            let paint = paint_at(before)?;
+            let behind = longest_phrase(&rest[before + paint..], COLOUR)?;
+            Some((before, paint, behind))
+        });
+        let noun = (at.saturating_sub(3)..at)
+            .find(|from| category(&lexemes[*from..at]).is_some_and(|(_, words)| from + words == at));
+        if let (Some((before, paint, behind)), Some(noun)) = (named.or(told), noun) {
+            let colour: Vec<Lexeme> = lexemes[at + before..at + before + paint].to_vec();
+            lexemes.drain(at..at + before + paint + behind);
+            lexemes.splice(noun..noun, colour);
+            at += paint;
         }
         at += 1;
     }

@@ -34,10 +34,10 @@ const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away", "out
     "out of the way", "go byebye", "go bye bye", "leave", "leave the scene", "cease to exist", "not exist", "dead", "go for good",
     "gone for good", "not be there", "not be here", "out of my sight", "go", "taken out", "taken off", "thrown away", "thrown out",
     "scrapped", "gotten rid of", "got rid of", "done away with", "off", "vanished", "disappeared", "away from here", "go to the scrapyard",
-    "no longer there", "no longer here", "no more", "disposed of", "torn down", "out of there"];
+    "no longer there", "no longer here", "come down", "come out", "come off", "down", "be taken down", "pulled down", "come away", "cut down", "chopped down", "felled", "no more", "disposed of", "torn down", "out of there"];
 /// That two should stand where the other does.
 #[rustfmt::skip]
-const TRADES: &[&str] = &["change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
+pub(super) const TRADES: &[&str] = &["have their places exchanged", "exchange spots", "change spots", "trade their places", "swap their places", "exchange their places", "change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
     "exchange places", "swap positions", "switch positions", "exchange positions", "be swapped", "be switched", "swapped", "trade positions",
     "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"];
 /// Before a colour.
@@ -112,6 +112,16 @@ impl Reader<'_> {
         if self.is_welcome(at, end) && (at > cut || !rest.is_empty()) {
             return Some(add(places.to_vec()));
         }
+        // "Seats along the school would let people rest".
+        let is_would = matches!(self.word(cut), Some("would" | "could" | "will" | "might" | "certainly"));
+        let asks_more = (at..end).any(|at| {
+            self.is_place(at)
+                || longest(&self.lexemes[at..end], PAINTS).is_some()
+                || longest(&self.lexemes[at..end], FACTORS).is_some()
+        });
+        if is_would && !places.is_empty() && !rest.is_empty() && !asks_more {
+            return Some(add(places.to_vec()));
+        }
         if let Some(words) = longest_phrase(rest, WITH).filter(|_| at > cut && places.is_empty())
             && let Ok(anchor) = self.one_of(at + words, end)
         {
@@ -150,6 +160,7 @@ impl Reader<'_> {
         };
         let one = |wish| vec![vec![wish]];
         wish.map(one)
+            .or_else(|| self.face_each_other(what, at, end))
             .or_else(|| self.done_to((from, cut), at, end))
             .or_else(|| self.lacks((from, cut), end).map(one))
     }
@@ -188,10 +199,14 @@ impl Reader<'_> {
         let before = at + small(at, IN_COLOUR);
         let (paint, words) = longest(&self.lexemes[before..end], PAINTS)?;
         let mut after = before + words;
+        // "To the white one" names a thing.
+        let is_one = (at..before).any(|at| self.word(at) == Some("the"))
+            && self.word(after) == Some("one")
+            && after < end;
         while after < end {
             after += longest_phrase(&self.lexemes[after..end], COLOUR)?;
         }
-        Some(paint)
+        (!is_one).then_some(paint)
     }
 
     /// "A fresh coat of pink", "some yellow paint": paint is spoken of.
@@ -225,6 +240,30 @@ impl Reader<'_> {
         let words = longest_phrase(self.rest(end), FACES)?;
         let mut reader = Reader { at: at + words, ..self.up_to(end) };
         reader.towards(what.to_vec(), end).ok()
+    }
+
+    /// "Ada and Bo should face each other".
+    fn face_each_other(&self, what: &[Reference], at: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        const EACH: &[&str] = &[
+            "face each other",
+            "face one another",
+            "look at each other",
+            "look at one another",
+            "gaze at each other",
+            "gaze at one another",
+            "be facing each other",
+            "facing each other",
+            "facing one another",
+            "turned towards each other",
+            "turned to each other",
+            "watch each other",
+        ];
+        let [one, other] = what else { return None };
+        let whole = longest_phrase(&self.lexemes[at..end], EACH) == Some(end - at);
+        let face = |one: &Reference, other: &Reference| {
+            vec![Wish::Face { what: vec![one.clone()], towards: other.clone() }]
+        };
+        whole.then(|| vec![face(one, other), face(other, one)])
     }
 
     /// "The bench should be moved behind the museum": the order that does so to the subject.

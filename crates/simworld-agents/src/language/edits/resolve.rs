@@ -8,6 +8,7 @@ use simworld_core::scene::{EntityKind, EntityRef, Relation, Scene};
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Choice, Count, Reference, Stands, Target};
+use super::super::lexer::lex;
 use super::super::resolve::{Purpose, View};
 use super::places::is_pronoun;
 use super::sky::changed;
@@ -106,7 +107,7 @@ impl Finder<'_> {
             Wish::Describe { what } => Edit::Describe { thing: self.one(what)? },
             Wish::Row { thing, line, spacing } => self.row(thing, line, *spacing)?,
             Wish::Passage { which, passage } => self.passage(which, *passage)?,
-            Wish::Given { what, there, then } => return self.given(what, *there, then),
+            Wish::Given { what, least, there, then } => return self.given(what, (*least, *there), then),
             Wish::Sky(skies) => Edit::SetEnvironment(changed(*self.scene.environment(), skies)),
         };
         Ok(vec![edit])
@@ -116,6 +117,15 @@ impl Finder<'_> {
         if let Some(each) = self.at_each(things, at)? {
             return Ok(each);
         }
+        if let ([thing], [Where::Corners(anchor)]) = (things, at)
+            && thing.count == 1
+        {
+            let four = NewThing { count: 4, ..thing.clone() };
+            return self.added(&[four], &[Where::Corner(anchor.clone())]);
+        }
+        if let Some(sides) = self.at_two_sides(things, at)? {
+            return Ok(sides);
+        }
         if let Some(row) = self.lined_up(things, at)? {
             return Ok(vec![row]);
         }
@@ -124,6 +134,27 @@ impl Finder<'_> {
             Ok(Edit::Add { make: thing.make(self.stock)?, count: thing.count, stands: stands.clone() })
         };
         things.iter().map(add).collect()
+    }
+
+    /// "A lamp on either side of the door": one on its left, one on its right, or half of them.
+    fn at_two_sides(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Vec<Edit>>, EditError> {
+        let ([thing], [Where::BothSides(anchor @ (Anchor::Thing(_) | Anchor::It))]) = (things, at) else {
+            return Ok(None);
+        };
+        let is_area =
+            self.scene.entity(self.anchor(anchor, &[])?).is_some_and(|one| one.kind == EntityKind::Ground);
+        if is_area || thing.count > 2 && thing.count % 2 == 1 {
+            return Ok(None);
+        }
+        let thing = NewThing { count: thing.count.div_ceil(2), ..thing.clone() };
+        let mut edits = Vec::new();
+        for relation in [Relation::LeftOf, Relation::RightOf] {
+            edits.extend(self.edits(&Wish::Add {
+                things: vec![thing.clone()],
+                at: vec![Where::To(relation, anchor.clone())],
+            })?);
+        }
+        Ok(Some(edits))
     }
 
     /// "A tree in front of each house": the same for every one of them.
@@ -150,10 +181,12 @@ impl Finder<'_> {
 
     fn moved(&self, what: &[Reference], at: &[Where]) -> Result<Vec<Edit>, EditError> {
         let things = self.all(what)?;
-        let shift = at.iter().find_map(|place| match place {
+        // "By 3 m to the west and by 2 m to the north" is one way.
+        let shift = at.iter().filter_map(|place| match place {
             Where::Shift(east, north) => Some((*east, *north)),
             _ => None,
         });
+        let shift = shift.reduce(|sum, more| (sum.0 + more.0, sum.1 + more.1));
         if let Some((east, north)) = shift {
             let shifted = |thing: EntityId| {
                 let from = self.scene.entity(thing).map_or(Point2::origin(), |entity| entity.planar());
@@ -162,10 +195,11 @@ impl Finder<'_> {
             };
             return Ok(things.into_iter().map(shifted).collect());
         }
-        let own = at.iter().find_map(|place| match place {
+        let own = at.iter().filter_map(|place| match place {
             Where::ShiftOwn(forward, left) => Some(Vector2::new(*forward, *left)),
             _ => None,
         });
+        let own = own.reduce(|sum, more| sum + more);
         if let Some(own) = own {
             let shifted = |thing: EntityId| {
                 let entity = self.scene.entity(thing)?;
@@ -218,6 +252,11 @@ impl Finder<'_> {
 
     fn listed(&self, what: Option<&Reference>, at: &[Where]) -> Result<Vec<EntityId>, EditError> {
         if let Some(what) = what {
+            let is_nearest = matches!(what.relation, Some(Stands::NearestTo(..)))
+                || matches!(what.choice, Choice::Nearest | Choice::Farthest | Choice::Most(..));
+            if is_nearest && !plural(what) {
+                return Ok(vec![self.one(&Reference { count: Count::One, ..what.clone() })?]);
+            }
             return if what.count == Count::One && !plural(what) {
                 Ok(vec![self.one(what)?])
             } else {
@@ -247,7 +286,7 @@ impl Finder<'_> {
 
     // ---- things ----
 
-    fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
+    pub(super) fn all(&self, what: &[Reference]) -> Result<Vec<EntityId>, EditError> {
         let mut things = Vec::new();
         for one in what {
             let of_several = one.choice != Choice::Open
@@ -266,8 +305,12 @@ impl Finder<'_> {
     /// All that a phrase may mean, the nearest first, at least one.
     pub(super) fn candidates(&self, reference: &Reference) -> Result<Vec<EntityId>, EditError> {
         self.is_about_viewer(reference)?;
+        self.is_called_so(reference)?;
         if let (Count::All, Choice::Nth(nth)) = (reference.count, reference.choice) {
             return self.every_nth(reference, nth);
+        }
+        if reference.choice == Choice::Middle && reference.place <= 1 {
+            return self.middle(reference);
         }
         let open = reference.choice == Choice::Open;
         // The farthest of all is looked for everywhere, and no other choice is.
@@ -280,7 +323,9 @@ impl Finder<'_> {
         }
         let mut things: Vec<EntityId> = found.into_iter().map(|(_, id)| id).collect();
         if let Some(except) = &reference.except {
-            let spared = self.candidates(except)?;
+            // "But the tallest" is that one alone.
+            let is_one = except.count == Count::One && except.choice != Choice::Open;
+            let spared = if is_one { vec![self.one(except)?] } else { self.candidates(except)? };
             things.retain(|thing| !spared.contains(thing));
         }
         if things.is_empty() {
@@ -306,6 +351,16 @@ impl Finder<'_> {
         Ok(things)
     }
 
+    /// The middle one of all that fit, in the order in which they stand.
+    fn middle(&self, reference: &Reference) -> Result<Vec<EntityId>, EditError> {
+        let all =
+            self.in_a_row(&Reference { choice: Choice::Open, count: Count::All, ..reference.clone() })?;
+        match all.len() % 2 {
+            1 => Ok(vec![all[all.len() / 2]]),
+            _ => Err(self.ambiguous(reference, &all)),
+        }
+    }
+
     /// The one thing that a phrase means; where several fit and nothing decides, which is asked.
     pub(super) fn one(&self, reference: &Reference) -> Result<EntityId, EditError> {
         let mut found = self.candidates(reference)?;
@@ -320,7 +375,7 @@ impl Finder<'_> {
             || is_pronoun(reference)
             || matches!(reference.relation, Some(Stands::NearestTo(..)))
             || matches!(reference.target, Target::Id(_));
-        if decided {
+        if decided && reference.choice != Choice::Middle {
             // A superlative that two share is open.
             self.view.find(&Reference { count: Count::One, ..reference.clone() }, Purpose::Any)?;
         } else if found.len() > 1 {
@@ -351,109 +406,32 @@ impl Finder<'_> {
         Ok(())
     }
 
+    /// "The maple" is no house of that name, and "the moon" no shop: such words name what they say, unless they are written as
+    /// names are.
+    fn is_called_so(&self, reference: &Reference) -> Result<(), EditError> {
+        const ABOVE: &[&str] = &["moon", "sun", "sky", "star", "stars", "sea", "horizon", "cloud", "clouds"];
+        let Target::Named(_) = &reference.target else { return Ok(()) };
+        let text = reference.text.trim();
+        let is_common = lex(text).first().is_some_and(|word| super::follow::species(word).is_some())
+            || ABOVE.contains(&text);
+        let is_word = !text.is_empty() && text.chars().all(char::is_lowercase);
+        if !is_common || !is_word {
+            return Ok(());
+        }
+        let found = self.view.candidates(reference, Purpose::Any).unwrap_or_default();
+        let Some(entity) = found.first().and_then(|(_, id)| self.scene.entity(*id)) else { return Ok(()) };
+        if !entity.label().eq_ignore_ascii_case(text) {
+            return Err(EditError::NotFound {
+                wanted: text.to_owned(),
+                near: "nothing here is known to be one".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
     fn entity(&self, id: EntityId, what: &Reference) -> Result<EntityRef<'_>, EditError> {
         let missing = || EditError::NotFound { wanted: what.text.clone(), near: String::new() };
         self.scene.entity(id).ok_or_else(missing)
-    }
-
-    // ---- places ----
-
-    pub(super) fn stands(&self, at: &[Where], moved: &[EntityId]) -> Result<Vec<Stand>, EditError> {
-        let mut stands = Vec::new();
-        for place in at {
-            let stand = match place {
-                Where::To(relation, anchor) => match anchor {
-                    Anchor::Street(_, roads) => Stand::AlongRoad { roads: roads.clone() },
-                    _ => self.to(*relation, self.anchor(anchor, moved)?)?,
-                },
-                Where::Between(one, other) => {
-                    Stand::Between { one: self.anchor(one, moved)?, other: self.anchor(other, moved)? }
-                }
-                Where::Across(anchor) => Stand::AcrossFrom { anchor: self.anchor(anchor, moved)? },
-                Where::Along(Anchor::Street(_, roads)) | Where::BothSides(Anchor::Street(_, roads)) => {
-                    Stand::AlongRoad { roads: roads.clone() }
-                }
-                Where::Along(anchor) | Where::BothSides(anchor) => {
-                    Stand::Along { anchor: self.anchor(anchor, moved)? }
-                }
-                Where::Corner(anchor) => Stand::AtCornerOf { anchor: self.anchor(anchor, moved)? },
-                Where::Compass(compass, anchor) => {
-                    Stand::Towards { heading: compass.heading(), anchor: self.anchor(anchor, moved)? }
-                }
-                Where::At(point) => Stand::At { point: *point },
-                Where::Here => Stand::Around { point: self.focus.from },
-                Where::There => self.there(moved)?,
-                Where::Anywhere | Where::Shift(..) | Where::ShiftOwn(..) => continue,
-                place => self.stand_on_ground(place, moved)?,
-            };
-            stands.push(stand);
-        }
-        Ok(stands)
-    }
-
-    /// Where what was spoken of last stood; beside it, if it still stands there.
-    fn there(&self, moved: &[EntityId]) -> Result<Stand, EditError> {
-        let wanted = "place that \"there\" could stand for".to_owned();
-        let missing = || EditError::NotFound { wanted, near: "name it".to_owned() };
-        let point = self.focus.place.ok_or_else(missing)?;
-        let stands_there = |it: &EntityId| {
-            let entity = self.scene.entity(*it).filter(|it| it.kind != EntityKind::Ground);
-            !moved.contains(it) && entity.is_some_and(|it| (it.planar() - point).norm() < 1e-6)
-        };
-        Ok(match self.focus.it.filter(stands_there) {
-            Some(anchor) => Stand::To { relation: Relation::NextTo, anchor },
-            None => Stand::At { point },
-        })
-    }
-
-    pub(super) fn to(&self, relation: Relation, anchor: EntityId) -> Result<Stand, EditError> {
-        let kind = self.scene.entity(anchor).map(|entity| entity.kind);
-        let impossible = |why: &str| {
-            let what = format!("to stand {}", Stand::To { relation, anchor }.told(self.scene));
-            Err(EditError::Impossible { what, why: why.to_owned() })
-        };
-        match (relation, kind) {
-            // "On Market Square", "over the park": where else would one be on the ground.
-            (Relation::OnTopOf | Relation::Inside, Some(EntityKind::Ground)) => {
-                Ok(Stand::To { relation: Relation::Inside, anchor })
-            }
-            (Relation::Inside, Some(kind)) if kind.is_solid() => {
-                impossible("it is solid; say next to it, or on top of it")
-            }
-            (Relation::OnTopOf, Some(kind)) if !crate::editing::has_flat_top(kind) => {
-                impossible("it has no top that holds anything; say next to it")
-            }
-            _ => Ok(Stand::To { relation, anchor }),
-        }
-    }
-
-    pub(super) fn anchor(&self, anchor: &Anchor, moved: &[EntityId]) -> Result<EntityId, EditError> {
-        let itself = || {
-            let what = "to put a thing beside or upon itself".to_owned();
-            Err(EditError::Impossible { what, why: "name another thing".to_owned() })
-        };
-        match anchor {
-            Anchor::Itself => itself(),
-            Anchor::It => self.focus.it.filter(|it| !moved.contains(it)).ok_or_else(|| {
-                let wanted = "thing that is meant".to_owned();
-                EditError::NotFound { wanted, near: "name it".to_owned() }
-            }),
-            Anchor::Viewer => self.focus.who.ok_or_else(|| {
-                let what = "to stand so to you".to_owned();
-                EditError::Impossible {
-                    what,
-                    why: "nobody looks at the scene; name a thing or a place".to_owned(),
-                }
-            }),
-            Anchor::Street(name, _) => Err(EditError::Impossible {
-                what: format!("to stand so to {name}"),
-                why: "a street is long; say along it".to_owned(),
-            }),
-            Anchor::Thing(reference) => {
-                let found = self.one(reference)?;
-                if moved.contains(&found) { itself() } else { Ok(found) }
-            }
-        }
     }
 }
 

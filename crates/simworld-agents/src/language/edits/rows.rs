@@ -135,7 +135,8 @@ impl Said {
 fn along(place: Where) -> Option<Where> {
     match place {
         Where::Along(_) | Where::Between(..) | Where::BothSides(_) | Where::Around(_) => Some(place),
-        Where::By(anchor)
+        Where::Compass(_, anchor @ Anchor::Street(..))
+        | Where::By(anchor)
         | Where::Edge(anchor)
         | Where::To(simworld_core::scene::Relation::NextTo, anchor) => Some(Where::Along(anchor)),
         Where::To(simworld_core::scene::Relation::OnTopOf, anchor @ Anchor::Street(..)) => {

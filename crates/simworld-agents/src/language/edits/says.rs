@@ -36,7 +36,7 @@ const BETWEEN: &[&str] = &["should", "must", "ought", "to", "shall", "has", "hav
     "fancier", "livelier", "id", "say", "think", "i", "happier", "safer", "thats", "that", "which", "so", "well", "pretty",
     "cute", "beautifully", "somehow", "exist", "grow", "grows", "wear", "wears", "like", "likes", "love", "sure", "lie", "park", "going",
     "gonna", "suit", "help", "even", "way", "super", "again", "used", "splendid", "brilliant", "do", "spawn", "pop", "up", "walk",
-    "over", "off", "kindly", "quickly", "hang", "rest", "move", "moved"];
+    "over", "off", "kindly", "quickly", "hang", "rest", "move", "moved", "grand", "dashing", "stunning", "gorgeous", "elegant", "fresh", "festive", "cheerful", "sharp", "neat", "classy", "friendlier", "cooler", "brighter", "fresher"];
 /// Of those, the words that say that it should be.
 #[rustfmt::skip]
 const OUGHT: &[&str] = &["should", "must", "ought", "shall", "needs", "need", "want", "wants", "would", "could", "might", "may", "can",
@@ -57,7 +57,7 @@ pub(super) const LACKS: &[&str] = &["could use", "needs is", "wants is", "lacks 
     "would be glad of", "would be glad about", "wanna have", "want to have", "wants to have", "would like to have", "would love to have",
     "needs to have", "need to have", "deserves to have", "should receive", "receives", "is to get", "is to have", "shall have", "might use",
     "might like", "will need", "will get", "has to get", "must get", "still needs", "really needs", "badly needs", "desperately needs",
-    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due"];
+    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due", "could have", "can have", "may have", "might have", "would have", "are due", "have to have", "would do well with", "would gain from", "will have", "should be provided with", "is to be given", "shall receive", "is to receive", "are to receive", "are to have", "are to get", "must receive", "would be served by", "would be improved by", "merits", "warrants", "could take", "expects", "craves", "seeks", "seek"];
 
 /// What a statement is about.
 pub(super) enum Subject {
@@ -175,7 +175,10 @@ impl<'a> Reader<'a> {
             {
                 found.push(Subject::Place(places));
             }
-        } else if !self.is_definite(from) || self.is_bare_plural(from, stop) {
+        } else if !self.is_definite(from)
+            || self.is_bare_plural(from, stop)
+            || found.is_empty() && self.is_unknown(from, stop)
+        {
             let mut reader = Reader { at: from, ..sub };
             if let Ok(thing) = reader.new_thing(stop) {
                 let places = if reader.at < stop && reader.is_place(reader.at) {
@@ -189,6 +192,14 @@ impl<'a> Reader<'a> {
             }
         }
         found
+    }
+
+    /// Whether the words may name something that is not here: "excavator", with nothing certain and no small word before it.
+    pub(super) fn is_unknown(&self, from: usize, end: usize) -> bool {
+        let is_said = |at: usize| {
+            self.word(at).is_none_or(|word| BETWEEN.contains(&word) || super::frames::is_small(word))
+        };
+        !(from..end).any(|at| self.is_certain(at)) && !(from..end).any(is_said)
     }
 
     /// Whether "can" and the like belong to a noun here: "a garbage can is missing".

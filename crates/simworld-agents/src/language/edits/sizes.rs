@@ -16,7 +16,15 @@ impl Reader<'_> {
             self.at = end;
             return Ok(vec![vec![wish]]);
         }
-        let what = self.things_to(end)?;
+        // "Shrink the crate a little".
+        let little = (start + 1..end).find(|at| {
+            longest_phrase(
+                &self.lexemes[*at..end],
+                &["a little", "a bit", "slightly", "somewhat", "a little bit", "a tad", "a touch"],
+            ) == Some(end - at)
+        });
+        let what = self.things(start, little.unwrap_or(end))?;
+        self.at = end;
         Ok(vec![vec![Wish::Scale { what, factor: usual }]])
     }
 
@@ -46,6 +54,26 @@ impl Reader<'_> {
         let of_number = self.word(begin) == Some("of") && self.word(begin - 1) == Some("number");
         let sized = self.word(begin) == Some("of") && !of_number;
         let start = self.at;
+        // "... and double its size".
+        let whose = longest_phrase(
+            self.rest(end),
+            &[
+                "its size",
+                "their size",
+                "his size",
+                "her size",
+                "the size of it",
+                "the size",
+                "it in size",
+                "its height",
+            ],
+        );
+        if whose.is_some_and(|words| self.before_politeness(start, end) <= start + words) {
+            let what =
+                vec![super::super::clause::Reference::to(super::super::clause::Target::It, "it".to_owned())];
+            self.at = end;
+            return Ok(vec![vec![Wish::Scale { what, factor }]]);
+        }
         let what = self.one_to(end)?;
         let many = matches!(what.count, Count::All) || self.is_plural(start, end);
         if many && !sized && factor > 1.0 {
@@ -71,7 +99,8 @@ pub(super) fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         &["by a factor of", "by factor", "by", "to", "a factor of", "up by", "down by"],
     )
     .unwrap_or(0);
-    let relative = longest_phrase(lexemes, &["by"]).is_some();
+    let relative = longest_phrase(lexemes, &["by", "up by"]).is_some();
+    let down = longest_phrase(lexemes, &["down by"]).is_some();
     let (mut number, count) = numbers::number(&lexemes[at..])?;
     at += count;
     if let Some(count) = longest_phrase(&lexemes[at..], &["and a half"]) {
@@ -86,6 +115,7 @@ pub(super) fn factor_in_numbers(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         let factor = match (more, less) {
             (_, Some(_)) => 1.0 - share,
             (Some(_), _) => 1.0 + share,
+            _ if down => 1.0 - share,
             _ if relative => 1.0 + share,
             _ => share,
         };

@@ -37,7 +37,7 @@ impl Reader<'_> {
             }
             let ending = longest(rest, ENDINGS).filter(|_| stops);
             let sky = longest(rest, SKIES);
-            let hour = hour(rest);
+            let hour = hour(rest).filter(|(_, words)| !is_bare(rest, *words) || self.speaks_of_time(end));
             let noise = longest_phrase(rest, SKY_NOISE).unwrap_or(0);
             if let Some((sky, count)) = ending {
                 found.push(sky);
@@ -72,6 +72,20 @@ impl Reader<'_> {
     }
 }
 
+/// Whether a time of day is told by a number alone.
+fn is_bare(lexemes: &[super::super::lexer::Lexeme], words: usize) -> bool {
+    numbers::number(lexemes).is_some_and(|(_, number)| number == words)
+}
+
+impl Reader<'_> {
+    /// Whether a number may be a time of day: "chairs for six" is none.
+    fn speaks_of_time(&self, end: usize) -> bool {
+        #[rustfmt::skip]
+        const TIMES: &[&str] = &["clock", "time", "hour", "morning", "evening", "night", "afternoon", "set", "make", "at", "till", "past", "oclock", "be", "its", "is"];
+        (self.at..end).any(|at| self.word(at).is_some_and(|word| TIMES.contains(&word)))
+    }
+}
+
 /// "8 pm", "20:30", "half past seven in the morning", "noon".
 pub(in crate::language) fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
     const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
@@ -92,6 +106,15 @@ pub(in crate::language) fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Opti
     {
         hour += minutes / 60.0;
         at += 2;
+    }
+    // "Seven thirty".
+    if let Some((minutes, words)) = numbers::number(&lexemes[at..])
+        && minutes.fract() == 0.0
+        && (10.0..60.0).contains(&minutes)
+        && hour.fract() == 0.0
+    {
+        hour += minutes / 60.0;
+        at += words;
     }
     at += longest_phrase(&lexemes[at..], &["oclock", "o clock", "hours", "h"]).unwrap_or(0);
     if let Some(count) = longest_phrase(&lexemes[at..], AFTER) {

@@ -13,10 +13,19 @@ impl Reader<'_> {
     pub(super) fn lacking(&mut self, start: usize, end: usize) -> Option<Wish> {
         let gives = longest_phrase(&self.lexemes[start..end], &["give", "giving"]);
         let from = start + gives.unwrap_or(0);
+        if let Some(wish) = gives.and_then(|_| self.given_a_name(from, end)) {
+            self.at = end;
+            return Some(wish);
+        }
         for cut in from + 1..end {
             let lacks = longest_phrase(&self.lexemes[cut..end], LACKS);
             let Some(count) = (if gives.is_some() { Some(0) } else { lacks }) else { continue };
             self.at = from;
+            let both = longest_phrase(
+                &self.lexemes[from..cut],
+                &["both sides of", "each side of", "either side of", "the two sides of"],
+            );
+            self.at = from + both.unwrap_or(0);
             let street = self.street(cut).filter(|_| self.at == cut);
             let anchor = match (street, self.one_of(from, cut)) {
                 (Some(street), _) => street,
@@ -37,6 +46,7 @@ impl Reader<'_> {
             if self.before_politeness(stop.saturating_sub(1), end) <= stop {
                 self.at = end;
                 let place = match (relation, anchor) {
+                    (None, street @ Anchor::Street(..)) if both.is_some() => Where::BothSides(street),
                     (None, street @ Anchor::Street(..)) => Where::Along(street),
                     (None, anchor) => Where::By(anchor),
                     (Some((relation, _)), anchor) => Where::To(relation, anchor),
@@ -46,6 +56,20 @@ impl Reader<'_> {
         }
         self.at = start;
         None
+    }
+
+    /// "Give the robot a name: 'Willow'".
+    fn given_a_name(&self, from: usize, end: usize) -> Option<Wish> {
+        #[rustfmt::skip]
+        const NAME: &[&str] = &["the name", "a name", "a new name", "the new name", "the nickname", "a nickname", "the title", "its name", "his name", "her name"];
+        (from + 1..end).find_map(|cut| {
+            let words = longest_phrase(&self.lexemes[cut..end], NAME)?;
+            let what = self.one_of(from, cut).ok()?;
+            let start = cut + words;
+            let quoted = (start..end).find_map(|at| self.quoted(at));
+            let name = quoted.unwrap_or_else(|| self.written(start, self.before_politeness(start, end)));
+            (!name.is_empty()).then_some(Wish::Name { what, name })
+        })
     }
 
     /// "The bus stop is missing a bench, put one right by it": where the one that is missing goes.
@@ -90,12 +114,12 @@ impl Reader<'_> {
         // "Cypresses along the road": a plural that is nothing of the scene.
         let place = (at + 1..end.min(at + 4)).find(|at| self.is_place(*at));
         let many = place.is_some_and(|place| {
-            let is_many =
-                self.word(place - 1).is_some_and(|word| word.ends_with('s') && !word.ends_with("ss"));
-            is_many
-                && !self.is_certain(at)
+            // Behind a preamble it may be a verb: "residents would benefit from ...".
+            self.depth < super::says::DEEPEST
+                && self.is_unknown(at, place)
                 && self.one_of(at, place).is_err()
-                && !self.has_verb(at, place)
+                && longest(&self.lexemes[at..place], super::words::VERBS).is_none()
+                && super::follow::species(&self.lexemes[at]).is_none()
                 && super::forms::as_order(&self.lexemes[at..place]).is_none()
                 && self.names.exact(&self.lexemes[place - 1..place]).is_none()
         });

@@ -15,7 +15,7 @@ const CALLED: &[&str] = &["called", "named", "with the name", "with the name of"
 /// Articles and the like before a new thing.
 #[rustfmt::skip]
 pub(super) const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the", "one more", "a new", "new", "a single",
-    "yet another", "a few", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
+    "yet another", "a few", "a second", "a third", "a fourth", "a fifth", "a further", "an extra", "an additional", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
     "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
     "around", "see", "please", "yet another", "one more of", "just one", "just a", "possibly", "ideally", "preferably"];
 /// How something is to be where it stands.
@@ -44,22 +44,16 @@ impl Reader<'_> {
             if anchor.is_some() && self.is_bare_singular(end) {
                 return Err(self.not_understood("say \"next to\" again, or \"a\" before what is to be made"));
             }
-            let mut things = vec![self.another(end, last.as_ref()).map_or_else(|| self.new_thing(end), Ok)?];
-            while let Some(count) = joint(self.rest(end)) {
-                let start = self.at;
-                self.at += count;
-                self.skip_joints_to(end);
-                let is_more = || Reader { ..*self }.another(end, things.last()).is_some();
-                if self.at >= end || self.is_place(self.at) || is_more() {
-                    self.at = start;
-                    break;
-                }
-                things.push(self.new_thing(end)?);
-            }
+            let things = self.listed(last.as_ref(), end)?;
             let whose = self.for_whom(end);
             let from = self.at;
             if joint(self.rest(end)).is_some() {
                 self.skip_joints_to(end);
+                // "A tent and a bench, both by the tree".
+                let all =
+                    longest_phrase(self.rest(end), &["all", "both", "all of them", "both of them", "each"])
+                        .unwrap_or(0);
+                self.at += if self.is_place((self.at + all).min(end)) { all } else { 0 };
             }
             if whose.is_some() {
                 anchor.clone_from(&whose);
@@ -96,6 +90,24 @@ impl Reader<'_> {
         if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
     }
 
+    /// New things that share a place: "two benches, a bin and a lamp", "a table a lamp and a bin".
+    fn listed(&mut self, last: Option<&NewThing>, end: usize) -> Result<Vec<NewThing>, PlanError> {
+        let mut things = vec![self.another(end, last).map_or_else(|| self.new_thing(end), Ok)?];
+        while let Some(count) = joint(self.rest(end)).or_else(|| begins_another(self.rest(end)).then_some(0))
+        {
+            let start = self.at;
+            self.at += count;
+            self.skip_joints_to(end);
+            let is_more = || Reader { ..*self }.another(end, things.last()).is_some();
+            if self.at >= end || self.is_place(self.at) || is_more() {
+                self.at = start;
+                break;
+            }
+            things.push(self.new_thing(end)?);
+        }
+        Ok(things)
+    }
+
     /// "Plant there two palm trees": the place before them, which it passes.
     fn there_first(&mut self, end: usize) -> Option<Vec<Where>> {
         let is_there = matches!(self.word(self.at), Some("there" | "here"))
@@ -127,12 +139,15 @@ impl Reader<'_> {
                 "the other one",
                 "the other",
             ],
-        )?;
+        )
+        .map(|words| (1, words));
+        // "Benches: ten along the museum".
+        let (number, count) = count.or_else(|| numbers::count(self.rest(end)))?;
         if !self.is_place(self.at + count) {
             return None;
         }
         self.at += count;
-        Some(NewThing { count: 1, ..last.clone() })
+        Some(NewThing { count: number, ..last.clone() })
     }
 
     /// "A parasol for the café": whose it is to be, if that is a thing of the scene.
@@ -189,19 +204,18 @@ impl Reader<'_> {
                 numbers::count(rest).filter(|(_, words)| thing.words.is_empty() && !is_part(*words))
             {
                 (thing.count, self.at) = (count, self.at + words);
+            } else if self.word(self.at) == Some("please") && self.at + 1 < end && self.is_place(self.at + 1)
+            {
+                self.at += 1;
+            } else if let Some((count, words)) = times_behind(rest) {
+                (thing.count, self.at) = (count, self.at + words);
             } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
                 self.at += words;
             } else if let Some(words) = longest_phrase(rest, CALLED) {
                 self.at += words;
                 thing.name = Some(self.new_name(end));
                 break;
-            } else if joint(rest).is_some()
-                || self.is_place(self.at)
-                || self.word(self.at) == Some("for")
-                    && !thing.words.is_empty()
-                    && self.is_certain(self.at + 1)
-                || self.before_politeness(start, end) <= self.at
-            {
+            } else if self.ends_thing(&thing, start, end) {
                 break;
             } else if let Some(words) = longest_phrase(rest, POSTURES)
                 .filter(|words| !thing.words.is_empty() && self.is_place((self.at + words).min(end)))
@@ -229,4 +243,45 @@ impl Reader<'_> {
         }
         Ok(thing)
     }
+
+    /// Whether the noun of a new thing ends here.
+    fn ends_thing(&self, thing: &NewThing, start: usize, end: usize) -> bool {
+        let rest = self.rest(end);
+        // "A tent a picnic table and two chairs".
+        let is_next =
+            thing.words.last().is_some_and(|word| !OF.contains(&word.as_str())) && begins_another(rest);
+        is_next
+            || joint(rest).is_some()
+            || self.is_place(self.at)
+            || self.word(self.at) == Some("for") && !thing.words.is_empty() && self.is_certain(self.at + 1)
+            || self.before_politeness(start, end) <= self.at
+    }
+}
+
+/// Whether one more thing is named, with nothing between it and the one before.
+fn begins_another(lexemes: &[super::super::lexer::Lexeme]) -> bool {
+    let in_words = lexemes.first().is_some_and(|lexeme| matches!(lexeme.token, Token::Word(_)));
+    let is_size = longest(lexemes, FACTORS).is_some()
+        || longest_phrase(
+            lexemes,
+            &["a bit", "a little", "a lot", "a tad", "a metre", "a meter", "a bit of"],
+        )
+        .is_some();
+    in_words
+        && !is_size
+        && numbers::length(lexemes).is_none()
+        && (longest_phrase(lexemes, &["a", "an"]).is_some() || numbers::count(lexemes).is_some())
+}
+
+/// Behind these an article belongs to the same noun: "a statue of a dog".
+const OF: &[&str] = &["of", "with", "for", "in", "on", "like", "as", "half", "from", "than", "at"];
+
+/// "x 4" behind a noun: how many, and how many words say so.
+fn times_behind(lexemes: &[super::super::lexer::Lexeme]) -> Option<(u32, usize)> {
+    let times = longest_phrase(lexemes, &["x", "times"])?;
+    let number = lexemes.get(times..times + 1)?;
+    let Token::Number(_) = number.first()?.token else { return None };
+    numbers::number(number)
+        .map(|(count, words)| (count as u32, times + words))
+        .filter(|(count, _)| (1..=1000).contains(count))
 }

@@ -23,7 +23,8 @@ impl Reader<'_> {
         let start = self.at;
         for cut in start + 1..end {
             let rest = &self.lexemes[cut..self.before_politeness(cut, end)];
-            if let Some(angle) = angle(rest) {
+            // "To the right" is no "right?".
+            if let Some(angle) = angle(rest).or_else(|| angle(&self.lexemes[cut..end])) {
                 if let Ok(what) = self.things(start, cut) {
                     self.at = end;
                     return Ok(vec![vec![Wish::Rotate { what, angle }]]);
@@ -90,7 +91,12 @@ pub(super) fn angle(lexemes: &[Lexeme]) -> Option<f64> {
         degrees
     } else if let Some((number, count)) = numbers::number(&lexemes[at..]) {
         at += count;
-        at += longest_phrase(&lexemes[at..], &["degrees", "degree", "deg", "°"])?;
+        match longest_phrase(&lexemes[at..], &["degrees", "degree", "deg", "°"]) {
+            Some(words) => at += words,
+            // "45 left" is told in degrees.
+            None if side_of(&lexemes[at..]).is_some() && number > 1.0 => {}
+            None => return None,
+        }
         number
     } else if side.is_some() && at == lexemes.len() {
         90.0

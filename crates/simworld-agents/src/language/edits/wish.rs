@@ -91,9 +91,10 @@ pub(super) enum Wish {
         which: Vec<StreetRef>,
         passage: Passage,
     },
-    /// Only if there is such a thing or, with `false`, if there is none.
+    /// Only if there are so many of such things or, with `false`, if there are not.
     Given {
         what: Reference,
+        least: u32,
         there: bool,
         then: Box<Self>,
     },
@@ -104,6 +105,8 @@ pub(super) enum Wish {
 pub(super) enum StreetRef {
     /// By its name; between two that cross it, if they are named.
     Named { roads: Vec<RoadId>, between: Option<[Vec<RoadId>; 2]> },
+    /// Of a street the pieces on a side of its middle.
+    Half(Vec<RoadId>, Compass),
     /// By how it runs to a thing.
     To(Relation, Reference),
     /// All around a thing.
@@ -141,6 +144,8 @@ pub(super) enum Where {
     Across(Anchor),
     Along(Anchor),
     Corner(Anchor),
+    /// At each of the four corners.
+    Corners(Anchor),
     Compass(Compass, Anchor),
     At(Point2),
     /// Beside a thing, or in an area.
@@ -197,6 +202,13 @@ impl Wish {
     pub(super) fn is_about(&mut self, things: &[Reference]) {
         let (Some(first), Some(last)) = (things.first(), things.last()) else { return };
         let mut taken = false;
+        // "Let her face it": it is what she is told of with.
+        if let Self::Face { what, towards } = self
+            && what.iter().all(|one| matches!(one.target, Target::It | Target::Them))
+            && matches!(towards.target, Target::It | Target::Them)
+        {
+            *towards = last.clone();
+        }
         for one in self.objects_mut() {
             if matches!(one.target, Target::It | Target::Them) {
                 *one = first.clone();
@@ -307,6 +319,7 @@ impl Where {
             | Self::Across(anchor)
             | Self::Along(anchor)
             | Self::Corner(anchor)
+            | Self::Corners(anchor)
             | Self::By(anchor)
             | Self::Around(anchor)
             | Self::BothSides(anchor)

@@ -1,0 +1,195 @@
+//! Words that take back what was said just before: "paint it gold, no wait, yellow", "forty chairs, I mean twenty", "under, let
+//! us say next to, the bench".
+//!
+//! What is put right is of the kind of what stands in its place: a number for a number, a colour for a colour, a place for a
+//! place, an order for an order, a thing for a thing.
+
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::numbers::{self, NUMERALS};
+use super::super::paint::PAINTS;
+use super::parts::is_mark;
+use super::words::{SKIES, VERBS, WAYS, Way};
+
+/// That what follows is meant, and what stood before is not.
+#[rustfmt::skip]
+const TAKEN_BACK: &[&str] = &["no wait", "wait no", "no no", "no sorry", "sorry no", "i mean", "i meant", "no i mean", "no i meant", "sorry i mean", "scratch that", "correction", "no make that",
+    "make that", "or rather", "no rather", "oh no", "wait", "no make it", "ok fine", "okay fine", "ok just", "or better", "no better", "better still", "no actually", "actually no",
+    "actually make that", "well i mean", "on second thought", "on second thoughts", "nope", "not that", "oops", "rather", "that is to say", "or simply", "or just", "well ok", "lets say", "let us say",
+    "let me say", "say", "shall we say", "or lets say", "no", "well", "sorry", "actually", "ah no", "hang on", "hold on", "no hang on", "no hold on", "sorry make that", "meaning", "strike that", "err", "er"];
+/// Behind what is meant.
+const BEHIND: &[&str] = &["i mean", "i meant", "i should say", "rather"];
+/// Of the words that take back, those that are also said where nothing is: no order and no thing is taken back by them.
+const WEAK: &[&str] = &[
+    "well",
+    "say",
+    "sorry",
+    "actually",
+    "rather",
+    "lets say",
+    "let us say",
+    "let me say",
+    "shall we say",
+    "meaning",
+    "err",
+    "er",
+];
+
+/// Puts what was taken back right, as often as it was.
+pub(super) fn put_right(lexemes: &mut Vec<Lexeme>) {
+    without_dangling(lexemes);
+    for _ in 0..MOST {
+        let Some(right) = (1..lexemes.len()).find_map(|at| corrected(lexemes, at)) else { return };
+        *lexemes = right;
+    }
+}
+
+/// Takes out a word of place at which somebody breaks off: "under... next to the bench".
+fn without_dangling(lexemes: &mut Vec<Lexeme>) {
+    let mut at = 1;
+    while at < lexemes.len() {
+        let behind = at + lexemes[at..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        let said = longest_phrase(&lexemes[behind..], TAKEN_BACK)
+            .filter(|words| longest(&lexemes[behind + words..], WAYS).is_some());
+        let next = behind + said.unwrap_or(0);
+        let dangles = behind > at && longest(&lexemes[next..], WAYS).is_some();
+        let from = (at.saturating_sub(4)..at).find(|from| {
+            dangles
+                && longest(&lexemes[*from..at], WAYS)
+                    .is_some_and(|(way, words)| from + words == at && needs_anchor(way))
+        });
+        match from {
+            Some(from) => {
+                lexemes.drain(from..next);
+                at = from + 1;
+            }
+            None => at += 1,
+        }
+    }
+}
+
+/// Whether a relation says nothing without what it is to.
+const fn needs_anchor(way: Way) -> bool {
+    !matches!(way, Way::Here | Way::There | Way::InItsPlace | Way::Anywhere)
+}
+
+/// Nobody takes back more than that in a sentence.
+const MOST: usize = 3;
+
+/// The words without what is taken back at a mark, if something is.
+fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
+    if !is_mark(&lexemes[mark]) {
+        return None;
+    }
+    let from = mark + (mark..lexemes.len()).take_while(|at| is_mark(&lexemes[*at])).count();
+    let rest = lexemes.get(from..)?;
+    let end = from + rest.iter().position(is_mark).unwrap_or(rest.len());
+    let mut is_sure = true;
+    let (from, to, behind) = if let Some(words) = longest_phrase(rest, TAKEN_BACK) {
+        is_sure = longest_phrase(rest, WEAK) != Some(words);
+        // "No clouds" takes nothing back, and "no, clouds" does.
+        if longest(rest, WAYS).is_some() {
+            return None;
+        }
+        let is_no = words == 1 && longest_phrase(rest, &["no"]).is_some();
+        if is_no && !rest.get(1).is_some_and(is_mark) && longest(&rest[1..], VERBS).is_none() {
+            return None;
+        }
+        let mut from = from + words;
+        from += lexemes[from..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        let end = from + lexemes[from..].iter().position(is_mark).unwrap_or(lexemes.len() - from);
+        (from, end, end)
+    } else {
+        // "Could it be pale, white I mean".
+        let cut = (from + 1..end).find(|at| longest_phrase(&lexemes[*at..end], BEHIND) == Some(end - at))?;
+        (from, cut, end)
+    };
+    let (before, meant) = (&lexemes[..mark], &lexemes[from..to]);
+    if meant.is_empty() {
+        return None;
+    }
+    let (start, stop) = replaced(before, meant, is_sure)?;
+    let mut right = before[..start].to_vec();
+    right.extend_from_slice(meant);
+    right.extend_from_slice(&before[stop..]);
+    right.extend_from_slice(&lexemes[behind..]);
+    Some(right)
+}
+
+/// Which of the words before are taken back by those that are meant.
+fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize, usize)> {
+    let clause = before.iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);
+    let all = before.len();
+    let last = |fits: &dyn Fn(usize) -> Option<usize>| {
+        (clause..all).rev().find_map(|at| fits(at).map(|words| (at, at + words)))
+    };
+    if let Some((_, words)) =
+        numbers::number(meant).filter(|(_, words)| *words == meant.len() && !is_article(meant))
+    {
+        debug_assert!(words > 0, "a number has words");
+        return last(&|at| {
+            numbers::number(&before[at..]).filter(|_| is_number(&before[at])).map(|(_, words)| words)
+        });
+    }
+    if longest(meant, PAINTS).is_some_and(|(_, words)| words == meant.len()) {
+        return last(&|at| longest(&before[at..], PAINTS).map(|(_, words)| words));
+    }
+    if longest(meant, SKIES).is_some() {
+        return last(&|at| longest(&before[at..], SKIES).map(|(_, words)| words)).or(Some((clause, all)));
+    }
+    if longest(meant, VERBS).is_some() {
+        // An order is taken back as a whole.
+        return last(&|at| longest(&before[at..], VERBS).filter(|_| is_sure).map(|_| all - at));
+    }
+    if longest(meant, WAYS).is_some() {
+        return last(&|at| longest(&before[at..], WAYS).map(|_| all - at))
+            .map(|(from, _)| (whole_way(before, from), all));
+    }
+    let noun =
+        (0..meant.len()).find_map(|at| category(&meant[at..]).map(|(class, words)| (class, at + words)));
+    if is_article(meant) || meant.first().is_some_and(is_number) {
+        // "A seat in front of the clinic, no, two seats".
+        if let Some((class, words)) = noun
+            && words == meant.len()
+            && let Some((from, to)) =
+                last(&|at| category(&before[at..]).filter(|(own, _)| *own == class).map(|(_, words)| words))
+        {
+            let start = (clause..from).rev().take(4).find(|at| is_number(&before[*at]));
+            return Some((start.unwrap_or(from), to));
+        }
+        let begins = |at: usize| is_number(&before[at]) || is_article(&before[at..]);
+        return last(&|at| (is_sure && begins(at)).then_some(all - at));
+    }
+    let is_noun = is_sure && meant.len() <= LONGEST && noun.is_none_or(|(_, words)| words == meant.len());
+    let is_word = matches!(before.last()?.token, Token::Word(_));
+    (is_noun && is_word && all > clause).then_some((all - 1, all))
+}
+
+/// A noun without an article has no more words than that.
+const LONGEST: usize = 3;
+
+/// The first word of a relation of several words that ends in a shorter one: "on top of".
+fn whole_way(before: &[Lexeme], from: usize) -> usize {
+    (from.saturating_sub(3)..from)
+        .find(|at| longest(&before[*at..], WAYS).is_some_and(|(_, words)| at + words > from))
+        .unwrap_or(from)
+}
+
+/// Whether an article stands first.
+fn is_article(lexemes: &[Lexeme]) -> bool {
+    longest_phrase(lexemes, &["a", "an", "the", "some"]).is_some()
+}
+
+/// Whether a word is a number, an article among them.
+fn is_number(lexeme: &Lexeme) -> bool {
+    match &lexeme.token {
+        Token::Number(_) => true,
+        Token::Word(word) => NUMERALS.iter().any(|(numeral, _)| numeral == word),
+        _ => false,
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    TAKEN_BACK.iter().chain(BEHIND).flat_map(|phrase| phrase.split(' '))
+}

@@ -1,0 +1,82 @@
+//! Words as they are said elsewhere: dialect, slang and short forms, put into the words that the tables know.
+
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::{longest, longest_phrase};
+use super::super::numbers;
+use super::forms::words_at;
+
+/// What is said, and what it means; nothing if it says nothing.
+#[rustfmt::skip]
+const RESPELT: &[(&[&str], &str)] = &[
+    (&["yin"], "one"), (&["yins"], "ones"), (&["ither"], "other"), (&["twa"], "two"), (&["nae"], "no"), (&["hae"], "have"),
+    (&["gie", "gies"], "give"), (&["tae"], "to"), (&["frae", "fae"], "from"), (&["ower"], "over"), (&["whaur"], "where"), (&["whit"], "what"),
+    (&["whits"], "what is"), (&["aboot"], "about"), (&["roon", "roond"], "round"), (&["doon"], "down"), (&["oot"], "out"), (&["toon"], "town"),
+    (&["hoose"], "house"), (&["the noo", "noo"], "now"), (&["awa"], "away"), (&["ahint"], "behind"), (&["aw"], "all"), (&["wi"], "with"),
+    (&["dinnae", "didnae", "dinna", "divvent"], "do not"), (&["cannae"], "cannot"), (&["isnae", "isna"], "is not"), (&["willnae"], "will not"),
+    (&["ye", "ya", "youse"], "you"), (&["yer", "ur"], "your"), (&["yerself", "yersel"], "yourself"), (&["yon", "thon"], "that"), (&["ken"], "know"),
+    (&["aye"], "yes"), (&["och"], "oh"), (&["hoo"], "how"), (&["mony"], "many"), (&["efter"], "after"), (&["tak"], "take"), (&["mak"], "make"),
+    (&["ca"], "call"), (&["shiftit"], "moved"), (&["nixt"], "next"), (&["watter"], "water"), (&["auld"], "old"), (&["braw"], "nice"),
+    (&["bonny", "bonnie"], "nice"), (&["nearhaun"], "near"), (&["abune"], "above"), (&["stane"], "stone"), (&["fower"], "four"), (&["alang"], "along"),
+    (&["atween"], "between"), (&["aroon"], "around"), (&["oan"], "on"), (&["motor"], "car"), (&["motors"], "cars"), (&["dae"], "do"), (&["gonnae"], "will you"),
+    (&["dug"], "dog"), (&["dugs"], "dogs"), (&["bairns"], "children"), (&["richt"], "right"), (&["haud"], "hold"), (&["guid"], "good"),
+    (&["em"], "them"), (&["lemme"], "let me"), (&["n"], "and"), (&["xcept", "exept"], "except"), (&["til"], "until"), (&["ppl"], "people"), (&["w"], "with"),
+    (&["doggo", "doggos", "pupper"], "dog"), (&["gotta"], "must"), (&["outta"], "out of"), (&["cuz", "bc"], "because"), (&["thats gotta"], "that has to"),
+    (&["lil"], "little"), (&["nxt to"], "next to"), (&["hafta"], "have to"), (&["dont wanna"], "dont want to"), (&["aint"], "is not"), (&["tryna"], "trying to"),
+    (&["gimmie"], "gimme"), (&["starboard of"], "right of"), (&["to starboard of"], "to the right of"), (&["abaft", "aft of", "astern of"], "behind"),
+    (&["mek"], "make"), (&["summat"], "something"), (&["nowt"], "nothing"), (&["owt"], "anything"), (&["them two"], "the two"),
+    (&["them there"], "those"), (&["tp"], "teleport"), (&["mv"], "move"), (&["rm", "del"], "remove"), (&["whatevers"], "whatever is"), (&["wheres"], "where is"),
+    (&["whos"], "who is"), (&["twould", "itd"], "it would"), (&["tis"], "it is"), (&["therell"], "there will"), (&["thatll"], "that will"), (&["itll"], "it will"),
+    (&["cafe"], "café"), (&["cafes"], "cafés"), (&["turn her face to", "turn his face to", "turn its face to"], "face"),
+    (&["whatever is within", "anything within", "whatever stands within", "all that is within", "what stands within", "anything closer than", "everything closer than", "everything that is within",
+        "everything standing within", "all things within", "anything standing within", "anything that stands within", "anything that is within", "what is within", "whatever was located within",
+        "what objects are closer than", "what objects are within", "which objects are within", "what things are within", "all objects within", "what is closer than"], "everything within"),
+    (&["whatever lies on", "whatever is on", "whatever stands on", "anything on", "all that stands on", "everything that is on", "everything that stands on"], "everything on"),
+    (&["whatever lies in", "whatever is in", "whatever stands in", "everything that is in", "everything that stands in"], "everything in"),
+    (&["on its front", "across its front", "at its front", "along its front"], "in front of it"), (&["at its back", "at its rear"], "behind it"),
+    (&["a bit closer to", "a little closer to", "a bit nearer to", "a little nearer to", "somewhat closer to", "slightly closer to", "a tad closer to", "a touch closer to", "a bit nearer",
+        "a little nearer", "a little bit closer to", "further towards"], "closer to"),
+    (&["directly opposite"], "opposite"), (&["please to"], "please"), (&["one has to place", "one must place", "one should place", "it must be placed", "it should be placed", "it has to be placed",
+        "it shall be placed", "it needs to be placed", "it must come", "it shall come", "it should come", "there must be placed", "there should be placed", "one has to put", "one must put",
+        "you put there also", "you can put there also", "there comes", "it must stand", "there must come"], "place"),
+    (&["bear the name", "get the name", "carry the name", "be given the name", "have the name", "go by the name", "answer to", "get a name", "be given a name", "go by the name of", "bear the name of", "carry the name of",
+        "be named as"], "be called"),
+    (&["is now called", "is now named", "is from now on called", "is henceforth called"], "should be called"), (&["to be with", "be with"], "be next to"),
+    (&["who is standing", "who stands", "who is waiting", "who waits", "who sits", "who is sitting"], "list people"),
+    (&["it gives"], "there is"), (&["in direction"], "to the"), (&["hold on to"], "keep"),
+    (&["likes of"], ""), (&["thus", "hence", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why"], "so"), (&["an all"], ""), (&["fr", "ngl", "lmao", "lmfao", "tbh", "imo", "imho", "af", "smh", "rofl", "bruh", "ayo", "fam", "innit", "yall"], ""),
+];
+
+/// Puts dialect and short forms into the words that are known, and leaves names as they are.
+pub(super) fn in_plain_spelling(words: &str, lexemes: &mut Vec<Lexeme>) {
+    let mut at = 0;
+    while at < lexemes.len() {
+        let fits = |(plain, count): &(&str, usize)| {
+            // "It must be placed a cone" is an order, and "it must be placed there" is not yet.
+            let is_new =
+                || longest_phrase(&lexemes[at + count..], &["a", "an", "one", "some", "also"]).is_some();
+            !is_name(words, lexemes, at)
+                && (*plain != "place" || is_new() || numbers::count(&lexemes[at + count..]).is_some())
+        };
+        let Some((plain, count)) = longest(&lexemes[at..], RESPELT).filter(fits) else {
+            at += 1;
+            continue;
+        };
+        let place = lexemes[at].clone();
+        let plain: Vec<Lexeme> =
+            if plain.is_empty() { Vec::new() } else { words_at(&place, plain).collect() };
+        let told = plain.len();
+        lexemes.splice(at..at + count, plain);
+        at += told;
+    }
+}
+
+/// Whether a word is a name, which is written with a capital within a sentence and stands as it is.
+fn is_name(words: &str, lexemes: &[Lexeme], at: usize) -> bool {
+    let begins = at == 0 || matches!(lexemes[at - 1].token, Token::Comma | Token::Break);
+    !begins && words[lexemes[at].start..].starts_with(char::is_uppercase)
+}
+
+/// Every word of the table, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    RESPELT.iter().flat_map(|(said, _)| *said).flat_map(|phrase| phrase.split(' '))
+}
