@@ -17,7 +17,7 @@ use crate::city::City;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-pub(crate) const SETS: [&str; 4] = ["edits", "later.edits", "third.edits", "fourth.edits"];
+pub(crate) const SETS: [&str; 5] = ["edits", "later.edits", "third.edits", "fourth.edits", "fifth.edits"];
 
 /// One thing that is asked, and what must then be true.
 pub(crate) struct Asked {
@@ -131,58 +131,8 @@ impl Judge<'_> {
             "add" => self.added(told, rest),
             "copy" => self.copied(&words, rest),
             "remove" => words.iter().try_for_each(|key| take(&mut rest.removed, self.id(key), "removed")),
-            "move" => {
-                let thing = self.id(words[0]);
-                self.was_moved(thing, rest)?;
-                self.stands(thing, told.split_once(' ').map_or("", |(_, place)| place))
-            }
-            "rotate" => {
-                let thing = self.id(words[0]);
-                self.was_moved(thing, rest)?;
-                let angle: f64 = words[1].parse().map_err(|_| format!("no angle {clause}"))?;
-                // What stands elsewhere may have been turned by that, so that the angle is seen in the edits alone.
-                let turns = |edit: &Edit| matches!(edit, Edit::Rotate { things, angle: by } if things.contains(&thing) && wrap_angle(by - angle.to_radians()).abs() < 1e-6);
-                let stays = (place_of(self.after, thing) - place_of(&self.city.world, thing)).norm() < 1e-6;
-                if !stays && edited.edits.iter().any(turns) {
-                    return Ok(());
-                }
-                let turned = yaw_in(self.after, thing) - yaw_in(&self.city.world, thing);
-                is_near(wrap_angle(turned - angle.to_radians()), 0.0, 1e-6, "is turned wrongly")
-            }
-            "face" => {
-                let (thing, towards) = (self.id(words[0]), self.id(words[1]));
-                rest.moved.retain(|id| *id != thing);
-                let way = place_of(self.after, towards) - place_of(self.after, thing);
-                is_near(wrap_angle(yaw_in(self.after, thing) - heading(&way)), 0.0, 1e-6, "looks elsewhere")
-            }
-            "swap" => {
-                let (one, other) = (self.id(words[0]), self.id(words[1]));
-                take(&mut rest.moved, one, "moved")?;
-                take(&mut rest.moved, other, "moved")?;
-                let (was, is) = (place_of(&self.city.world, one), place_of(self.after, other));
-                is_near((was - is).norm(), 0.0, 1e-6, "stands elsewhere")
-            }
-            "paint" => {
-                let thing = self.id(words[0]);
-                // What was of that colour already need not change.
-                rest.altered.retain(|id| *id != thing);
-                self.wears(thing, words[1])
-            }
-            "scale" => {
-                let thing = self.id(words[0]);
-                take(&mut rest.altered, thing, "scaled")?;
-                let factor: f64 = words[1].parse().map_err(|_| format!("no factor {clause}"))?;
-                let height =
-                    |world: &World| world.entity(thing).map_or(0.0, |thing| thing.info.shape.size().z);
-                is_near(height(self.after) / height(&self.city.world), factor, 0.01, "has another size")
-            }
-            "name" => {
-                let thing = self.id(words[0]);
-                take(&mut rest.altered, thing, "named")?;
-                let name = told.split('\'').nth(1).unwrap_or_default();
-                let named = self.after.entity(thing).and_then(|thing| thing.info.name.clone());
-                if named.as_deref() == Some(name) { Ok(()) } else { Err(format!("is called {named:?}")) }
-            }
+            "move" | "rotate" | "face" | "swap" => self.placed(clause, edited, rest),
+            "paint" | "scale" | "name" => self.altered(clause, rest),
             "count" => {
                 let answer = edited.answer.clone().unwrap_or_default();
                 let counted = answer.split_whitespace().next().unwrap_or_default();
@@ -200,6 +150,77 @@ impl Judge<'_> {
             "close" | "open" => self.passages(&words, verb == "close", rest),
             other => panic!("no notation {other} in {clause}"),
         }
+    }
+
+    /// What stands or looks otherwise than before.
+    fn placed(&self, clause: &str, edited: &Edited, rest: &mut Rest) -> Result<(), String> {
+        let (verb, told) = clause.split_once(' ').unwrap_or((clause, ""));
+        let words: Vec<&str> = told.split_whitespace().collect();
+        let thing = self.id(words[0]);
+        match verb {
+            "move" => {
+                self.was_moved(thing, rest)?;
+                self.stands(thing, told.split_once(' ').map_or("", |(_, place)| place))
+            }
+            "rotate" => {
+                self.was_moved(thing, rest)?;
+                let angle: f64 = words[1].parse().map_err(|_| format!("no angle {clause}"))?;
+                // What stands elsewhere may have been turned by that, so that the angle is seen in the edits alone.
+                let turns = |edit: &Edit| matches!(edit, Edit::Rotate { things, angle: by } if things.contains(&thing) && wrap_angle(by - angle.to_radians()).abs() < 1e-6);
+                let stays = (place_of(self.after, thing) - place_of(&self.city.world, thing)).norm() < 1e-6;
+                if !stays && edited.edits.iter().any(turns) {
+                    return Ok(());
+                }
+                let turned = yaw_in(self.after, thing) - yaw_in(&self.city.world, thing);
+                is_near(wrap_angle(turned - angle.to_radians()), 0.0, 1e-6, "is turned wrongly")
+            }
+            "face" => {
+                let towards = self.id(words[1]);
+                rest.moved.retain(|id| *id != thing);
+                let way = place_of(self.after, towards) - place_of(self.after, thing);
+                is_near(wrap_angle(yaw_in(self.after, thing) - heading(&way)), 0.0, 1e-6, "looks elsewhere")
+            }
+            _ => {
+                let other = self.id(words[1]);
+                take(&mut rest.moved, thing, "moved")?;
+                take(&mut rest.moved, other, "moved")?;
+                let (was, is) = (place_of(&self.city.world, thing), place_of(self.after, other));
+                is_near((was - is).norm(), 0.0, 1e-6, "stands elsewhere")
+            }
+        }
+    }
+
+    /// What has another colour, size or name than before.
+    fn altered(&self, clause: &str, rest: &mut Rest) -> Result<(), String> {
+        let (verb, told) = clause.split_once(' ').unwrap_or((clause, ""));
+        let words: Vec<&str> = told.split_whitespace().collect();
+        let thing = self.id(words[0]);
+        match verb {
+            "paint" => {
+                // What was of that colour already need not change.
+                rest.altered.retain(|id| *id != thing);
+                self.wears(thing, words[1])
+            }
+            "scale" => {
+                self.was_altered(thing, "scaled", rest)?;
+                let factor: f64 = words[1].parse().map_err(|_| format!("no factor {clause}"))?;
+                let height =
+                    |world: &World| world.entity(thing).map_or(0.0, |thing| thing.info.shape.size().z);
+                is_near(height(self.after) / height(&self.city.world), factor, 0.01, "has another size")
+            }
+            _ => {
+                self.was_altered(thing, "named", rest)?;
+                let name = told.split('\'').nth(1).unwrap_or_default();
+                let named = self.after.entity(thing).and_then(|thing| thing.info.name.clone());
+                if named.as_deref() == Some(name) { Ok(()) } else { Err(format!("is called {named:?}")) }
+            }
+        }
+    }
+
+    /// Whether a thing has another size or name, both of which may be told of it.
+    fn was_altered(&self, thing: EntityId, how: &str, rest: &mut Rest) -> Result<(), String> {
+        rest.altered.retain(|id| *id != thing);
+        if self.changed.altered.contains(&thing) { Ok(()) } else { Err(format!("{thing} was not {how}")) }
     }
 
     /// Whether a thing was moved or turned, which may be told twice.
