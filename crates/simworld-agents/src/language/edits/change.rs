@@ -228,6 +228,10 @@ impl Reader<'_> {
                     cut -= 1;
                 }
             }
+            // "That have no colour brown" is about what has none.
+            if matches!(self.word(cut - 1), Some("no" | "without" | "any")) {
+                continue;
+            }
             let next = at + count;
             let rest = longest_phrase(&self.lexemes[next..end], BEHIND_PAINT);
             let closes = next >= end || self.is_joint(next) || rest.is_some();

@@ -108,6 +108,10 @@ impl Reader<'_> {
         #[rustfmt::skip]
         const WITH: &[&str] = &["well with", "with", "nicely with", "together with", "good with", "great with", "suit", "match"];
         let (at, rest) = (self.at, self.rest(end));
+        // "Near the cottage that is east of the school" says which cottage.
+        if !places.is_empty() && matches!(self.word(cut), Some("that" | "which" | "who")) {
+            return None;
+        }
         let add = |at| Wish::Add { things: vec![thing.clone()], at };
         if self.is_welcome(at, end) && (at > cut || !rest.is_empty()) {
             return Some(add(places.to_vec()));
