@@ -68,6 +68,58 @@ fn whoever_asks_and_however_the_order_stays() {
 }
 
 #[test]
+fn what_is_said_beside_an_order_changes_nothing() {
+    const BESIDE: [&str; 19] = [
+        "my knees won't do it, so {}",
+        "Gus has finished his session, so {}",
+        "the bus was late today; {}",
+        "warm up: {}",
+        "who's that over there? {}",
+        "don't hurry so, {}",
+        "forget the fountain; {}",
+        "{}; the canteen can wait",
+        "{}, and that's all",
+        "{}, no hurry",
+        "omg {} lol",
+        "u should {} rn",
+        "somebody lost a key here. {}",
+        "strike that; {}",
+        "test run: {}",
+        "nobody knows why, but {}",
+        "{}, I'll be right back",
+        "is that a cat? {}",
+        "we had a long day, so {}",
+    ];
+    let city = City::read("campus");
+    for (order, plan) in ORDERS {
+        all_mean(&city, plan, BESIDE.map(|beside| beside.replace("{}", order)));
+    }
+}
+
+#[test]
+fn orders_cut_short_are_orders() {
+    let city = City::read("campus");
+    let left = [
+        "left turn",
+        "a quarter turn to the left",
+        "turn left, say 90 degrees",
+        "90 degrees left",
+        "take a left",
+    ];
+    all_mean(&city, "turn 90", left.map(str::to_owned));
+    let back = ["to the sign and back", "to the sign and back again"];
+    all_mean(&city, "go sign, go (0.0, 0.0)", back.map(str::to_owned));
+    let parcel = ["parcel up", "pick up the parcel", "the parcel off the ground", "parcel in your arms"];
+    all_mean(&city, "go package, take package", parcel.map(str::to_owned));
+    let tour = [
+        "the hydrant, the sign, the bin",
+        "hydrant first, sign second, bin last",
+        "waypoints: hydrant, sign, bin",
+    ];
+    all_mean(&city, "go hydrant, go sign, go bin", tour.map(str::to_owned));
+}
+
+#[test]
 fn a_noun_phrase_stands_wherever_a_thing_is_named() {
     /// The red bench, the second nearest and the middle one of three.
     const PHRASES: [&str; 11] = [

@@ -115,7 +115,7 @@ impl Parser<'_> {
 
     /// Whether an order could be read here.
     fn understood_from(&mut self, start: usize) -> bool {
-        let understood = self.statement().is_ok();
+        let understood = self.statement().is_ok() && self.ends_clause();
         self.at = start;
         understood
     }

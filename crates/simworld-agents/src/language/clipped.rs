@@ -149,7 +149,7 @@ impl Parser<'_> {
         );
         let (distance, words) = numbers::walked(self.rest()).or_else(|| numbers::number(self.rest()))?;
         self.at += words;
-        if !self.ends_clause() || !(distance > 0.0 && distance <= 10_000.0) {
+        if !(self.ends_clause() && distance > 0.0 && distance <= 10_000.0) {
             return None;
         }
         let direction = if back { StepDirection::Backward } else { StepDirection::Forward };

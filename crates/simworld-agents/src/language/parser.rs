@@ -15,7 +15,7 @@ use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
 use super::blocks::{GOES_ON, IF, UNLESS, UNTIL, WHEN, WHILE};
-use super::clause::{Clause, Pace, Reference, Test};
+use super::clause::{Clause, Reference};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase};
 use super::motion::LENGTHS;

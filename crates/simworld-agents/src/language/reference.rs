@@ -171,15 +171,14 @@ impl Parser<'_> {
         let is_one = |id: &simworld_core::id::EntityId| {
             self.view.scene.entity(*id).is_some_and(|entity| class.holds(&entity))
         };
-        let (ids, words) = match self.names.exact(self.rest()) {
-            Some(found) => found,
-            None => {
-                let Target::Named(ids) = self.misspelt()? else {
-                    self.at = start;
-                    return Ok(());
-                };
-                (ids, 0)
-            }
+        let (ids, words) = if let Some(found) = self.names.exact(self.rest()) {
+            found
+        } else {
+            let Target::Named(ids) = self.misspelt()? else {
+                self.at = start;
+                return Ok(());
+            };
+            (ids, 0)
         };
         self.at += words;
         let fitting: Vec<_> = ids.iter().copied().filter(is_one).collect();

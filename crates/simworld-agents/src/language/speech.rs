@@ -91,13 +91,11 @@ impl Parser<'_> {
             self.eat_any(&["and", "and then", "and also"]);
             let next = if self.at > start { self.somebody_here() } else { None };
             let words_follow = !self.ends_at_mark() || self.opens_quote();
-            match next.filter(|_| words_follow) {
-                Some(next) => others.push(next),
-                None => {
-                    self.at = start;
-                    return others;
-                }
-            }
+            let Some(next) = next.filter(|_| words_follow) else {
+                self.at = start;
+                return others;
+            };
+            others.push(next);
         }
     }
 

@@ -287,7 +287,12 @@ impl Parser<'_> {
         {
             return None;
         }
-        let mut clauses = self.mention(what);
+        // Who speaks of what is not here says nothing of it that an order could take up.
+        let here = self.view.find(&what, super::resolve::Purpose::Any).is_ok();
+        let taken_up = self.rest().iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them", "there", "one", "he", "she"].contains(&word.as_str()))
+        });
+        let mut clauses = if here || taken_up { self.mention(what) } else { Vec::new() };
         clauses.extend(self.rest_of_remark()?);
         Some(clauses)
     }
