@@ -141,9 +141,10 @@ fn a_browser_shows_everybody_where_they_were() {
 #[test]
 fn a_browser_plays_the_film_and_tells_another_story() {
     let Some(browser) = browser() else { return };
-    let shown = dom(&browser, "t=10&play");
-    let time: f64 = after(&shown, "data-time=\"").parse().unwrap();
-    assert!(time > 10.0, "it stands at {time} s");
+    // A busy machine may draw no second frame in two seconds of the page's time, so it is given more of it.
+    let time = |shown: &str| after(shown, "data-time=\"").parse::<f64>().unwrap();
+    let mut films = [2000, 8000, 32_000].into_iter().map(|budget| dom_within(&browser, budget, "t=10&play"));
+    let shown = films.find(|shown| time(shown) > 10.0).expect("the film moves on");
     let told = |dom: &str| -> Vec<String> {
         let articles = dom.split("<article class=\"story\"").skip(1);
         let open = articles.filter(|article| !article[..article.find('>').unwrap()].contains("hidden"));
@@ -198,14 +199,16 @@ fn browser() -> Option<PathBuf> {
 
 /// Opens the page without a network; every error of its scripts and every refused request is a failure.
 fn open(browser: &Path, arguments: &[&str], fragment: &str) -> Output {
+    open_within(browser, 2000, arguments, fragment)
+}
+
+/// The same, given so many milliseconds of the page's own time.
+fn open_within(browser: &Path, budget: u32, arguments: &[&str], fragment: &str) -> Output {
     let profile = tempfile::tempdir().unwrap();
     let output = Command::new(browser)
         .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--hide-scrollbars"])
-        .args([
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            "--enable-logging=stderr",
-            "--virtual-time-budget=2000",
-        ])
+        .args(["--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr"])
+        .arg(format!("--virtual-time-budget={budget}"))
         .arg(format!("--user-data-dir={}", profile.path().display()))
         .args(arguments)
         .arg(format!("file://{}#{fragment}", REPORTED.page.display()))
@@ -218,7 +221,11 @@ fn open(browser: &Path, arguments: &[&str], fragment: &str) -> Output {
 }
 
 fn dom(browser: &Path, fragment: &str) -> String {
-    String::from_utf8(open(browser, &["--dump-dom"], fragment).stdout).unwrap()
+    dom_within(browser, 2000, fragment)
+}
+
+fn dom_within(browser: &Path, budget: u32, fragment: &str) -> String {
+    String::from_utf8(open_within(browser, budget, &["--dump-dom"], fragment).stdout).unwrap()
 }
 
 /// Where couriers stand on the stage.

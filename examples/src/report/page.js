@@ -189,10 +189,11 @@
     draw();
   };
 
-  let playing = false, last = 0;
+  // The first frame sets the clock alone: its time may lie before the click that began the film.
+  let playing = false, last = null;
   const frame = (now) => {
     if (!playing) return;
-    seek(time + (now - last) / 1000 * Number(speed.value));
+    if (last !== null) seek(time + (now - last) / 1000 * Number(speed.value));
     last = now;
     if (time >= end) toggle(); else requestAnimationFrame(frame);
   };
@@ -202,7 +203,7 @@
     play.setAttribute("aria-pressed", playing);
     if (!playing) return;
     if (time >= end) seek(0);
-    last = performance.now();
+    last = null;
     requestAnimationFrame(frame);
   };
   play.addEventListener("click", toggle);
