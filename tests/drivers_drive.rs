@@ -8,12 +8,13 @@ use simworld_agents::language::GrammarPlanner;
 use simworld_core::action::Action;
 use simworld_core::command::Command;
 use simworld_core::geometry::{Point2, Point3, direction, pose_facing, yaw_of};
-use simworld_core::id::EntityId;
+use simworld_core::id::{EntityId, RoadId};
 use simworld_core::intent::Intent;
 use simworld_core::kinematic::{KinematicDynamics, KinematicVehicle};
 use simworld_core::net::{
     Aspect, NetworkConfig, RoadNetwork, StreetPlan, WaypointConfig, WaypointGraph, polyline,
 };
+use simworld_core::passage::Passage;
 use simworld_core::scene::{EntityDesc, EntityKind, Place, Role, Scene, Shape, World};
 use simworld_core::seam::{Executor, Goal, Plan, PlanStep, Planner, Progress};
 use simworld_core::seed::Seed;
@@ -49,8 +50,8 @@ impl Town {
         let person = put(EntityDesc::new(EntityKind::Person, at(40.0, -6.0, 0.0), person));
         let mut house =
             EntityDesc::new(EntityKind::Building, at(300.0, 260.0, 0.0), Shape::cuboid(20.0, 20.0, 9.0));
-        house = house.used_as(Place::Hospital).named("Town Hospital");
-        house.info.access = Some(Point3::new(300.0, 246.5, 0.0));
+        house =
+            house.used_as(Place::Hospital).named("Town Hospital").accessed_at(Point3::new(300.0, 246.5, 0.0));
         let hospital = put(house);
         Self { world, network, person, car, hospital }
     }
@@ -198,6 +199,73 @@ fn a_car_drives_itself_and_parks_at_the_kerb() {
     let from_middle = (at.y - 240.0).abs();
     assert!((3.5 - from_middle - edge).abs() < 0.4, "{from_middle:.2} m from the middle of the street");
     assert_eq!(run.worst.at_red, 0);
+}
+
+#[test]
+fn streets_that_close_are_not_entered() {
+    let town = Town::new();
+    let car = town.car;
+    let usual = route_of(town.run(car, "drive to the hospital"), |_| {});
+    // The street that the way leads through closes when the car has begun, in both directions.
+    let shut = usual[1];
+    let town = Town::new();
+    let around = route_of(town.run(car, "drive to the hospital"), |run| close(run, &[shut]));
+    assert!(!around.contains(&shut), "{around:?} goes through {shut:?}");
+    assert_eq!(around.last(), usual.last(), "it comes to the same street");
+}
+
+#[test]
+fn a_driver_says_that_streets_are_closed() {
+    let town = Town::new();
+    let car = town.car;
+    let mut run = town.run(car, "drive to the hospital");
+    let network = run.network.clone();
+    let own = road_at(&network, run.car_at()).expect("it is parked in a street");
+    let others: Vec<RoadId> =
+        (0..network.roads.len()).map(RoadId::from_index).filter(|road| *road != own).collect();
+    run.step();
+    close(&mut run, &others);
+    let Progress::Failed { reason } = run.finish(60) else { panic!("it arrived") };
+    assert!(reason.contains("closed"), "{reason}");
+}
+
+fn close(run: &mut Run, roads: &[RoadId]) {
+    for road in roads {
+        for direction in run.network.roads[road.index()].directions() {
+            let passage = Passage::Closed;
+            run.simulation.submit(Command::SetPassage { leg: (*road, direction), passage });
+        }
+    }
+}
+
+/// The road somewhere between whose junctions a place is.
+fn road_at(network: &RoadNetwork, at: Point2) -> Option<RoadId> {
+    let found = network.lanes.iter().find(|lane| {
+        let near = polyline::closest(&lane.path, &at);
+        near.is_some_and(|near| near.distance < 2.5 && (5.0..lane.length - 5.0).contains(&near.station))
+    });
+    found.map(|lane| lane.road)
+}
+
+/// The roads that a car is on while it goes where it was sent, each named when it is entered; something is done after a second.
+fn route_of(mut run: Run, after_a_second: impl FnOnce(&mut Run)) -> Vec<RoadId> {
+    let mut roads = Vec::new();
+    let mut next = Some(after_a_second);
+    for tick in 0..4000 {
+        if tick == 10
+            && let Some(event) = next.take()
+        {
+            event(&mut run);
+        }
+        let progress = run.step();
+        let road = road_at(&run.network, run.car_at());
+        roads.extend(road.filter(|road| roads.last() != Some(road)));
+        if progress != Progress::Running {
+            assert_eq!(progress, Progress::Done);
+            return roads;
+        }
+    }
+    panic!("still under way, over {roads:?}");
 }
 
 #[test]

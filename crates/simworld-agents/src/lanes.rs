@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, direction};
 use simworld_core::id::LaneId;
-use simworld_core::net::{Connection, Lane, RoadNetwork, Turn, polyline};
+use simworld_core::net::{Connection, Lane, LaneDirection, RoadNetwork, Turn, polyline};
+use simworld_core::traffic::RoadLeg;
 
 /// Farther than this beside a lane one is not on it, m: a parking lane and a verge.
 const BESIDE: f64 = 15.0;
@@ -28,8 +29,19 @@ pub(crate) fn lane_at(network: &RoadNetwork, point: Point2, heading: Option<f64>
 
 /// As [`lane_at`], however far away.
 pub(crate) fn nearest_lane(network: &RoadNetwork, point: Point2, heading: Option<f64>) -> Option<OnLane> {
+    nearest_lane_where(network, point, heading, &|_| true)
+}
+
+/// As [`nearest_lane`], of those that pass a test.
+pub(crate) fn nearest_lane_where(
+    network: &RoadNetwork,
+    point: Point2,
+    heading: Option<f64>,
+    suits: &dyn Fn(LaneId) -> bool,
+) -> Option<OnLane> {
     let mut best: Option<OnLane> = None;
-    for (index, lane) in network.lanes.iter().enumerate().filter(|(_, lane)| lane.is_driven()) {
+    let driven = |(index, lane): &(usize, &Lane)| lane.is_driven() && suits(LaneId::from_index(*index));
+    for (index, lane) in network.lanes.iter().enumerate().filter(driven) {
         let Some(near) = polyline::closest(&lane.path, &point) else { continue };
         if best.is_some_and(|best| near.distance >= best.distance) {
             continue;
@@ -53,6 +65,13 @@ pub(crate) fn beside(network: &RoadNetwork, id: LaneId) -> Vec<LaneId> {
     let road = &network.roads[lane(network, id).road.index()];
     let same = if road.forward.contains(&id) { &road.forward } else { &road.backward };
     same.iter().copied().filter(|id| lane(network, *id).is_driven()).collect()
+}
+
+/// The direction of a road that a lane is part of.
+pub(crate) fn leg_of(network: &RoadNetwork, id: LaneId) -> RoadLeg {
+    let road = lane(network, id).road;
+    let is_forward = network.roads[road.index()].forward.contains(&id);
+    (road, if is_forward { LaneDirection::Forward } else { LaneDirection::Backward })
 }
 
 /// The ways on from the end of a lane and of those beside it, those of the lane itself first.

@@ -184,7 +184,7 @@ fn a_building_has_a_door_that_one_can_reach() {
     let mut world = town();
     let done = SceneEditor::new(Seed(3)).say("add a bakery next to the museum", &mut world).unwrap();
     let bakery = world.entity(done.made[0]).unwrap();
-    let door = bakery.info.access.unwrap();
+    let door = bakery.access_point().unwrap();
     let gap = bakery.info.shape.planar_distance(bakery.pose, &door.xy());
     assert!((gap - 0.5).abs() < 1e-6, "the door is {gap} m before the house");
     let near = world.nearest(door.xy(), 3.0, &|other| {

@@ -56,7 +56,7 @@ fn there_is_room_to_sit_down() {
         let mut world = World::new();
         city.populate(&mut world).unwrap();
         for seat in world.iter().filter(|entity| entity.kind.is_seat()) {
-            let spot = seat.info.access.expect("a seat says where one sits down").xy();
+            let spot = seat.access_point().expect("a seat says where one sits down").xy();
             let reach = seat.info.shape.planar_distance(seat.pose, &spot);
             assert!(reach <= 1.0, "{} is sat down on from {reach:.2} m away", seat.id);
             let body = 0.25;

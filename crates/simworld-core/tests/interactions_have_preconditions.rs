@@ -6,6 +6,7 @@ mod common;
 use common::small_world;
 use simworld_core::action::Action;
 use simworld_core::asset::{Affordance, AffordanceSet, Asset};
+use simworld_core::command::Command;
 use simworld_core::geometry::{Point3, Twist, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, HAND_LIMIT, InteractionError, Role, Scene, Shape, World};
@@ -220,4 +221,30 @@ fn nobody_carries_what_carries_him() {
     assert!(carrying.actuate(PERSON, Action::SitDown { seat: CHAIR }).is_err());
     sitting.finish_step();
     carrying.finish_step();
+}
+
+#[test]
+fn a_seat_that_was_moved_and_turned_is_left_where_its_front_is_now() {
+    let mut world = World::new();
+    let shape = Shape::Capsule { radius: 0.25, height: 1.8 };
+    let near = pose_facing(Point3::new(30.6, 20.0, 0.0), 0.0);
+    let me = world.spawn(EntityDesc::new(EntityKind::Person, near, shape)).unwrap();
+    let bench =
+        EntityDesc::new(EntityKind::Bench, pose_facing(Point3::origin(), 0.0), Shape::cuboid(0.6, 1.8, 0.8))
+            .accessed_at(Point3::new(0.9, 0.0, 0.0));
+    let bench = world.spawn(bench).unwrap();
+    let hash = world.state_hash();
+    let north = pose_facing(Point3::new(30.0, 20.0, 0.0), std::f64::consts::FRAC_PI_2);
+    let moved = world.apply(&Command::Move { id: bench, pose: north }).unwrap();
+    let before_it = Point3::new(30.0, 20.9, 0.0);
+    assert!((world.entity(bench).unwrap().access() - before_it).norm() < 1e-9);
+    world.actuate(me, Action::SitDown { seat: bench }).unwrap();
+    world.actuate(me, Action::StandUp).unwrap();
+    assert!((world.entity(me).unwrap().position() - before_it).norm() < 1e-9);
+
+    world.apply(&Command::Move { id: me, pose: near }).unwrap();
+    for command in moved.undo {
+        world.apply(&command).unwrap();
+    }
+    assert_eq!(world.state_hash(), hash, "taking it back is exact");
 }

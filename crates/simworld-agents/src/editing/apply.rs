@@ -148,9 +148,8 @@ impl Applier<'_> {
     }
 
     /// Puts a recipe into the world, where its pose says.
-    pub(super) fn spawn(&mut self, mut desc: EntityDesc) -> Result<(), EditError> {
+    pub(super) fn spawn(&mut self, desc: EntityDesc) -> Result<(), EditError> {
         let at = simworld_core::geometry::planar(&desc.pose);
-        desc.info.access = desc.info.access.map(|access| desc.pose * access);
         let applied = self.scene.change(&Command::Spawn(Box::new(desc)))?;
         self.back.extend(applied.undo);
         self.edited.made.extend(applied.spawned);
@@ -179,7 +178,7 @@ impl Applier<'_> {
         legs.into_iter().try_for_each(|leg| self.change(&Command::SetPassage { leg, passage }))
     }
 
-    /// The recipe of a new thing, still without a place: its access is in its own frame. What it is made from is an asset of the world.
+    /// The recipe of a new thing, still without a place. What it is made from is an asset of the world.
     pub(super) fn recipe(&mut self, make: &Make) -> Result<EntityDesc, EditError> {
         let unknown = || EditError::UnknownThing {
             wanted: make.asset.clone(),
@@ -262,7 +261,7 @@ impl Applier<'_> {
 
     fn copy(&mut self, thing: EntityId, count: u32, stands: &[Stand]) -> Result<(), EditError> {
         let mut desc = self.entity(thing)?.to_desc();
-        (desc.attachment, desc.info.access) = (None, None);
+        desc.attachment = None;
         desc.twist = simworld_core::geometry::Twist::ZERO;
         let beside = [Stand::To { relation: Relation::Near, anchor: thing }];
         self.put_new(&desc, count, if stands.is_empty() { &beside } else { stands })
@@ -365,8 +364,7 @@ fn resize(desc: &mut EntityDesc, factor: f64) {
         other => other,
     };
     desc.info.mass = desc.info.mass.map(|mass| mass * factor * factor * factor);
-    let at: Point3 = desc.pose.translation.vector.into();
-    desc.info.access = desc.info.access.map(|access| at + (access - at) * factor);
+    desc.info.access = desc.info.access.map(|access| access * factor);
 }
 
 /// What would be possible instead: the thing near what it was to stand to.

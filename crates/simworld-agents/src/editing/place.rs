@@ -268,7 +268,7 @@ impl Placer<'_> {
         }
         let mut blocked = None;
         let _ = self.scene.visit(&region, &mut |other| {
-            let access = other.info.access.filter(|_| other.kind == EntityKind::Building && !on_top);
+            let access = other.access_point().filter(|_| other.kind == EntityKind::Building && !on_top);
             if access.is_some_and(|door| solid.distance_to(door.xy()) < DOORWAY) {
                 blocked = Some(Outcome::Blocks { door: other.id });
                 return ControlFlow::Break(());

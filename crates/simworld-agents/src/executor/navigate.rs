@@ -470,7 +470,7 @@ impl Destination {
             Goal::Point(point) => Some(at(point.xy())),
             Goal::Entity(id) => {
                 let entity = scene.entity(id)?;
-                Some(match entity.info.access {
+                Some(match entity.access_point() {
                     Some(access) => at(access.xy()),
                     // Without a door one goes up to the thing, from whatever side.
                     None => Self {

@@ -306,7 +306,7 @@ fn is_seen_so(from: Point2, entity: &EntityRef<'_>, anchor: &EntityRef<'_>, rela
 
 /// Whether it stands on the side of a house where its door is: that is the front of the house for whoever looks at it.
 fn is_before_door(entity: &EntityRef<'_>, house: &EntityRef<'_>) -> bool {
-    let Some(access) = house.info.access else { return false };
+    let Some(access) = house.access_point() else { return false };
     let (out, way) = (access.xy() - house.planar(), entity.planar() - house.planar());
     gap(house, entity) <= RELATED && way.dot(&out) >= way.norm() * out.norm() * AHEAD && out.norm() > 1e-6
 }

@@ -414,7 +414,7 @@ impl Draft<'_> {
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(*at), high.max(*at)))
         };
         let ((begin, end), (right_edge, left_edge)) = (reach(way), reach(left));
-        let door = thing.info.access.map_or(0.0, |access| (access.xy() - from).dot(&left));
+        let door = thing.access_point().map_or(0.0, |access| (access.xy() - from).dot(&left));
         let aside = if door > CLEARANCE { left_edge + CLEARANCE } else { right_edge - CLEARANCE };
         self.beside = None;
         for along in [begin, end + CLEARANCE] {

@@ -148,7 +148,9 @@ fn describe(thing: &Thing) -> EntityDesc {
     desc.info.name.clone_from(&thing.name);
     desc.info.place =
         thing.place.as_deref().map(|place| Place::from_name(place).unwrap_or_else(|| panic!("no {place}")));
-    desc.info.access = thing.access.map(|[x, y]| Point3::new(x, y, 0.0));
+    if let Some([x, y]) = thing.access {
+        desc = desc.accessed_at(Point3::new(x, y, 0.0));
+    }
     desc.info.color = thing.color.as_deref().map(paint);
     if let Some(sells) = &thing.sells {
         desc = desc.with("sells", sells.as_str());

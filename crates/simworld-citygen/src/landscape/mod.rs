@@ -184,8 +184,14 @@ impl Thing {
         desc.info.mass = desc.info.mass.map(|mass| mass * self.scale * self.scale * self.scale);
         desc.info.name.clone_from(&self.name);
         desc.info.place = self.place.or(desc.info.place);
-        desc.info.access = self.access;
-        desc
+        accessible(desc, self.access)
+    }
+}
+
+fn accessible(desc: EntityDesc, access: Option<Point3>) -> EntityDesc {
+    match access {
+        Some(point) => desc.accessed_at(point),
+        None => desc,
     }
 }
 
@@ -209,12 +215,11 @@ impl Sheet {
         };
         let below = Point3::new(self.middle.x, self.middle.y, self.middle.z - LAYER);
         let shape = Shape::cuboid(self.size.x, self.size.y, LAYER);
-        let mut desc = EntityDesc::new(EntityKind::Ground, pose_facing(below, self.facing), shape)
+        let desc = EntityDesc::new(EntityKind::Ground, pose_facing(below, self.facing), shape)
             .named(self.name.as_str())
             .with("area", self.used_as)
             .colored(color);
-        desc.info.access = self.access;
-        desc
+        accessible(desc, self.access)
     }
 }
 

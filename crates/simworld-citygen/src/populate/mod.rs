@@ -160,7 +160,10 @@ impl Parts<'_> {
 
     fn element(&self, element: &Element, asset: Option<AssetId>) -> EntityDesc {
         let mut desc = describe_element(element);
-        desc.info.access = element.kind.is_seat().then(|| self.before_seat(element, &desc.pose));
+        if element.kind.is_seat() {
+            let before = self.before_seat(element, &desc.pose);
+            desc = desc.accessed_at(before);
+        }
         desc.info.asset = asset;
         lifted(desc, self.heights.height(element.position))
     }
@@ -254,9 +257,6 @@ impl Parts<'_> {
 /// The same, so much higher.
 fn lifted(mut desc: EntityDesc, height: f64) -> EntityDesc {
     desc.pose.translation.z += height;
-    if let Some(point) = &mut desc.info.access {
-        point.z += height;
-    }
     desc
 }
 

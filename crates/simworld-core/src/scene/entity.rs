@@ -79,7 +79,7 @@ pub struct EntityInfo {
     pub name: Option<String>,
     /// What it is used for.
     pub place: Option<Place>,
-    /// Where one stands to use it (a door, the front of a seat), world frame.
+    /// Where one stands to use it (a door, the front of a seat), in its own frame, so that it goes where the thing goes.
     pub access: Option<Point3>,
     /// Surface colour, linear-light sRGB primaries in [0, 1].
     pub color: Option<[f32; 3]>,
@@ -147,10 +147,10 @@ impl EntityDesc {
         self
     }
 
-    /// With a point where one stands to use it, world frame.
+    /// With a point where one stands to use it, world frame, while it stands at the pose it has by now.
     #[must_use]
     pub fn accessed_at(mut self, point: Point3) -> Self {
-        self.info.access = Some(point);
+        self.info.access = Some(self.pose.inverse_transform_point(&point));
         self
     }
 
@@ -225,9 +225,14 @@ impl EntityRef<'_> {
         self.info.shape.obb(self.pose)
     }
 
-    /// Where one stands to use it: its access point, or its origin.
+    /// Where one stands to use it, world frame: its access point, or its origin.
     pub fn access(&self) -> Point3 {
-        self.info.access.unwrap_or_else(|| self.position())
+        self.access_point().unwrap_or_else(|| self.position())
+    }
+
+    /// Where one stands to use it, world frame, if it says so.
+    pub fn access_point(&self) -> Option<Point3> {
+        self.info.access.map(|own| self.pose * own)
     }
 
     /// Whether bodies collide with things of its kind as it stands: a door only while it is closed.

@@ -164,6 +164,7 @@ impl RuleExecutor {
             way.tries += 1;
             way.renew(scene, vehicle, own, Wish { closed: way.closed.clone(), ..Wish::to(way.goal) })?;
         }
+        way.mind_closures(scene, vehicle, own)?;
         way.mind_berth(scene, vehicle, own)?;
         let left = polyline::length(&way.path) - way.station;
         if left <= ARRIVED && own.speed.abs() < STANDING {

@@ -2,16 +2,16 @@
 
 use simworld_core::control::Driver;
 use simworld_core::geometry::{Point2, Vector2, direction, yaw_of};
-use simworld_core::id::LaneId;
-use simworld_core::net::{RoadNetwork, polyline};
+use simworld_core::id::{LaneId, RoadId};
+use simworld_core::net::{LaneDirection, RoadNetwork, polyline};
 use simworld_core::scene::{EntityRef, Scene};
 
 use super::change::Change;
 use super::kerb::{self, Berth};
-use super::route::{From, Lanes, Way, way};
+use super::route::{From, Lanes, Way, is_closed, way};
 use super::watch::Own;
 use super::{CannotArrive, Driving};
-use crate::lanes::{OnLane, lane, lane_at, nearest_lane};
+use crate::lanes::{OnLane, lane, lane_at, leg_of, nearest_lane, nearest_lane_where};
 
 /// Length over which one pulls in to the kerb, m.
 const PULL_IN: f64 = 16.0;
@@ -54,13 +54,13 @@ impl Driving {
         let Wish { goal, .. } = wish;
         let on_roads = scene.roads().and_then(|network| {
             let from = start(network, vehicle, own, &wish)?;
-            let to = nearest_lane(network, goal, None)?;
+            let to = nearest_open(scene, network, goal, from.lane)?;
             (from.distance.min(to.distance) <= OFF_ROAD).then_some((network, from, to))
         });
         let (mut found, berth) = match on_roads {
             Some((network, from, to)) => by_road(scene, network, own, (&from, &to), &wish)
                 .map(|(way, berth)| (way, Some(berth)))
-                .ok_or(CannotArrive::NoWay { from: own.at, to: goal })?,
+                .ok_or_else(|| no_way(scene, network, (own.at, goal)))?,
             None => (Way { path: vec![own.at, goal], ..Way::default() }, None),
         };
         // A piece of no length has no sides.
@@ -113,6 +113,25 @@ impl Driving {
         Ok(())
     }
 
+    /// Takes another way when a street ahead is closed.
+    pub(super) fn mind_closures(
+        &mut self,
+        scene: &dyn Scene,
+        vehicle: &EntityRef<'_>,
+        own: &Own<'_>,
+    ) -> Result<(), CannotArrive> {
+        let Some(network) = scene.roads().filter(|_| scene.clock().tick().0.is_multiple_of(LOOKS)) else {
+            return Ok(());
+        };
+        // Who is on the way across goes on: the street is left at its end.
+        let ahead = self.lines.iter().filter(|line| !line.is_passed);
+        let mut into = ahead.map(|line| network.connections[line.turn.index()].to);
+        if into.any(|lane| is_closed(scene, network, lane)) {
+            self.renew(scene, vehicle, own, Wish { closed: self.closed.clone(), ..Wish::to(self.goal) })?;
+        }
+        Ok(())
+    }
+
     /// Looks for another place at the kerb when somebody has taken the one that one is coming to.
     pub(super) fn mind_berth(
         &mut self,
@@ -144,6 +163,28 @@ fn start(network: &RoadNetwork, vehicle: &EntityRef<'_>, own: &Own<'_>, wish: &W
     lane_at(network, own.at, Some(heading)).or_else(|| nearest_lane(network, own.at, None))
 }
 
+/// The place nearest to a goal on a street that one may enter, or is in. Where that is a walk away, it is the closed street itself,
+/// to which no way leads.
+fn nearest_open(scene: &dyn Scene, network: &RoadNetwork, goal: Point2, own: LaneId) -> Option<OnLane> {
+    let own = leg_of(network, own);
+    let is_open = |id| leg_of(network, id) == own || !is_closed(scene, network, id);
+    let nearest = nearest_lane(network, goal, None)?;
+    if is_open(nearest.lane) {
+        return Some(nearest);
+    }
+    let open = nearest_lane_where(network, goal, None, &is_open);
+    open.filter(|open| open.distance <= nearest.distance + OFF_ROAD).or(Some(nearest))
+}
+
+/// Why no way was found.
+fn no_way(scene: &dyn Scene, network: &RoadNetwork, (from, to): (Point2, Point2)) -> CannotArrive {
+    let legs = |road: usize| {
+        [LaneDirection::Forward, LaneDirection::Backward].map(|way| (RoadId::from_index(road), way))
+    };
+    let closed = (0..network.roads.len()).flat_map(legs).filter(|leg| scene.is_closed(*leg)).count();
+    if closed > 0 { CannotArrive::Closed { from, to, closed } } else { CannotArrive::NoWay { from, to } }
+}
+
 fn by_road(
     scene: &dyn Scene,
     network: &RoadNetwork,
@@ -168,8 +209,9 @@ fn by_road(
     // Who is in the lane begins in its middle: a first piece across it would have all behind beside one.
     let at = if join > 0.0 { own.at } else { polyline::at(&lane(network, entry.lane).path, entry.station).0 };
     let begin = From { on: &entry, at, hold, lanes: wish.lanes };
-    let mut found =
-        way(network, &begin, &berth.on, &wish.closed).or_else(|| way(network, &begin, &berth.on, &[]))?;
+    let is_shut = |leg| is_closed(scene, network, leg);
+    let mut found = way(network, &begin, &berth.on, &|leg| wish.closed.contains(&leg) || is_shut(leg))
+        .or_else(|| way(network, &begin, &berth.on, &is_shut))?;
     if from.distance > BESIDE && own.speed < 1.0 {
         let mirror = Change {
             begin: 0.0,

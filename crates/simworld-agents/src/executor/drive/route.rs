@@ -6,10 +6,11 @@ use std::collections::{BTreeMap, BinaryHeap};
 use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{RoadNetwork, polyline};
+use simworld_core::scene::Scene;
 
 use super::change::{Change, LEAST};
 use super::junction::Line;
-use crate::lanes::{OnLane, beside, lane};
+use crate::lanes::{OnLane, beside, lane, leg_of};
 
 /// Length over which one goes from a lane to the next, m.
 const CHANGE: f64 = 25.0;
@@ -60,9 +61,14 @@ fn leg(network: &RoadNetwork, id: LaneId) -> LaneId {
     beside(network, id).first().copied().unwrap_or(id)
 }
 
-/// The way from a place on a lane to another; roads whose leg is in `closed` are left out unless one stands on them. `None` if no
-/// lanes lead there.
-pub(super) fn way(network: &RoadNetwork, from: &From<'_>, to: &OnLane, closed: &[LaneId]) -> Option<Way> {
+/// The way from a place on a lane to another; legs that are shut, named by their first lanes, are left out unless one stands on
+/// them. `None` if no lanes lead there.
+pub(super) fn way(
+    network: &RoadNetwork,
+    from: &From<'_>,
+    to: &OnLane,
+    is_shut: &dyn Fn(LaneId) -> bool,
+) -> Option<Way> {
     let (first, last) = (leg(network, from.on.lane), leg(network, to.lane));
     let is_ahead = to.station > from.on.station + from.hold + 1.0;
     let changes = from.on.lane != to.lane;
@@ -70,8 +76,13 @@ pub(super) fn way(network: &RoadNetwork, from: &From<'_>, to: &OnLane, closed: &
     if first == last && is_ahead && has_room && (from.lanes == Lanes::All || !changes) {
         return Some(assemble(network, from, to, &[]));
     }
-    let turns = legs(network, from, last, closed)?;
+    let turns = legs(network, from, last, is_shut)?;
     Some(assemble(network, from, to, &turns))
+}
+
+/// Whether the world has closed the direction of the road that a lane is part of.
+pub(super) fn is_closed(scene: &dyn Scene, network: &RoadNetwork, id: LaneId) -> bool {
+    scene.is_closed(leg_of(network, id))
 }
 
 /// The connections from leg to leg on the shortest way, by Dijkstra; of equal lengths the lower lane goes first. The first
@@ -80,7 +91,7 @@ fn legs(
     network: &RoadNetwork,
     from: &From<'_>,
     last: LaneId,
-    closed: &[LaneId],
+    is_shut: &dyn Fn(LaneId) -> bool,
 ) -> Option<Vec<ConnectionId>> {
     let first = leg(network, from.on.lane);
     let mut before: BTreeMap<LaneId, (ConnectionId, LaneId)> = BTreeMap::new();
@@ -99,7 +110,7 @@ fn legs(
             for id in &lane(network, own).outgoing {
                 let way = &network.connections[id.index()];
                 let next = leg(network, way.to);
-                if !lane(network, way.to).is_driven() || closed.contains(&next) {
+                if !lane(network, way.to).is_driven() || is_shut(next) {
                     continue;
                 }
                 let total = length + ((lane(network, own).length + way.length) * 1000.0) as u64;

@@ -25,6 +25,19 @@ pub enum CannotArrive {
         /// Where it was to be.
         to: Point2,
     },
+    /// Streets are closed, and without them no lanes lead there.
+    #[error(
+        "no way from ({:.0}, {:.0}) to ({:.0}, {:.0}) while {closed} directions of streets are closed: open one of them, or get out here",
+        from.x, from.y, to.x, to.y
+    )]
+    Closed {
+        /// Where the vehicle is.
+        from: Point2,
+        /// Where it was to be.
+        to: Point2,
+        /// How many directions of roads are closed in this world.
+        closed: usize,
+    },
     /// Something stands in the way, with no way round it, past it, or back.
     #[error("stuck at ({:.1}, {:.1}) behind {label} {by}: wait until it is gone, or go another way", at.x, at.y)]
     Blocked {

@@ -92,7 +92,7 @@ impl World {
         } else {
             Point3::new(0.0, size.y * 0.5 + 0.5, 0.0)
         };
-        let wished = carrier.info.access.unwrap_or_else(|| carrier.pose * beside);
+        let wished = carrier.access_point().unwrap_or_else(|| carrier.pose * beside);
         let pose = pose_facing(room::beside(self, who, &carrier, wished), yaw_of(carrier.pose));
         self.bond(who, None);
         self.place(who, pose);
