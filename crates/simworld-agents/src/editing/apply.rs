@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use simworld_core::alteration::Alteration;
 use simworld_core::command::Command;
-use simworld_core::geometry::{Point2, Point3, Pose, heading, pose_facing, yaw_of};
+use simworld_core::geometry::{Point2, Pose, heading, pose_facing, yaw_of};
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::ops::wrap_angle;
 use simworld_core::passage::Passage;
