@@ -1,5 +1,5 @@
-//! Vehicles as real bodies: what each class does beside what vehicles of its kind are known to do; and robot dogs on their
-//! motors: their gait, and what many cost.
+//! Bodies on an obstacle course, vehicles beside what vehicles of their kind are known to do, and robot dogs on their motors: their
+//! gait, and what many cost.
 //!
 //! ```sh
 //! cargo run --release --example bodies -- --out out/bodies
@@ -13,15 +13,18 @@ use clap::Parser;
 use comfy_table::{Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
 use simworld_core::geometry::Point3;
-use simworld_examples::bodies::{Curve, braking_chart, gait_chart};
+use simworld_examples::bodies::{
+    Course, Curve, Embodiment, Film, Outcome, PATIENCE, SECTIONS, braking_chart, energy_chart, gait_chart,
+};
 use simworld_examples::timing::timed;
 use simworld_physics::proving::{Figure, Fleet, Pack, ProvingError, braking_distance, measure};
 use simworld_physics::{RoadCondition, VehicleClass};
 
-/// Measures every class of vehicles on the proving ground and prints each figure beside its band.
+/// Sends every embodiment over an obstacle course, then measures every class of vehicles on the proving ground and prints each
+/// figure beside its band.
 #[derive(Parser)]
 struct Arguments {
-    /// Directory for the pictures of braking distances and of the gait of robot dogs.
+    /// Directory for the plots of braking distance, of energy and of the gait of robot dogs, and the film of the course.
     #[arg(long, default_value = "out/bodies")]
     out: PathBuf,
     /// Only this class: `small_car`, `sedan`, `suv`, `van`, `truck`, `bus` or `scooter`.
@@ -33,6 +36,12 @@ struct Arguments {
     /// Robot dogs on their legs in the measurement of speed; 0 leaves them and their gait out.
     #[arg(long, default_value_t = 50)]
     dogs: usize,
+    /// Seconds between the pictures of the film; 0 makes none.
+    #[arg(long, default_value_t = 0.5)]
+    film: f64,
+    /// The course alone.
+    #[arg(long)]
+    course_only: bool,
     /// Succeed even if a figure is off its band.
     #[arg(long)]
     report_only: bool,
@@ -43,7 +52,7 @@ fn main() -> ExitCode {
     match job(&arguments) {
         Ok(0) => ExitCode::SUCCESS,
         Ok(off) => {
-            eprintln!("{off} figures are off their bands");
+            eprintln!("{off} figures are off their bands, or did not come through the course");
             if arguments.report_only { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(error) => {
@@ -53,19 +62,86 @@ fn main() -> ExitCode {
     }
 }
 
-/// Returns how many figures are off.
+/// Returns how many figures are off and how many did not come through.
 fn job(arguments: &Arguments) -> Result<usize, ProvingError> {
     let classes: Vec<VehicleClass> = match &arguments.class {
         Some(name) => vec![VehicleClass::from_name(name).ok_or_else(|| unknown(name))?],
         None => VehicleClass::ALL.to_vec(),
     };
+    std::fs::create_dir_all(&arguments.out)?;
+    let mut off = run_course(arguments)?;
+    let path = arguments.out.join("energy.svg");
+    std::fs::write(&path, energy_chart())?;
+    println!("energy by speed: {}", path.display());
+    if !arguments.course_only {
+        off += proving_ground(arguments, &classes)?;
+    }
+    Ok(off)
+}
+
+/// Sends everybody over the course; returns how many did not come through.
+fn run_course(arguments: &Arguments) -> Result<usize, ProvingError> {
+    let mut course = Course::new(&Embodiment::ALL)?;
+    let path = arguments.out.join("course.gif");
+    let mut film = match (arguments.film > 0.0).then(|| Film::new(&path, Embodiment::ALL.len())) {
+        Some(Ok(film)) => Some(film),
+        Some(Err(error)) => {
+            println!("no film: {error}");
+            None
+        }
+        None => None,
+    };
+    let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {pos}/{len} s at most")?;
+    let bar = ProgressBar::new(PATIENCE as u64).with_style(style).with_message("obstacle course");
+    let mut due = 0.0;
+    while !course.is_over() {
+        if let Some(film) = film.as_mut().filter(|_| course.time() >= due) {
+            film.take(course.world(), course.runners())?;
+            due += arguments.film;
+        }
+        course.step()?;
+        bar.set_position(course.time() as u64);
+    }
+    bar.finish_and_clear();
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED);
+    let sections = SECTIONS.iter().map(|(name, _)| format!("{name}, s"));
+    let rest = ["fastest, m/s", "highest, m", "tilt, deg", "falls", "posts touched", "energy, kJ"];
+    table.set_header(std::iter::once("embodiment".to_owned()).chain(sections).chain(rest.map(str::to_owned)));
+    for outcome in course.outcomes() {
+        table.add_row(outcome_row(outcome));
+    }
+    println!("{table}");
+    if film.is_some() {
+        println!("film of the course: {}", path.display());
+    }
+    Ok(course.outcomes().filter(|outcome| outcome.times.len() < SECTIONS.len()).count())
+}
+
+fn outcome_row(outcome: &Outcome) -> Vec<String> {
+    let time = |index: usize| outcome.times.get(index).map_or("-".to_owned(), |time| format!("{time:.1}"));
+    let mut row = vec![outcome.embodiment.name()];
+    row.extend((0..SECTIONS.len()).map(time));
+    row.extend([
+        format!("{:.1}", outcome.fastest),
+        format!("{:.2}", outcome.highest),
+        format!("{:.0}", outcome.tilt.to_degrees()),
+        outcome.falls.to_string(),
+        outcome.touches.to_string(),
+        outcome.energy.map_or(String::new(), |energy| format!("{:.1}", energy / 1000.0)),
+    ]);
+    row
+}
+
+/// Drives every class through the manoeuvres; returns how many figures are off.
+fn proving_ground(arguments: &Arguments, classes: &[VehicleClass]) -> Result<usize, ProvingError> {
     let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {pos}/{len}")?;
     let bar = ProgressBar::new(2 * classes.len() as u64).with_style(style);
     let mut table = Table::new();
     table.load_style(UTF8_FULL_CONDENSED);
     table.set_header(["vehicle", "figure", "measured", "band", "", "source of the band"]);
     let (mut off, mut curves) = (0, Vec::new());
-    for class in classes {
+    for class in classes.iter().copied() {
         bar.set_message(format!("{class}: manoeuvres"));
         for figure in measure(class)? {
             off += usize::from(!figure.holds());
@@ -78,7 +154,6 @@ fn job(arguments: &Arguments) -> Result<usize, ProvingError> {
     }
     bar.finish_and_clear();
     println!("{table}");
-    std::fs::create_dir_all(&arguments.out)?;
     let path = arguments.out.join("braking.svg");
     std::fs::write(&path, braking_chart(&curves))?;
     println!("braking distances: {}", path.display());

@@ -329,3 +329,53 @@ fn a_fall_is_the_same_after_saving_and_over_threads() {
         assert_eq!(run(Some(step), usize::MAX), whole, "saved after {step} steps");
     }
 }
+
+/// Who goes over what is told at a speed, m/s, from some place short of it until it is well behind.
+fn goes_over(build: impl Fn(&mut Stage), end: f64) {
+    for speed in [0.8, 1.34, 2.0, 3.0, 4.5] {
+        for start in 0..8 {
+            let mut stage = Stage::new();
+            build(&mut stage);
+            let walker = stage.person(at(0.037 * f64::from(start), 0.0, 0.0));
+            stage.tell(walker, Action::MoveForward { speed });
+            let mut steps = 0;
+            while stage.position(walker).x < end {
+                stage.step();
+                steps += 1;
+                let there = stage.position(walker);
+                assert!(falls(&stage, walker).is_empty(), "at {speed} m/s, start {start}, {there}");
+                assert!(steps < 600, "at {speed} m/s it came to {there}");
+            }
+        }
+    }
+}
+
+#[test]
+fn nobody_falls_over_kerbs() {
+    let kerbs = |stage: &mut Stage| {
+        for kerb in 0..3 {
+            stage.building(4.0 + 4.0 * f64::from(kerb), 0.0, (1.6, 4.0, 0.12));
+        }
+    };
+    goes_over(kerbs, 15.0);
+}
+
+#[test]
+fn nobody_falls_on_stairs() {
+    let stairs = |stage: &mut Stage| {
+        for step in 0..5 {
+            let length = 4.2 - 0.6 * f64::from(step);
+            stage.building(6.0, 0.0, (length, 4.0, 0.17 * f64::from(step + 1)));
+        }
+    };
+    goes_over(stairs, 11.0);
+}
+
+#[test]
+fn nobody_falls_at_the_foot_of_a_ramp() {
+    let slope = |stage: &mut Stage| {
+        let (pose, shape) = ramp(4.0, 0.14);
+        stage.spawn(EntityKind::Prop, pose, shape);
+    };
+    goes_over(slope, 15.0);
+}

@@ -105,8 +105,8 @@ impl Humanoid {
         asked.norm() > friction
     }
 
-    /// Whether the feet are stopped by something that the trunk goes over, while it is too fast to recover. `missing` is
-    /// the way that the feet were to go and did not, m.
+    /// Whether the feet are stopped by something too high for a step that the trunk goes over, while it is too fast to recover.
+    /// `missing` is the way that the feet were to go and did not, m.
     pub(super) fn trips(
         &self,
         missing: Vector2,
@@ -122,17 +122,30 @@ impl Humanoid {
         if self.motion.balance.momentum.dot(&ahead) <= self.recoverable_speed(gravity) {
             return false;
         }
-        let half = self.height * (1.0 - CENTER) * 0.5;
-        let middle = Vector::new(0.0, 0.0, self.height - half);
-        let trunk = *at * RapierPose::from_parts(middle, upright());
+        // The controller loses a substep before it takes a step; feet clear it without one.
+        let clears = around.config().step_height + SKIN;
+        let center = CENTER * self.height;
+        let is_free = |span| self.is_free_ahead(ahead, span, at, queries);
+        !is_free((clears, center)) && is_free((center, self.height))
+    }
+
+    /// Whether a part of the upright body, from one height to another, has free way ahead.
+    fn is_free_ahead(
+        &self,
+        ahead: Vector2,
+        (from, to): (f64, f64),
+        at: &RapierPose,
+        queries: &QueryPipeline<'_>,
+    ) -> bool {
+        let part = Cylinder::new((to - from) * 0.5, self.radius);
+        let place = *at * RapierPose::from_parts(Vector::new(0.0, 0.0, (from + to) * 0.5), upright());
         let options = ShapeCastOptions {
             target_distance: SKIN * 0.5,
             stop_at_penetration: true,
             max_time_of_impact: OVERHANG,
             compute_impact_geometry_on_penetration: false,
         };
-        let ahead = Vector::new(ahead.x, ahead.y, 0.0);
-        queries.cast_shape(&trunk, ahead, &Cylinder::new(half, self.radius), options).is_none()
+        queries.cast_shape(&place, Vector::new(ahead.x, ahead.y, 0.0), &part, options).is_none()
     }
 
     /// Whether something will run into it in this substep so hard that it does not recover: the speed that it would get is
@@ -186,6 +199,21 @@ impl Humanoid {
             None if crate::shape::is_walker(mark) => self.mass,
             None => 1e9,
         }
+    }
+}
+
+/// Of the way of a substep what feet asked of the ground: no more than they were told, and never backwards, for what solids do to
+/// somebody they do by their faces and not by friction.
+pub(super) fn own_way(way: Vector2, told: Vector2) -> Vector2 {
+    let length = told.norm_squared();
+    if length == 0.0 {
+        return Vector2::zeros();
+    }
+    let share = way.dot(&told) / length;
+    if (0.0..=1.0).contains(&share) && way.norm_squared() <= length {
+        way
+    } else {
+        told * share.clamp(0.0, 1.0)
     }
 }
 

@@ -13,7 +13,7 @@ use simworld_core::geometry::{Point2, Vector2, Vector3, direction, pose_facing};
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{FallCause, Footing};
 
-use super::balance::look_down;
+use super::balance::{look_down, own_way};
 use super::{ColliderForm, Humanoid, Posture, Stand};
 use crate::body::{BodyContext, Surroundings};
 use crate::claims::Claim;
@@ -232,7 +232,8 @@ impl Humanoid {
                 self.find_way(&wish, &carried, company, around, dt);
             }
         }
-        let velocity = (self.plan.way - self.plan.shifted).xy() / dt;
+        let own = own_way((self.plan.way - self.plan.shifted - carried).xy(), wish.xy());
+        let velocity = (own + carried.xy()) / dt;
         if self.slips(velocity, around, dt) {
             self.plan.upset = self.plan.upset.or(Some(FallCause::Slipped));
         }
