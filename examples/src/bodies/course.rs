@@ -1,5 +1,6 @@
 //! An obstacle course: a ramp, kerbs, posts to go round and a flight of stairs, in a lane for every embodiment. All start at once and
-//! go by the same physics; who is on wheels passes beside the stairs.
+//! go by the same physics; who is on wheels passes beside the stairs, and so does a robot dog on legs; that and a scooter pass beside
+//! the kerbs.
 
 use std::f64::consts::PI;
 
@@ -15,19 +16,19 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::Dynamics;
 use simworld_physics::proving::ProvingError;
-use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, VehicleClass};
+use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, QuadrupedConfig, VehicleClass};
 
 /// From the middle of a lane to that of the next, m.
 const LANE: f64 = 12.0;
 /// The stations, m from the start: the foot of the ramp, the first of three kerbs, the first of three posts, the foot of the
 /// stairs, and the finish.
-const RAMP: f64 = 12.0;
+const RAMP: f64 = 6.0;
 const KERBS: f64 = 42.0;
 const POSTS: f64 = 66.0;
 const STAIRS: f64 = 128.0;
 const FINISH: f64 = 150.0;
 /// The ramp's slope and height, a kerb's height, the rise and the run of a step, radians and m.
-const SLOPE: f64 = 0.14;
+const SLOPE: f64 = 0.1;
 const DECK: f64 = 1.0;
 const KERB: f64 = 0.12;
 const RISE: f64 = 0.17;
@@ -54,18 +55,21 @@ pub enum Embodiment {
     Walker,
     /// A person at a run.
     Runner,
-    /// A robot dog.
+    /// A robot dog as a cylinder that is led, as those of crowds are.
     Dog,
+    /// A robot dog on its twelve motors.
+    Quadruped,
     /// A vehicle on its tyres.
     Vehicle(VehicleClass),
 }
 
 impl Embodiment {
     /// Everybody, from the slowest lane to the widest.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Walker,
         Self::Runner,
         Self::Dog,
+        Self::Quadruped,
         Self::Vehicle(VehicleClass::Scooter),
         Self::Vehicle(VehicleClass::SmallCar),
         Self::Vehicle(VehicleClass::Suv),
@@ -78,7 +82,8 @@ impl Embodiment {
         match self {
             Self::Walker => "person, walking".to_owned(),
             Self::Runner => "person, running".to_owned(),
-            Self::Dog => "robot dog".to_owned(),
+            Self::Dog => "robot dog, led".to_owned(),
+            Self::Quadruped => "robot dog, on legs".to_owned(),
             Self::Vehicle(class) => class.to_string().replace('_', " "),
         }
     }
@@ -87,12 +92,22 @@ impl Embodiment {
         !matches!(self, Self::Vehicle(_))
     }
 
+    const fn takes_stairs(self) -> bool {
+        !matches!(self, Self::Vehicle(_) | Self::Quadruped)
+    }
+
+    /// Wheels as small as a scooter's do not, nor do legs that lift their feet by 10 cm.
+    const fn takes_kerbs(self) -> bool {
+        !matches!(self, Self::Vehicle(VehicleClass::Scooter) | Self::Quadruped)
+    }
+
     /// How fast it wants to be at a station, m/s.
     fn pace(self, station: f64) -> f64 {
         let is_careful = (KERBS - 8.0..POSTS - 10.0).contains(&station);
         match self {
             Self::Walker | Self::Dog => 1.34,
             Self::Runner => 3.0,
+            Self::Quadruped => 0.9,
             Self::Vehicle(_) if station > FINISH - 1.0 => 0.0,
             Self::Vehicle(_) if is_careful => 2.5,
             Self::Vehicle(_) => 5.0,
@@ -299,7 +314,7 @@ fn embody(
     let person = Shape::Capsule { radius: 0.25, height: 1.75 };
     let (kind, shape) = match embodiment {
         Embodiment::Walker | Embodiment::Runner => (EntityKind::Person, person),
-        Embodiment::Dog => (EntityKind::Dog, Shape::cuboid(0.65, 0.3, 0.4)),
+        Embodiment::Dog | Embodiment::Quadruped => (EntityKind::Dog, Shape::cuboid(0.7, 0.35, 0.5)),
         Embodiment::Vehicle(class) => {
             let chassis = class.parameters().chassis;
             let kind = match class {
@@ -318,6 +333,7 @@ fn embody(
             physics.add_humanoid(world, id, HumanoidConfig::default())?
         }
         Embodiment::Dog => physics.add_dog(world, id)?,
+        Embodiment::Quadruped => physics.add_quadruped(world, id, QuadrupedConfig::default())?,
         Embodiment::Vehicle(class) => physics.add_vehicle(world, id, class.parameters())?,
     }
     Ok(id)
@@ -326,8 +342,7 @@ fn embody(
 /// The way to go: round the posts by turns on either side, and beside the stairs and the kerbs for who cannot take them.
 fn path(embodiment: Embodiment, middle: f64) -> Vec<Point2> {
     let berth = embodiment.berth();
-    // Wheels as small as a scooter's take no kerb.
-    let beside_kerbs = if embodiment == Embodiment::Vehicle(VehicleClass::Scooter) { 3.4 } else { 0.0 };
+    let beside_kerbs = if embodiment.takes_kerbs() { 0.0 } else { 3.4 };
     let aside = |x: f64| {
         let (first, last) = (POSTS, POSTS + 2.0 * APART);
         if (first..last).contains(&x) {
@@ -337,7 +352,7 @@ fn path(embodiment: Embodiment, middle: f64) -> Vec<Point2> {
             let share = ((x - from) / (to - from)).clamp(0.0, 1.0);
             0.5 - 0.5 * (PI * share).cos()
         };
-        let bypass = if embodiment.has_legs() { 0.0 } else { 4.6 };
+        let bypass = if embodiment.takes_stairs() { 0.0 } else { 4.6 };
         if x < first {
             berth * eased(first - 10.0, first) + beside_kerbs * (eased(33.0, 40.0) - eased(53.0, 63.0))
         } else {

@@ -13,7 +13,7 @@ use thiserror::Error;
 
 /// A view and how many stand side by side, pixels.
 const VIEW: (u16, u16) = (240, 150);
-const ACROSS: usize = 4;
+const ACROSS: usize = 3;
 /// How long a picture stays, hundredths of a second.
 const DELAY: u16 = 10;
 
