@@ -12,7 +12,7 @@ use simworld_core::exertion::Exertion;
 use simworld_core::geometry::{Point2, Point3, Pose, Vector3, heading, pose_facing, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
-use simworld_core::ops::wrap_angle;
+use simworld_core::ops::{self, wrap_angle};
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::Dynamics;
 use simworld_physics::proving::ProvingError;
@@ -287,7 +287,7 @@ impl Competitor {
         }
         outcome.fastest = outcome.fastest.max((at - before).xy().norm() / dt);
         outcome.highest = outcome.highest.max(at.z);
-        outcome.tilt = outcome.tilt.max((me.pose * Vector3::z()).z.clamp(-1.0, 1.0).acos());
+        outcome.tilt = outcome.tilt.max(ops::acos((me.pose * Vector3::z()).z.clamp(-1.0, 1.0)));
         if let Some(energy) = outcome.energy.as_mut().filter(|_| outcome.times.len() < SECTIONS.len()) {
             *energy += Exertion::default().energy(&before, &at, dt);
         }
@@ -330,7 +330,7 @@ fn embody(
     let id = world.spawn(EntityDesc::new(kind, level(start, middle), shape).named(embodiment.name()))?;
     match embodiment {
         Embodiment::Walker | Embodiment::Runner => {
-            physics.add_humanoid(world, id, HumanoidConfig::default())?
+            physics.add_humanoid(world, id, HumanoidConfig::default())?;
         }
         Embodiment::Dog => physics.add_dog(world, id)?,
         Embodiment::Quadruped => physics.add_quadruped(world, id, QuadrupedConfig::default())?,
@@ -346,11 +346,11 @@ fn path(embodiment: Embodiment, middle: f64) -> Vec<Point2> {
     let aside = |x: f64| {
         let (first, last) = (POSTS, POSTS + 2.0 * APART);
         if (first..last).contains(&x) {
-            return berth * (PI * (x - first) / APART).cos();
+            return berth * ops::cos(PI * (x - first) / APART);
         }
         let eased = |from: f64, to: f64| {
             let share = ((x - from) / (to - from)).clamp(0.0, 1.0);
-            0.5 - 0.5 * (PI * share).cos()
+            0.5 - 0.5 * ops::cos(PI * share)
         };
         let bypass = if embodiment.takes_stairs() { 0.0 } else { 4.6 };
         if x < first {
@@ -365,7 +365,7 @@ fn path(embodiment: Embodiment, middle: f64) -> Vec<Point2> {
 
 /// What stands in a lane besides its posts.
 fn solids(middle: f64) -> Vec<(Pose, Shape)> {
-    let rise = DECK / SLOPE.tan();
+    let rise = DECK / ops::tan(SLOPE);
     let mut solids = vec![
         slab(RAMP, 0.0, middle, SLOPE),
         (level(RAMP + rise + 3.0, middle), Shape::cuboid(6.0, 5.0, DECK)),
@@ -387,7 +387,7 @@ fn solids(middle: f64) -> Vec<(Pose, Shape)> {
 /// A slab whose upper face begins at a place at a height, and rises or falls until it has gone up or down by a deck.
 fn slab(from: f64, height: f64, middle: f64, slope: f64) -> (Pose, Shape) {
     const THICK: f64 = 0.5;
-    let length = DECK / slope.abs().sin();
+    let length = DECK / ops::sin(slope.abs());
     let tilt = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -slope);
     let edge = tilt * Vector3::new(-length * 0.5, 0.0, THICK);
     let pose = Pose::from_parts((Vector3::new(from, middle, height) - edge).into(), tilt);
