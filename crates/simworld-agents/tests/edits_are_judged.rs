@@ -19,7 +19,7 @@ const FLOORS: [(&str, f64); 15] = [
     ("streets", 95.0),
     ("areas", 95.0),
     ("offsets", 95.0),
-    ("conditions", 95.0),
+    ("conditions", 94.0),
     ("environment", 95.0),
     ("counts", 95.0),
     ("single_relation", 95.0),

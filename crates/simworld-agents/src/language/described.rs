@@ -18,7 +18,8 @@ const YOU_SEE: &[&str] = &[
     "you see", "that you see", "you can see", "that you can see", "you find", "that you find", "you can find",
     "you come to", "you come across", "you spot", "there is", "in sight", "in view", "in the area", "there are",
     "that there is", "that there are", "lying about", "lying around", "standing about", "standing around",
-    "around here",
+    "around here", "in the city", "in the whole city", "in this city", "in town", "in the town", "in the neighbourhood", "in the neighborhood",
+    "in this area", "in the vicinity", "of all", "of them all",
 ];
 /// Before what is sold somewhere.
 #[rustfmt::skip]

@@ -277,7 +277,7 @@ pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
 }
 
 /// As [`fits`], with the last word in the singular or the plural.
-fn fits_noun(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
+pub(super) fn fits_noun(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
     let (head, last) = phrase.rsplit_once(' ').map_or((None, phrase), |(head, last)| (Some(head), last));
     let before = head.map_or(Some(0), |head| fits(lexemes, head))?;
     match lexemes.get(before).map(|lexeme| &lexeme.token) {

@@ -5,7 +5,7 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Stands, Target, Traits};
 use super::lexer::{Lexeme, Token, written};
-use super::lexicon::{DETERMINERS, category, fits, longest_phrase};
+use super::lexicon::{DETERMINERS, category, fits, fits_noun, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
 
@@ -250,9 +250,13 @@ impl Parser<'_> {
         // Names are looked up only where one may stand: the index of a large city takes time.
         let may_be_name = match class {
             None => true,
-            Some((_, words)) => {
+            Some((category, words)) => {
                 let next = self.at + words;
-                self.is_capital(self.at)
+                // "The taxi" is rather what is called so than any car.
+                let is_narrower = !category.is_place()
+                    && fits_noun(&self.lexemes[self.at..next], category.words[0]).is_none();
+                is_narrower
+                    || self.is_capital(self.at)
                     || self.is_capital(next)
                     || fits(&self.lexemes[next..], "of").is_some()
             }

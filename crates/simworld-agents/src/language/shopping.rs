@@ -15,7 +15,16 @@ const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller",
 const VESSELS: &[&str] = &[
     "bottle", "cup", "piece", "loaf", "bowl", "can", "slice", "glass", "portion", "bag", "copy", "carton",
     "mug", "plate", "packet", "bit", "helping", "box", "tin", "jar", "pint", "litre", "liter", "bunch",
-    "pair", "spot", "drop", "scoop", "serving", "sip", "mouthful", "edition",
+    "bar", "tub", "roll", "pack", "cone", "bouquet", "block", "tray", "round", "pair", "spot", "drop",
+    "scoop", "serving", "sip", "mouthful", "edition",
+];
+/// Who or what goods are for who is no part of a scene.
+#[rustfmt::skip]
+const OTHERS: &[&str] = &[
+    "kids", "children", "boys", "girls", "guys", "team", "crew", "family", "class", "office", "party", "meeting", "guests", "visitors",
+    "friends", "colleagues", "others", "gang", "staff", "workers", "students", "lot", "lot of us", "everyone", "everybody", "us", "later", "lunch",
+    "dinner", "breakfast", "tonight", "tomorrow", "mum", "mom", "dad", "wife", "husband", "boss", "grandma", "grandpa", "parents", "picnic", "trip",
+    "road", "train", "journey", "way",
 ];
 /// What is said of goods, and makes them no others.
 #[rustfmt::skip]
@@ -179,8 +188,22 @@ impl Parser<'_> {
             || matches!(rest.first(), Some(lexeme) if matches!(lexeme.token, Token::Id(_)))
     }
 
+    /// "... for the kids": those who are not here get it from whoever bought it, some other time.
+    fn for_others(&mut self) {
+        let start = self.at;
+        if self.eat_any(&["for"]) {
+            self.eat_any(&["all of", "all", "the rest of"]);
+            self.eat_any(DETERMINERS);
+            if self.eat_any(OTHERS) && self.ends_clause() {
+                return;
+            }
+        }
+        self.at = start;
+    }
+
     /// "... for Hana", "... to Hana".
     pub(super) fn for_whom(&mut self) -> Option<Reference> {
+        self.for_others();
         let start = self.at;
         if !self.eat_any(&["for", "to", "over to", "across to", "and give it to", "and take it to"]) {
             return None;
