@@ -1,6 +1,6 @@
 //! The thing of the catalogue that words ask for.
 
-use simworld_core::asset::{Asset, Catalogue, Season};
+use simworld_core::asset::{Asset, Season};
 
 use super::super::lexer::lex;
 use super::super::lexicon::category;
@@ -20,7 +20,7 @@ impl NewThing {
         let mut left_over = None;
         for from in 0..words.len() {
             let (said, noun) = words.split_at(from);
-            let mut fitting = assets_called(&stock.catalogue, noun);
+            let mut fitting = assets_called(stock, noun);
             if fitting.is_empty() {
                 continue;
             }
@@ -111,7 +111,8 @@ fn near(hits: &[Hit]) -> String {
 }
 
 /// The assets that a noun of all these words may mean, the plainest first.
-fn assets_called<'a>(catalogue: &'a Catalogue, noun: &[&str]) -> Vec<&'a Asset> {
+fn assets_called<'a>(stock: &'a Stock, noun: &[&str]) -> Vec<&'a Asset> {
+    let catalogue = &stock.catalogue;
     let spellings = singulars(&noun.join("_"));
     let found = spellings.iter().filter_map(|name| catalogue.get(catalogue.find(name)?));
     let mut found: Vec<&Asset> = found.collect();
@@ -122,6 +123,13 @@ fn assets_called<'a>(catalogue: &'a Catalogue, noun: &[&str]) -> Vec<&'a Asset> 
         let mut of_kind: Vec<&Asset> = all.filter(|asset| kinds.contains(&asset.kind)).collect();
         // The one that is called as its kind is comes first: "a car" is no sports car.
         of_kind.sort_by_key(|asset| asset.name != asset.kind.as_str());
+        // "A fire truck" is a fire engine, and not any truck.
+        let narrower = found.is_empty().then(|| stock.index.choose(&noun.join(" ")));
+        let meant = match narrower {
+            Some(Choice::Sure(hit)) => catalogue.get(hit.asset).filter(|asset| kinds.contains(&asset.kind)),
+            _ => None,
+        };
+        found.extend(meant);
         found.extend(of_kind);
     }
     found
