@@ -7,7 +7,6 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
 
 use clap::Parser;
 use comfy_table::{Table, presets::UTF8_FULL_CONDENSED};
@@ -202,7 +201,6 @@ fn braking_curves(class: VehicleClass) -> Result<Vec<Curve>, ProvingError> {
 }
 
 /// How fast many cars are computed on one core.
-#[expect(clippy::disallowed_methods, reason = "measuring is what this is for")]
 fn speed(cars: usize) -> Result<(), ProvingError> {
     for (name, interest) in [("on tyres", vec![]), ("as single tracks", vec![Point3::new(0.0, 0.0, 1e5)])] {
         let mut fleet = Fleet::new(cars)?;
@@ -212,11 +210,9 @@ fn speed(cars: usize) -> Result<(), ProvingError> {
         }
         let mut best = f64::INFINITY;
         for _ in 0..3 {
-            let start = Instant::now();
-            for _ in 0..60 {
-                fleet.step()?;
-            }
-            best = best.min(start.elapsed().as_secs_f64());
+            let (done, time) = timed(|| (0..60).try_for_each(|_| fleet.step()));
+            done?;
+            best = best.min(time.as_secs_f64());
         }
         println!(
             "{cars} cars {name}, 60 steps a second: {:.2} ms a step on one core, {:.1} times real time; bar: 1 \

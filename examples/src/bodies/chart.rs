@@ -37,13 +37,7 @@ pub(super) struct Chart {
 
 impl Chart {
     pub(super) fn new(across: Axis, up: Axis) -> Self {
-        let paper = Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff");
-        let picture = Document::new()
-            .set("viewBox", (0, 0, WIDTH, HEIGHT))
-            .set("width", WIDTH)
-            .set("height", HEIGHT)
-            .add(paper);
-        let mut chart = Self { across, up, picture, next: TOP + 10.0 };
+        let mut chart = Self { across, up, picture: paper(WIDTH, HEIGHT), next: TOP + 10.0 };
         chart.grid();
         chart
     }
@@ -115,6 +109,13 @@ fn rule(from: (f64, f64), to: (f64, f64)) -> Line {
     line.set("stroke", "#dddddd").set("stroke-width", 1)
 }
 
-fn text(x: f64, y: f64, words: impl Into<String>) -> Text {
+/// A white sheet of a size, points.
+pub(super) fn paper(width: f64, height: f64) -> Document {
+    let sheet = Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff");
+    Document::new().set("viewBox", (0, 0, width, height)).set("width", width).set("height", height).add(sheet)
+}
+
+/// Words as all these pictures write them.
+pub(super) fn text(x: f64, y: f64, words: impl Into<String>) -> Text {
     Text::new(words).set("x", x).set("y", y).set("font-family", "sans-serif").set("font-size", 13)
 }

@@ -2,8 +2,9 @@
 
 use simworld_physics::LEGS;
 use simworld_physics::proving::Stance;
-use svg::Document;
-use svg::node::element::{Line, Polyline, Rectangle, Text};
+use svg::node::element::{Line, Polyline, Rectangle};
+
+use super::chart::{paper, text};
 
 /// The picture and its margins, points.
 const WIDTH: f64 = 900.0;
@@ -19,10 +20,6 @@ const HEIGHTS: [f64; 2] = [0.34, 0.26];
 /// A foot with less load than this is in the air, N.
 const CONTACT: f64 = 2.0;
 
-fn text(x: f64, y: f64, words: impl Into<String>) -> Text {
-    Text::new(words).set("x", x).set("y", y).set("font-family", "sans-serif").set("font-size", 13)
-}
-
 /// Contacts of the feet as bars over time, and under them the height of the trunk, as an SVG.
 pub fn gait_chart(stances: &[Stance]) -> String {
     let end = stances.last().map_or(1.0, |last| last.time.max(1e-3));
@@ -31,13 +28,11 @@ pub fn gait_chart(stances: &[Stance]) -> String {
         let share = (HEIGHTS[0] - height) / (HEIGHTS[0] - HEIGHTS[1]);
         FIELD[0] + (FIELD[1] - FIELD[0]) * share.clamp(0.0, 1.0)
     };
-    let mut picture = Document::new()
-        .set("viewBox", (0, 0, WIDTH, HEIGHT))
-        .set("width", WIDTH)
-        .set("height", HEIGHT)
-        .add(Rectangle::new().set("width", "100%").set("height", "100%").set("fill", "#ffffff"))
-        .add(text(LEFT, 24.0, "feet on the ground"))
-        .add(text(LEFT, FIELD[0] - 12.0, "height of the trunk, m"));
+    let mut picture = paper(WIDTH, HEIGHT).add(text(LEFT, 24.0, "feet on the ground")).add(text(
+        LEFT,
+        FIELD[0] - 12.0,
+        "height of the trunk, m",
+    ));
     for (foot, name) in LEGS.into_iter().enumerate() {
         let top = FEET + ROW * foot as f64;
         picture = picture.add(text(10.0, top + 15.0, name));

@@ -48,6 +48,35 @@ impl Plan<'_> {
                 .set("width", side)
                 .set("height", side),
         );
+        let ground = self.ground(world, unit);
+        let title = Text::new(self.title)
+            .set("x", -self.reach + 10.0 * unit)
+            .set("y", -self.reach - 9.0 * unit)
+            .set("font-size", 17.0 * unit)
+            .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif")
+            .set("fill", INK);
+        let foot = 34.0 * unit;
+        svg::Document::new()
+            .set("width", 800)
+            .set("height", 834)
+            .set("viewBox", (-self.reach, -self.reach - foot, side, side + foot))
+            .add(Title::new(self.title))
+            .add(
+                Rectangle::new()
+                    .set("x", -self.reach)
+                    .set("y", -self.reach - foot)
+                    .set("width", side)
+                    .set("height", foot)
+                    .set("fill", "#ffffff"),
+            )
+            .add(clip)
+            .add(title)
+            .add(ground)
+    }
+
+    /// The ground and what stands on it, the highest last.
+    fn ground(&self, world: &World, unit: f64) -> Group {
+        let side = self.reach * 2.0;
         let mut ground = Group::new().set("clip-path", "url(#frame)");
         ground = ground.add(
             Rectangle::new()
@@ -83,38 +112,9 @@ impl Plan<'_> {
             ControlFlow::Continue(())
         });
         things.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for area in areas {
-            ground = ground.add(area);
-        }
-        for (_, thing) in things {
-            ground = ground.add(thing);
-        }
-        for placing in self.placings {
-            ground = ground.add(self.tried(placing, unit));
-        }
-        let title = Text::new(self.title)
-            .set("x", -self.reach + 10.0 * unit)
-            .set("y", -self.reach - 9.0 * unit)
-            .set("font-size", 17.0 * unit)
-            .set("font-family", "Roboto, 'Helvetica Neue', Helvetica, Arial, sans-serif")
-            .set("fill", INK);
-        let foot = 34.0 * unit;
-        svg::Document::new()
-            .set("width", 800)
-            .set("height", 834)
-            .set("viewBox", (-self.reach, -self.reach - foot, side, side + foot))
-            .add(Title::new(self.title))
-            .add(
-                Rectangle::new()
-                    .set("x", -self.reach)
-                    .set("y", -self.reach - foot)
-                    .set("width", side)
-                    .set("height", foot)
-                    .set("fill", "#ffffff"),
-            )
-            .add(clip)
-            .add(title)
-            .add(ground)
+        let things = things.into_iter().map(|(_, thing)| thing);
+        ground = areas.into_iter().chain(things).fold(ground, Group::add);
+        self.placings.iter().fold(ground, |ground, placing| ground.add(self.tried(placing, unit)))
     }
 
     fn at(&self, point: Point2) -> (f64, f64) {

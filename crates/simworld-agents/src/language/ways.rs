@@ -121,6 +121,15 @@ impl Parser<'_> {
             return Err(self.not_understood("going along things is not understood: say where to"));
         }
         self.at = start;
+        if self.eat_up_to_middle() {
+            return self.halfway(pace).map(Some);
+        }
+        self.at = start;
+        Ok(None)
+    }
+
+    /// Whether a way to between things begins here: "to the exact middle between", "halfway"; what is said before them is passed.
+    fn eat_up_to_middle(&mut self) -> bool {
         self.eat_any(EXACTLY);
         let at = self.at;
         self.eat_any(&[
@@ -144,21 +153,14 @@ impl Parser<'_> {
             longest_phrase(&self.rest()[*words..], &["between", "of the way", "in between"]).is_some()
         }) {
             self.at += words;
-            return self.halfway(pace).map(Some);
+            return true;
         }
         if longest_phrase(self.rest(), HALFWAY).is_none()
             && longest_phrase(&self.lexemes[at..], HALFWAY).is_some()
         {
             self.at = at;
         }
-        if self.eat_any(HALFWAY) {
-            return self.halfway(pace).map(Some);
-        }
-        if longest_phrase(self.rest(), &["between", "in between"]).is_some() {
-            return self.halfway(pace).map(Some);
-        }
-        self.at = start;
-        Ok(None)
+        self.eat_any(HALFWAY) || longest_phrase(self.rest(), &["between", "in between"]).is_some()
     }
 
     /// Whether the middle of something is said next.

@@ -1,4 +1,5 @@
-//! Words as they are said elsewhere: dialect, slang and short forms, put into the words that the tables know.
+//! Words as they are said elsewhere: dialect, slang and short forms, put into the words that the tables know, beyond those that are
+//! put so for whatever is heard (`dialects`).
 
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
@@ -13,19 +14,19 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["whits"], "what is"), (&["aboot"], "about"), (&["roon", "roond"], "round"), (&["doon"], "down"), (&["oot"], "out"), (&["toon"], "town"),
     (&["hoose"], "house"), (&["the noo", "noo"], "now"), (&["awa"], "away"), (&["ahint"], "behind"), (&["aw"], "all"), (&["wi"], "with"),
     (&["dinnae", "didnae", "dinna", "divvent"], "do not"), (&["cannae"], "cannot"), (&["isnae", "isna"], "is not"), (&["willnae"], "will not"),
-    (&["ye", "ya", "youse"], "you"), (&["yer", "ur"], "your"), (&["yerself", "yersel"], "yourself"), (&["yon", "thon"], "that"), (&["ken"], "know"),
+    (&["youse"], "you"), (&["yer"], "your"), (&["yerself", "yersel"], "yourself"), (&["yon", "thon"], "that"), (&["ken"], "know"),
     (&["aye"], "yes"), (&["och"], "oh"), (&["hoo"], "how"), (&["mony"], "many"), (&["efter"], "after"), (&["tak"], "take"), (&["mak"], "make"),
     (&["ca"], "call"), (&["shiftit"], "moved"), (&["nixt"], "next"), (&["watter"], "water"), (&["auld"], "old"), (&["braw"], "nice"),
     (&["bonny", "bonnie"], "nice"), (&["nearhaun"], "near"), (&["abune"], "above"), (&["stane"], "stone"), (&["fower"], "four"), (&["alang"], "along"),
     (&["atween"], "between"), (&["aroon"], "around"), (&["oan"], "on"), (&["motor"], "car"), (&["motors"], "cars"), (&["dae"], "do"), (&["gonnae"], "will you"),
     (&["dug"], "dog"), (&["dugs"], "dogs"), (&["bairns"], "children"), (&["richt"], "right"), (&["haud"], "hold"), (&["guid"], "good"),
-    (&["em"], "them"), (&["lemme"], "let me"), (&["n"], "and"), (&["xcept", "exept"], "except"), (&["til"], "until"), (&["ppl"], "people"), (&["w"], "with"),
-    (&["doggo", "doggos", "pupper"], "dog"), (&["gotta"], "must"), (&["outta"], "out of"), (&["cuz", "bc"], "because"), (&["thats gotta"], "that has to"),
-    (&["lil"], "little"), (&["nxt to"], "next to"), (&["hafta"], "have to"), (&["dont wanna"], "dont want to"), (&["aint"], "is not"), (&["tryna"], "trying to"),
-    (&["gimmie"], "gimme"), (&["starboard of"], "right of"), (&["to starboard of"], "to the right of"), (&["abaft", "aft of", "astern of"], "behind"),
+    (&["em"], "them"), (&["xcept", "exept"], "except"), (&["til"], "until"), (&["w"], "with"),
+    (&["doggo", "doggos", "pupper"], "dog"), (&["outta"], "out of"), 
+    (&["lil"], "little"), (&["nxt to"], "next to"), (&["dont wanna"], "dont want to"), (&["aint"], "is not"), (&["tryna"], "trying to"),
+    (&["astern of"], "behind"),
     (&["mek"], "make"), (&["summat"], "something"), (&["nowt"], "nothing"), (&["owt"], "anything"), (&["them two"], "the two"),
     (&["them there"], "those"), (&["tp"], "teleport"), (&["mv"], "move"), (&["rm", "del"], "remove"), (&["whatevers"], "whatever is"), (&["wheres"], "where is"),
-    (&["whos"], "who is"), (&["twould", "itd"], "it would"), (&["tis"], "it is"), (&["therell"], "there will"), (&["thatll"], "that will"), (&["itll"], "it will"),
+    (&["whos"], "who is"), (&["twould", "itd"], "it would"), (&["therell"], "there will"), (&["thatll"], "that will"), (&["itll"], "it will"),
     (&["cafe"], "café"), (&["cafes"], "cafés"), (&["turn her face to", "turn his face to", "turn its face to"], "face"),
     (&["whatever is within", "anything within", "whatever stands within", "all that is within", "what stands within", "anything closer than", "everything closer than", "everything that is within",
         "everything standing within", "all things within", "anything standing within", "anything that stands within", "anything that is within", "what is within", "whatever was located within",
@@ -43,7 +44,7 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["is now called", "is now named", "is from now on called", "is henceforth called"], "should be called"), (&["to be with", "be with"], "be next to"),
     (&["who is standing", "who stands", "who is waiting", "who waits", "who sits", "who is sitting"], "list people"),
     (&["it gives"], "there is"), (&["in direction"], "to the"), (&["hold on to"], "keep"),
-    (&["likes of"], ""), (&["thus", "hence", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why"], "so"), (&["an all"], ""), (&["fr", "ngl", "lmao", "lmfao", "tbh", "imo", "imho", "af", "smh", "rofl", "bruh", "ayo", "fam", "innit", "yall"], ""),
+    (&["likes of"], ""), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
 ];
 
 /// Puts dialect and short forms into the words that are known, and leaves names as they are.
