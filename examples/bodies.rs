@@ -67,7 +67,7 @@ fn job(arguments: &Arguments) -> Result<usize, ProvingError> {
         Some(name) => vec![VehicleClass::from_name(name).ok_or_else(|| unknown(name))?],
         None => VehicleClass::ALL.to_vec(),
     };
-    std::fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     let mut off = run_course(arguments)?;
     let path = arguments.out.join("energy.svg");
     std::fs::write(&path, energy_chart())?;

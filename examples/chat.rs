@@ -81,7 +81,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         ..TrafficConfig::default()
     };
     let stage = Stage::new(&city, &traffic, Seed(arguments.seed))?;
-    std::fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     let (pictures, missing) = Pictures::new(&arguments.out);
     if let Some(reason) = missing {
         eprintln!("no view from the eyes: {reason}");

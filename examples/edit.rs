@@ -145,7 +145,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     let city = make(&source, Seed(arguments.seed).stream("city").seed())?.city;
     let mut world = World::new();
     city.populate(&mut world)?;
-    std::fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     let view = View::new().inspect_err(|reason| eprintln!("plans alone: {reason}")).ok();
     let editor = editor(arguments, catalogue)?;
     println!("a city of {} things; type how it is to change", world.len());

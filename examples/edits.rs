@@ -43,7 +43,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 
 fn main() -> Outcome<()> {
     let args = Args::parse();
-    std::fs::create_dir_all(&args.out)?;
+    simworld_examples::folder::make_folder(&args.out)?;
     let config = CityConfig { roads: args.style.roads(args.roads), ..CityConfig::default() };
     let (city, whole) = timed(|| City::generate(&config, Seed(args.seed)));
     let city = city?;

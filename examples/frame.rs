@@ -74,7 +74,7 @@ fn job(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let mut renderer = Renderer::new(&RenderConfig::default())?;
     let mut frame = Frame::new();
     renderer.render(&world, &Camera::looking_at(eye, target, intrinsics), &mut frame)?;
-    std::fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     frame.write_png(arguments.out.join("rgb.png"))?;
     std::fs::write(arguments.out.join("depth.png"), frame.depth_png()?)?;
     std::fs::write(arguments.out.join("classes.png"), frame.classes_png()?)?;

@@ -95,7 +95,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         drawing = field.drawing(|cell| lesson.table.best(cell));
     }
     println!("{table}\nthe last table, north up:\n{drawing}");
-    std::fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     let path = arguments.out.join("reward.svg");
     std::fs::write(&path, curve_chart(&runs))?;
     println!("how the reward grows: {}", path.display());

@@ -73,7 +73,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         }
         reading.spec
     };
-    std::fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     std::fs::write(arguments.out.join("scene.toml"), toml::to_string(&spec)?)?;
     let mut world = World::new();
     if spec.kind == SceneKind::City {

@@ -122,7 +122,7 @@ fn job(arguments: &Arguments) -> Result<(), Fault> {
     );
     let watched = run(&mut traffic, arguments)?;
     println!("{}", report(&traffic, &watched));
-    fs::create_dir_all(&arguments.out)?;
+    simworld_examples::folder::make_folder(&arguments.out)?;
     for picture in pictures(&traffic, &watched) {
         let path = arguments.out.join(picture.name);
         fs::write(&path, &picture.svg)?;

@@ -14,6 +14,7 @@ pub mod delivery;
 pub mod edit;
 mod ending;
 pub mod experiment;
+pub mod folder;
 pub mod minds;
 pub mod report;
 pub mod served;
