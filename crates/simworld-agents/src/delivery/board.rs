@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Vector2};
 
+use super::money::Cents;
 use super::order::OrderId;
 
 /// From this reach on everybody is told of everything, m.
@@ -27,33 +28,24 @@ struct Cell {
     /// Counts what was put up here.
     news: u64,
     /// Ascending.
-    open: Vec<OrderId>,
+    tenders: Vec<Tender>,
+    /// Ascending.
     offered: Vec<OrderId>,
 }
 
-/// What hangs on the board.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Notice {
-    /// An order that takes bids.
-    Open,
-    /// An order that is offered for sharing.
-    Offer,
-}
-
-impl Cell {
-    fn list(&self, notice: Notice) -> &[OrderId] {
-        match notice {
-            Notice::Open => &self.open,
-            Notice::Offer => &self.offered,
-        }
-    }
-
-    fn list_mut(&mut self, notice: Notice) -> &mut Vec<OrderId> {
-        match notice {
-            Notice::Open => &mut self.open,
-            Notice::Offer => &mut self.offered,
-        }
-    }
+/// An order that takes bids: all that somebody reads who looks for work. Couriers read thousands a thought, one beside the other,
+/// where the orders themselves lie far apart.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Tender {
+    pub(super) id: OrderId,
+    /// Where the order is picked up, m.
+    pub(super) at: Point2,
+    /// The most that is paid.
+    pub(super) ceiling: Cents,
+    /// Length of the route from restaurant to home, m.
+    pub(super) route: f64,
+    /// The step in which the auction closes.
+    pub(super) closes: u64,
 }
 
 impl Board {
@@ -84,6 +76,11 @@ impl Board {
         (clamp(offset.x, self.columns), clamp(offset.y, self.rows))
     }
 
+    fn cell(&self, point: Point2) -> &Cell {
+        let (column, row) = self.key(point);
+        &self.cells[(row * self.columns + column) as usize]
+    }
+
     fn cell_at(&mut self, point: Point2) -> &mut Cell {
         let (column, row) = self.key(point);
         &mut self.cells[(row * self.columns + column) as usize]
@@ -104,33 +101,58 @@ impl Board {
         self.around(point).map(|cell| cell.news).sum()
     }
 
-    /// What hangs near a point; some of it may be out of reach. Cell by cell, and in each the oldest order first.
-    pub(super) fn near(&self, point: Point2, notice: Notice) -> impl Iterator<Item = OrderId> {
-        self.around(point).flat_map(move |cell| cell.list(notice)).copied()
+    /// The orders near a point that take bids; some of them may be out of reach. Cell by cell, and in each the oldest first.
+    pub(super) fn tenders(&self, point: Point2) -> impl Iterator<Item = &Tender> {
+        self.around(point).flat_map(|cell| &cell.tenders)
     }
 
-    /// Puts something up, which is news.
-    pub(super) fn put_up(&mut self, point: Point2, notice: Notice, id: OrderId) {
+    /// The offers near a point, as [`tenders`](Self::tenders).
+    pub(super) fn offers(&self, point: Point2) -> impl Iterator<Item = OrderId> {
+        self.around(point).flat_map(|cell| &cell.offered).copied()
+    }
+
+    /// Puts up an order that takes bids, which is news.
+    pub(super) fn tender(&mut self, tender: Tender) {
+        let cell = self.cell_at(tender.at);
+        cell.news += 1;
+        if let Err(place) = cell.tenders.binary_search_by_key(&tender.id, |other| other.id) {
+            cell.tenders.insert(place, tender);
+        }
+    }
+
+    /// Takes down an order that was picked up at a point.
+    pub(super) fn close(&mut self, point: Point2, id: OrderId) {
+        let tenders = &mut self.cell_at(point).tenders;
+        if let Ok(place) = tenders.binary_search_by_key(&id, |tender| tender.id) {
+            tenders.remove(place);
+        }
+    }
+
+    /// Puts up an offer to share an order, which is news.
+    pub(super) fn offer(&mut self, point: Point2, id: OrderId) {
         let cell = self.cell_at(point);
         cell.news += 1;
-        insert(cell.list_mut(notice), id);
+        insert(&mut cell.offered, id);
     }
 
-    /// Takes something down.
-    pub(super) fn take_down(&mut self, point: Point2, notice: Notice, id: OrderId) {
-        remove(self.cell_at(point).list_mut(notice), id);
+    /// Takes an offer down.
+    pub(super) fn withdraw(&mut self, point: Point2, id: OrderId) {
+        remove(&mut self.cell_at(point).offered, id);
     }
 
-    /// Whether something hangs where it belongs.
-    pub(super) fn shows(&self, point: Point2, notice: Notice, id: OrderId) -> bool {
-        let (column, row) = self.key(point);
-        let cell = &self.cells[(row * self.columns + column) as usize];
-        cell.list(notice).binary_search(&id).is_ok()
+    /// Whether an order hangs where bids are taken.
+    pub(super) fn is_open(&self, point: Point2, id: OrderId) -> bool {
+        self.cell(point).tenders.binary_search_by_key(&id, |tender| tender.id).is_ok()
+    }
+
+    /// Whether an offer hangs where it belongs.
+    pub(super) fn is_offered(&self, point: Point2, id: OrderId) -> bool {
+        self.cell(point).offered.binary_search(&id).is_ok()
     }
 
     /// How much hangs on it.
     pub(super) fn len(&self) -> usize {
-        self.cells.iter().map(|cell| cell.open.len() + cell.offered.len()).sum()
+        self.cells.iter().map(|cell| cell.tenders.len() + cell.offered.len()).sum()
     }
 }
 
@@ -154,6 +176,10 @@ mod tests {
 
     use super::*;
 
+    fn tender(index: u32, at: Point2) -> Tender {
+        Tender { id: OrderId(index), at, ceiling: Cents(100), route: 1.0, closes: 10 }
+    }
+
     #[test]
     fn what_is_within_reach_hangs_near_and_is_news_there() {
         let mut rng = Seed(4).stream("board").rng();
@@ -162,22 +188,22 @@ mod tests {
         // Some of them lie outside of what the board was made for.
         let mut board = Board::new(150.0, points[..200].iter().map(|point| *point * 0.7));
         for (index, at) in points.iter().enumerate() {
-            board.put_up(*at, Notice::Open, OrderId(index as u32));
+            board.tender(tender(index as u32, *at));
         }
         assert_eq!(board.len(), 300);
         for _ in 0..200 {
             let here = point(1200.0);
-            let mut near: Vec<OrderId> = board.near(here, Notice::Open).collect();
+            let mut near: Vec<OrderId> = board.tenders(here).map(|tender| tender.id).collect();
             near.sort_unstable();
-            assert_eq!(board.near(here, Notice::Offer).count(), 0);
+            assert_eq!(board.offers(here).count(), 0);
             assert_eq!(board.news(here), near.len() as u64);
             for (index, at) in points.iter().enumerate() {
                 let found = near.binary_search(&OrderId(index as u32)).is_ok();
                 assert!(found || !board.reaches((at - here).norm()), "order {index} is near and not told");
             }
         }
-        assert!(board.near(points[0], Notice::Open).count() < 60, "most is far from anywhere");
-        board.take_down(points[0], Notice::Open, OrderId(0));
-        assert!(!board.shows(points[0], Notice::Open, OrderId(0)) && board.len() == 299);
+        assert!(board.tenders(points[0]).count() < 60, "most is far from anywhere");
+        board.close(points[0], OrderId(0));
+        assert!(!board.is_open(points[0], OrderId(0)) && board.len() == 299);
     }
 }

@@ -4,7 +4,7 @@ use simworld_core::geometry::{Point2, Point3};
 
 use super::action::CourierAction;
 use super::auction::Bid;
-use super::board::Notice;
+use super::board::insert;
 use super::config::{Shopping, Split};
 use super::money::{Account, Cents};
 use super::order::{Offer, Order, OrderId, Stage};
@@ -51,6 +51,7 @@ impl Turn<'_> {
             open.bids.retain(|other| other.courier != index);
             open.bids.push(bid);
         }
+        insert(&mut self.state.couriers[index].bids, id);
         let tally = &mut self.state.couriers[index].tally;
         tally.bids += 1;
         tally.bid_sum = tally.bid_sum + price;
@@ -112,7 +113,7 @@ impl Turn<'_> {
             terms.offer = Some(Offer { meet, bounty, accepted: None });
         }
         self.state.couriers[index].tally.shared += 1;
-        self.state.board.put_up(meet.xy(), Notice::Offer, id);
+        self.state.board.offer(meet.xy(), id);
         let facts = [
             ("order", fact(id)),
             ("x", meet.x.into()),

@@ -3,7 +3,7 @@
 use simworld_core::geometry::{Point2, Point3};
 
 use super::auction::Bid;
-use super::board::Notice;
+use super::board::remove;
 use super::money::{Account, Cents};
 use super::order::{Open, Order, OrderId, Stage};
 use super::state::BidResult;
@@ -49,7 +49,7 @@ impl Turn<'_> {
         let ceiling = Cents((fair * factor * self.state.market.ceiling).round().clamp(1.0, 1e12) as i64);
         let id = OrderId(self.state.orders.len() as u32);
         let window = (self.config.auction.window / self.state.dt).ceil().max(1.0) as u64;
-        self.state.orders.push(Order {
+        let order = Order {
             id,
             restaurant: restaurant.entity,
             pickup: restaurant.access,
@@ -59,9 +59,12 @@ impl Turn<'_> {
             ceiling,
             posted: self.state.tick,
             stage: Stage::Open(Open { closes: self.state.tick + window, bids: Vec::new() }),
-        });
+        };
         self.state.open.push(id);
-        self.state.board.put_up(restaurant.access.xy(), Notice::Open, id);
+        if let Some(tender) = order.tender() {
+            self.state.board.tender(tender);
+        }
+        self.state.orders.push(order);
         let facts = [
             ("order", fact(id)),
             ("restaurant", restaurant.entity.into()),
@@ -87,7 +90,7 @@ impl Turn<'_> {
     fn close_auction(&mut self, id: OrderId) {
         let Some(order) = self.state.order(id).cloned() else { return };
         let Stage::Open(open) = order.stage else { return };
-        self.state.board.take_down(order.pickup.xy(), Notice::Open, id);
+        self.state.board.close(order.pickup.xy(), id);
         let free = |bid: &&Bid| self.state.load(bid.courier) < self.config.capacity as usize;
         let bids: Vec<Bid> = open.bids.iter().filter(free).copied().collect();
         let award = self.auction.award(order.ceiling, &bids, &mut self.state.lots);
@@ -134,6 +137,7 @@ impl Turn<'_> {
 
     fn remember(&mut self, bid: &Bid, order: OrderId, ceiling: Cents, won: bool) {
         let courier = &mut self.state.couriers[bid.courier];
+        remove(&mut courier.bids, order);
         courier.results.push(BidResult { order, price: bid.price, ceiling, won });
         if courier.results.len() > MEMORY {
             courier.results.remove(0);

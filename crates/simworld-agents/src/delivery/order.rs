@@ -13,6 +13,7 @@ use simworld_core::geometry::Point3;
 use simworld_core::id::EntityId;
 
 use super::auction::Bid;
+use super::board::Tender;
 use super::money::Cents;
 
 /// Names an order: its place in the list of all orders of the episode.
@@ -54,6 +55,15 @@ pub struct Order {
     pub posted: u64,
     /// Where it stands.
     pub stage: Stage,
+}
+
+impl Order {
+    /// What hangs on the board of it, as long as it takes bids.
+    pub(super) fn tender(&self) -> Option<Tender> {
+        let Stage::Open(Open { closes, .. }) = self.stage else { return None };
+        let (id, ceiling, route) = (self.id, self.ceiling, self.route);
+        Some(Tender { id, at: self.pickup.xy(), ceiling, route, closes })
+    }
 }
 
 /// Where an order stands.

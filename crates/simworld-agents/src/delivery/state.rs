@@ -116,6 +116,8 @@ pub(super) struct Courier {
     pub(super) held: Vec<OrderId>,
     /// The orders it agreed to take over, ascending.
     pub(super) accepted: Vec<OrderId>,
+    /// The orders it has bid for that still take bids, ascending.
+    pub(super) bids: Vec<OrderId>,
     /// Counts what happened to this courier: a mind that sees it change has something to think about.
     pub(super) notices: u64,
     /// How its last bids ended, oldest first, and how many ended before those.

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use super::action::CourierAction;
 use super::auction::Auction;
-use super::board::{Board, Notice};
+use super::board::Board;
 use super::config::DeliveryConfig;
 use super::money::{Account, Cents, Ledger};
 use super::order::{Order, Stage};
@@ -193,6 +193,7 @@ impl DeliveryTask {
             errand: Errand::Idle,
             held: Vec::new(),
             accepted: Vec::new(),
+            bids: Vec::new(),
             notices: 0,
             results: Vec::new(),
             results_before: 0,
@@ -208,16 +209,17 @@ fn audit_lists(state: &State) -> Result<(), AuditError> {
         let offer = order.stage.terms().and_then(|terms| terms.offer);
         let has = |list: &[super::order::OrderId]| list.binary_search(&order.id).is_ok();
         let mut sound = true;
-        if matches!(order.stage, Stage::Open(_)) {
-            sound &= has(&state.open) && state.board.shows(order.pickup.xy(), Notice::Open, order.id);
-            listed += 2;
+        if let Stage::Open(open) = &order.stage {
+            sound &= has(&state.open) && state.board.is_open(order.pickup.xy(), order.id);
+            sound &= open.bids.iter().all(|bid| has(&state.couriers[bid.courier].bids));
+            listed += 2 + open.bids.len();
         }
         if let Some(holder) = order.stage.holder() {
             sound &= has(&state.couriers[holder].held);
             listed += 1;
         }
         if let Some(offer) = offer {
-            sound &= state.board.shows(offer.meet.xy(), Notice::Offer, order.id);
+            sound &= state.board.is_offered(offer.meet.xy(), order.id);
             listed += 1;
         }
         if let Some(second) = offer.and_then(|offer| offer.accepted) {
@@ -228,7 +230,8 @@ fn audit_lists(state: &State) -> Result<(), AuditError> {
             return Err(AuditError::Listing { order: order.id.0, stage: order.stage.name() });
         }
     }
-    let lists = state.couriers.iter().map(|courier| courier.held.len() + courier.accepted.len());
+    let lists =
+        state.couriers.iter().map(|courier| courier.held.len() + courier.accepted.len() + courier.bids.len());
     let found = state.open.len() + state.board.len() + lists.sum::<usize>();
     match state.orders.last() {
         Some(order) if found != listed => {

@@ -3,7 +3,7 @@
 use simworld_core::geometry::{Point2, Point3};
 
 use super::battery::Power;
-use super::board::Notice;
+use super::board::Tender;
 use super::config::DeliveryConfig;
 use super::money::{Account, Cents};
 use super::order::{Order, OrderId, Stage};
@@ -111,8 +111,9 @@ impl<'a> CourierView<'a> {
     /// Whether it is time to think: `due` has come, or something happened that was not `seen` before, to which the courier reacts
     /// at the time that `reaction` gives, s of the episode.
     pub(crate) fn wakes(&self, seen: &mut u64, due: &mut f64, reaction: impl FnOnce() -> f64) -> bool {
-        if self.notices() != *seen {
-            *seen = self.notices();
+        let notices = self.notices();
+        if notices != *seen {
+            *seen = notices;
             *due = due.min(reaction());
         }
         self.now() >= *due
@@ -207,37 +208,43 @@ impl<'a> CourierView<'a> {
         (point.xy() - self.position()).norm()
     }
 
-    /// What hangs on the board within reach, the oldest order first, each with how far it is to where it hangs, m.
-    fn told(
-        &self,
-        notice: Notice,
-        place: impl Fn(&Order) -> Option<Point3>,
-    ) -> Vec<(OrderId, f64, &'a Order)> {
-        let state = self.state;
-        let near = state.board.near(self.position(), notice).filter_map(|id| {
-            let order = state.order(id)?;
-            let distance = self.distance_to(&place(order)?);
-            state.board.reaches(distance).then_some((id, distance, order))
-        });
-        let mut told: Vec<_> = near.collect();
-        told.sort_unstable_by_key(|told| told.0);
-        told
-    }
-
     /// The orders that take bids and of which it is told, oldest first.
     pub fn open_orders(&self) -> impl Iterator<Item = OpenOrder> + '_ {
-        let told = self.told(Notice::Open, |order| Some(order.pickup));
-        told.into_iter().filter_map(|(_, approach, order)| {
-            let Stage::Open(open) = &order.stage else { return None };
-            Some(OpenOrder {
-                id: order.id,
-                ceiling: order.ceiling,
-                approach,
-                route: order.route,
-                closes_in: open.closes.saturating_sub(self.state.tick) as f64 * self.state.dt,
-                own_bid: open.bids.iter().find(|bid| bid.courier == self.index).map(|bid| bid.price),
-            })
+        let mut told: Vec<OpenOrder> = self.tenders().collect();
+        told.sort_unstable_by_key(|order| order.id);
+        told.into_iter()
+    }
+
+    /// The same as they hang on the board.
+    pub(super) fn tenders(&self) -> impl Iterator<Item = OpenOrder> + '_ {
+        let board = &self.state.board;
+        board.tenders(self.position()).filter_map(|tender| self.read(tender))
+    }
+
+    /// The orders among them that it has bid for, oldest first.
+    pub(super) fn own_bids(&self) -> impl Iterator<Item = OpenOrder> + '_ {
+        let orders = self.courier().bids.iter().filter_map(|id| self.state.order(*id));
+        orders.filter_map(|order| self.read(&order.tender()?))
+    }
+
+    /// What a tender says to it; `None` out of reach.
+    fn read(&self, tender: &Tender) -> Option<OpenOrder> {
+        let approach = (tender.at - self.position()).norm();
+        self.state.board.reaches(approach).then(|| OpenOrder {
+            id: tender.id,
+            ceiling: tender.ceiling,
+            approach,
+            route: tender.route,
+            closes_in: tender.closes.saturating_sub(self.state.tick) as f64 * self.state.dt,
+            own_bid: self.own_bid(tender.id),
         })
+    }
+
+    /// What it bid for an order that takes bids.
+    fn own_bid(&self, id: OrderId) -> Option<Cents> {
+        self.courier().bids.binary_search(&id).ok()?;
+        let Stage::Open(open) = &self.state.order(id)?.stage else { return None };
+        open.bids.iter().find(|bid| bid.courier == self.index).map(|bid| bid.price)
     }
 
     /// The orders it has won or carries, oldest first.
@@ -274,8 +281,12 @@ impl<'a> CourierView<'a> {
         // What it accepted it knows of wherever it is.
         let accepted = self.courier().accepted.iter().filter_map(|id| self.state.order(*id));
         let open = |order: &Order| order.stage.terms()?.offer.filter(|offer| offer.accepted.is_none());
-        let offered = self.told(Notice::Offer, move |order| Some(open(order)?.meet));
-        let offered = offered.into_iter().map(|(_, _, order)| order);
+        let within = |order: &&Order| {
+            open(order).is_some_and(|offer| self.state.board.reaches(self.distance_to(&offer.meet)))
+        };
+        let near = self.state.board.offers(self.position()).filter_map(|id| self.state.order(id));
+        let mut offered: Vec<&Order> = near.filter(within).collect();
+        offered.sort_unstable_by_key(|order| order.id);
         accepted.chain(offered).filter_map(|order| {
             let terms = order.stage.terms()?;
             let offer = terms.offer?;

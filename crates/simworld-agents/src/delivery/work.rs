@@ -2,7 +2,6 @@
 
 use simworld_core::command::Command;
 
-use super::board::Notice;
 use super::config::Split;
 use super::money::{Account, Cents};
 use super::order::{Carried, OrderId, Stage};
@@ -71,7 +70,7 @@ impl Turn<'_> {
         }
         let Some(carried) = carried.hand_over() else { return };
         let parcel = carried.parcel;
-        self.state.board.take_down(offer.meet.xy(), Notice::Offer, id);
+        self.state.board.withdraw(offer.meet.xy(), id);
         self.state.release(first, id);
         self.state.disagree(second, id);
         self.state.hold(second, id);
@@ -153,7 +152,7 @@ impl Turn<'_> {
         let Some(stage) = self.state.orders.get_mut(id.index()).map(|order| &mut order.stage) else { return };
         let Some(holder) = stage.holder() else { return };
         let Some(offer) = stage.terms_mut().and_then(|terms| terms.offer.take()) else { return };
-        self.state.board.take_down(offer.meet.xy(), Notice::Offer, id);
+        self.state.board.withdraw(offer.meet.xy(), id);
         if let Some(second) = offer.accepted {
             self.state.disagree(second, id);
         }

@@ -26,7 +26,7 @@ pub use kind::{EntityKind, Place};
 pub use naming::NameIndex;
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
-pub use world::{World, WorldError, WorldSnapshot};
+pub use world::{Mark, World, WorldError, WorldSnapshot};
 
 use crate::asset::Catalogue;
 use crate::clock::Clock;

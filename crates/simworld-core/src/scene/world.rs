@@ -3,6 +3,7 @@
 
 mod bonds;
 mod error;
+mod journal;
 mod read;
 mod slots;
 mod snapshot;
@@ -11,6 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 pub use error::WorldError;
+use journal::Journal;
+pub use journal::Mark;
 use slots::{check_pose, check_twist, is_called};
 pub use snapshot::WorldSnapshot;
 
@@ -59,10 +62,9 @@ pub struct World {
     bounds: Vec<Aabb>,
     infos: Vec<Option<EntityInfo>>,
     bonds: Vec<Option<Attachment>>,
-    /// Digest of each slot, brought up to date at the end of a step for the slots in `touched`.
+    /// Digest of each slot, brought up to date at the end of a step for those that changed in it.
     digests: Vec<u64>,
-    touched: Vec<u32>,
-    is_touched: Vec<bool>,
+    journal: Journal,
     /// Free slots; the last is taken first.
     free: Vec<u32>,
     /// How people hold their limbs; no part of what is saved.
@@ -161,6 +163,11 @@ impl World {
     /// Every living entity, by ascending slot.
     pub fn iter(&self) -> impl Iterator<Item = EntityRef<'_>> {
         (0..self.infos.len()).filter_map(|slot| self.in_slot(slot))
+    }
+
+    /// The living entity in a slot: that of the id with this [index](EntityId::index), of whatever generation.
+    pub fn slot(&self, index: usize) -> Option<EntityRef<'_>> {
+        if index < self.infos.len() { self.in_slot(index) } else { None }
     }
 
     /// A count that changes whenever an entity is spawned, removed or [altered](Self::alter): what a cache of
@@ -402,17 +409,15 @@ impl World {
     }
 
     fn renew_digests(&mut self) {
-        let mut touched = std::mem::take(&mut self.touched);
-        for slot in touched.drain(..) {
-            let slot = slot as usize;
-            self.is_touched[slot] = false;
+        self.journal.turn();
+        for index in 0..self.journal.last().len() {
+            let slot = self.journal.last()[index] as usize;
             self.digests[slot] = self.in_slot(slot).map_or(0, |entity| {
                 let mut hasher = StateHasher::new();
                 entity.state_hash(&mut hasher);
                 hasher.finish().0
             });
         }
-        self.touched = touched;
     }
 
     // ---- inner workings ----

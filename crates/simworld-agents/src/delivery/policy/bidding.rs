@@ -109,39 +109,39 @@ impl<'a> Means<'a> {
 }
 
 /// Chooses among the orders that take bids one to bid for, and a price, before the persona has its say.
+///
+/// Of what is as good the newest is taken, of what is as near the oldest.
 pub(super) fn choose(
     kind: PolicyKind,
     learner: &Learner,
     view: &CourierView<'_>,
-    open: &[OpenOrder],
     rng: &mut StreamRng,
 ) -> Option<(OpenOrder, f64)> {
     let means = Means::of(view);
     let cost = |order: &OpenOrder| means.cost(order);
-    let (horizon, backlog) = (view.config().horizon, means.backlog + pending(open));
+    let (horizon, backlog) = (view.config().horizon, means.backlog + pending(view));
     // What cannot be finished within what it plans, or brings less than it costs, is left to others.
     let worth_it = |order: &OpenOrder| {
         let work = time_at(means.speed, backlog + order.approach + order.route);
         order.closes_in + work <= horizon && cost(order) < order.ceiling.dollars()
     };
-    let open = open.iter().filter(|order| order.own_bid.is_none() && worth_it(order)).copied();
-    let length = |order: &OpenOrder| order.approach + order.route;
+    let open = view.tenders().filter(|order| order.own_bid.is_none() && worth_it(order));
     let order = match kind {
         PolicyKind::NearestOnly => {
-            open.filter(|order| order.approach <= CLOSE).min_by(|a, b| a.approach.total_cmp(&b.approach))
+            let nearer = |a: &OpenOrder, b: &OpenOrder| {
+                a.approach.total_cmp(&b.approach).then_with(|| a.id.cmp(&b.id))
+            };
+            open.filter(|order| order.approach <= CLOSE).min_by(nearer)
         }
         PolicyKind::ValueDensity => {
-            let density = |order: &OpenOrder| order.ceiling.dollars() / length(order).max(1.0);
-            open.max_by(|a, b| density(a).total_cmp(&density(b)))
+            best(open, |order| order.ceiling.dollars() / (order.approach + order.route).max(1.0))
         }
         PolicyKind::WideRandom | PolicyKind::Lowballer => {
-            let all: Vec<OpenOrder> = open.collect();
+            let mut all: Vec<OpenOrder> = open.collect();
+            all.sort_unstable_by_key(|order| order.id);
             rng.choose(&all).copied()
         }
-        _ => {
-            let gain = |order: &OpenOrder| order.ceiling.dollars() - cost(order);
-            open.max_by(|a, b| gain(a).total_cmp(&gain(b)))
-        }
+        _ => best(open, |order| order.ceiling.dollars() - cost(order)),
     }?;
     let (ceiling, cost) = (order.ceiling.dollars(), cost(&order));
     let price = match kind {
@@ -161,6 +161,14 @@ pub(super) fn choose(
         PolicyKind::NearlyInactive => ceiling * 0.85,
     };
     Some((order, price))
+}
+
+/// The order with the highest score, the newest of several, in whatever order they are read.
+fn best(orders: impl Iterator<Item = OpenOrder>, score: impl Fn(&OpenOrder) -> f64) -> Option<OpenOrder> {
+    let scored = orders.map(|order| (score(&order), order));
+    let better =
+        |a: &(f64, OpenOrder), b: &(f64, OpenOrder)| a.0.total_cmp(&b.0).then_with(|| a.1.id.cmp(&b.1.id));
+    scored.max_by(better).map(|(_, order)| order)
 }
 
 /// A price that may be bid: at least a dollar or the ceiling, at most the ceiling.

@@ -9,7 +9,7 @@ use simworld_core::seed::{Stream, StreamRng};
 use super::bidding::{Learner, admissible, choose};
 use super::pace::{backlog, brisk, time_for, usual_pay, usual_time};
 use super::{Persona, PolicyKind};
-use crate::delivery::{Cents, CourierAction, CourierView, DeliveryTask, Errand, HeldOrder, OpenOrder};
+use crate::delivery::{Cents, CourierAction, CourierView, DeliveryTask, Errand, HeldOrder};
 use crate::mind::{Mind, MindError};
 
 /// Longest time between two thoughts, s.
@@ -130,15 +130,10 @@ impl CourierMind {
 
     fn bid(&mut self, view: &CourierView<'_>) -> Option<CourierAction> {
         let room = view.room();
-        if room == 0 {
+        if room <= view.own_bids().count() || !self.state.rng.chance(self.persona.bid_rate()) {
             return None;
         }
-        let open: Vec<OpenOrder> = view.open_orders().collect();
-        let pending = open.iter().filter(|order| order.own_bid.is_some()).count();
-        if room <= pending || !self.state.rng.chance(self.persona.bid_rate()) {
-            return None;
-        }
-        let (order, price) = choose(self.kind, &self.state.learner, view, &open, &mut self.state.rng)?;
+        let (order, price) = choose(self.kind, &self.state.learner, view, &mut self.state.rng)?;
         let spread = self.persona.spread();
         let noise = self.state.rng.uniform(1.0 - spread, 1.0 + spread);
         let price = admissible(price * self.persona.price_factor() * noise, order.ceiling);

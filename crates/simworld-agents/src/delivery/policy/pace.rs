@@ -2,7 +2,7 @@
 
 use simworld_core::ops;
 
-use crate::delivery::{CourierView, HeldOrder, OpenOrder};
+use crate::delivery::{CourierView, HeldOrder};
 
 /// Share of its length, measured straight or along sidewalks, by which a walk takes longer than at full speed: waits at
 /// crossings, ways round corners. Measured on the default city: couriers cover 0.7 to 0.85 of it.
@@ -58,7 +58,6 @@ pub(super) fn backlog(view: &CourierView<'_>) -> f64 {
 }
 
 /// What there may be to walk for the orders that it has bid for, of those that take bids, m.
-pub(super) fn pending(open: &[OpenOrder]) -> f64 {
-    let bid_for = open.iter().filter(|order| order.own_bid.is_some());
-    bid_for.map(|order| order.approach + order.route).sum()
+pub(super) fn pending(view: &CourierView<'_>) -> f64 {
+    view.own_bids().map(|order| order.approach + order.route).sum()
 }

@@ -24,9 +24,12 @@ impl World {
         min_extent: f64,
         visitor: &mut dyn FnMut(EntityRef<'_>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        self.tree.visit(region, min_extent, &mut |slot| match self.in_slot(slot as usize) {
-            Some(entity) if entity.bounds.intersects(region) => visitor(entity),
-            _ => ControlFlow::Continue(()),
+        self.tree.visit(region, min_extent, &mut |slot| {
+            // Most of a cell is outside: its boxes lie side by side, and nothing else of it is read.
+            if !self.bounds[slot as usize].intersects(region) {
+                return ControlFlow::Continue(());
+            }
+            self.in_slot(slot as usize).map_or(ControlFlow::Continue(()), &mut *visitor)
         })
     }
 }

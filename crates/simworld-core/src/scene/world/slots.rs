@@ -48,7 +48,7 @@ impl World {
         self.infos.push(None);
         self.bonds.push(None);
         self.digests.push(0);
-        self.is_touched.push(false);
+        self.journal.add_slot();
         slot
     }
 
@@ -97,10 +97,7 @@ impl World {
     }
 
     pub(super) fn touch(&mut self, slot: usize) {
-        if !self.is_touched[slot] {
-            self.is_touched[slot] = true;
-            self.touched.push(slot as u32);
-        }
+        self.journal.touch(slot);
     }
 
     pub(super) fn in_slot(&self, slot: usize) -> Option<EntityRef<'_>> {
