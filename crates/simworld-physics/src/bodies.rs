@@ -8,13 +8,14 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seam::{BodyState, Embodiment};
 
-use crate::body::{Bonds, Detail, PhysicsBody};
+use crate::body::{Detail, PhysicsBody};
 use crate::convert::from_vector;
 use crate::dynamics::{Owned, PhysicsDynamics};
 use crate::shape::material_of_entity;
-use crate::sync::Slot;
+use crate::sync::{Slot, bonds_of};
 use crate::{
-    Humanoid, HumanoidConfig, PhysicsError, Quadruped, QuadrupedConfig, Rigid, Vehicle, VehicleParameters,
+    Door, DoorConfig, Humanoid, HumanoidConfig, PhysicsError, Quadruped, QuadrupedConfig, Rigid, Robot,
+    RobotConfig, Vehicle, VehicleParameters,
 };
 
 impl PhysicsDynamics {
@@ -54,6 +55,31 @@ impl PhysicsDynamics {
     ) -> Result<(), PhysicsError> {
         let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
         self.insert(world, id, Box::new(Quadruped::of(&entity, config)?))
+    }
+
+    /// Gives an entity the body of a robot: links on joints with motors, from a description. The robot stands at the pose of the
+    /// entity, on the lowest point that it has.
+    ///
+    /// # Errors
+    /// An unknown entity, one that has a body, a description that is no robot, or a setting out of range.
+    pub fn add_robot(
+        &mut self,
+        world: &World,
+        id: EntityId,
+        config: RobotConfig,
+    ) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        let state = BodyState { pose: *entity.pose, twist: *entity.twist };
+        self.insert(world, id, Box::new(Robot::new(state, config)?))
+    }
+
+    /// Hangs a door's entity, a closed leaf of its pose, shape and mass, on a hinge.
+    ///
+    /// # Errors
+    /// An unknown entity, one that has a body, a shape that is no leaf, or a setting out of range.
+    pub fn add_door(&mut self, world: &World, id: EntityId, config: DoorConfig) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        self.insert(world, id, Box::new(Door::of(&entity, config)?))
     }
 
     /// Gives a vehicle's entity a body of its pose, velocity, size and mass.
@@ -101,11 +127,11 @@ impl PhysicsDynamics {
             self.slots.resize_with(id.index() + 1, Slot::default);
         }
         self.vacate(id.index());
-        self.slots[id.index()] = Slot::Own { id };
+        self.set_slot(id.index(), Slot::Own { id });
         let rigid = body.attach(id, &mut self.physics);
         // Otherwise the engine knows the mass only after its first step, and the body drives before that.
         self.physics.bodies[rigid].recompute_mass_properties_from_colliders(&self.physics.colliders);
-        let (written, bonds, before) = (*entity.pose, Bonds::default(), Twist::ZERO);
+        let (written, bonds, before) = (*entity.pose, bonds_of(id, world), Twist::ZERO);
         let owned = Owned { id, body, rigid, written, bonds, before, detail: Detail::Full };
         self.bodies.insert(place, owned);
         self.file_body(rigid);
@@ -121,7 +147,8 @@ impl PhysicsDynamics {
         let mut owned = self.bodies.remove(place);
         owned.body.gather(&mut self.physics, owned.rigid);
         self.physics.remove_body(owned.rigid);
-        self.slots[id.index()] = Slot::Vacant;
+        self.set_slot(id.index(), Slot::Vacant);
+        self.stale.insert(id.index());
         Ok(())
     }
 

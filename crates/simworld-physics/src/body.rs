@@ -16,6 +16,7 @@ use simworld_core::seam::{BodyState, Embodiment};
 use crate::PhysicsConfig;
 use crate::claims::{Claim, Claims};
 use crate::humanoid::Shove;
+use crate::movers::Movers;
 use crate::surface::Conditions;
 
 /// How finely a body is to move.
@@ -140,6 +141,9 @@ pub trait PhysicsBody: Embodiment + Send + Any {
     /// Acts on the engine for the coming substep of `dt` s: sets a kinematic target, applies impulses.
     fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64);
 
+    /// Looks at its parts after the engine's step, before it [settles](Self::settle); of no interest to a body of one part.
+    fn observe(&mut self, _physics: &PhysicsWorld, _rigid: RigidBodyHandle) {}
+
     /// Takes up the state that the engine reached.
     fn settle(&mut self, state: &BodyState);
 
@@ -160,8 +164,8 @@ pub struct Surroundings<'a> {
     pub(crate) detail: Detail,
     pub(crate) ground: ColliderHandle,
     pub(crate) surface: Option<&'a Ground>,
-    /// The greatest speed of anything that moves, m/s.
-    pub(crate) fastest: f64,
+    /// What moves so fast that it may knock somebody over.
+    pub(crate) movers: &'a Movers,
     /// Who pushed whom in the last substep.
     pub(crate) shoves: &'a [Shove],
 }

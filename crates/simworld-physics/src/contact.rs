@@ -93,7 +93,7 @@ impl PhysicsDynamics {
     pub(crate) fn find_contacts(&mut self) {
         let mut contacts = std::mem::take(&mut self.contacts);
         for owned in self.bodies.iter().filter(|owned| owned.bonds.carried.is_none()) {
-            if self.physics.bodies[owned.rigid].is_dynamic() {
+            if self.physics.bodies[owned.rigid].is_dynamic() || !owned.body.parts().is_empty() {
                 self.find_solved(owned, &mut contacts);
             } else {
                 for handle in self.physics.bodies[owned.rigid].colliders() {

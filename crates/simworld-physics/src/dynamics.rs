@@ -10,7 +10,7 @@ use simworld_core::geometry::{Point2, Point3, Pose, Twist};
 use simworld_core::ground::Ground;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Scene, World};
+use simworld_core::scene::{Mark, Scene, World};
 use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
 use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
@@ -19,8 +19,10 @@ use crate::claims::Claims;
 use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::ground;
-use crate::humanoid::Shove;
+use crate::humanoid::{Shove, least_blow};
 use crate::mirror::Moving;
+use crate::movers::Movers;
+use crate::slot_set::SlotSet;
 use crate::solid::Solids;
 use crate::surface::Conditions;
 use crate::sync::Slot;
@@ -73,6 +75,12 @@ pub struct PhysicsDynamics {
     pub(crate) surface: Option<Arc<Ground>>,
     /// What the physics makes of each slot of the world.
     pub(crate) slots: Vec<Slot>,
+    /// The slots of what others move.
+    pub(crate) traffic: SlotSet,
+    /// The slots to be looked at in the next step, beside those that the world says.
+    pub(crate) stale: SlotSet,
+    /// When the world was looked at last; `None` to look at all of it.
+    pub(crate) seen: Option<Mark>,
     /// By ascending id.
     pub(crate) bodies: Vec<Owned>,
     pub(crate) contacts: Contacts,
@@ -88,6 +96,8 @@ pub struct PhysicsDynamics {
     pub(crate) moving: Vec<Moving>,
     /// Where the bodies of this physics are.
     pub(crate) near: Cells<Point2>,
+    /// What may knock somebody over.
+    movers: Movers,
     claims: Claims,
     /// Who pushed whom in the last substep.
     pub(crate) shoves: Vec<Shove>,
@@ -125,6 +135,9 @@ impl PhysicsDynamics {
             ground,
             surface: None,
             slots: Vec::new(),
+            traffic: SlotSet::default(),
+            stale: SlotSet::default(),
+            seen: None,
             bodies: Vec::new(),
             contacts: Contacts::default(),
             solids: Solids::default(),
@@ -133,6 +146,7 @@ impl PhysicsDynamics {
             nobody: RigidBodySet::new(),
             moving: Vec::new(),
             near: Cells::new(2.0 * near),
+            movers: Movers::default(),
             claims: Claims::default(),
             shoves: Vec::new(),
             failures: Vec::new(),
@@ -180,11 +194,11 @@ impl PhysicsDynamics {
 
     /// Lets every body look around; the state is frozen, so the order and the thread do not matter.
     fn sense(&mut self, dt: f64) {
-        let fastest = self.fastest();
+        self.note_movers(dt);
         let (physics, nobody, config, conditions) =
             (&self.physics, &self.nobody, &self.config, &self.conditions);
         let (ground, surface) = (self.ground, self.surface.as_deref());
-        let shoves = &*self.shoves;
+        let (movers, shoves) = (&self.movers, &*self.shoves);
         let sense = |owned: &mut Owned| {
             if owned.bonds.carried.is_none() {
                 let (rigid, detail) = (owned.rigid, owned.detail);
@@ -197,7 +211,7 @@ impl PhysicsDynamics {
                     detail,
                     ground,
                     surface,
-                    fastest,
+                    movers,
                     shoves,
                 };
                 owned.body.sense(&around, dt);
@@ -210,12 +224,16 @@ impl PhysicsDynamics {
         }
     }
 
-    /// The greatest speed of anything that moves, m/s.
-    fn fastest(&self) -> f64 {
-        let bodies = self.bodies.iter().map(|owned| owned.body.state().twist.linear.norm_squared());
-        let mirrored = self.moving.iter().filter_map(|moving| self.physics.bodies.get(moving.rigid));
-        let mirrored = mirrored.map(|rigid| rigid.linvel().length_squared());
-        bodies.chain(mirrored).fold(0.0, f64::max).sqrt()
+    /// Notes what moves so fast that it may knock somebody over.
+    fn note_movers(&mut self, dt: f64) {
+        let slowest = least_blow(self.config.gravity);
+        self.movers.clear();
+        let own =
+            self.bodies.iter().flat_map(|owned| std::iter::once(&owned.rigid).chain(owned.body.parts()));
+        let mirrored = self.moving.iter().map(|moving| &moving.rigid);
+        for rigid in own.chain(mirrored) {
+            self.movers.note(*rigid, slowest, dt, &self.physics);
+        }
     }
 
     /// One substep: `share` of the world's step will have passed at its end.
@@ -240,6 +258,7 @@ impl PhysicsDynamics {
             let rigid = &self.physics.bodies[owned.rigid];
             let linear = from_vector(rigid.velocity_at_point(rigid.translation()));
             let twist = Twist { linear, angular: from_vector(rigid.angvel()) };
+            owned.body.observe(&self.physics, owned.rigid);
             owned.body.settle(&BodyState { pose: from_pose(rigid.position()), twist });
         }
         self.find_contacts();

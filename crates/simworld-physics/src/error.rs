@@ -1,8 +1,11 @@
 //! What can be wrong with a request to the physics.
 
 use simworld_core::id::EntityId;
+use simworld_core::scene::WorldError;
 use simworld_core::seam::DynamicsError;
 use thiserror::Error;
+
+use crate::robot::RobotError;
 
 /// Why the physics refused, or could not go on.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -38,6 +41,15 @@ pub enum PhysicsError {
         /// The entity.
         id: EntityId,
     },
+    /// Somebody holds nothing.
+    #[error("{id} holds nothing to throw: let it pick something up first")]
+    EmptyHanded {
+        /// Who.
+        id: EntityId,
+    },
+    /// The world refuses what was to be done to it.
+    #[error(transparent)]
+    World(#[from] WorldError),
     /// The entity's shape does not suit the body.
     #[error("the shape of {id} does not suit a {body}: {reason}")]
     Shape {
@@ -48,6 +60,9 @@ pub enum PhysicsError {
         /// What is wrong, and what would do.
         reason: String,
     },
+    /// The description of a robot is wrong.
+    #[error("this is no robot: {0}")]
+    Robot(#[from] RobotError),
     /// The state of a body stopped being finite and the engine has put it out of action.
     #[error("the motion of {id} is no longer finite: a force, mass or action on it is absurd")]
     NotFinite {

@@ -9,35 +9,43 @@ mod config;
 mod contact;
 pub mod convert;
 mod detail;
+mod door;
 mod dynamics;
 mod error;
 mod ground;
 mod humanoid;
+mod joint;
 mod mirror;
+mod movers;
 pub mod proving;
 mod quadruped;
 mod query;
 mod rigid;
+pub mod robot;
 mod shape;
+mod slot_set;
 mod snapshot;
 mod solid;
 mod surface;
 mod sync;
+mod throw;
 mod vehicle;
 
 pub use body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
 pub use claims::Claim;
 pub use config::PhysicsConfig;
+pub use door::{Door, DoorConfig, HingeSide, Latch};
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;
 pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture, Surefootedness};
+pub use joint::{JointCommand, JointReading};
 pub use quadruped::{
-    Command, GaitParameters, ImuReading, JointCommand, JointReading, LEGS, Quadruped, QuadrupedConfig,
-    QuadrupedModel, Readings,
+    Command, GaitParameters, ImuReading, LEGS, Quadruped, QuadrupedConfig, QuadrupedModel, Readings,
 };
 /// The physics engine underneath, for bodies of one's own: its types appear in [`PhysicsBody`].
 pub use rapier3d_f64 as rapier;
 pub use rigid::Rigid;
+pub use robot::{Robot, RobotConfig, RobotDescription, RobotError};
 pub use shape::{BodyTag, collider_for, shape_from};
 pub use simworld_core::asset::Material;
 pub use surface::{Conditions, RoadCondition};

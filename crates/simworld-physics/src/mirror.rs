@@ -56,8 +56,8 @@ impl PhysicsDynamics {
                 self.file_body(rigid);
                 self.follow(rigid, &stood, entity.pose);
             }
-            self.slots[slot] =
-                Slot::Traffic(Mirror { id: entity.id, shape: entity.info.shape, pose: *entity.pose, rigid });
+            let (id, shape, pose) = (entity.id, entity.info.shape, *entity.pose);
+            self.set_slot(slot, Slot::Traffic(Mirror { id, shape, pose, rigid }));
             return;
         };
         let rigid = match rigid {

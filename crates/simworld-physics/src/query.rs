@@ -38,7 +38,7 @@ impl PhysicsDynamics {
 
     /// Traffic that is too far from every body to have a collider.
     fn distant(&self) -> impl Iterator<Item = &Mirror> {
-        self.slots.iter().filter_map(|slot| match slot {
+        self.traffic.iter().filter_map(|slot| match &self.slots[slot] {
             Slot::Traffic(mirror) if mirror.rigid.is_none() => Some(mirror),
             _ => None,
         })

@@ -15,6 +15,7 @@ use crate::body::{Bonds, Detail};
 use crate::convert::{from_pose, from_vector};
 use crate::dynamics::{Owned, PhysicsDynamics};
 use crate::humanoid::Shove;
+use crate::slot_set::SlotSet;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
@@ -135,6 +136,9 @@ impl PhysicsDynamics {
         self.physics = read.physics;
         (self.ground, self.surface) = (read.ground, surface.cloned());
         self.slots = read.slots;
+        (self.traffic, self.stale, self.seen) = (SlotSet::default(), SlotSet::default(), None);
+        let is_traffic = |slot: &usize| matches!(self.slots[*slot], Slot::Traffic(_));
+        (0..self.slots.len()).filter(is_traffic).for_each(|slot| self.traffic.insert(slot));
         self.contacts.touching = read.touching;
         self.conditions = read.conditions;
         self.interest = read.interest;

@@ -1,7 +1,7 @@
 //! Keeping the engine's colliders in step with the world's entities, by what changed.
 //!
-//! One pass over the slots a step compares each entity with what the engine has of it; only a difference costs
-//! anything more. The pass sees removals, moves by command, and things picked up, whichever way they came about.
+//! A step compares what changed in the world since the last one, and the first one everything, with what the engine has of it; only a
+//! difference costs anything more. It sees removals, moves by command, and things picked up, whichever way they came about.
 
 use rapier3d_f64::prelude::{ColliderHandle, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,7 @@ use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
 use crate::mirror::Mirror;
 use crate::shape::body_from;
+use crate::slot_set::SlotSet;
 
 /// What the physics makes of a slot of the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -30,6 +31,23 @@ pub(crate) enum Slot {
     Own { id: EntityId },
 }
 
+/// What ties an entity to others, for a body that does not know it yet: of several scooters the last by slot.
+pub(crate) fn bonds_of(id: EntityId, world: &World) -> Bonds {
+    let mut bonds = Bonds::default();
+    world.visit_attached(id, &mut |child| {
+        if child.attachment.is_some_and(|bond| bond.role == Role::Ridden) {
+            bonds.scooter = Some(child.id);
+        }
+    });
+    bonds
+}
+
+/// Whether somebody rides a scooter.
+fn rides(world: &World, rider: EntityId, scooter: EntityId) -> bool {
+    let bond = world.entity(scooter).and_then(|entity| entity.attachment.copied());
+    bond.is_some_and(|bond| bond.role == Role::Ridden && bond.parent == rider)
+}
+
 impl PhysicsDynamics {
     /// Brings the engine up to date with the world as it stands at the start of a step.
     pub(crate) fn synchronise(&mut self, world: &World) {
@@ -37,7 +55,10 @@ impl PhysicsDynamics {
         self.drop_orphans(world);
         self.near.clear();
         for owned in &mut self.bodies {
-            owned.bonds = Bonds::default();
+            if owned.bonds.scooter.is_some_and(|scooter| !rides(world, owned.id, scooter)) {
+                owned.bonds = bonds_of(owned.id, world);
+            }
+            owned.bonds.carried = None;
             if let Some(entity) = world.entity(owned.id) {
                 let here = planar(entity.pose);
                 self.near.insert(here, here);
@@ -48,15 +69,39 @@ impl PhysicsDynamics {
         if self.slots.len() < world.slots() {
             self.slots.resize_with(world.slots(), Slot::default);
         }
-        let mut next = 0;
-        for entity in world.iter() {
-            let slot = entity.id.index();
-            (next..slot).for_each(|vacant| self.vacate(vacant));
-            next = slot + 1;
-            self.synchronise_slot(slot, &entity, world);
+        let mut stale = self.stale(world);
+        for slot in stale.iter() {
+            match world.slot(slot) {
+                Some(entity) => self.synchronise_slot(slot, &entity, world),
+                None => self.vacate(slot),
+            }
         }
-        (next..self.slots.len()).for_each(|vacant| self.vacate(vacant));
+        stale.clear();
+        self.stale = stale;
+        self.seen = Some(world.mark());
         self.follow_world(world);
+    }
+
+    /// The slots of which the engine may have something else than the world: what changed, traffic, of which it has only what is near
+    /// its bodies, and what was left by bodies that were taken away.
+    fn stale(&mut self, world: &World) -> SlotSet {
+        let mut stale = std::mem::take(&mut self.stale);
+        match self.seen.and_then(|mark| world.touched_since(mark)) {
+            Some(touched) => touched.for_each(|slot| stale.insert(slot)),
+            None => (0..self.slots.len()).for_each(|slot| stale.insert(slot)),
+        }
+        stale.unite(&self.traffic);
+        stale
+    }
+
+    /// Notes what the engine has of a slot.
+    pub(crate) fn set_slot(&mut self, slot: usize, value: Slot) {
+        if matches!(value, Slot::Traffic(_)) {
+            self.traffic.insert(slot);
+        } else {
+            self.traffic.remove(slot);
+        }
+        self.slots[slot] = value;
     }
 
     /// Takes the bodies of removed entities out of the engine.
@@ -78,7 +123,10 @@ impl PhysicsDynamics {
             if bond.role == Role::Ridden
                 && let Ok(rider) = self.position(bond.parent)
             {
-                self.bodies[rider].bonds.scooter = Some(entity.id);
+                let scooter = &mut self.bodies[rider].bonds.scooter;
+                // Of several the last by slot, whichever was touched.
+                let last = scooter.filter(|other| other.index() > slot);
+                *scooter = last.or(Some(entity.id));
             }
             self.vacate(slot);
             return;
@@ -108,7 +156,7 @@ impl PhysicsDynamics {
         let collider = self.physics.insert_collider(collider, None);
         self.file(collider);
         let (id, asset, shape, pose) = (entity.id, entity.info.asset, entity.info.shape, *entity.pose);
-        self.slots[slot] = Slot::Fixed { id, asset, shape, pose, collider };
+        self.set_slot(slot, Slot::Fixed { id, asset, shape, pose, collider });
     }
 
     /// Takes out of the engine what others than the bodies have in a slot.
@@ -124,7 +172,7 @@ impl PhysicsDynamics {
                 }
             }
         }
-        self.slots[slot] = Slot::Vacant;
+        self.set_slot(slot, Slot::Vacant);
     }
 
     /// Lets bodies follow what was done to them in the world: moves by command, seats taken and left.

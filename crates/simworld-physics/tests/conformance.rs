@@ -10,15 +10,21 @@ use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Scene, Shape, World};
-use simworld_core::seam::{Dynamics, DynamicsError};
+use simworld_core::seam::{BodyState, Dynamics, DynamicsError};
 use simworld_core::testing::{check_dynamics, check_embodiment};
-use simworld_physics::{Humanoid, HumanoidConfig, PhysicsConfig, PhysicsDynamics, Vehicle, VehicleClass};
+use simworld_physics::{
+    Humanoid, HumanoidConfig, PhysicsConfig, PhysicsDynamics, QuadrupedModel, Robot, RobotConfig, Vehicle,
+    VehicleClass,
+};
 
 #[test]
-fn humanoids_and_vehicles_are_embodiments() {
+fn humanoids_vehicles_and_robots_are_embodiments() {
     let pose = at(1.0, 2.0, 0.5);
     check_embodiment(|| Box::new(Humanoid::new(pose, HumanoidConfig::default()).unwrap()));
     check_embodiment(|| Box::new(Vehicle::new(pose, VehicleClass::Sedan.parameters()).unwrap()));
+    let dog = QuadrupedModel::default().description();
+    let state = BodyState { pose, twist: Twist::ZERO };
+    check_embodiment(|| Box::new(Robot::new(state, RobotConfig::from(dog.clone())).unwrap()));
 }
 
 /// Physics whose bodies are told, by the clock alone, to walk, turn and drive; and traffic that passes by.

@@ -9,9 +9,9 @@ use parry3d_f64::query::cast_shapes;
 use parry3d_f64::query::details::ShapeCastOptions;
 use parry3d_f64::shape::{Cylinder, Shape};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
-use rapier3d_f64::prelude::QueryPipeline;
+use rapier3d_f64::prelude::{Collider, ColliderHandle, QueryPipeline, RigidBody};
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Vector2, Vector3};
+use simworld_core::geometry::{Point2, Vector2, Vector3};
 
 use super::walk::SKIN;
 use super::{Humanoid, Posture};
@@ -34,6 +34,8 @@ pub(super) const CENTER: f64 = 0.56;
 const SOLES: f64 = 1.05;
 /// Somebody careful asks no more than this share of what friction gives.
 const CARE: f64 = 0.7;
+/// Who is shorter keeps its balance like somebody of this height, m.
+const SHORTEST: f64 = 0.3;
 /// Where there is less weight than that of a tenth of the Earth's, nobody stands by it, m/s².
 const WEIGHTLESS: f64 = 1.0;
 /// Free way of the trunk over what stops the feet, m: less, and it is a wall.
@@ -55,6 +57,17 @@ impl Default for super::Stand {
     fn default() -> Self {
         Self { normal: Vector3::z(), grip: 1.0 }
     }
+}
+
+/// The change of speed that somebody so tall recovers from, m/s.
+fn recoverable_speed(height: f64, gravity: f64) -> f64 {
+    let height = height.max(SHORTEST);
+    (gravity / (PENDULUM * height)).sqrt() * REACH * height
+}
+
+/// What is slower than this knocks nobody over, m/s.
+pub(crate) fn least_blow(gravity: f64) -> f64 {
+    recoverable_speed(SHORTEST, gravity)
 }
 
 impl Balance {
@@ -79,7 +92,7 @@ impl Balance {
 impl Humanoid {
     /// The change of speed that it recovers from, m/s.
     pub(super) fn recoverable_speed(&self, gravity: f64) -> f64 {
-        (gravity / (PENDULUM * self.height)).sqrt() * REACH * self.height
+        recoverable_speed(self.height, gravity)
     }
 
     /// Whether it can fall at all as it is.
@@ -158,38 +171,50 @@ impl Humanoid {
         around: &Surroundings<'_>,
         dt: f64,
     ) -> bool {
-        let limit = self.recoverable_speed(around.config().gravity);
-        if around.fastest <= limit || !self.is_fallible(around.config().gravity) {
+        let gravity = around.config().gravity;
+        if !self.is_fallible(gravity) {
             return false;
         }
-        let queries = around.queries();
-        let mut aabb = solid.compute_aabb(at);
-        let reach = Vector::splat(around.fastest * dt + wish.norm() + SKIN);
-        aabb.mins -= reach;
-        aabb.maxs += reach;
         let own = to_vector(&(wish / dt));
-        let mut found = queries.intersect_aabb_conservative(aabb);
-        found.any(|(handle, other)| {
-            let Some(rigid) = other.parent().and_then(|parent| around.physics.bodies.get(parent)) else {
-                return false;
-            };
-            let theirs = rigid.velocity_at_point(at.translation);
-            if theirs.length() <= limit || self.motion.support == Some(handle) {
-                return false;
-            }
-            let options = ShapeCastOptions {
-                target_distance: SKIN * 0.5,
-                stop_at_penetration: true,
-                max_time_of_impact: dt,
-                compute_impact_geometry_on_penetration: true,
-            };
-            let hit = cast_shapes(at, own, solid, other.position(), theirs, other.shape(), options);
-            let Ok(Some(hit)) = hit else { return false };
-            let normal = at.rotation * hit.normal1;
-            let closing = -theirs.dot(normal);
-            let mass = self.mass_beside(rigid.is_dynamic().then(|| rigid.mass()), other.user_data);
-            closing * mass / (mass + self.mass) > limit
+        let reach = solid.compute_local_bounding_sphere().radius + wish.norm() + SKIN;
+        let here = Point2::new(at.translation.x, at.translation.y);
+        let bodies = around.movers.near(here, reach).filter(|rigid| *rigid != around.rigid);
+        bodies.filter_map(|rigid| around.physics.bodies.get(rigid)).any(|rigid| {
+            rigid.colliders().iter().any(|handle| {
+                let other = around.physics.colliders.get(*handle);
+                other.is_some_and(|other| {
+                    self.is_struck_by((*handle, other), rigid, (at, own, solid), gravity, dt)
+                })
+            })
         })
+    }
+
+    /// Whether one collider of a body does it.
+    fn is_struck_by(
+        &self,
+        (handle, other): (ColliderHandle, &Collider),
+        rigid: &RigidBody,
+        (at, own, solid): (&RapierPose, Vector, &dyn Shape),
+        gravity: f64,
+        dt: f64,
+    ) -> bool {
+        let limit = self.recoverable_speed(gravity);
+        let theirs = rigid.velocity_at_point(at.translation);
+        if theirs.length() <= limit || self.motion.support == Some(handle) {
+            return false;
+        }
+        let options = ShapeCastOptions {
+            target_distance: SKIN * 0.5,
+            stop_at_penetration: true,
+            max_time_of_impact: dt,
+            compute_impact_geometry_on_penetration: true,
+        };
+        let hit = cast_shapes(at, own, solid, other.position(), theirs, other.shape(), options);
+        let Ok(Some(hit)) = hit else { return false };
+        let normal = at.rotation * hit.normal1;
+        let closing = -theirs.dot(normal);
+        let mass = self.mass_beside(rigid.is_dynamic().then(|| rigid.mass()), other.user_data);
+        closing * mass / (mass + self.mass) > limit
     }
 
     /// The mass of what runs into it, kg: what somebody else moves goes on as if it were heavy, unless it is a walker.

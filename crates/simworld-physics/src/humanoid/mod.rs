@@ -12,6 +12,7 @@ mod recovery;
 mod surface;
 mod walk;
 
+pub(crate) use balance::least_blow;
 pub(crate) use push::Shove;
 pub(crate) use walk::SKIN;
 

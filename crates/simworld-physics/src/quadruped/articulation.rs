@@ -15,13 +15,16 @@ use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Twist, Vector3};
 use simworld_core::id::EntityId;
 
-use super::{JointReading, QuadrupedModel};
+use super::QuadrupedModel;
 use crate::convert::{from_pose, from_vector, to_pose, to_vector};
+use crate::joint::JointReading;
 use crate::shape::{BodyTag, marked};
 
 /// Radii of thigh and shank as shares of their lengths.
-const THIGH: f64 = 0.1;
-const SHANK: f64 = 0.06;
+pub(super) const THIGH: f64 = 0.1;
+pub(super) const SHANK: f64 = 0.06;
+/// The hip has the inertia of a ball of this radius, m.
+pub(super) const HIP_BALL: f64 = 0.045;
 /// Degrees of freedom of the root of a multibody that stands on nothing.
 const ROOT: usize = 6;
 /// The engine's stops give way before they hold: they stand this far inside the joints' limits, radians.
@@ -67,7 +70,7 @@ fn dressed(solid: ColliderBuilder, id: EntityId, material: Material) -> Collider
 }
 
 /// Moments of inertia of a rod along z.
-fn rod(mass: f64, length: f64, radius: f64) -> Vector {
+pub(super) fn rod(mass: f64, length: f64, radius: f64) -> Vector {
     let across = mass * (length * length / 12.0 + radius * radius * 0.25);
     Vector::new(across, across, mass * radius * radius * 0.5)
 }
@@ -279,7 +282,8 @@ fn hang_leg(
     let [hip_mass, thigh_mass, shank_mass] = model.leg_masses;
     let [thigh_center, shank_center] = model.leg_centers;
     let offset = Vector::new(0.0, geometry.offset, 0.0);
-    let ball = MassProperties::new(offset * 0.5, hip_mass, Vector::splat(0.4 * hip_mass * 0.045 * 0.045));
+    let ball =
+        MassProperties::new(offset * 0.5, hip_mass, Vector::splat(0.4 * hip_mass * HIP_BALL * HIP_BALL));
     let (thigh_radius, shank_radius) = (THIGH * geometry.thigh, SHANK * geometry.shank);
     let links = [
         (Vector::X, to_vector(&geometry.hip), ball),

@@ -16,6 +16,8 @@ const SWING: [f64; 2] = [55.0, 1.3];
 const STANCE: f64 = 0.25;
 /// No joint is led faster than this, rad/s.
 const QUICK: f64 = 25.0;
+/// The greatest stiffness and damping of a joint that is led from outside, N m/rad and N m s/rad.
+const GAINS: [f64; 2] = [200.0, 3.0];
 /// How fast commands are taken up, m/s² and rad/s².
 const TAKE_UP: [f64; 2] = [1.2, 4.0];
 /// How far the body may lag behind where it is to be, m and radians.
@@ -54,7 +56,7 @@ impl Quadruped {
         let asked = match self.motion.joints {
             Some(joints) => std::array::from_fn(|leg| {
                 std::array::from_fn(|joint| {
-                    joints[leg][joint].torque_at(sensed.angles[leg][joint], sensed.speeds[leg][joint])
+                    joints[leg][joint].torque_at(sensed.angles[leg][joint], sensed.speeds[leg][joint], GAINS)
                 })
             }),
             None => self.act_on_task(sensed, field),

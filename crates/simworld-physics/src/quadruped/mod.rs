@@ -6,6 +6,7 @@
 mod articulation;
 mod balance;
 mod control;
+mod description;
 mod gait;
 mod kinematics;
 mod model;
@@ -23,12 +24,13 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 use articulation::Links;
 use control::Walk;
 pub use model::QuadrupedModel;
-pub use readings::{Command, ImuReading, JointCommand, JointReading, Readings};
+pub use readings::{Command, ImuReading, Readings};
 use recovery::Task;
 
 use crate::body::Detail;
 use crate::error::{PhysicsError, check_range};
 use crate::humanoid::{Humanoid, HumanoidConfig};
+use crate::joint::JointCommand;
 
 /// The legs of a quadruped in the order in which they are counted everywhere.
 pub const LEGS: [&str; 4] = ["front left", "front right", "rear left", "rear right"];

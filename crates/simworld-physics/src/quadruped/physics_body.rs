@@ -13,12 +13,13 @@ use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
 use simworld_core::scene::{FOOTING, Scene, World, WorldError};
 use simworld_core::seam::{BodyState, Embodiment};
 
+use super::Quadruped;
 use super::articulation::{Links, PerJoint, Sensed};
 use super::control::{Field, heading_of};
 use super::recovery::Task;
-use super::{JointReading, Quadruped};
 use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
 use crate::convert::{to_point, to_pose, to_vector};
+use crate::joint::JointReading;
 use crate::shape::{BodyTag, walker_mark};
 
 /// The length of a substep on legs, s: 200 a second.

@@ -4,6 +4,8 @@ use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Vector3;
 
+use crate::joint::JointReading;
+
 /// How a quadruped is to go, all in its own frame: x forward, y left, z up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -33,50 +35,6 @@ impl Command {
             crouch: held(self.crouch, 0.0, 0.12),
         }
     }
-}
-
-/// What the motor of one joint is told: a torque of `stiffness` times the angle and `damping` times the speed that is
-/// missing, and `torque`, within what the motor gives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct JointCommand {
-    /// Angle to go to, radians.
-    pub angle: f64,
-    /// Speed to have, rad/s.
-    pub speed: f64,
-    /// N m/rad, 0 to 200.
-    pub stiffness: f64,
-    /// N m s/rad, 0 to 3; a stiffer one would swing within a substep.
-    pub damping: f64,
-    /// N m.
-    pub torque: f64,
-}
-
-impl JointCommand {
-    /// The torque it asks for at an angle and a speed, N m.
-    pub(super) fn torque_at(&self, angle: f64, speed: f64) -> f64 {
-        self.stiffness.clamp(0.0, 200.0) * (self.angle - angle)
-            + self.damping.clamp(0.0, 3.0) * (self.speed - speed)
-            + self.torque
-    }
-
-    /// Whether every part of it is a finite number.
-    pub(super) fn is_finite(&self) -> bool {
-        [self.angle, self.speed, self.stiffness, self.damping, self.torque]
-            .iter()
-            .all(|part| part.is_finite())
-    }
-}
-
-/// How one joint is and what its motor does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct JointReading {
-    /// Angle, radians.
-    pub angle: f64,
-    /// Speed, rad/s.
-    pub speed: f64,
-    /// Torque of the motor, N m: exactly what acts in the engine.
-    pub torque: f64,
 }
 
 /// What an inertial measuring unit in the middle of the trunk reads.

@@ -1,0 +1,161 @@
+//! Geoms of MJCF: solids with their masses.
+
+use nalgebra::{Matrix3, UnitQuaternion};
+use rapier3d_f64::math::Vector;
+use simworld_core::asset::Material;
+use simworld_core::geometry::{Pose, Vector3};
+
+use super::mjcf_read::{Class, Settings, along_z, some, wrong};
+use super::xml::{place, shortened};
+use super::{Reading, WATER, mesh};
+use crate::convert::from_vector;
+use crate::robot::RobotError;
+use crate::robot::description::{Form, LinkSolid};
+use crate::robot::solids::solid;
+
+/// A geom.
+#[derive(Default)]
+pub(super) struct Geom {
+    pub(super) solids: Vec<LinkSolid>,
+    /// Whether others meet it.
+    pub(super) meets: bool,
+    /// kg, m and kg m² about that place, link frame.
+    pub(super) masses: Vec<(f64, Vector3, Matrix3<f64>)>,
+}
+
+/// Reads a geom of a body, whose frame sits so in that of the link.
+pub(super) fn read(
+    class: &Class<'_, '_>,
+    settings: &Settings<'_>,
+    reading: &mut Reading<'_>,
+    link_from_body: &Pose,
+) -> Result<Geom, RobotError> {
+    let node = class.node;
+    let (forms, middle) = forms(class, settings, reading)?;
+    let pose = match middle {
+        Some(pose) => pose,
+        None => settings.pose(node, &|name| class.get(name))?,
+    };
+    let link_from_solid = link_from_body * pose;
+    let density = class.number("density")?.unwrap_or(WATER);
+    let volumes: Vec<_> = forms.iter().filter_map(|form| Some((form, solid(form)?))).collect();
+    let whole: f64 = volumes.iter().map(|(_, (shape, _))| shape.mass_properties(1.0).mass()).sum();
+    let density = match class.number("mass")? {
+        Some(mass) if whole > 0.0 => mass / whole,
+        Some(_) => 0.0,
+        None => density,
+    };
+    if !(0.0..=1e7).contains(&density) {
+        return Err(wrong(node, "mass", &format!("{density} kg/m³"), "a mass of 0 to 1e7 kg/m³"));
+    }
+    let mut geom = Geom { meets: true, ..Geom::default() };
+    for (form, (shape, form_from_shape)) in &volumes {
+        let properties = shape.mass_properties(density);
+        let frame = link_from_solid * crate::convert::from_pose(form_from_shape);
+        let inertia = properties.reconstruct_inertia_matrix();
+        let column = |axis: Vector| from_vector(inertia * axis);
+        let inertia = Matrix3::from_columns(&[column(Vector::X), column(Vector::Y), column(Vector::Z)]);
+        let turn = frame.rotation.to_rotation_matrix();
+        let center = frame * nalgebra::Point3::from(from_vector(properties.local_com));
+        let inertia = turn.matrix() * inertia * turn.matrix().transpose();
+        geom.masses.push((properties.mass(), center.coords, inertia));
+        geom.solids.push(LinkSolid { form: (*form).clone(), link_from_solid, material: material(class)? });
+    }
+    let is_off = |name| Ok::<bool, RobotError>(class.number(name)?.is_some_and(|bits| bits == 0.0));
+    geom.meets = !(is_off("contype")? && is_off("conaffinity")?);
+    Ok(geom)
+}
+
+/// The material whose friction is nearest to that of the geom, which is 1 unless it says otherwise.
+fn material(class: &Class<'_, '_>) -> Result<Material, RobotError> {
+    let Some(friction) = some(class, "friction")?.first().copied() else { return Ok(Material::Rubber) };
+    let off = |material: &Material| (material.friction() - friction).abs();
+    let nearest = Material::ALL.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    Ok(nearest.copied().unwrap_or_default())
+}
+
+/// The forms of a geom, and where they sit if that follows from its ends.
+fn forms(
+    class: &Class<'_, '_>,
+    settings: &Settings<'_>,
+    reading: &mut Reading<'_>,
+) -> Result<(Vec<Form>, Option<Pose>), RobotError> {
+    let node = class.node;
+    let size = some(class, "size")?;
+    let at = |index: usize| {
+        size.get(index).copied().ok_or_else(|| RobotError::Missing {
+            place: place(node),
+            what: format!("number {} of size", index + 1),
+            mend: "a sphere has one, a capsule or cylinder two or fromto, a box three",
+        })
+    };
+    let ends = class.exactly::<6>("fromto")?;
+    let middle = ends.map(|[a, b, c, d, e, f]| {
+        let (from, to) = (Vector3::new(a, b, c), Vector3::new(d, e, f));
+        let turn = (to - from).try_normalize(1e-9).map_or(UnitQuaternion::identity(), |way| along_z(&way));
+        (Pose::from_parts(((from + to) * 0.5).into(), turn), (to - from).norm())
+    });
+    let length = || middle.map_or_else(|| at(1).map(|half| 2.0 * half), |(_, length)| Ok(length));
+    let form = match class.get("type").unwrap_or(if class.get("mesh").is_some() { "mesh" } else { "sphere" })
+    {
+        "sphere" => Form::Sphere { radius: at(0)? },
+        "capsule" => Form::Capsule { radius: at(0)?, length: length()? },
+        "cylinder" => Form::Cylinder { radius: at(0)?, length: length()? },
+        "box" => Form::Box { size: Vector3::new(at(0)?, at(1)?, at(2)?) * 2.0 },
+        "ellipsoid" => {
+            reading.note(place(node), "an ellipsoid is met as the box around it");
+            Form::Box { size: Vector3::new(at(0)?, at(1)?, at(2)?) * 2.0 }
+        }
+        "mesh" => return Ok((meshes(class, settings, reading)?, None)),
+        "plane" => {
+            reading.note(place(node), "a plane of a robot is passed over");
+            return Ok((Vec::new(), None));
+        }
+        other => {
+            let what = format!("the type {:?}", shortened(other));
+            let mend = "give sphere, capsule, cylinder, box or mesh";
+            return Err(RobotError::Unsupported { place: place(node), what, mend });
+        }
+    };
+    check_sizes(class, &form)?;
+    Ok((vec![form], middle.map(|(pose, _)| pose)))
+}
+
+/// Sizes of nothing are refused here, before a mass is reckoned from them.
+fn check_sizes(class: &Class<'_, '_>, form: &Form) -> Result<(), RobotError> {
+    let sizes = match form {
+        Form::Box { size } => size.iter().copied().collect(),
+        Form::Sphere { radius } => vec![*radius],
+        Form::Cylinder { radius, length } | Form::Capsule { radius, length } => vec![*radius, *length],
+        Form::Convex { .. } => Vec::new(),
+    };
+    if sizes.iter().all(|size| (1e-6..=1e4).contains(size)) {
+        return Ok(());
+    }
+    let value = class.get("size").unwrap_or_default();
+    Err(wrong(class.node, "size", value, "sizes of 1e-6 to 1e4 m, and ends that lie apart"))
+}
+
+fn meshes(
+    class: &Class<'_, '_>,
+    settings: &Settings<'_>,
+    reading: &mut Reading<'_>,
+) -> Result<Vec<Form>, RobotError> {
+    let node = class.node;
+    let name = class.get("mesh").unwrap_or_default();
+    let Some(asset) = settings.mesh_assets.get(name) else {
+        let (place, name) = (place(node), shortened(name));
+        return Err(RobotError::Unknown { place, kind: "mesh", name });
+    };
+    let Some(file) = asset.attribute("file") else {
+        reading.note(place(node), "a mesh without a file is passed over");
+        return Ok(Vec::new());
+    };
+    let scale = settings.class(*asset, None, "mesh")?.exactly::<3>("scale")?.unwrap_or([1.0; 3]);
+    let path = if settings.meshes.is_empty() {
+        file.to_owned()
+    } else {
+        format!("{}/{file}", settings.meshes.trim_end_matches('/'))
+    };
+    mesh::solids(reading, &place(node), &path, scale)
+}
