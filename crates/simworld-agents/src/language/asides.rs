@@ -9,6 +9,7 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::{category, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::politeness::NEGATIONS;
 use super::verbs::longest_verb;
 
@@ -16,13 +17,13 @@ use super::verbs::longest_verb;
 const LONGEST: usize = 24;
 /// Who or what a statement is about that asks for nothing.
 #[rustfmt::skip]
-const SUBJECTS: &[&str] = &[
+const SUBJECTS: &Phrases = &Phrases::of(&[
     "i", "he", "she", "it", "they", "we", "that", "this", "these", "those", "there", "somebody", "someone", "nobody",
     "everybody", "everyone", "people", "my", "his", "her", "its", "our", "their", "the", "a", "an", "some", "all",
     "im", "ive", "ill", "id", "hes", "shes", "theyre", "theyve", "theyll", "weve", "well", "its", "thats", "theres",
     "both", "no one", "most", "many", "everything", "nothing", "something", "who", "what", "here", "two",
     "three", "four", "neither", "either", "another", "each", "every",
-];
+]);
 /// What makes a statement of words: a verb in a form that is no order.
 #[rustfmt::skip]
 const FINITE: &[&str] = &[
@@ -30,7 +31,7 @@ const FINITE: &[&str] = &[
     "will", "wont", "would", "wouldnt", "might", "may", "isnt", "arent", "wasnt", "werent", "hasnt", "havent", "hadnt",
     "doesnt", "didnt", "im", "ive", "ill", "hes", "shes", "its", "theyre", "theyve", "weve", "thats", "theres", "whos",
     "said", "told", "left", "lost", "forgot", "went", "came", "got", "made", "saw", "knew", "thought", "felt", "heard",
-    "looks", "seems", "feels", "hurts", "works", "lives", "knows", "says", "smells", "sounds", "hates", "loves",
+    "fancy", "crave", "looks", "seems", "feels", "hurts", "works", "lives", "knows", "says", "smells", "sounds", "hates", "loves",
     "likes", "keeps", "hurt", "ache", "aches", "hate", "love", "like", "miss", "know", "think", "guess", "suppose",
     "hope", "bet", "swear", "promise", "repeat", "recommend", "suggest", "fell", "fall", "falls", "stopped", "broke",
     "waits", "sits", "stands", "lies", "calls", "begins", "starts", "ends", "closes", "opens", "comes", "happens",
@@ -45,20 +46,20 @@ const ASKING: &[&str] = &[
 ];
 /// The same in several words.
 #[rustfmt::skip]
-const ASKING_SO: &[&str] = &[
+const ASKING_SO: &Phrases = &Phrases::of(&[
     "would like", "id like", "would love", "id love", "has to", "have to", "is to", "are to", "supposed to",
     "could you", "can you", "would you", "will you", "as soon as", "as long as", "could do with", "is for",
     "you to", "is due", "to be", "had better",
-];
+]);
 /// What asks for no favour.
 #[rustfmt::skip]
-const QUESTIONS: &[&str] = &[
+const QUESTIONS: &Phrases = &Phrases::of(&[
     "who", "whos", "what", "whats", "where", "wheres", "which", "why", "how", "is", "isnt", "are", "arent", "was",
     "were", "does", "did", "has", "have", "had", "do", "dont", "am", "havent", "hasnt", "didnt",
-];
+]);
 /// What says after the orders that there is no more to do.
 #[rustfmt::skip]
-const ENDS: &[&str] = &[
+const ENDS: &Phrases = &Phrases::of(&[
     "youre done", "you are done", "thats it", "that is it", "thats all", "that is all", "that will be all",
     "youre finished", "you can rest", "no slacking", "no hurry", "no rush", "no dawdling", "no buts", "no excuses",
     "no arguments", "no worries", "take your time", "you included", "not fast", "no detours", "no stopping",
@@ -68,14 +69,19 @@ const ENDS: &[&str] = &[
     "no dawdling in between", "without stopping", "no ifs no buts", "nothing else", "that is that", "thats that",
     "no more", "be careful", "mind how you go", "if you dare", "dont be late", "keep the change", "off you go",
     "none other", "and none other", "nothing else", "nobody else", "and nobody else", "and nothing else", "and thats all", "thats all i need", "thats everything", "no questions asked", "no cheating", "already", "instead", "as well", "after all", "either", "there and then", "at that", "thank goodness",
-];
+]);
 
 impl Parser<'_> {
     /// An aside with the order behind it.
     pub(super) fn aside(&mut self) -> Option<Vec<Clause>> {
         let end = self.aside_ends()?;
+        let begin = self.at;
         let mut clauses = self.names_within(end);
         self.at = end;
+        let goods = (begin..end).find_map(|at| self.names.goods(&self.lexemes[at..end]));
+        if let Some((goods, _)) = &goods {
+            self.view_goods(goods); // "I forgot my newspaper, could you buy me one"
+        }
         self.skip_joints();
         if self.at >= self.lexemes.len() {
             return None;
@@ -87,10 +93,10 @@ impl Parser<'_> {
             .any(|lexeme| ["it", "him", "her", "them", "there", "one"].contains(&word_of(lexeme)));
         let begins_test =
             longest_phrase(self.rest(), &["if", "when", "as soon as", "once", "until", "unless"]).is_some();
-        if clauses.is_empty() && takes_up && !begins_test {
+        if clauses.is_empty() && goods.is_none() && takes_up && !begins_test {
             return None;
         }
-        clauses.extend(self.statement().ok()?);
+        clauses.extend(self.statement_here()?);
         Some(clauses)
     }
 
@@ -140,8 +146,15 @@ impl Parser<'_> {
         let aside = stated
             || mark == Some('?') && is_question(said)
             || mark == Some(':') && is_heading(said)
-            || is_not_to_be(said);
+            || is_not_to_be(said)
+            || self.wishes_in_vain(self.at, end)
+            || self.states(self.at, end);
         aside.then_some(end)
+    }
+
+    /// Whether what stands here is said beside the orders.
+    pub(super) fn aside_begins(&self) -> bool {
+        longest_verb(self.rest()).is_none() && self.aside_ends().is_some()
     }
 
     /// Who and what is named on the way to a place.

@@ -8,21 +8,22 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::{fits, longest_phrase};
 use super::numbers;
 use super::parser::{Extent, Parser};
+use super::phrases::Phrases;
 use super::tails::{ON_THE_WAY, over_and_over};
 use super::verbs::longest_verb;
 
 /// What begins a condition.
 #[rustfmt::skip]
-pub(super) const IF: &[&str] = &[
+pub(super) const IF: &Phrases = &Phrases::of(&[
     "if", "in case", "in case of", "in the case of", "provided that", "provided", "providing",
     "in the event that", "in the event", "in the event of", "assuming", "assuming that", "supposing",
     "supposing that", "on condition that", "only if", "but only if", "if and only if",
     "if it should happen that", "if it so happens that", "if it turns out that", "if it happens that",
     "suppose", "suppose that", "lets suppose", "imagine", "imagine that", "say that", "given that", "given", "subject to", "whether", "seeing that", "if you find that", "if you notice that", "if you see that",
-];
-pub(super) const UNLESS: &[&str] =
-    &["unless", "if not", "except if", "except when", "but not if", "so long as not"];
-pub(super) const UNTIL: &[&str] = &[
+]);
+pub(super) const UNLESS: &Phrases =
+    &Phrases::of(&["unless", "if not", "except if", "except when", "but not if", "so long as not"]);
+pub(super) const UNTIL: &Phrases = &Phrases::of(&[
     "until",
     "till",
     "up until",
@@ -47,41 +48,50 @@ pub(super) const UNTIL: &[&str] = &[
     "and dont give up until",
     "just until",
     "only until",
-];
-pub(super) const WHILE: &[&str] =
-    &["while", "as long as", "so long as", "for as long as", "for so long as", "whilst", "all the while"];
+]);
+pub(super) const WHILE: &Phrases = &Phrases::of(&[
+    "while",
+    "as long as",
+    "so long as",
+    "for as long as",
+    "for so long as",
+    "whilst",
+    "all the while",
+]);
 #[rustfmt::skip]
-pub(super) const WHEN: &[&str] = &[
-    "when", "whenever", "once", "as soon as", "after", "upon", "the moment", "right after", "immediately after",
+pub(super) const WHEN: &Phrases = &Phrases::of(&[
+    "when", "whenever", "once", "as soon as", "when and only when", "after", "upon", "the moment", "right after", "immediately after",
     "the instant", "the minute", "directly after", "just after", "straight after", "as soon as ever",
     "every time", "each time", "on reaching", "on arriving at", "on getting to", "on arrival at",
     "upon reaching", "upon arriving at", "upon arrival at", "arriving at", "reaching", "on your arrival at",
-];
+]);
+/// Those of them that may follow an order.
+pub(super) const WHEN_SO: &Phrases = &Phrases::of(&["when", "whenever", "once"]);
 /// What begins an order that goes on.
 #[rustfmt::skip]
-pub(super) const GOES_ON: &[&str] = &[
+pub(super) const GOES_ON: &Phrases = &Phrases::of(&[
     "keep", "keep on", "continue", "continue to", "go on", "carry on", "dont stop", "do not stop", "never stop",
     "dont quit", "keep up", "dont cease", "do not cease", "dont give up", "never cease", "never quit", "loop",
-];
+]);
 /// Being somewhere, which one has to go to first: "once you are at the bench, sit down".
 #[rustfmt::skip]
-const REACHING: &[&str] = &[
+const REACHING: &Phrases = &Phrases::of(&[
     "you reach", "you have reached", "youve reached", "you get to", "you have got to", "youve got to",
     "you are at", "youre at", "you arrive at", "you have arrived at", "youve arrived at", "you come to",
     "you are next to", "youre next to", "you are beside", "youre beside", "you are near", "youre near",
     "you make it to", "reaching", "arriving at", "getting to", "at", "you are by", "you get there to", "reach",
     "arrival at", "you stand at", "we reach", "we get to", "were at",
-];
+]);
 /// What begins what else is done, and what says so of the condition itself.
 #[rustfmt::skip]
-const ELSE: &[&str] = &[
+const ELSE: &Phrases = &Phrases::of(&[
     "otherwise", "else", "or else", "if not", "or", "failing that", "if that fails", "in any other case",
     "in all other cases", "should that not be so", "and if not", "but if not", "and otherwise", "but otherwise",
     "if thats not the case", "if that is not the case", "in the other case",
-];
+]);
 
 /// What is done if what was asked is so, and if it is not.
-const SO: &[&str] = &[
+const SO: &Phrases = &Phrases::of(&[
     "if so",
     "if yes",
     "in that case",
@@ -103,25 +113,13 @@ const SO: &[&str] = &[
     "yes",
     "if thats so",
     "if thats the case",
-];
-const NOT_SO: &[&str] = &[
-    "if not",
-    "if it isnt",
-    "if it is not",
-    "if its not",
-    "if no",
-    "if there isnt",
-    "if there is not",
-    "if he isnt",
-    "if she isnt",
-    "if it doesnt",
-    "if you dont",
-    "if you cant",
-    "if you havent",
-    "no",
-    "if none",
-    "otherwise",
-];
+]);
+#[rustfmt::skip]
+const NOT_SO: &Phrases = &Phrases::of(&[
+    "if not", "if it isnt", "if it is not", "if its not", "if no", "if there isnt", "if there is not",
+    "if he isnt", "if she isnt", "if it doesnt", "if you dont", "if you cant", "if you havent", "no",
+    "if none", "otherwise",
+]);
 
 impl Parser<'_> {
     /// A block, if one begins here.
@@ -254,10 +252,12 @@ impl Parser<'_> {
         if self.eat_any(UNTIL) {
             let test = self.test()?;
             self.skip_joints();
-            return Ok(Some(vec![Clause::Until { test, body: self.orders(Extent::Group)? }]));
+            let body = self.orders(Extent::Group)?;
+            let waits = matches!(&body[..], [Clause::Stop | Clause::Wait { .. }]);
+            return Ok(Some(vec![Clause::Until { test, body: if waits { Vec::new() } else { body } }]));
         }
         if self.eat_any(WHILE) {
-            let test = Test::Not(Box::new(self.test()?));
+            let test = self.test()?.contrary();
             self.skip_joints();
             let start = self.at;
             if self.eat_any(&[
@@ -303,6 +303,9 @@ impl Parser<'_> {
         }
         if self.eat_any(&["before", "prior to", "but before"]) {
             self.eat_any(&["you", "that you"]);
+            if self.aside_begins() {
+                return Ok(None);
+            }
             let later = self.statement()?;
             self.skip_joints();
             let mut clauses = self.statement()?;
@@ -354,7 +357,7 @@ impl Parser<'_> {
     /// After "if": the test, what to do, and what else.
     fn either(&mut self, negated: bool) -> Result<Vec<Clause>, PlanError> {
         let test = self.test()?;
-        self.then_or_else(if negated { Test::Not(Box::new(test)) } else { test })
+        self.then_or_else(if negated { test.contrary() } else { test })
     }
 
     /// After the test.
@@ -370,7 +373,10 @@ impl Parser<'_> {
         let negative = matches!(test, Test::Not(_));
         if self.eat_any(ELSE) || self.denied() || negative && self.affirmed() {
             self.skip_joints();
-            otherwise = self.orders(Extent::Group)?;
+            otherwise = match self.at_another_pace(&then) {
+                Some(again) => again,
+                None => self.orders(Extent::Group)?,
+            };
         } else {
             self.at = end;
         }
@@ -439,10 +445,18 @@ impl Parser<'_> {
         }
         if let Ok(test) = self.test() {
             self.skip_joints();
-            let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
-            if self.at < self.lexemes.len() {
-                clauses.extend(self.statement()?);
+            let then = if self.at < self.lexemes.len() { self.statement()? } else { Vec::new() };
+            let end = self.at;
+            self.skip_joints();
+            if !then.is_empty() && self.eat_any(&["otherwise", "else", "or else"]) {
+                self.skip_joints(); // "when it is dark ..., otherwise ..." does not wait for the dark
+                if let Some(otherwise) = self.at_another_pace(&then) {
+                    return Ok(vec![Clause::If { test, then, otherwise }]);
+                }
             }
+            self.at = end;
+            let mut clauses = vec![Clause::Until { test, body: Vec::new() }];
+            clauses.extend(then);
             return Ok(clauses);
         }
         self.at = start;
@@ -462,6 +476,9 @@ impl Parser<'_> {
         ]);
         if let Some(there) = self.visited() {
             return Ok(there);
+        }
+        if self.aside_begins() {
+            return Err(self.not_understood("say when in words such as \"when the light is green\""));
         }
         self.statement()
     }

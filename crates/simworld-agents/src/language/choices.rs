@@ -24,21 +24,18 @@ impl Parser<'_> {
         }
         self.eat_any(&["the"]);
         what.choice = self.most_asked()?;
+        let comma = self.at;
         if matches!(self.mark(), Some(',')) {
-            self.at += 1;
-            let mut ids = Vec::new();
-            loop {
-                let one = self.named_alone()?;
-                ids.push(one);
-                self.at += usize::from(matches!(self.mark(), Some(',')));
-                if !self.eat_any(&["or", "and"]) {
-                    break;
-                }
+            match self.listed() {
+                Some(ids) => what.target = Target::Named(ids),
+                None => self.at = comma,
             }
-            what.target = Target::Named(ids);
         }
         what.text = self.text_from(start);
-        let asked = self.mark() == Some('?') && what.target != Target::Here;
+        // "Which car's the closest, go to that one".
+        let taken_up = self.at == comma
+            && self.rest().iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["that", "it", "there"].contains(&word.as_str())));
+        let asked = (self.mark() == Some('?') || taken_up) && what.target != Target::Here;
         if !asked || !self.skip_joints() || self.at >= self.lexemes.len() {
             return None;
         }
@@ -46,6 +43,19 @@ impl Parser<'_> {
         let mut clauses = vec![Clause::Mention { what }];
         clauses.extend(self.statement().ok()?);
         Some(clauses)
+    }
+
+    /// ", the school or the hospital?".
+    fn listed(&mut self) -> Option<Vec<simworld_core::id::EntityId>> {
+        self.at += 1;
+        let mut ids = Vec::new();
+        loop {
+            ids.push(self.named_alone()?);
+            self.at += usize::from(matches!(self.mark(), Some(',')));
+            if !self.eat_any(&["or", "and"]) {
+                return Some(ids);
+            }
+        }
     }
 
     /// By what one of several is chosen.

@@ -130,6 +130,14 @@ pub(super) enum Test {
 }
 
 impl Test {
+    /// The contrary; that of a contrary is the thing itself.
+    pub(super) fn contrary(self) -> Self {
+        match self {
+            Self::Not(test) => *test,
+            test => Self::Not(Box::new(test)),
+        }
+    }
+
     /// Whether a pronoun in it stands for what the order is about: "unless it is taken".
     pub(super) fn is_about_it(&self) -> bool {
         match self {
@@ -405,6 +413,20 @@ impl Clause {
             | Self::Door { what: Some(what), .. }
             | Self::Sit { on: Some(what) }
             | Self::Photo { of: Some(what), .. } => Some(what),
+            _ => None,
+        }
+    }
+
+    /// How fast one goes, if the order is about going.
+    pub(super) const fn pace(&mut self) -> Option<&mut Pace> {
+        match self {
+            Self::Go { pace, .. }
+            | Self::Walk { pace, .. }
+            | Self::Past { pace, .. }
+            | Self::Around { pace, .. }
+            | Self::Halfway { pace, .. }
+            | Self::Follow { pace, .. }
+            | Self::Drive { pace, .. } => Some(pace),
             _ => None,
         }
     }

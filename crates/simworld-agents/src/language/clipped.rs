@@ -9,10 +9,11 @@ use super::clause::{Clause, Grip, Manner, Pace, Reference, Target, Test};
 use super::lexer::Token;
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::verbs::longest_verb;
 
 /// What leads to a place.
-const TO: &[&str] = &[
+const TO: &Phrases = &Phrases::of(&[
     "to",
     "over to",
     "on to",
@@ -24,15 +25,15 @@ const TO: &[&str] = &[
     "towards",
     "straight to",
     "right to",
-];
+]);
 /// How fast, before where to.
 #[rustfmt::skip]
-const FAST: &[&str] = &[
+const FAST: &Phrases = &Phrases::of(&[
     "full speed", "max speed", "maximum speed", "top speed", "at full speed", "at top speed", "at max speed",
     "on the double", "at the double", "double time", "double quick", "quickly", "fast", "in a hurry", "flat out",
     "full steam ahead", "full tilt", "at a run", "quick as you can", "as fast as you can", "full speed ahead",
-];
-const SLOW: &[&str] = &[
+]);
+const SLOW: &Phrases = &Phrases::of(&[
     "slowly",
     "slow",
     "nice and slowly",
@@ -42,7 +43,7 @@ const SLOW: &[&str] = &[
     "at a stroll",
     "in slow motion",
     "slow and steady",
-];
+]);
 
 impl Parser<'_> {
     /// An order cut short.

@@ -7,12 +7,13 @@ use super::clause::{Clause, Pace, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::politeness::NEGATIONS;
 use super::verbs::longest_verb;
 
 /// What says that the order before was a slip.
 #[rustfmt::skip]
-const CORRECTIONS: &[&str] = &[
+const CORRECTIONS: &Phrases = &Phrases::of(&[
     "no wait", "wait no", "no sorry", "sorry no", "sorry i mean", "sorry i meant", "no i mean", "no i meant",
     "i mean", "i meant", "or rather", "make that", "no make that", "actually make that", "actually no",
     "no actually", "scratch that", "strike that", "correction", "on second thoughts", "on second thought",
@@ -20,7 +21,7 @@ const CORRECTIONS: &[&str] = &[
     "in other words", "by which i mean", "as in", "or should i say", "or better", "no forget it", "forget it",
     "never mind", "wait what no", "belay that", "cancel that", "no no", "oh no", "oops no", "i said", "rather",
     "well make it", "make it", "no make it", "i take that back", "my mistake", "or perhaps better",
-];
+]);
 /// What is not to be done, behind what is.
 const INSTEAD: &[&str] = &["instead of", "rather than", "and not", "not", "in place of", "as opposed to"];
 

@@ -6,58 +6,68 @@ use simworld_core::seam::PlanError;
 use super::clause::{Choice, Count, Reference, Side, Stands, Target};
 use super::lexer::Token;
 use super::lexicon::{
-    COPULAS, DETERMINERS, MOSTS, RELATIONS, SIDES, category, fits, longest, longest_phrase,
+    COPULAS, DETERMINERS, MOSTS, category, fits, longest, longest_phrase, longest_relation, longest_side,
 };
 use super::modifiers::FREE;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::reference::{DEEPEST, DOOR_STATES};
 
 /// What is said of anything that is about.
 #[rustfmt::skip]
-const YOU_SEE: &[&str] = &[
+const YOU_SEE: &Phrases = &Phrases::of(&[
     "you see", "that you see", "you can see", "that you can see", "you find", "that you find", "you can find",
     "you come to", "you come across", "you spot", "there is", "in sight", "in view", "in the area", "there are",
     "that there is", "that there are", "lying about", "lying around", "standing about", "standing around",
     "around here", "in the city", "in the whole city", "in this city", "in town", "in the town", "in the neighbourhood", "in the neighborhood",
     "in this area", "in the vicinity", "of all", "of them all",
-];
+]);
 /// Before what is sold somewhere.
 #[rustfmt::skip]
-const SELLING: &[&str] = &[
+const SELLING: &Phrases = &Phrases::of(&[
     "that sells", "which sells", "selling", "that sell", "where they sell", "where you can buy",
     "where you can get", "where you get", "where i can get", "where i can buy", "who sells", "that has",
     "which has",
-];
+]);
 /// Nobody uses it.
 #[rustfmt::skip]
-const UNUSED: &[&str] = &[
+const UNUSED: &Phrases = &Phrases::of(&[
     "where nobody sits", "where nobody is sitting", "where no one sits", "where no one is sitting",
     "that nobody is sitting on", "that no one is sitting on", "nobody is sitting on", "no one is sitting on",
     "that nobody uses", "that nobody is using", "nobody is using", "with nobody on it", "with no one on it",
     "without anybody on it",
-];
+]);
 const IN_USE: &[&str] = &["taken", "occupied", "in use", "used"];
 /// The least distance, with nothing or "to" something behind it.
 #[rustfmt::skip]
-const NEAR_MOST: &[&str] = &[
+const NEAR_MOST: &Phrases = &Phrases::of(&[
     "nearest", "closest", "nearer", "closer", "nearest you", "closest to you", "nearest to you", "near you", "close to you",
     "nearby", "close by", "closest to me", "nearest to me", "near me", "near here", "nearer", "closer",
     "nearer to you", "closer to you", "next to you", "beside you", "by you", "closest to here",
     "nearest to here", "nearest here", "closest to where you are", "nearest to where you are",
     "closest to where you stand", "nearest to where you stand", "closest to your position",
     "nearest to your position", "nearer to here", "closer to here", "nearest us", "nearest to us", "closest to us", "near us", "close to us", "nearest me", "closest by", "nearest by", "closest at hand", "nearest at hand", "by us", "next to us", "beside us", "next to me",
-];
+]);
 /// The greatest.
 #[rustfmt::skip]
-const FAR_MOST: &[&str] = &[
+const FAR_MOST: &Phrases = &Phrases::of(&[
     "farthest away", "furthest away", "farthest from you", "furthest from you", "most distant", "farthest",
     "furthest", "farthest away from you", "farthest from here", "furthest from here", "farthest from me",
     "furthest from me", "farthest away from here", "furthest away from here", "furthest away from you",
     "farther", "further", "farther away", "further away", "farther off", "further off", "furthest off",
     "farthest off", "most distant from you",
-];
-const SUPERLATIVES: &[&str] =
-    &["nearest", "closest", "farthest", "furthest", "nearer", "closer", "farther", "further", "most distant"];
+]);
+const SUPERLATIVES: &Phrases = &Phrases::of(&[
+    "nearest",
+    "closest",
+    "farthest",
+    "furthest",
+    "nearer",
+    "closer",
+    "farther",
+    "further",
+    "most distant",
+]);
 /// Sides farthest out, behind the noun.
 #[rustfmt::skip]
 const OUTERMOST: &[(&[&str], Side)] = &[
@@ -68,19 +78,25 @@ const OUTERMOST: &[(&[&str], Side)] = &[
 ];
 /// What makes a place no more exact.
 #[rustfmt::skip]
-const LOOSELY: &[&str] = &[
+const LOOSELY: &Phrases = &Phrases::of(&[
     "right", "just", "directly", "over", "up", "down", "still", "currently", "back", "out", "all the way",
     "somewhere", "over there", "right there", "up there", "down there", "out there", "back there",
     "immediately", "straight",
-];
+]);
 /// What begins with "by" and the like, and names nothing beside which something stands.
 #[rustfmt::skip]
-const WAYS: &[&str] = &[
+const WAYS: &Phrases = &Phrases::of(&[
     "by way of", "by the shortest", "by the quickest", "by the fastest", "by the most direct", "by car",
     "by foot", "by bus", "by taxi", "by scooter", "by bike", "by bicycle", "by cab",
-];
+]);
 /// Which are not meant.
-const EXCEPT: &[&str] = &[
+/// The middle one of three.
+#[rustfmt::skip]
+const AMONG: &Phrases = &Phrases::of(&[
+    "between the other two", "between the others", "between the two others", "in between the other two",
+    "in between the others", "with one on either side", "with one on each side",
+]);
+const EXCEPT: &Phrases = &Phrases::of(&[
     "except",
     "except for",
     "other than",
@@ -90,7 +106,7 @@ const EXCEPT: &[&str] = &[
     "save for",
     "with the exception of",
     "besides",
-];
+]);
 
 impl Reference {
     /// The door that one closes behind oneself is behind nobody yet.
@@ -149,11 +165,11 @@ impl Parser<'_> {
     fn copulas(&mut self) -> bool {
         let start = self.at;
         loop {
-            let relation = longest(self.rest(), RELATIONS).map(|(_, words)| words);
-            let side = longest(self.rest(), SIDES).map(|(_, words)| words);
+            let relation = longest_relation(self.rest()).map(|(_, words)| words);
+            let side = longest_side(self.rest()).map(|(_, words)| words);
             let place = relation.max(side).unwrap_or(0);
             let words = longest_phrase(self.rest(), COPULAS).max(longest_phrase(self.rest(), LOOSELY));
-            let lone = self.peeks("there") && longest(&self.rest()[1..], RELATIONS).is_some();
+            let lone = self.peeks("there") && longest_relation(&self.rest()[1..]).is_some();
             match words.or(lone.then_some(1)).filter(|words| *words > place) {
                 Some(words) => self.at += words,
                 None => return self.at > start,
@@ -278,6 +294,10 @@ impl Parser<'_> {
             reference.choice = Choice::Compass(compass);
             return true;
         }
+        if self.eat_any(AMONG) {
+            reference.choose(Choice::Middle);
+            return true;
+        }
         let middle = longest_phrase(self.rest(), &["in the middle", "in the centre", "in the center"]);
         if let Some(words) = middle
             && longest_phrase(&self.rest()[words..], &["of", "between"]).is_none()
@@ -346,6 +366,12 @@ impl Parser<'_> {
             return Ok(false);
         }
         let start = self.at;
+        if so_far == 0
+            && let Some(found) = self.has_beside(depth)
+        {
+            reference.relation = Some(found);
+            return Ok(true);
+        }
         if so_far > 0 {
             self.eat_any(&["and"]);
         }
@@ -425,9 +451,8 @@ impl Parser<'_> {
         {
             return Ok(Some(stands));
         }
-        let side = longest(self.rest(), SIDES);
-        let relation =
-            longest(self.rest(), RELATIONS).filter(|_| longest_phrase(self.rest(), WAYS).is_none());
+        let side = longest_side(self.rest());
+        let relation = longest_relation(self.rest()).filter(|_| longest_phrase(self.rest(), WAYS).is_none());
         if let Some((side, count)) =
             side.filter(|(_, count)| relation.is_none_or(|(_, words)| *count >= words))
         {
@@ -463,36 +488,5 @@ impl Parser<'_> {
             })));
         }
         Ok(Some(Stands::To(relation, Box::new(self.reference(depth + 1)?))))
-    }
-
-    /// "To" says whose only of a door: "the door to the lab", but "bring the parcel to the lab".
-    fn of_follows(&self, start: usize) -> bool {
-        let is_to =
-            self.lexemes[start..self.at].iter().any(|lexeme| lexeme.token == Token::Word("to".to_owned()));
-        let is_door = start > 0
-            && matches!(&self.lexemes[start - 1].token, Token::Word(word) if ["door", "doorway", "entrance", "gate"].contains(&word.as_str()));
-        !is_to || is_door
-    }
-
-    /// The two that a plural stands for: "between the two trees".
-    pub(super) fn pair(both: &Reference) -> (Reference, Reference) {
-        let nth = |nth| Reference { choice: Choice::Nth(nth), count: Count::One, ..both.clone() };
-        (nth(1), nth(2))
-    }
-
-    /// "Between the hospital and the museum", "between the two trees".
-    fn between(&mut self, depth: u32) -> Result<Stands, PlanError> {
-        let one = self.reference(depth + 1)?;
-        let start = self.at;
-        if self.eat_any(&["and"]) {
-            match self.reference(depth + 1) {
-                Ok(other) => return Ok(Stands::Between(Box::new(one), Box::new(other))),
-                // "Between the two trees and sit down".
-                Err(_) if one.count == Count::Exactly(2) => self.at = start,
-                Err(error) => return Err(error),
-            }
-        }
-        let (one, other) = Self::pair(&one);
-        Ok(Stands::Between(Box::new(one), Box::new(other)))
     }
 }

@@ -1,7 +1,10 @@
 //! Ways of writing and of speaking that stand for plain words: what is typed in a hurry ("u", "rn"), what was said long ago
 //! ("thou shalt", "unto") and what sailors say for left and right.
 
+use std::sync::LazyLock;
+
 use super::lexer::{Lexeme, Token};
+use super::phrases::Index;
 use super::verbs::base_form;
 
 /// A word and the plain words for it; none where it says nothing.
@@ -57,8 +60,9 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>, text: &str) {
 }
 
 fn plain(lexemes: &[Lexeme], at: usize, text: &str) -> Option<&'static str> {
+    static INDEX: LazyLock<Index<&str>> = LazyLock::new(|| Index::new(PLAIN.iter().copied()));
     let Token::Word(word) = &lexemes[at].token else { return None };
-    let (_, plain) = PLAIN.iter().find(|(said, _)| said == word)?;
+    let plain = INDEX.alone(word)?;
     let before = at.checked_sub(1).and_then(|at| word_of(&lexemes[at]));
     let is_number = matches!(at.checked_sub(1).map(|at| &lexemes[at].token), Some(Token::Number(_)));
     let quoted =
@@ -71,7 +75,7 @@ fn plain(lexemes: &[Lexeme], at: usize, text: &str) -> Option<&'static str> {
     }
     // "Ten min" is known as it is.
     let as_it_is = quoted || capital || kept || is_number && word.starts_with("min");
-    (!as_it_is).then_some(*plain)
+    (!as_it_is).then_some(plain)
 }
 
 /// "Go 2 the stop", "wait 4 me".

@@ -200,6 +200,10 @@ impl<'a> Draft<'a> {
             Clause::Turn { angle } => {
                 self.get_up()?;
                 self.view.heading += angle;
+                if angle.abs() > std::f64::consts::TAU - 1e-6 {
+                    self.act(Action::Rotate { angle: std::f64::consts::PI })?; // all the way round is two halves
+                    return self.act(Action::Rotate { angle: std::f64::consts::PI });
+                }
                 self.act(Action::Rotate { angle: wrap_angle(*angle) })
             }
             other => self.express(other),
@@ -268,6 +272,7 @@ impl<'a> Draft<'a> {
         (self.held, self.carried, self.posture, self.beside, self.there) =
             (held, carried, posture, beside, there);
         (self.view.from, self.view.heading) = (from, heading);
+        self.view.told.take();
         let otherwise = self.block(otherwise)?;
         self.beside = None;
         self.view.it = it;
@@ -403,6 +408,7 @@ impl<'a> Draft<'a> {
         self.there = Some((to, within));
         let before = self.view.from;
         self.view.from = self.place_of(to);
+        self.view.told.take();
         let way = self.view.from - before;
         if way.norm() > within {
             self.view.heading = heading(&way);

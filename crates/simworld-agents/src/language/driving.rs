@@ -14,6 +14,7 @@ use super::lexer::Token;
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use crate::lanes::{OnLane, beside, lane, lane_at, middle, only_way, straight_on, way_that};
 
 /// Roads at a place that people call a junction.
@@ -26,9 +27,23 @@ const MOST_JUNCTIONS: usize = 64;
 const ON_THE_WAY: f64 = 10.0;
 
 impl Parser<'_> {
+    /// "Go left at the next crossing": one turns there, and takes no step.
+    pub(super) fn side_at_junction(&mut self) -> Option<Clause> {
+        let start = self.at;
+        let left = self.eat_any(&["left", "to the left"]);
+        let turn = if left { Turn::Left } else { Turn::Right };
+        if (left || self.eat_any(&["right", "to the right"]))
+            && let Some((nth, lights)) = self.junction()
+        {
+            return Some(Clause::TurnAt { turn, nth, lights });
+        }
+        self.at = start;
+        None
+    }
+
     /// "At the next light": the place in the row, and which junctions count.
     pub(super) fn junction(&mut self) -> Option<(u32, Lights)> {
-        const LIGHTS: &[&str] = &[
+        const LIGHTS: &Phrases = &Phrases::of(&[
             "light",
             "lights",
             "traffic light",
@@ -40,13 +55,13 @@ impl Parser<'_> {
             "traffic signal",
             "signals",
             "set of traffic lights",
-        ];
+        ]);
         #[rustfmt::skip]
-        const JUNCTIONS: &[&str] = &[
+        const JUNCTIONS: &Phrases = &Phrases::of(&[
             "junction", "intersection", "crossroads", "crossroad", "corner", "crossing", "turning", "turn",
             "street corner", "side street", "street", "road", "opportunity", "turnoff", "one", "one after",
             "one after that", "one after it",
-        ];
+        ]);
         let start = self.at;
         if !self.eat_any(&[
             "at",
@@ -172,10 +187,10 @@ impl Parser<'_> {
     /// After "drive".
     pub(super) fn drive(&mut self) -> Result<Vec<Clause>, PlanError> {
         #[rustfmt::skip]
-        const TO: &[&str] = &[
+        const TO: &Phrases = &Phrases::of(&[
             "to", "over to", "towards", "back to", "up to", "down to", "all the way to", "straight to", "on to",
             "as far as", "me to", "us to", "yourself to",
-        ];
+        ]);
         let pace = self.pace(Pace::Usual)?;
         if self.eat_any(TO) {
             let to = self.reference(0)?;

@@ -5,6 +5,7 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::verbs::longest_verb;
 
 impl Parser<'_> {
@@ -59,11 +60,11 @@ impl Parser<'_> {
     /// "At the statue, turn left", "on the red bench: ...": where one goes for what follows.
     pub(super) fn fronted_place(&mut self) -> Option<Vec<Clause>> {
         #[rustfmt::skip]
-        const PLACED: &[&str] = &[
+        const PLACED: &Phrases = &Phrases::of(&[
             "at", "on", "in", "by", "near", "next to", "beside", "inside", "outside", "in front of", "over at",
             "down at", "up at", "over by", "from", "under", "opposite", "close to", "behind", "over to",
             "off to", "to", "up to", "down to", "across to", "back to", "away to", "into", "back at",
-        ];
+        ]);
         let start = self.at;
         if !self.eat_any(PLACED) {
             return None;

@@ -6,29 +6,30 @@ use super::lexicon::{category, fits, longest_phrase};
 use super::numbers;
 use super::orders::{BRINGS, PHOTOS};
 use super::parser::Parser;
+use super::phrases::Phrases;
 use simworld_core::seam::PlanError;
 
 /// Who is to be driven, before where to.
 #[rustfmt::skip]
-const ME_TO: &[&str] = &[
+const ME_TO: &Phrases = &Phrases::of(&[
     "me up at", "us up at", "me up from", "us up from", "me up by", "me up in front of",
     "me up outside", "me at", "me to", "us to", "yourself to", "me over to", "us over to",
     "yourself over to",
-];
+]);
 /// What is in hand, whatever it is.
 #[rustfmt::skip]
-const WHAT_YOU_HOLD: &[&str] = &[
+const WHAT_YOU_HOLD: &Phrases = &Phrases::of(&[
     "what you hold", "what youre holding", "what you are holding", "what you have",
     "what you are carrying", "what youre carrying", "what you carry", "whatever you hold",
     "whatever youre holding", "whatever you are holding", "everything",
-];
+]);
 /// What leads to where something is put.
 #[rustfmt::skip]
-const PLACES: &[&str] = &[
+const PLACES: &Phrases = &Phrases::of(&[
     "at", "to", "in", "on", "into", "over to", "back to", "onto", "with", "up to", "down to",
     "across to", "over at", "by", "along to", "out to", "round to", "off at", "down at", "down by",
     "down on", "down in", "outside", "straight to",
-];
+]);
 
 impl Parser<'_> {
     pub(super) fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
@@ -289,7 +290,7 @@ impl Parser<'_> {
 
     /// "Move the letter to the clinic" is about the letter.
     pub(super) fn moves_thing(&mut self, start: usize) -> bool {
-        let moves = ["move", "shift", "relocate"]
+        let moves = ["move", "shift", "relocate", "run", "rush"]
             .iter()
             .any(|word| fits(&self.lexemes[start..self.at], word).is_some());
         let at = self.at;

@@ -3,6 +3,7 @@
 use super::dialects::in_plain_words;
 use super::lexer::{Lexeme, Token, lex};
 use super::lexicon::{category, longest_phrase};
+use super::phrases::Phrases;
 use super::politeness::{HESITATIONS, filler};
 use super::verbs::longest_verb;
 
@@ -20,15 +21,16 @@ const WHOLE: &[&str] =
     &["its", "thats", "lets", "theres", "whos", "whats", "heres", "wheres", "hows", "todays"];
 /// What somebody or something may be: before it "'s" is "is", and not whose.
 #[rustfmt::skip]
-const STATES: &[&str] = &[
+const STATES: &Phrases = &Phrases::of(&[
     "here", "there", "green", "red", "yellow", "amber", "free", "taken", "occupied", "empty", "open", "closed",
     "shut", "near", "nearby", "close", "next", "visible", "in sight", "in view", "in use", "available", "busy",
     "locked", "unlocked", "not", "arrived", "back", "sitting", "standing", "gone", "been", "got", "waiting",
     "coming", "lonely", "sad", "late", "hungry", "thirsty", "bored", "tired", "ill", "ready", "alone", "lost",
     "in", "on", "at", "by", "behind", "over", "still", "already", "about", "around", "feeling", "looking",
     "asking", "lying", "parked", "stopped", "turned", "become", "come", "dark", "raining", "snowing", "dry",
-    "wet", "closest", "nearest",
-];
+    "wet", "closest", "nearest", "the closest", "the nearest", "the farthest", "the furthest", "the tallest", "the biggest",
+    "the smallest", "the shortest", "the lowest", "the highest", "the largest", "the nearer", "the closer", "stuck", "broken",
+]);
 
 /// The tokens of what is said to somebody of that name.
 pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
@@ -36,6 +38,12 @@ pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
     without_abbreviations(&mut lexemes);
     in_plain_words(&mut lexemes, text);
     without_example_words(&mut lexemes);
+    without_commas_in(&mut lexemes, &["if", "and only if"]);
+    without_commas_in(&mut lexemes, &["when", "and only when"]);
+    for first in ["sorry", "no", "wait", "oops"] {
+        without_commas_in(&mut lexemes, &[first, "i mean"]);
+        without_commas_in(&mut lexemes, &[first, "i meant"]);
+    }
     with_dashes(&mut lexemes, text);
     if let Some(name) = name {
         drop_address(&mut lexemes, &lex(name));
@@ -59,24 +67,21 @@ fn without_abbreviations(lexemes: &mut Vec<Lexeme>) {
 fn without_example_words(lexemes: &mut Vec<Lexeme>) {
     let mut at = 1;
     while at + 2 < lexemes.len() {
-        let said = is_comma(lexemes, at)
-            && longest_phrase(
-                &lexemes[at + 1..],
-                &["say", "like", "maybe", "perhaps", "let us say", "lets say", "about", "roughly"],
-            )
-            .is_some();
-        let words = longest_phrase(
+        let example = longest_phrase(
             &lexemes[at + 1..],
             &["let us say", "lets say", "maybe", "perhaps", "say", "like", "about", "roughly"],
-        )
-        .unwrap_or(0);
+        );
+        let Some(words) = example.filter(|_| is_comma(lexemes, at)) else {
+            at += 1;
+            continue;
+        };
         let after = &lexemes[(at + 1 + words).min(lexemes.len())..];
         let preposition = longest_phrase(after, &["for", "to", "at", "for about", "of"]).unwrap_or(0);
         let number = super::numbers::number(&after[preposition..]).is_some()
             && longest_phrase(&after[preposition..], &["a", "an"]).is_none_or(|_| {
                 super::numbers::duration(&after[preposition..]).is_some_and(|(_, count)| count > 1)
             });
-        if said && number {
+        if number {
             let vague =
                 ["for a bit", "for a while", "for a moment", "for a little while", "for a short while"];
             let from = (1..=4).find(|count| {
@@ -96,6 +101,21 @@ fn without_example_words(lexemes: &mut Vec<Lexeme>) {
                     lexemes.drain(at..=at + words);
                 }
             }
+        }
+        at += 1;
+    }
+}
+
+/// "If, and only if, you see her": the parts of one phrase.
+fn without_commas_in(lexemes: &mut Vec<Lexeme>, parts: &[&str; 2]) {
+    let mut at = 0;
+    while at + 2 < lexemes.len() {
+        let first = longest_phrase(&lexemes[at..], &parts[..1]) == Some(1) && is_comma(lexemes, at + 1);
+        if let Some(words) = longest_phrase(&lexemes[at + 2..], &parts[1..]).filter(|_| first) {
+            if is_comma(lexemes, at + 2 + words) {
+                lexemes.remove(at + 2 + words);
+            }
+            lexemes.remove(at + 1);
         }
         at += 1;
     }
@@ -131,7 +151,8 @@ pub(super) fn lex_speech(text: &str) -> Vec<Lexeme> {
             lexemes.remove(at - 1);
         }
     }
-    in_full(&lexemes, text)
+    in_full(&mut lexemes, text);
+    lexemes
 }
 
 fn is_comma(lexemes: &[Lexeme], at: usize) -> bool {
@@ -141,11 +162,17 @@ fn is_comma(lexemes: &[Lexeme], at: usize) -> bool {
 /// Sounds, and "like" or "you know" between commas.
 fn is_sound(lexemes: &[Lexeme], at: usize) -> bool {
     let Token::Word(word) = &lexemes[at].token else { return false };
+    if word == "like" {
+        return at > 0 && is_comma(lexemes, at - 1) && is_comma(lexemes, at + 1);
+    }
+    // No other letters make such sounds, and few words are made of these.
+    if !word.bytes().all(|letter| b"aehmoru".contains(&letter)) {
+        return false;
+    }
     // "Ummm" is one however long it is drawn.
     let mut short = word.clone();
     short.dedup_letters();
-    let between = at > 0 && is_comma(lexemes, at - 1) && is_comma(lexemes, at + 1);
-    HESITATIONS.contains(&short.as_str()) || HESITATIONS.contains(&word.as_str()) || between && word == "like"
+    HESITATIONS.contains(&short.as_str()) || HESITATIONS.contains(&word.as_str())
 }
 
 trait Drawn {
@@ -161,31 +188,35 @@ impl Drawn for String {
 }
 
 /// "Isn't" is "is not", and "Ben's here" is "Ben is here".
-fn in_full(lexemes: &[Lexeme], text: &str) -> Vec<Lexeme> {
-    let mut full = Vec::with_capacity(lexemes.len());
-    for (at, lexeme) in lexemes.iter().enumerate() {
-        let Token::Word(word) = &lexeme.token else {
-            full.push(lexeme.clone());
-            continue;
-        };
-        let written = &text[lexeme.start..lexeme.end];
-        let parts = if written.eq_ignore_ascii_case("we're") || written.eq_ignore_ascii_case("we’re") {
-            Some(("we".to_owned(), "are"))
-        } else if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
-            Some(((*verb).to_owned(), "not"))
-        } else {
-            owner(word, lexeme, text).filter(|_| is_state(&lexemes[at + 1..])).map(|owner| (owner, "is"))
-        };
-        match parts {
-            Some((one, other)) => full.extend([one, other.to_owned()].map(|word| Lexeme {
-                token: Token::Word(word),
-                lemma: None,
-                ..lexeme.clone()
-            })),
-            None => full.push(lexeme.clone()),
+fn in_full(lexemes: &mut Vec<Lexeme>, text: &str) {
+    let mut at = 0;
+    while at < lexemes.len() {
+        if let Some(words) = parts_of(lexemes, at, text) {
+            let lexeme = lexemes[at].clone();
+            let both = words.map(|word| Lexeme { token: Token::Word(word), lemma: None, ..lexeme.clone() });
+            lexemes.splice(at..=at, both);
+            at += 1;
         }
+        at += 1;
     }
-    full
+}
+
+/// The two words of a contraction.
+fn parts_of(lexemes: &[Lexeme], at: usize, text: &str) -> Option<[String; 2]> {
+    let lexeme = &lexemes[at];
+    let Token::Word(word) = &lexeme.token else { return None };
+    let written = &text[lexeme.start..lexeme.end];
+    if !word.ends_with("nt") && !written.contains(['\'', '’']) {
+        return None;
+    }
+    let (one, other) = if written.eq_ignore_ascii_case("we're") || written.eq_ignore_ascii_case("we’re") {
+        ("we".to_owned(), "are")
+    } else if let Some((_, verb)) = NEGATED.iter().find(|(short, _)| short == word) {
+        ((*verb).to_owned(), "not")
+    } else {
+        (owner(word, lexeme, text).filter(|_| is_state(&lexemes[at + 1..]))?, "is")
+    };
+    Some([one, other.to_owned()])
 }
 
 /// The word before "'s".
@@ -196,7 +227,12 @@ fn owner(word: &str, lexeme: &Lexeme, text: &str) -> Option<String> {
 }
 
 fn is_state(rest: &[Lexeme]) -> bool {
-    longest_phrase(rest, STATES).is_some_and(|count| category(&rest[count..]).is_none())
+    // "Eve's expecting a parcel".
+    let goes_on = rest.first().is_some_and(|first| {
+        first.lemma.is_some() && matches!(&first.token, Token::Word(word) if word.ends_with("ing"))
+    });
+    goes_on && category(rest).is_none()
+        || longest_phrase(rest, STATES).is_some_and(|count| category(&rest[count..]).is_none())
 }
 
 /// Takes the listener's own name out where it stands apart: "Rex, come here", "stay, Rex".

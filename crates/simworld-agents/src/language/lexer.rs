@@ -35,27 +35,37 @@ pub(crate) struct Lexeme {
 
 /// Reads the tokens of a text, in order.
 pub(crate) fn lex(text: &str) -> Vec<Lexeme> {
-    let mut lexemes = Vec::new();
+    let lexeme = |(token, start, end)| {
+        let lemma = if let Token::Word(word) = &token { base_form(word) } else { None };
+        Lexeme { token, lemma, start, end }
+    };
+    tokens(text).map(lexeme).collect()
+}
+
+/// The tokens of a text, each with the bytes it was read from.
+pub(super) fn tokens(text: &str) -> impl Iterator<Item = (Token, usize, usize)> {
     let mut at = 0;
-    while let Some(first) = text[at..].chars().next() {
-        let rest = &text[at..];
-        let (token, length) = if let Some(found) = id(rest) {
-            (Some(found.0), found.1)
-        } else if let Some(found) = number(rest, follows_word(text, at)) {
-            (Some(found.0), found.1)
-        } else if first.is_alphanumeric() {
-            let (word, length) = word(rest);
-            (Some(Token::Word(word)), length)
-        } else {
-            (symbol(first), first.len_utf8())
-        };
-        if let Some(token) = token {
-            let lemma = if let Token::Word(word) = &token { base_form(word) } else { None };
-            lexemes.push(Lexeme { token, lemma, start: at, end: at + length });
+    std::iter::from_fn(move || {
+        loop {
+            let rest = &text[at..];
+            let first = rest.chars().next()?;
+            let (token, length) = if let Some(found) = id(rest) {
+                (Some(found.0), found.1)
+            } else if let Some(found) = number(rest, follows_word(text, at)) {
+                (Some(found.0), found.1)
+            } else if first.is_alphanumeric() {
+                let (word, length) = word(rest);
+                (Some(Token::Word(word)), length)
+            } else {
+                (symbol(first), first.len_utf8())
+            };
+            let start = at;
+            at += length;
+            if let Some(token) = token {
+                return Some((token, start, at));
+            }
         }
-        at += length;
-    }
-    lexemes
+    })
 }
 
 /// What was written from the first of some tokens to the last, in whatever order they are.
@@ -129,6 +139,10 @@ fn id(text: &str) -> Option<(Token, usize)> {
 }
 
 fn word(text: &str) -> (String, usize) {
+    let plain = text.bytes().take_while(u8::is_ascii_alphanumeric).count();
+    if text.as_bytes().get(plain).is_none_or(|next| next.is_ascii() && *next != b'\'') {
+        return (text[..plain].to_ascii_lowercase(), plain);
+    }
     let mut word = String::new();
     let mut length = 0;
     let mut letters = text.chars().peekable();

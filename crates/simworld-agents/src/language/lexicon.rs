@@ -1,11 +1,15 @@
 //! The words of the grammar: what things are called, what one can be told to do, and the words around them.
 
+use std::borrow::Cow;
+use std::sync::LazyLock;
+
 use simworld_core::scene::{EntityKind, EntityRef, Place, Relation};
 use simworld_core::seam::Which;
 use simworld_core::value::Value;
 
 use super::clause::{Measure, Side};
 use super::lexer::{Lexeme, Token};
+use super::phrases::{Index, PhraseList, Phrases};
 
 /// The attribute of a piece of ground that says what it is used as: `park`, `square`, `river` and the like.
 pub(super) const AREA: &str = "area";
@@ -152,16 +156,49 @@ pub(super) const CATEGORIES: &[Category] = &[
     places(&["rest area", "rest stop", "resting place", "pavilion", "rest place", "picnic area", "gazebo", "rest house"], Place::RestArea),
 ];
 
+/// Whatever stands about and can be moved, but for people and animals: "everything".
+pub(super) static ALL_THINGS: Category = things(
+    &["thing"],
+    &[
+        EntityKind::Chair,
+        EntityKind::Bench,
+        EntityKind::Table,
+        EntityKind::Parcel,
+        EntityKind::Tree,
+        EntityKind::Shrub,
+        EntityKind::StreetLamp,
+        EntityKind::TrafficSignal,
+        EntityKind::Sign,
+        EntityKind::TrashBin,
+        EntityKind::Mailbox,
+        EntityKind::Hydrant,
+        EntityKind::Cone,
+        EntityKind::BusStop,
+        EntityKind::Prop,
+        EntityKind::Car,
+        EntityKind::Truck,
+        EntityKind::Bus,
+        EntityKind::Motorcycle,
+        EntityKind::Bicycle,
+        EntityKind::Scooter,
+    ],
+);
+/// "The furniture".
+pub(super) static FURNITURE: Category =
+    things(&["piece of furniture"], &[EntityKind::Chair, EntityKind::Bench, EntityKind::Table]);
+/// "The plants".
+pub(super) static PLANTS: Category = things(&["plant"], &[EntityKind::Tree, EntityKind::Shrub]);
+
 /// Words before a noun that say nothing about which.
 #[rustfmt::skip]
-pub(super) const DETERMINERS: &[&str] = &[
+pub(super) const DETERMINERS: &Phrases = &Phrases::of(&[
     "the", "a", "an", "that", "this", "these", "those", "some", "any", "my", "your", "our", "one of the",
     "one of", "one", "whichever", "whatever", "whichever of the", "his", "her", "its", "their", "any old",
     "some of the", "just any",
-];
+]);
 
 /// Words that say which of several.
-pub(super) const NEAREST: &[&str] = &[
+pub(super) const NEAREST: &Phrases = &Phrases::of(&[
     "nearest",
     "closest",
     "nearby",
@@ -174,9 +211,9 @@ pub(super) const NEAREST: &[&str] = &[
     "handiest",
     "very nearest",
     "very closest",
-];
+]);
 /// The contrary.
-pub(super) const FARTHEST: &[&str] = &[
+pub(super) const FARTHEST: &Phrases = &Phrases::of(&[
     "farthest",
     "furthest",
     "most distant",
@@ -188,7 +225,7 @@ pub(super) const FARTHEST: &[&str] = &[
     "furthermost",
     "farthermost",
     "most remote",
-];
+]);
 /// Words that compare.
 #[rustfmt::skip]
 pub(super) const MOSTS: &[(&[&str], (Measure, bool))] = &[
@@ -251,7 +288,7 @@ pub(super) const RELATIONS: &[(&[&str], Relation)] = &[
 
 /// Words between a noun and how it stands to another.
 #[rustfmt::skip]
-pub(super) const COPULAS: &[&str] = &[
+pub(super) const COPULAS: &Phrases = &Phrases::of(&[
     "that is", "thats", "which is", "that stands", "which stands", "standing", "located", "placed", "who is",
     "whos", "who stands", "sitting", "is", "parked", "that are", "which are", "right", "thats standing",
     "that sits", "which sits", "over", "just", "lying", "thats lying", "that lies", "which lies", "waiting",
@@ -260,7 +297,7 @@ pub(super) const COPULAS: &[&str] = &[
     "leaning", "leaning against", "situated", "found", "positioned", "to be found", "hanging", "who are",
     "who stand", "that stand", "left lying", "thats waiting", "thats sitting", "whos standing", "whos sitting",
     "whos waiting", "seated", "resting", "stands", "sits", "lies", "located", "that happens to be", "that was",
-];
+]);
 
 /// How many tokens at the start of `lexemes` are the words of the phrase; `None` if they are others.
 pub(super) fn fits(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
@@ -303,8 +340,31 @@ pub(super) fn longest<T: Copy>(lexemes: &[Lexeme], table: &[(&[&str], T)]) -> Op
     longer(hits)
 }
 
+/// How something stands to another, by the longest phrase at the start.
+pub(super) fn longest_relation(lexemes: &[Lexeme]) -> Option<(Relation, usize)> {
+    static INDEX: LazyLock<Index<Relation>> = LazyLock::new(|| filed(RELATIONS));
+    INDEX.longest(lexemes)
+}
+
+/// A side of the agent, by the longest phrase at the start.
+pub(super) fn longest_side(lexemes: &[Lexeme]) -> Option<(Side, usize)> {
+    static INDEX: LazyLock<Index<Side>> = LazyLock::new(|| filed(SIDES));
+    INDEX.longest(lexemes)
+}
+
+fn filed<T: Copy>(table: &'static [(&[&str], T)]) -> Index<T> {
+    Index::new(table.iter().flat_map(|(phrases, entry)| phrases.iter().map(|phrase| (*phrase, *entry))))
+}
+
 /// The number of words of the longest of the phrases at the start of `lexemes`.
-pub(super) fn longest_phrase(lexemes: &[Lexeme], phrases: &[&str]) -> Option<usize> {
+pub(super) fn longest_phrase<L: PhraseList + ?Sized>(lexemes: &[Lexeme], phrases: &L) -> Option<usize> {
+    match &lexemes.first()?.token {
+        Token::Word(word) if phrases.may_begin(word) => longest_of(lexemes, phrases.list()),
+        _ => None,
+    }
+}
+
+fn longest_of(lexemes: &[Lexeme], phrases: &[&str]) -> Option<usize> {
     let first = initial(lexemes)?;
     phrases.iter().filter(|phrase| begins(phrase, first)).filter_map(|phrase| fits(lexemes, phrase)).max()
 }
@@ -323,12 +383,24 @@ fn begins(phrase: &str, first: u8) -> bool {
 
 /// The class named at the start of `lexemes` with the most words, with their number.
 pub(super) fn category(lexemes: &[Lexeme]) -> Option<(&'static Category, usize)> {
-    let first = initial(lexemes)?;
-    longer(CATEGORIES.iter().filter_map(|category| {
-        let begin = category.words.iter().filter(|word| begins(word, first));
-        let count = begin.filter_map(|word| fits_noun(lexemes, word)).max()?;
-        Some((category, count))
-    }))
+    static INDEX: LazyLock<Index<&Category>> = LazyLock::new(|| {
+        let words = CATEGORIES.iter().flat_map(|class| class.words.iter().map(move |word| (*word, class)));
+        Index::with_forms(
+            words.flat_map(|(word, class)| forms(word).map(move |(first, rest)| (first, rest, class))),
+        )
+    });
+    INDEX.longest_by(lexemes, |after, rest| rest.is_empty() || fits_noun(after, rest).is_some())
+}
+
+/// A noun by its first word: one word by each of its plurals too.
+fn forms(noun: &'static str) -> impl Iterator<Item = (Cow<'static, str>, &'static str)> {
+    let (first, rest) = noun.split_once(' ').unwrap_or((noun, ""));
+    let plurals = rest.is_empty().then(|| {
+        let stem = noun.strip_suffix('y').map(|stem| format!("{stem}ies"));
+        [format!("{noun}s"), format!("{noun}es")].into_iter().chain(stem)
+    });
+    let plurals = plurals.into_iter().flatten().map(move |plural| (Cow::Owned(plural), rest));
+    std::iter::once((Cow::Borrowed(first), rest)).chain(plurals)
 }
 
 /// The first of the longest hits.

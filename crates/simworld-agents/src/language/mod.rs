@@ -8,6 +8,7 @@
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
 mod asides;
+mod between;
 mod blocks;
 mod call;
 mod choices;
@@ -21,6 +22,7 @@ mod dialects;
 mod draft;
 mod driving;
 pub(crate) mod edits;
+mod following;
 mod fronted;
 mod handling;
 mod hearing;
@@ -37,6 +39,7 @@ pub(crate) mod paint;
 mod parser;
 mod passive;
 mod pauses;
+mod phrases;
 mod pointing;
 mod politeness;
 mod reference;
@@ -49,6 +52,7 @@ mod sequence;
 mod shopping;
 mod speech;
 mod spelling;
+mod statements;
 mod staying;
 pub(crate) mod streets;
 #[cfg(feature = "thought")]

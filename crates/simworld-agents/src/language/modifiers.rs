@@ -5,13 +5,14 @@ use super::lexer::{Lexeme, Token};
 use super::lexicon::{DETERMINERS, FARTHEST, MOSTS, NEAREST, category, fits, longest, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::reference::DOOR_STATES;
 
 /// Between a superlative and what it chooses from.
-const OF_SEVERAL: &[&str] =
-    &["of the", "of these", "of those", "of all the", "of all", "out of the", "among the"];
+const OF_SEVERAL: &Phrases =
+    &Phrases::of(&["of the", "of these", "of those", "of all the", "of all", "out of the", "among the"]);
 pub(super) const FREE: &[&str] = &["free", "empty", "available", "vacant", "unoccupied"];
-const INDEFINITE: &[&str] = &[
+const INDEFINITE: &Phrases = &Phrases::of(&[
     "a",
     "an",
     "any",
@@ -23,7 +24,7 @@ const INDEFINITE: &[&str] = &[
     "either",
     "any of the",
     "any one of the",
-];
+]);
 /// From the end of a row.
 const FROM_BEHIND: &[(&[&str], u32)] = &[
     (
@@ -43,8 +44,18 @@ const OUTERMOST: &[(&[&str], Side)] = &[
 const HANDS: &[(&[&str], Side)] =
     &[(&["left hand", "left", "lefthand"], Side::Left), (&["right hand", "right", "righthand"], Side::Right)];
 /// What tells nothing from anything else of its class.
-const IDLE: &[&str] =
-    &["very", "same", "said", "nice", "lovely", "dear", "good old", "absolute", "absolutely", "single"];
+const IDLE: &Phrases = &Phrases::of(&[
+    "very",
+    "same",
+    "said",
+    "nice",
+    "lovely",
+    "dear",
+    "good old",
+    "absolute",
+    "absolutely",
+    "single",
+]);
 
 impl Parser<'_> {
     /// Articles, numbers, colours and superlatives before a noun.

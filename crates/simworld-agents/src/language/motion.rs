@@ -9,19 +9,20 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Course, Pace, Reference, Spot, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{RELATIONS, class, fits, longest, longest_phrase};
+use super::lexicon::{class, fits, longest, longest_phrase, longest_relation};
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 
 /// The longest single step, m.
 const LONGEST_STEP: f64 = 10.0;
 /// How far one looks up or down where no angle is said, radians.
 const GLANCE: f64 = 0.35;
 /// Units of length; a step is taken for a metre.
-pub(super) const LENGTHS: &[&str] = &[
+pub(super) const LENGTHS: &Phrases = &Phrases::of(&[
     "metres", "metre", "meters", "meter", "m", "steps", "step", "paces", "pace", "a metre", "a meter",
     "a step",
-];
+]);
 
 #[rustfmt::skip]
 const DIRECTIONS: &[(&[&str], StepDirection)] = &[
@@ -36,23 +37,23 @@ const DIRECTIONS: &[(&[&str], StepDirection)] = &[
 
 /// What leads to a place.
 #[rustfmt::skip]
-const TOWARDS: &[&str] = &[
+const TOWARDS: &Phrases = &Phrases::of(&[
     "to", "too", "towards", "toward", "up to", "over to", "into", "in", "onto", "on", "at", "for", "back to",
     "down to", "through", "out to", "right up to", "straight to", "as far as", "all the way to",
     "all the way up to", "by", "round to", "along to", "across to", "off to", "back into", "inside", "with",
     "until", "until you reach", "until you get to", "over at", "over by", "up at", "down at", "in on", "in at",
     "on over to", "back over to", "away to", "home to", "over towards", "right over to", "round by", "round at",
     "over into", "down by", "up by", "out at", "right to", "back at", "on", "near to",
-];
+]);
 
 /// Going between two places again and again.
 #[rustfmt::skip]
-const TO_AND_FRO: &[&str] = &[
+const TO_AND_FRO: &Phrases = &Phrases::of(&[
     "back and forth between", "to and fro between", "back and forth from", "and forth between",
     "and forth from", "up and down between", "and down between", "backwards and forwards between",
     "backward and forward between", "and forwards between", "to and fro from", "back and forward between",
     "backwards and forwards from", "up and down from", "back and fro between", "hither and thither between",
-];
+]);
 
 #[derive(Clone, Copy)]
 enum Sense {
@@ -109,7 +110,7 @@ impl Parser<'_> {
         }
         let within = self.within()?;
         let apart = apart.or_else(|| self.apart());
-        let named_side = longest(self.rest(), RELATIONS).is_some_and(|(_, words)| words > 1);
+        let named_side = longest_relation(self.rest()).is_some_and(|(_, words)| words > 1);
         if apart.is_none() && !named_side {
             self.eat_any(TOWARDS);
         }
@@ -126,6 +127,9 @@ impl Parser<'_> {
         }
         if let Some(clauses) = self.by_the_compass(pace)? {
             return Ok(Some(clauses));
+        }
+        if let Some(turn) = self.side_at_junction() {
+            return Ok(Some(vec![turn]));
         }
         if self.begins_step() {
             return self.step().map(|step| Some(vec![step]));
@@ -185,7 +189,7 @@ impl Parser<'_> {
         let start = self.at;
         self.at += words;
         self.eat_any(&["to the", "away"]);
-        let side = longest(self.rest(), RELATIONS).is_some()
+        let side = longest_relation(self.rest()).is_some()
             || self.compass().is_some() && longest_phrase(self.rest(), &["of", "from"]).is_some();
         self.at = if side { start + words } else { start };
         side.then_some(length)
@@ -275,7 +279,7 @@ impl Parser<'_> {
 
     /// "next to", "behind" and so on before a place.
     pub(super) fn side(&mut self) -> Option<Relation> {
-        let (relation, count) = longest(self.rest(), RELATIONS)?;
+        let (relation, count) = longest_relation(self.rest())?;
         self.at += count;
         Some(relation)
     }

@@ -3,15 +3,17 @@
 //! Names are found by the words in them: in the index that the scene keeps or, if it keeps none, in one made by looking
 //! at everything. Whoever is out of range has no name.
 
-use std::cell::OnceCell;
+use std::borrow::Cow;
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
+use std::sync::LazyLock;
 
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{NameIndex, Scene};
 
-use super::lexer::{Lexeme, Token, lex};
+use super::lexer::{Lexeme, Token, tokens};
 use super::lexicon::{CATEGORIES, Category};
 use super::spelling::Letters;
 
@@ -23,6 +25,8 @@ pub(super) struct Names<'a> {
     own: OnceCell<NameIndex>,
     /// What is sold within range, in alphabetical order.
     sold: OnceCell<Vec<Goods>>,
+    /// What was made of phrases so far: readings that are tried in turn ask for the same ones.
+    guesses: RefCell<Vec<(String, (Guess, usize))>>,
 }
 
 struct Goods {
@@ -37,7 +41,7 @@ struct Name {
 }
 
 /// What a phrase that fits nothing exactly may have meant.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Guess {
     /// One thing only: a name, or part of one, that nothing else bears.
     Named(Vec<EntityId>),
@@ -53,7 +57,8 @@ impl<'a> Names<'a> {
     /// The names of everything within `range` m of a point.
     pub(super) fn new(scene: &'a dyn Scene, around: Point2, range: f64) -> Self {
         let region = Aabb::column_around(around, range);
-        Self { scene, region, own: OnceCell::new(), sold: OnceCell::new() }
+        let guesses = RefCell::default();
+        Self { scene, region, own: OnceCell::new(), sold: OnceCell::new(), guesses }
     }
 
     fn index(&self) -> &NameIndex {
@@ -84,13 +89,22 @@ impl<'a> Names<'a> {
 
     /// Those within range in whose name the token stands, ascending.
     fn bearers(&self, token: &Token) -> impl Iterator<Item = Name> {
+        self.ids_of(token).filter_map(|id| self.name(id))
+    }
+
+    /// What the entity is called, wherever it is.
+    fn label(&self, id: EntityId) -> Option<&str> {
+        self.scene.entity(id)?.info.name.as_deref()
+    }
+
+    /// Those in whose name the token stands, wherever they are.
+    fn ids_of(&self, token: &Token) -> impl Iterator<Item = EntityId> {
         let (words, numbers) = match token {
             Token::Word(word) => (Some(self.index().bearers(word)), None),
             Token::Number(_) => (None, Some(self.index().numbered())),
             _ => (None, None),
         };
-        let ids = words.into_iter().flatten().chain(numbers.into_iter().flatten());
-        ids.filter_map(|id| self.name(id))
+        words.into_iter().flatten().chain(numbers.into_iter().flatten())
     }
 
     fn sold_here(&self) -> &[Goods] {
@@ -115,11 +129,9 @@ impl<'a> Names<'a> {
             || self.words_sold().any(|sold| sold == word)
     }
 
-    /// The words of names and of what is sold that begin so.
+    /// The words of names, near and far, and of what is sold that begin so.
     pub(super) fn words_from<'b>(&'b self, beginning: &'b str) -> impl Iterator<Item = &'b str> {
-        let index = self.index();
-        let named =
-            index.words_from(beginning).filter(|word| index.bearers(word).any(|id| self.is_in_range(id)));
+        let named = self.index().words_from(beginning);
         named.chain(self.words_sold().filter(move |word| word.starts_with(beginning)))
     }
 
@@ -164,8 +176,14 @@ impl<'a> Names<'a> {
     /// The entities whose name begins the phrase; of several names the longest. With the number of tokens it takes.
     pub(super) fn exact(&self, lexemes: &[Lexeme]) -> Option<(Vec<EntityId>, usize)> {
         let mut hits: Vec<(EntityId, usize)> = Vec::new();
-        for name in self.bearers(&lexemes.first()?.token) {
-            hits.extend(begins_with(lexemes, &name.tokens).map(|count| (name.id, count)));
+        let first = &lexemes.first()?.token;
+        for id in self.ids_of(first) {
+            // Most of those with the word in their names have it behind others: "house".
+            if self.label(id).is_some_and(|label| may_begin(label, first))
+                && let Some(name) = self.name(id)
+            {
+                hits.extend(begins_with(lexemes, &name.tokens).map(|count| (id, count)));
+            }
         }
         let longest = hits.iter().map(|(_, count)| *count).max()?;
         let ids = hits.iter().filter(|(_, count)| *count == longest).map(|(id, _)| *id).collect();
@@ -185,22 +203,54 @@ impl<'a> Names<'a> {
         (!parts.is_empty()).then(|| one_name(&parts.iter().collect::<Vec<_>>()))
     }
 
+    /// Several whose names end in the word, said in the singular or the plural: stalls are what is called "Bread Stall" and "Fish Stall".
+    pub(super) fn sort(&self, said: &Token) -> Option<Vec<EntityId>> {
+        let Token::Word(said) = said else { return None };
+        let singular = said.strip_suffix('s').filter(|word| word.len() > 2);
+        let of = |word: &str| {
+            let word = Token::Word(word.to_owned());
+            let names = self.bearers(&word).filter(|name| name.tokens.len() > 1);
+            names.filter(|name| name.tokens.last() == Some(&word)).map(|name| name.id).collect::<Vec<_>>()
+        };
+        let sort = std::iter::once(said.as_str()).chain(singular).map(of);
+        sort.into_iter().find(|ids| ids.len() > 1)
+    }
+
+    /// What a phrase that is no exact name may have meant, with how many of its words are said by that: all, or the
+    /// longest beginning that is part of a name ("the library door").
+    pub(super) fn guess_or_part(&self, phrase: &[Lexeme]) -> (Guess, usize) {
+        let said = join(phrase.iter().map(|lexeme| &lexeme.token));
+        if let Some((_, guess)) = self.guesses.borrow().iter().find(|(known, _)| *known == said) {
+            return guess.clone();
+        }
+        let guess = match self.guess(phrase) {
+            nothing @ Guess::Nothing(_) => (1..phrase.len())
+                .rev()
+                .find_map(|count| self.part(&phrase[..count]).map(|guess| (guess, count)))
+                .unwrap_or((nothing, phrase.len())),
+            guess => (guess, phrase.len()),
+        };
+        self.guesses.borrow_mut().push((said, guess.clone()));
+        guess
+    }
+
     /// What a whole phrase that is no exact name may have meant.
-    pub(super) fn guess(&self, phrase: &[Lexeme]) -> Guess {
+    fn guess(&self, phrase: &[Lexeme]) -> Guess {
         if let Some(part) = self.part(phrase) {
             return part;
         }
         let said = join(phrase.iter().map(|lexeme| &lexeme.token));
-        let similar = (said.chars().count() / 3).max(1);
+        let length = said.chars().count();
+        let similar = (length / 3).max(1);
         let (mut least, letters) = (similar.max(tolerance(&said)), Letters::of(&said));
         let names = self.alike(phrase);
         let mut found: Vec<Candidate<'_>> = Vec::new();
-        for candidate in candidates(&names) {
-            let spelling = candidate.spelling();
-            if Letters::of(&spelling).least_edits(letters) > least {
+        for (candidate, spelling) in candidates(&names) {
+            let edits = spelling.letters.least_edits(letters).max(spelling.length.abs_diff(length));
+            if edits > least {
                 continue;
             }
-            let distance = strsim::osa_distance(&said, &spelling);
+            let distance = strsim::osa_distance(&said, &spelling.text);
             if distance < least {
                 found.clear();
                 least = distance;
@@ -231,12 +281,29 @@ impl<'a> Names<'a> {
     }
 }
 
-/// All that a phrase may have meant: these names, and every class.
-fn candidates(names: &[Name]) -> impl Iterator<Item = Candidate<'_>> {
-    let classes = CATEGORIES
-        .iter()
-        .flat_map(|category| category.words.iter().map(move |word| Candidate::Class(category, word)));
-    names.iter().map(Candidate::Name).chain(classes)
+/// All that a phrase may have meant, as it is spelt: these names, and every class.
+fn candidates(names: &[Name]) -> impl Iterator<Item = (Candidate<'_>, Cow<'_, Spelling>)> {
+    static CLASSES: LazyLock<Vec<(Candidate<'static>, Spelling)>> = LazyLock::new(|| {
+        let words = CATEGORIES.iter().flat_map(|class| class.words.iter().map(move |word| (class, *word)));
+        words.map(|(class, word)| (Candidate::Class(class, word), Spelling::of(word.to_owned()))).collect()
+    });
+    let named =
+        names.iter().map(|name| (Candidate::Name(name), Cow::Owned(Spelling::of(join(name.tokens.iter())))));
+    named.chain(CLASSES.iter().map(|(class, spelling)| (*class, Cow::Borrowed(spelling))))
+}
+
+/// How something is spelt, with what tells it from most other spellings.
+#[derive(Clone)]
+struct Spelling {
+    text: String,
+    length: usize,
+    letters: Letters,
+}
+
+impl Spelling {
+    fn of(text: String) -> Self {
+        Self { length: text.chars().count(), letters: Letters::of(&text), text }
+    }
 }
 
 /// Something a phrase may have meant.
@@ -247,13 +314,6 @@ enum Candidate<'a> {
 }
 
 impl Candidate<'_> {
-    fn spelling(&self) -> String {
-        match self {
-            Self::Name(name) => join(name.tokens.iter()),
-            Self::Class(_, word) => (*word).to_owned(),
-        }
-    }
-
     /// The word of the class.
     fn word(&self) -> &'static str {
         match self {
@@ -313,15 +373,26 @@ fn one_name(found: &[&Name]) -> Guess {
 
 /// The tokens of a name without punctuation and without a leading article.
 fn name_tokens(name: &str) -> Vec<Token> {
-    let mut tokens: Vec<Token> = lex(name)
-        .into_iter()
-        .map(|lexeme| lexeme.token)
+    let mut tokens: Vec<Token> = tokens(name)
+        .map(|(token, ..)| token)
         .filter(|token| matches!(token, Token::Word(_) | Token::Number(_)))
         .collect();
     if tokens.len() > 1 && tokens[0] == Token::Word("the".to_owned()) {
         tokens.remove(0);
     }
     tokens
+}
+
+/// Whether a name may begin with the token: "no" is certain, and said without taking the name apart.
+fn may_begin(name: &str, first: &Token) -> bool {
+    let Token::Word(word) = first else { return true };
+    let begins = |name: &str| {
+        let (Some(letter), Some(said)) = (name.chars().next(), word.chars().next()) else { return true };
+        // What other signs stand for is left to the lexer.
+        !letter.is_ascii_alphanumeric() || !said.is_ascii() || letter.eq_ignore_ascii_case(&said)
+    };
+    let article = name.get(..3).is_some_and(|article| article.eq_ignore_ascii_case("the"));
+    begins(name) || article && begins(name[3..].trim_start())
 }
 
 /// How many lexemes at the start say the name; punctuation between its words does not count.
@@ -357,6 +428,7 @@ mod tests {
     use simworld_core::geometry::Pose;
     use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
 
+    use super::super::lexer::lex;
     use super::*;
 
     proptest! {

@@ -9,6 +9,7 @@ use super::lexicon::longest_phrase;
 use super::numbers;
 use super::orders::PHOTOS;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::verbs::{Verb, longest_verb};
 
 const WAVES: &[&str] =
@@ -26,23 +27,23 @@ const TURNS: &[(&[&str], Turn)] = &[
 
 /// What heads a list of places.
 #[rustfmt::skip]
-const TOURS: &[&str] = &[
+const TOURS: &Phrases = &Phrases::of(&[
     "waypoints", "route", "your route", "the route", "stops", "round trip", "tour", "path", "itinerary",
     "your itinerary", "the tour", "rounds", "round", "circuit", "trip", "lap", "course", "destinations",
     "the stops", "places to visit", "stations", "checkpoints",
-];
+]);
 /// What says when it is the turn of a place, before it.
 #[rustfmt::skip]
-const IN_TURN: &[&str] = &[
+const IN_TURN: &Phrases = &Phrases::of(&[
     "first", "first to", "then", "then to", "next", "finally", "second", "third", "last", "and then",
     "and finally",
-];
+]);
 /// The same behind it.
 #[rustfmt::skip]
-const TURNS_BEHIND: &[&str] = &[
+const TURNS_BEHIND: &Phrases = &Phrases::of(&[
     "first", "second", "third", "fourth", "next", "last", "after that", "afterwards", "to begin with",
     "to end with",
-];
+]);
 
 /// Reads one kind of such orders; nothing where it is none.
 type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
@@ -236,6 +237,20 @@ impl Parser<'_> {
             "how about",
             "what about",
             "we need",
+            "any chance of",
+            "is there any chance of",
+            "i could murder",
+            "i could kill for",
+            "i am dying for",
+            "im dying for",
+            "i am gasping for",
+            "can i have",
+            "could i have",
+            "may i have",
+            "can i get",
+            "could i get",
+            "can we have",
+            "could we have",
         ]);
         let Some(goods) = self.goods() else { return Ok(None) };
         if self.mark() == Some('?') && self.rest().len() > 1 {

@@ -1,7 +1,10 @@
 //! Numbers, times and quantities in words.
 
+use std::sync::LazyLock;
+
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{fits, longest, longest_phrase};
+use super::phrases::{Index, Phrases};
 
 /// Numbers in words.
 #[rustfmt::skip]
@@ -26,9 +29,10 @@ const ORDINALS: &[(&str, u32)] = &[
 pub(super) const MOMENT: f64 = 2.0;
 
 fn numeral(lexeme: Option<&Lexeme>) -> Option<f64> {
+    static INDEX: LazyLock<Index<f64>> = LazyLock::new(|| Index::new(NUMERALS.iter().copied()));
     match &lexeme?.token {
         Token::Number(number) => Some(*number),
-        Token::Word(word) => NUMERALS.iter().find(|(numeral, _)| numeral == word).map(|(_, number)| *number),
+        Token::Word(word) => INDEX.alone(word),
         _ => None,
     }
 }
@@ -94,8 +98,9 @@ pub(super) fn count(lexemes: &[Lexeme]) -> Option<(u32, usize)> {
 
 /// A place in a row.
 pub(super) fn ordinal(lexemes: &[Lexeme]) -> Option<u32> {
+    static INDEX: LazyLock<Index<u32>> = LazyLock::new(|| Index::new(ORDINALS.iter().copied()));
     let Token::Word(word) = &lexemes.first()?.token else { return None };
-    ORDINALS.iter().find(|(ordinal, _)| ordinal == word).map(|(_, place)| *place)
+    INDEX.alone(word)
 }
 
 /// How many times: "twice", "three times", "once", "on two occasions".
@@ -168,11 +173,11 @@ pub(super) fn duration(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         (&["hours", "hour", "h", "hrs", "hr", "full hour", "whole hour"], 3600.0),
     ];
     #[rustfmt::skip]
-    const MOMENTS: &[&str] = &[
+    const MOMENTS: &Phrases = &Phrases::of(&[
         "a moment", "a bit", "a while", "a little while", "a little", "a short while", "briefly",
         "a few seconds", "some time", "a few moments", "a little bit", "a sec", "a short moment",
         "a second or two", "a tick", "a jiffy",
-    ];
+    ]);
     let about = longest_phrase(lexemes, ABOUT).unwrap_or(0);
     let after = &lexemes[about..];
     if let Some(tokens) = longest_phrase(after, MOMENTS) {
@@ -244,10 +249,10 @@ pub(super) fn length(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
 
 /// What makes a number no less exact.
 #[rustfmt::skip]
-const ABOUT: &[&str] = &[
+const ABOUT: &Phrases = &Phrases::of(&[
     "some", "about", "around", "roughly", "exactly", "approximately", "just", "only", "a good", "another",
     "a further", "at least", "a full", "exactly", "precisely", "maybe", "say", "nearly", "almost",
-];
+]);
 
 /// Units of length, m.
 pub(super) const UNITS: &[(&[&str], f64)] = &[

@@ -4,32 +4,33 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Count, Manner, Pace, Reference, Target, Vehicle};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{RELATIONS, category, fits, longest, longest_phrase};
+use super::lexicon::{category, fits, longest_phrase, longest_relation};
 use super::numbers;
 use super::parser::{Parser, UNDERSTOOD};
+use super::phrases::{PhraseList, Phrases};
 use super::verbs::{Verb, longest_verb};
 
 /// What people take photos with their words of.
 #[rustfmt::skip]
-pub(super) const PHOTOS: &[&str] = &[
+pub(super) const PHOTOS: &Phrases = &Phrases::of(&[
     "snaps", "snap", "photograph", "shot", "selfie", "pic", "snapshot", "photos", "photo", "pictures",
     "picture", "photographs", "snapshots", "shots", "selfies", "pics", "still", "stills", "portrait", "portraits",
     "image", "images", "screenshot", "screenshots", "close up", "close ups", "headshot",
-];
+]);
 
 /// What leads to where something is brought.
 #[rustfmt::skip]
-pub(super) const BRINGS: &[&str] = &[
+pub(super) const BRINGS: &Phrases = &Phrases::of(&[
     "to", "over to", "back to", "into", "up to", "down to", "across to", "along to", "out to", "round to",
     "off to", "all the way to", "straight to", "right to", "back over to",
-];
+]);
 
 /// Between going and what one goes for.
 #[rustfmt::skip]
-const TO_DO: &[&str] = &[
+const TO_DO: &Phrases = &Phrases::of(&[
     "out and", "over and", "along and", "off and", "down and", "up and", "on and", "round and", "out to",
     "off to", "and",
-];
+]);
 
 impl Parser<'_> {
     /// An order; several if one verb says several things.
@@ -43,6 +44,9 @@ impl Parser<'_> {
         if let Some(laps) = self.laps()? {
             return Ok(laps);
         }
+        if let Some(clauses) = self.on_heels() {
+            return Ok(clauses);
+        }
         if self.peeks("keep") && self.rest().iter().take(5).any(is_company) {
             self.at += 1;
             let to = self.reference(0)?; // "keep Anna company"
@@ -50,7 +54,9 @@ impl Parser<'_> {
             return Ok(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
         }
         let Some((verb, count)) = self.verb_here() else {
-            return self.order_without_verb();
+            let clauses = self.order_without_verb()?;
+            self.group_with(&clauses);
+            return Ok(clauses);
         };
         if self.goes_to_do(count) {
             self.at += count;
@@ -66,6 +72,8 @@ impl Parser<'_> {
             self.at -= times.take().map_or(0, |(_, count)| count);
         }
         let mut clauses = self.objects(verb, start)?;
+        self.group.clear();
+        self.group_with(&clauses);
         if let Some((times, _)) = times.filter(|(times, _)| *times > 1) {
             clauses = vec![Clause::Repeat { times, body: clauses }];
         }
@@ -91,7 +99,7 @@ impl Parser<'_> {
             && longest_verb(after).is_some()
             && (longest_phrase(after, PLACES).is_none()
                 || longest_phrase(after, &["point at", "point to", "point out"]).is_some())
-            && longest(after, RELATIONS).is_none()
+            && longest_relation(after).is_none()
             && category(after).is_none()
             && self.names.exact(after).is_none()
     }
@@ -102,7 +110,8 @@ impl Parser<'_> {
 
     /// "... then to the museum": the verb of the order before goes on.
     fn order_without_verb(&mut self) -> Result<Vec<Clause>, PlanError> {
-        const BEGINNINGS: &[&str] = &["to", "at", "the", "a", "an", "him", "her", "it", "towards"];
+        const BEGINNINGS: &Phrases =
+            &Phrases::of(&["to", "at", "the", "a", "an", "him", "her", "it", "towards"]);
         let refused = self.not_understood(UNDERSTOOD);
         let has_objects = |verb: &Verb| {
             !matches!(
@@ -202,7 +211,7 @@ impl Parser<'_> {
             return self.after_place(Clause::Go { to, side: None, pace, within: None }, pace);
         }
         match verb {
-            Verb::Go if self.moves_thing(start) => self.drop(Manner::Deliver),
+            Verb::Go | Verb::Run if self.moves_thing(start) => self.drop(Manner::Deliver),
             Verb::Go => self.go(Pace::Usual, start),
             Verb::Run => self.go(Pace::Run, start),
             Verb::Stroll => self.go(Pace::Slow, start),
@@ -364,13 +373,13 @@ impl Parser<'_> {
     /// "Stand behind the statue", "stand halfway between": where to stand, and not to get up.
     fn is_place(&self) -> bool {
         #[rustfmt::skip]
-        const PLACES: &[&str] = &[
+        const PLACES: &Phrases = &Phrases::of(&[
             "at", "on the", "in the", "by", "between", "in between", "halfway", "midway", "half way", "north",
             "south", "east", "west", "to the north", "to the south", "to the east", "to the west",
-        ];
+        ]);
         let exactly =
             longest_phrase(self.rest(), &["exactly", "precisely", "directly", "just", "right"]).unwrap_or(0);
-        longest(self.rest(), RELATIONS).is_some()
+        longest_relation(self.rest()).is_some()
             || longest_phrase(self.rest(), PLACES).is_some()
             || exactly > 0
                 && longest_phrase(&self.rest()[exactly..], &["between", "in between", "at", "on", "in"])
@@ -380,8 +389,11 @@ impl Parser<'_> {
     }
 
     /// A place after one of these words.
-    pub(super) fn tail_place(&mut self, words: &[&str]) -> Result<Option<Reference>, PlanError> {
-        let side = longest(self.rest(), RELATIONS).map(|(_, count)| count);
+    pub(super) fn tail_place<L: PhraseList + ?Sized>(
+        &mut self,
+        words: &L,
+    ) -> Result<Option<Reference>, PlanError> {
+        let side = longest_relation(self.rest()).map(|(_, count)| count);
         match longest_phrase(self.rest(), words).max(side) {
             // "... to get to the clinic" says what for.
             Some(count)

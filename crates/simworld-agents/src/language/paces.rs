@@ -1,29 +1,49 @@
 //! Words of speed.
 
-use super::clause::Pace;
+use super::clause::{Clause, Pace};
 use super::lexer::Token;
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use simworld_core::seam::PlanError;
 
 impl Parser<'_> {
+    /// "..., otherwise at 10": the same at another pace, and nothing else.
+    pub(super) fn at_another_pace(&mut self, orders: &[Clause]) -> Option<Vec<Clause>> {
+        let start = self.at;
+        let said = if self.peeks("at") && numbers::number(&self.rest()[1..]).is_some() {
+            self.at += 1;
+            self.speed().ok().map(Pace::At)
+        } else {
+            self.pace(Pace::Usual).ok().filter(|pace| *pace != Pace::Usual)
+        };
+        let mut again = orders.to_vec();
+        let last = again.last_mut().and_then(Clause::pace);
+        if let (Some(said), Some(last), true) = (said, last, self.ends_at_mark()) {
+            *last = said;
+            return Some(again);
+        }
+        self.at = start;
+        None
+    }
+
     /// Words of speed.
     pub(super) fn pace(&mut self, usual: Pace) -> Result<Pace, PlanError> {
         #[rustfmt::skip]
-        const FAST: &[&str] = &[
+        const FAST: &Phrases = &Phrases::of(&[
             "quickly", "fast", "in a hurry", "as fast as you can", "as quickly as possible",
             "as fast as possible", "rapidly", "at a run", "at full speed", "at top speed",
             "as quick as you can", "as quickly as you can", "at a jog", "at speed", "swiftly", "speedily",
             "very fast", "very quickly", "really fast", "real fast", "at a trot", "in haste", "hurriedly",
             "double quick",
-        ];
+        ]);
         #[rustfmt::skip]
-        const SLOW: &[&str] = &[
+        const SLOW: &Phrases = &Phrases::of(&[
             "slowly", "at a slow pace", "leisurely", "calmly", "carefully", "at a leisurely pace",
             "at a stroll", "very slowly", "nice and slowly", "unhurriedly", "at your leisure", "slow",
             "without hurry", "without hurrying", "without haste", "at a gentle pace", "at an easy pace",
             "slowly and carefully", "in slow motion",
-        ];
+        ]);
         if self.eat_any(SLOW) {
             return Ok(Pace::Slow);
         }

@@ -14,13 +14,14 @@
 use simworld_core::id::EntityId;
 use simworld_core::seam::PlanError;
 
-use super::blocks::{GOES_ON, IF, UNLESS, UNTIL, WHEN, WHILE};
+use super::blocks::{GOES_ON, IF, UNLESS, UNTIL, WHEN_SO, WHILE};
 use super::clause::{Clause, Reference};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase};
 use super::motion::LENGTHS;
 use super::names::Names;
 use super::numbers;
+use super::phrases::{PhraseList, Phrases};
 use super::politeness::{NEGATIONS, filler, joint};
 use super::requests;
 use super::resolve::View;
@@ -35,12 +36,12 @@ pub(super) const UNDERSTOOD: &str = "say go to, follow, look at, pick up, drop o
 const DEEPEST: u32 = 4;
 /// What begins as politeness does, and says something.
 #[rustfmt::skip]
-const MORE_THAN_FILLERS: &[&str] = &[
+const MORE_THAN_FILLERS: &Phrases = &Phrases::of(&[
     "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
     "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "when you can see", "as soon as you can see", "whenever you can see", "when you can spot",
     "as soon as you can spot", "when you can make out", "as soon as you can make out", "up there is",
     "instead of", "go on to", "go on over to", "go on towards", "come on over", "here are",
-];
+]);
 /// How often a statement is tried in other words, in one sentence.
 const MOST_TRIES: u32 = 24;
 
@@ -69,8 +70,14 @@ pub(super) struct Parser<'a> {
     pub(super) tested: Option<super::clause::Test>,
     /// The words that were said last: "and tell Dmitri the same".
     pub(super) said: Option<String>,
+    /// Those whom the orders with one verb are about: "wave at Anna and Ben, then follow them".
+    pub(super) group: Vec<Reference>,
+    /// Who and what was named in a remark that was passed over.
+    pub(super) named: Vec<Clause>,
+    /// What is not here of what was understood on trial: a better answer than that nothing was.
+    pub(super) missing: Option<PlanError>,
     /// How often a statement may still be tried in other words.
-    tries: u32,
+    pub(super) tries: u32,
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
     pub(super) in_test: bool,
     depth: u32,
@@ -107,6 +114,9 @@ impl<'a> Parser<'a> {
             said: None,
             turned: None,
             tested: None,
+            group: Vec::new(),
+            named: Vec::new(),
+            missing: None,
             tries: MOST_TRIES,
             in_test: false,
             depth: 0,
@@ -115,6 +125,7 @@ impl<'a> Parser<'a> {
 
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
+        self.skip_opening();
         self.skip_joints();
         if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
             self.at += 2;
@@ -134,7 +145,11 @@ impl<'a> Parser<'a> {
         let (mut whole, mut group) = (0, 0);
         while self.at < self.lexemes.len() {
             let before = clauses.len();
+            clauses.append(&mut self.named);
             clauses.extend(self.statement()?);
+            if let [.., Clause::Sit { on: None }, Clause::Sit { on: Some(_) }] = clauses[..] {
+                clauses.remove(clauses.len() - 2); // "sit down and rest on the red chair"
+            }
             self.tails(&mut clauses, whole, group)?;
             while let Some(instead) = self.correction()? {
                 clauses.truncate(before);
@@ -161,12 +176,17 @@ impl<'a> Parser<'a> {
         if self.skip_purpose() {
             return Ok(false);
         }
+        let _ = self.skip_outcome() || self.skip_use();
         self.skip_fillers();
         self.at += requests::coda(self.rest());
         self.skip_manner();
         self.skip_reason();
         let joint = self.at;
+        self.skip_statements();
         let mut joined = self.skip_joints();
+        if joined {
+            self.skip_statements();
+        }
         joined = self.skip_remark() && self.skip_joints() || joined;
         while joined && self.at < self.lexemes.len() && self.skip_aside() {
             self.skip_joints();
@@ -178,26 +198,6 @@ impl<'a> Parser<'a> {
             return Err(self.not_understood("end here, or go on with \"and\" or \"then\""));
         }
         Ok(breaks)
-    }
-
-    /// "To" before what is done there: "go to the kiosk to buy water".
-    fn skip_purpose(&mut self) -> bool {
-        const PURPOSES: &[&str] = &[
-            "to",
-            "in order to",
-            "so as to",
-            "so you can",
-            "so that you can",
-            "so you could",
-            "where you can",
-            "where you",
-            "there to",
-            "and there",
-        ];
-        let purpose = longest_phrase(self.rest(), PURPOSES)
-            .filter(|words| longest_verb(self.rest().get(*words..).unwrap_or_default()).is_some());
-        self.at += purpose.unwrap_or(0);
-        purpose.is_some()
     }
 
     /// Whether "and" or a purpose, and no comma nor "then", joins what follows.
@@ -244,15 +244,16 @@ impl<'a> Parser<'a> {
 
     fn begins_block(&self) -> bool {
         #[rustfmt::skip]
-        const BLOCKS: &[&str] = &[
+        const BLOCKS: &Phrases = &Phrases::of(&[
             "if", "unless", "when", "until", "keep", "repeat", "before", "after", "while", "every", "having",
             "should", "at the next", "dont stop", "as soon as", "as long as", "once", "till",
-        ];
+        ]);
         longest_phrase(self.rest(), BLOCKS).is_some()
     }
 
     /// One order or block, without what follows it. What is no order as it stands may be a request in other words.
     pub(super) fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let begin = self.at;
         self.skip_fillers();
         if let Some(mut clauses) = self.marked_topic() {
             clauses.extend(self.statement()?);
@@ -276,9 +277,16 @@ impl<'a> Parser<'a> {
             }
         }
         self.at = start;
-        self.in_other_words().ok_or_else(|| {
+        let remark = |parser: &mut Self| {
+            parser.at = begin; // "you look tired, sit down": "you" was passed over as politeness
+            (begin < start && parser.may_try()).then(|| parser.aside()).flatten()
+        };
+        self.in_other_words().or_else(|| remark(self)).ok_or_else(|| {
             self.at = start;
-            refused
+            match refused {
+                PlanError::NotUnderstood { .. } => self.missing.take().unwrap_or(refused),
+                refused => refused,
+            }
         })
     }
 
@@ -291,6 +299,8 @@ impl<'a> Parser<'a> {
         let mut found = None;
         for rule in [
             Self::instead,
+            Self::needed_there,
+            Self::place_meant,
             Self::fronted_place,
             Self::in_nouns,
             Self::clipped,
@@ -312,13 +322,6 @@ impl<'a> Parser<'a> {
         found
     }
 
-    /// Whether something may still be read on trial.
-    pub(super) fn may_try(&mut self) -> bool {
-        let left = self.tries.checked_sub(1);
-        self.tries = left.unwrap_or(0);
-        left.is_some()
-    }
-
     fn in_nouns(&mut self) -> Option<Vec<Clause>> {
         self.nominal().ok().flatten()
     }
@@ -335,8 +338,21 @@ impl<'a> Parser<'a> {
 
     fn on_topic(&mut self) -> Option<Vec<Clause>> {
         let mut clauses = self.topic()?;
-        clauses.extend(self.statement().ok()?);
+        clauses.extend(self.statement_here()?);
         Some(clauses)
+    }
+
+    /// A statement on trial; of one that is about what is not here the answer is kept.
+    pub(super) fn statement_here(&mut self) -> Option<Vec<Clause>> {
+        match self.statement() {
+            Ok(clauses) => Some(clauses),
+            Err(error) => {
+                if matches!(error, PlanError::NotFound { .. }) {
+                    self.missing.get_or_insert(error);
+                }
+                None
+            }
+        }
     }
 
     fn plain_statement(&mut self) -> Result<Vec<Clause>, PlanError> {
@@ -368,14 +384,14 @@ impl<'a> Parser<'a> {
     }
 
     /// Passes the longest of these phrases, if one is there.
-    pub(super) fn eat_any(&mut self, phrases: &[&str]) -> bool {
+    pub(super) fn eat_any<L: PhraseList + ?Sized>(&mut self, phrases: &L) -> bool {
         let count = longest_phrase(self.rest(), phrases);
         self.at += count.unwrap_or(0);
         count.is_some()
     }
 
     pub(super) fn ends_clause(&self) -> bool {
-        const TAILS: &[&str] = &[
+        const TAILS: &Phrases = &Phrases::of(&[
             "before",
             "after",
             "for",
@@ -387,11 +403,11 @@ impl<'a> Parser<'a> {
             "so as to",
             "forever",
             "or if",
-        ];
+        ]);
         matches!(self.rest().first().map(|lexeme| &lexeme.token), None | Some(Token::Comma | Token::Break))
             || joint(self.rest()).is_some()
             || filler(self.rest()).is_some()
-            || [TAILS, ON_THE_WAY, UNTIL, WHILE, IF, UNLESS, &WHEN[..3]]
+            || [TAILS, ON_THE_WAY, UNTIL, WHILE, IF, UNLESS, WHEN_SO]
                 .iter()
                 .any(|words| longest_phrase(self.rest(), words).is_some())
             || numbers::times(self.rest()).is_some()

@@ -3,26 +3,28 @@
 
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
+use super::phrases::Phrases;
 use super::verbs::longest_verb;
 
 /// What says that something is to be done, before the verb.
 #[rustfmt::skip]
-const MODALS: &[&str] = &[
+const MODALS: &Phrases = &Phrases::of(&[
     "should be", "must be", "has to be", "have to be", "needs to be", "need to be", "is to be", "are to be",
     "ought to be", "shall be", "can be", "could be", "may be", "might be", "will be", "wants to be",
     "would like to be", "should get", "must get", "needs to get", "has got to be", "is supposed to be",
     "is meant to be", "had better be",
-];
+]);
 /// Before who or what the verb is about: "I want the door closed".
 #[rustfmt::skip]
-const CAUSES: &[&str] = &[
+const CAUSES: &Phrases = &Phrases::of(&[
     "i want", "i need", "i would like", "id like", "id love", "we want", "we need", "get", "have",
     "i want to see", "id like to see", "id like to have", "i want to have", "make sure", "make sure that",
     "see that", "see to it that", "see to it", "ensure", "ensure that", "be sure that", "i would like to have",
     "i would like to see", "let", "lets have", "lets get", "let us have", "lets see", "please have", "please get", "kindly have", "then have", "i wish to have", "i want to get",
-];
+]);
 /// A question for the same: "could the door be opened?".
-const ASKING: &[&str] = &["could", "can", "should", "must", "may", "might", "would", "shall", "will"];
+const ASKING: &Phrases =
+    &Phrases::of(&["could", "can", "should", "must", "may", "might", "would", "shall", "will"]);
 /// How something is after an order was carried out.
 const RESULTS: &[(&str, &str)] = &[("open", "open"), ("closed", "close"), ("shut", "close")];
 /// No subject of a verb has more words.

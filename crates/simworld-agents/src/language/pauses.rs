@@ -5,6 +5,7 @@ use super::lexer::Token;
 use super::lexicon::{longest, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::tails::body_of;
 use simworld_core::seam::PlanError;
 
@@ -133,8 +134,16 @@ impl Parser<'_> {
     pub(super) fn peek_interval(&self) -> Option<(f64, usize)> {
         const UNITS: &[(&[&str], f64)] =
             &[(&["second"], 1.0), (&["minute"], 60.0), (&["hour"], 3600.0), (&["half minute"], 30.0)];
-        const EVERY: &[&str] =
-            &["every", "once every", "each", "once each", "at intervals of", "once a", "once an", "once per"];
+        const EVERY: &Phrases = &Phrases::of(&[
+            "every",
+            "once every",
+            "each",
+            "once each",
+            "at intervals of",
+            "once a",
+            "once an",
+            "once per",
+        ]);
         let words = longest_phrase(self.rest(), EVERY)?;
         let after = &self.rest()[words..];
         let (seconds, count) = match longest(after, UNITS) {

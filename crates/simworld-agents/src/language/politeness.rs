@@ -1,37 +1,24 @@
 //! The words around orders: what joins them, politeness, hesitation and negation.
 
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use super::lexer::{Lexeme, Token};
-use super::lexicon::longest_phrase;
+use super::lexer::Lexeme;
+use super::phrases::{Index, Phrases};
 
-/// Phrases by their first word, so that few are looked at.
-type ByWord = BTreeMap<&'static str, Vec<&'static str>>;
-
-fn by_word(phrases: &'static [&'static str]) -> ByWord {
-    let mut index = ByWord::new();
-    for phrase in phrases {
-        index.entry(phrase.split(' ').next().unwrap_or(phrase)).or_default().push(phrase);
-    }
-    index
-}
-
-fn longest_in(index: &ByWord, lexemes: &[Lexeme]) -> Option<usize> {
-    let Token::Word(first) = &lexemes.first()?.token else { return None };
-    longest_phrase(lexemes, index.get(first.as_str())?)
+fn index(phrases: &'static [&'static str]) -> Index<()> {
+    Index::new(phrases.iter().map(|phrase| (*phrase, ())))
 }
 
 /// How many tokens of politeness begin here.
 pub(super) fn filler(lexemes: &[Lexeme]) -> Option<usize> {
-    static INDEX: LazyLock<ByWord> = LazyLock::new(|| by_word(FILLERS));
-    longest_in(&INDEX, lexemes)
+    static INDEX: LazyLock<Index<()>> = LazyLock::new(|| index(FILLERS));
+    INDEX.longest(lexemes).map(|((), words)| words)
 }
 
 /// How many tokens join two orders here.
 pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
-    static INDEX: LazyLock<ByWord> = LazyLock::new(|| by_word(JOINTS));
-    longest_in(&INDEX, lexemes)
+    static INDEX: LazyLock<Index<()>> = LazyLock::new(|| index(JOINTS));
+    INDEX.longest(lexemes).map(|((), words)| words)
 }
 
 /// Ways to join two orders.
@@ -44,7 +31,7 @@ pub(super) const JOINTS: &[&str] = &[
     "and than", "at last", "immediately", "first things first", "first of all", "firstly of all",
     "second of all", "from there", "from here", "when youre there", "once youre there", "when you are there",
     "when you arrive", "once you arrive", "once you get there", "when youre done there", "on arrival",
-    "last of all", "to finish", "to finish with", "in the meantime", "thereafter", "following that",
+    "last of all", "at the end", "to finish", "to finish with", "in the meantime", "thereafter", "following that",
     "thereupon", "with that done", "that done", "this done", "straight after", "straight after that",
     "right after that", "soon after", "as a first step", "as a next step", "step one", "step two", "step three",
     "as soon as you have it", "as soon as youve got it", "once you have it", "once youve got it",
@@ -172,12 +159,15 @@ pub(super) const FILLERS: &[&str] = &[
     "wed like to", "we would like to", "if it is possible", "if it is not too much trouble",
     "if it is no trouble", "if it is no bother", "if it is not too much to ask", "if that is ok",
     "if that is okay", "if that is all right", "if that is alright", "if it is convenient",
+    "while youre at it", "while you are at it", "while youre there", "while you are there", "while youre about it",
+    "while you are about it", "while youre up", "while you are up", "while im at it", "while were at it", "while we are at it", "today", "tonight", "this morning",
+    "this afternoon", "this evening", "later today", "when you get round to it", "when you get around to it", "when its your turn", "when it is your turn", "say nothing", "saying nothing", "say not a word", "dont say a word", "without a word", "not a word",
     "if it is not out of your way", "if it is not far out of your way", "if that is not out of your way",
 ];
 
 /// How something is done, at the end of an order, that says no more than the order.
 #[rustfmt::skip]
-pub(super) const MANNERS: &[&str] = &[
+pub(super) const MANNERS: &Phrases = &Phrases::of(&[
     "one after the other", "one after another", "one by one", "one at a time", "each in turn", "in turn",
     "the quickest way", "the shortest way", "the fastest way", "in total", "altogether", "all in all",
     "one at a time please", "each of them", "in that order", "in this order", "in any order",
@@ -199,14 +189,14 @@ pub(super) const MANNERS: &[&str] = &[
     "for a better angle", "each", "apiece", "a while", "for now", "for good measure", "for safety", "just in case",
     "just to be safe", "just to be sure", "without stopping", "without a break", "without pausing", "already",
     "with all speed", "with care", "with a smile", "in the first place", "up there", "after me", "behind you", "after you",
-];
+]);
 
 /// Sounds of hesitation; they are dropped wherever they stand.
 pub(super) const HESITATIONS: &[&str] =
     &["uh", "um", "er", "erm", "hmm", "hm", "ahem", "eh", "ehm", "uhm", "mm", "uh huh", "ah", "oh"];
 
 /// Words that turn an order into its contrary.
-pub(super) const NEGATIONS: &[&str] = &[
+pub(super) const NEGATIONS: &Phrases = &Phrases::of(&[
     "dont",
     "do not",
     "never",
@@ -217,4 +207,4 @@ pub(super) const NEGATIONS: &[&str] = &[
     "you shouldnt",
     "avoid",
     "refrain from",
-];
+]);

@@ -8,6 +8,7 @@ use super::lexer::{Lexeme, Token, written};
 use super::lexicon::{DETERMINERS, category, fits, fits_noun, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
+use super::phrases::Phrases;
 
 /// How many things may be described by one another: "the bench near the tree near ...".
 pub(super) const DEEPEST: u32 = 4;
@@ -20,10 +21,10 @@ pub(super) const DOOR_STATES: &[(&[&str], (&str, bool))] = &[
 ];
 /// What somebody or something does at a place.
 #[rustfmt::skip]
-const IS_THERE: &[&str] = &[
+const IS_THERE: &Phrases = &Phrases::of(&[
     "is", "are", "stands", "sits", "waits", "lies", "is standing", "is sitting", "is waiting", "is lying",
     "happens to be", "is parked", "is now", "is right now",
-];
+]);
 
 impl Parser<'_> {
     /// A thing or a place.
@@ -103,7 +104,12 @@ impl Parser<'_> {
         } else if self.peeks("the") {
             let mut likeness = reference.clone();
             self.modifiers(&mut likeness);
-            if likeness != *reference && self.eat_any(&["one"]) {
+            let states = longest_phrase(
+                self.rest(),
+                &["one is", "one was", "one has", "one looks", "one isnt", "ones"],
+            )
+            .is_some();
+            if likeness != *reference && !states && self.eat_any(&["one"]) {
                 *reference = likeness;
                 return self.described(reference, depth);
             }
@@ -135,7 +141,7 @@ impl Parser<'_> {
 
     /// "The dog called Rex", "the building by the name of Maple House".
     fn by_name(&mut self, reference: &mut Reference) -> Result<(), PlanError> {
-        const CALLED: &[&str] = &[
+        const CALLED: &Phrases = &Phrases::of(&[
             "called",
             "named",
             "by the name of",
@@ -161,7 +167,7 @@ impl Parser<'_> {
             "of the name of",
             "with the name of",
             "that goes by the name of",
-        ];
+        ]);
         let Target::Any(class) = &reference.target else { return Ok(()) };
         let start = self.at;
         if !self.eat_any(CALLED) {

@@ -3,18 +3,22 @@
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
+use super::phrases::{PhraseList, Phrases};
 use super::politeness::filler;
 use super::requests;
 use super::verbs::longest_verb;
 
 /// What begins a remark of the speaker's on how he is.
 #[rustfmt::skip]
-const REMARKS: &[&str] = &[
+const REMARKS: &Phrases = &Phrases::of(&[
     "im", "i am", "ive", "i have", "i feel", "i cant", "i cannot", "i dont", "we are", "weve", "because",
     "my feet", "my legs", "its late", "it is late", "its hot", "its cold", "its getting", "it is getting",
-];
+]);
 /// What begins a reason.
 const BECAUSE: &[&str] = &["because", "since i", "since we", "as i", "as we", "cause i", "cos i"];
+
+/// What takes up who or what was named before.
+const PRONOUNS: &[&str] = &["it", "him", "her", "them", "there"];
 
 impl Parser<'_> {
     /// "..., I'm in a hurry": what says how the speaker is, or why, and asks for nothing; whether there was any.
@@ -27,7 +31,7 @@ impl Parser<'_> {
         self.skip_saying(BECAUSE)
     }
 
-    fn skip_saying(&mut self, beginnings: &[&str]) -> bool {
+    fn skip_saying<L: PhraseList + ?Sized>(&mut self, beginnings: &L) -> bool {
         let is_remark = longest_phrase(self.rest(), beginnings).is_some()
             && filler(self.rest()).is_none()
             && longest_verb(self.rest()).is_none()
@@ -38,7 +42,18 @@ impl Parser<'_> {
             _ => false,
         };
         if is_remark {
-            self.at += self.rest().iter().position(ends).unwrap_or(self.rest().len());
+            let count = self.rest().iter().position(ends).unwrap_or(self.rest().len());
+            // "We're out of bread, can you buy some".
+            let goods = (0..count).find_map(|at| self.names.goods(&self.rest()[at..count]));
+            if let Some((goods, _)) = goods {
+                self.view_goods(&goods);
+            }
+            let end = self.at + count;
+            let takes_up = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if PRONOUNS.contains(&word.as_str()));
+            if self.lexemes[end..].iter().any(takes_up) {
+                self.named = self.names_within(end);
+            }
+            self.at = end;
         }
         is_remark
     }

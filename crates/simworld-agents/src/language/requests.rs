@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
+use super::phrases::Phrases;
 use super::verbs::longest_verb;
 
 /// The longest preamble, in words.
@@ -33,10 +34,13 @@ const BETWEEN: &[&str] = &[
 ];
 /// What nobody begins a request with: it says what is, or asks what is.
 #[rustfmt::skip]
-const QUESTIONS: &[&str] = &[
+const QUESTIONS: &Phrases = &Phrases::of(&[
     "did", "does", "do you see", "do you want", "have you", "has", "had you", "are you", "is it", "was", "were",
     "when did", "what did", "who", "where", "which",
-];
+]);
+
+/// Who is asked for a favour, if it is whoever hears it.
+const SOMEBODY: &[&str] = &["somebody", "someone", "anybody", "anyone", "needs", "has", "ought", "one", "of"];
 
 /// Every small word, for the spelling.
 pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
@@ -54,7 +58,7 @@ pub(super) fn beginnings(lexemes: &[Lexeme]) -> Vec<usize> {
             found.push(at);
         }
         match &lexemes[at].token {
-            Token::Word(word) if is_small_word(word) => {}
+            Token::Word(word) if is_small_word(word) || SOMEBODY.contains(&word.as_str()) => {}
             Token::Comma => {}
             _ => break,
         }
@@ -124,13 +128,13 @@ fn without_adverb(words: &[Lexeme]) -> Option<usize> {
 /// How many lexemes of politeness end the sentence here: "..., would you?", "if it isn't too much trouble".
 pub(super) fn coda(lexemes: &[Lexeme]) -> usize {
     #[rustfmt::skip]
-    const BEGINNINGS: &[&str] = &[
+    const BEGINNINGS: &Phrases = &Phrases::of(&[
         "would you", "will you", "could you", "can you", "wont you", "if", "when", "whenever", "as soon as",
         "for me", "please", "thanks", "thank you", "there is a good", "theres a good", "thats a good", "okay",
         "ok", "right", "alright", "that would be", "thatd be", "i beg you", "id appreciate",
         "i would appreciate", "theres a", "there is a", "be a", "would be", "itd be", "it would be",
         "will you please", "id be", "i would be", "in case you",
-    ];
+    ]);
     let start = usize::from(matches!(lexemes.first(), Some(Lexeme { token: Token::Comma, .. })));
     if longest_phrase(&lexemes[start..], BEGINNINGS).is_none() {
         return 0;

@@ -12,7 +12,7 @@ use super::paint::Paint;
 use super::streets::StreetNames;
 use super::{AmbiguityPolicy, RANGE};
 
-/// How far one looks first, m; then three times as far, until enough is found.
+/// How far one looks first, m; then farther and farther, until enough is found.
 const FIRST_LOOK: f64 = 30.0;
 /// Things so much farther away than the nearest are not meant by "the bench" when it could be either, m.
 const EITHER: f64 = 50.0;
@@ -56,7 +56,7 @@ pub(super) struct View<'a> {
     pub(super) policy: AmbiguityPolicy,
     /// The names of streets, where the scene is spoken of and not what somebody is to do in it.
     pub(super) streets: Option<&'a StreetNames>,
-    /// What is near, as answers say it, where the scene is spoken of: it is looked for once a sentence.
+    /// What is near, as answers say it: it is looked for once from each place.
     pub(super) told: std::cell::OnceCell<String>,
 }
 
@@ -283,8 +283,25 @@ impl<'a> View<'a> {
                     found.first().map(|nearest| nearest.0 + EITHER).filter(|wider| asks && *wider > reach);
                 return wider.map_or(found, |wider| self.within(wider, reference, purpose));
             }
-            reach = (reach * 3.0).min(self.range);
+            // Where a few are enough one looks no farther than needed: what is looked at goes by the square.
+            let factor = if enough == usize::MAX { 3.0 } else { 2.0 };
+            reach = (reach * factor).min(self.range);
+            if enough != usize::MAX && reach < FAR_LOOK && reach > 2.0 * FIRST_LOOK && self.are_few(reference)
+            {
+                reach = self.range;
+            }
         }
+    }
+
+    /// Whether there are so few of a class that all of them are looked at sooner than all that stands about.
+    fn are_few(&self, reference: &Reference) -> bool {
+        const FEW: usize = 200;
+        let (Target::Any(class), Some(index)) = (&reference.target, self.scene.classes()) else {
+            return false;
+        };
+        let of_kinds = class.kinds().iter().flat_map(|kind| index.of_kind(*kind));
+        let of_place = class.place().into_iter().flat_map(|place| index.of_place(place));
+        !class.is_area() && of_kinds.chain(of_place).take(FEW).count() < FEW
     }
 
     fn within(&self, reach: f64, reference: &Reference, purpose: Purpose) -> Vec<Ranked> {
@@ -397,10 +414,7 @@ impl<'a> View<'a> {
 
     /// What is near, with distances, for answers.
     pub(super) fn surroundings(&self) -> String {
-        match self.streets {
-            Some(_) => self.told.get_or_init(|| self.look_around()).clone(),
-            None => self.look_around(),
-        }
+        self.told.get_or_init(|| self.look_around()).clone()
     }
 
     fn look_around(&self) -> String {

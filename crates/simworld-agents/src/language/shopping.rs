@@ -8,9 +8,11 @@ use super::lexer::Token;
 use super::lexicon::{DETERMINERS, category, is_animate, longest_phrase};
 use super::numbers;
 use super::parser::{Parser, shortened};
+use super::phrases::Phrases;
 
 /// Who sells what is said before: "the coffee shop".
-const SELLERS: &[&str] = &["shop", "store", "stand", "stall", "kiosk", "seller", "vendor", "place"];
+const SELLERS: &Phrases =
+    &Phrases::of(&["shop", "store", "stand", "stall", "kiosk", "seller", "vendor", "place"]);
 /// In what goods come, before "of".
 const VESSELS: &[&str] = &[
     "bottle", "cup", "piece", "loaf", "bowl", "can", "slice", "glass", "portion", "bag", "copy", "carton",
@@ -20,19 +22,19 @@ const VESSELS: &[&str] = &[
 ];
 /// Who or what goods are for who is no part of a scene.
 #[rustfmt::skip]
-const OTHERS: &[&str] = &[
+const OTHERS: &Phrases = &Phrases::of(&[
     "kids", "children", "boys", "girls", "guys", "team", "crew", "family", "class", "office", "party", "meeting", "guests", "visitors",
     "friends", "colleagues", "others", "gang", "staff", "workers", "students", "lot", "lot of us", "everyone", "everybody", "us", "later", "lunch",
     "dinner", "breakfast", "tonight", "tomorrow", "mum", "mom", "dad", "wife", "husband", "boss", "grandma", "grandpa", "parents", "picnic", "trip",
     "road", "train", "journey", "way",
-];
+]);
 /// What is said of goods, and makes them no others.
 #[rustfmt::skip]
-const ADJECTIVES: &[&str] = &[
+const ADJECTIVES: &Phrases = &Phrases::of(&[
     "nice", "hot", "cold", "fresh", "good", "quick", "delicious", "tasty", "lovely", "proper", "another",
     "more", "little", "small", "big", "large", "new", "warm", "cool", "decent", "strong", "today", "todays",
     "own", "bit of", "cool", "yummy",
-];
+]);
 
 /// What is bought, and how many times.
 pub(super) struct Goods {

@@ -2,7 +2,7 @@
 
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Reference, Target};
+use super::clause::{Clause, Count, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
@@ -118,7 +118,7 @@ impl Parser<'_> {
             let after_quote = quoted > 0 && *at == start + quoted;
             longest_phrase(
                 &self.lexemes[*at..],
-                if after_quote { &["to", "at", "into", "towards"] } else { &["to"] },
+                if after_quote { &["to", "at", "into", "towards"][..] } else { &["to"] },
             )
             .is_some()
         };
@@ -254,7 +254,40 @@ impl Parser<'_> {
     /// Him, her or them: whoever was spoken of last.
     pub(super) fn somebody(&mut self) -> Option<Reference> {
         let start = self.at;
+        let several = longest_phrase(
+            self.rest(),
+            &[
+                "them",
+                "both of them",
+                "the two of them",
+                "the three of them",
+                "all of them",
+                "all three",
+                "each of them",
+                "every one of them",
+                "each one",
+                "them all",
+            ],
+        );
+        if let Some(words) = several.filter(|_| self.group.len() > 1) {
+            let found = self.group.iter().map(|one| self.view.find(one, super::resolve::Purpose::Any));
+            let ids: Vec<_> = found.filter_map(Result::ok).map(|found| found.id).collect();
+            if ids.len() == self.group.len() {
+                self.at += words;
+                let count = Count::Exactly(ids.len() as u32);
+                return Some(Reference { count, ..Reference::to(Target::Named(ids), self.text_from(start)) });
+            }
+        }
         self.eat_any(&["him", "her", "them", "he", "she", "they"])
             .then(|| Reference::to(Target::Them, self.text_from(start)))
+    }
+
+    /// Remembers whom orders are about that have one verb.
+    pub(super) fn group_with(&mut self, clauses: &[Clause]) {
+        let one = |what: &&Reference| {
+            what.count == Count::One && what.target != Target::Them && self.is_somebody(what)
+        };
+        let those: Vec<Reference> = clauses.iter().filter_map(Clause::about).filter(one).cloned().collect();
+        self.group.extend(those);
     }
 }

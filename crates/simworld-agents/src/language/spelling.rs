@@ -1,10 +1,13 @@
 //! Misspelt words: each is put right if one known word, and one only, is near enough.
 
+use std::sync::LazyLock;
+
 use super::compass;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{CATEGORIES, COPULAS, DETERMINERS, FARTHEST, MOSTS, NEAREST, RELATIONS, SIDES};
 use super::names::Names;
 use super::paint::PAINTS;
+use super::phrases::Index;
 use super::politeness::{FILLERS, JOINTS};
 use super::requests;
 use super::verbs::{self, base_form};
@@ -115,7 +118,7 @@ fn shifted(word: &str, next: Option<&Lexeme>) -> Option<[String; 2]> {
 
 /// "Icecream", "busstop": two words of names, or two of the grammar, that are written as one.
 fn parts(word: &str, names: &Names<'_>) -> Option<[String; 2]> {
-    let has_meaning = |part: &str| find(part).is_some_and(|known| known.means);
+    let has_meaning = |part: &str| find(part) == Some(true);
     let long = |part: &str| part.chars().count() >= 3;
     let mut splits =
         word.char_indices().map(|(at, _)| word.split_at(at)).filter(|(one, other)| long(one) && long(other));
@@ -127,6 +130,9 @@ fn parts(word: &str, names: &Names<'_>) -> Option<[String; 2]> {
     fitting.map(|(one, other)| [one.to_owned(), other.to_owned()])
 }
 
+/// Words that nobody means by another: a cannon is no slip of "cannot", which would turn an order round.
+pub(super) const NO_SLIP: &[&str] = &["cannot"];
+
 /// Words of conditions and quantities, which stand in no table of their own.
 const MORE_WORDS: &str = include_str!("more_words.txt");
 
@@ -137,8 +143,7 @@ fn phrases() -> impl Iterator<Item = &'static str> {
     let sides = SIDES.iter().flat_map(|(words, _)| *words);
     let paints = PAINTS.iter().flat_map(|(words, _)| *words);
     let mosts = MOSTS.iter().flat_map(|(words, _)| *words);
-    let lists = [FILLERS, JOINTS, COPULAS, DETERMINERS, NEAREST, FARTHEST];
-    let rest = lists.into_iter().flatten();
+    let rest = FILLERS.iter().chain(JOINTS).chain(COPULAS).chain(DETERMINERS).chain(NEAREST).chain(FARTHEST);
     let tables = classes.chain(relations).chain(sides).chain(paints).chain(mosts).chain(rest).copied();
     tables.chain(verbs)
 }
@@ -149,6 +154,7 @@ struct Known {
     /// Whether it means something to the grammar.
     means: bool,
     letters: Letters,
+    heard: Heard,
 }
 
 /// Every single word that is known, in alphabetical order.
@@ -162,13 +168,18 @@ fn vocabulary() -> &'static [Known] {
         // Of a word in both lists the meaning counts.
         words.sort_unstable_by(|a, b| a.0.cmp(b.0).then(b.1.cmp(&a.1)));
         words.dedup_by_key(|(word, _)| *word);
-        words.into_iter().map(|(word, means)| Known { word, means, letters: Letters::of(word) }).collect()
+        words
+            .into_iter()
+            .map(|(word, means)| Known { word, means, letters: Letters::of(word), heard: Heard::of(word) })
+            .collect()
     })
 }
 
-fn find(word: &str) -> Option<&'static Known> {
-    let words = vocabulary();
-    words.binary_search_by_key(&word, |known| known.word).ok().map(|at| &words[at])
+/// Whether a known word means something to the grammar; `None` of a word that nobody knows.
+fn find(word: &str) -> Option<bool> {
+    static INDEX: LazyLock<Index<bool>> =
+        LazyLock::new(|| Index::new(vocabulary().iter().map(|known| (known.word, known.means))));
+    INDEX.alone(word)
 }
 
 /// The known words that begin so.
@@ -208,11 +219,19 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
     let mut least = (usize::MAX, Slip::Letter, true);
     let beginnings = beginnings(word);
     for beginning in &beginnings {
-        let known = words_from(beginning).iter().map(|known| (known.word, known.means, known.letters));
-        let named = names.words_from(beginning).map(|name| (name, true, Letters::of(name)));
-        for (candidate, means, letters) in known.chain(named) {
-            let Some((distance, slip)) = said.slip(candidate, letters) else { continue };
-            let rank = (distance, slip, !means);
+        let known = words_from(beginning)
+            .iter()
+            .map(|known| (known.word, Some(known.means), known.letters, Some(&known.heard)));
+        let named = names.words_from(beginning).map(|name| (name, None, Letters::of(name), None));
+        for (candidate, means, letters, heard) in known.chain(named) {
+            let Some((distance, slip)) = said.slip(candidate, letters, heard) else { continue };
+            if means.is_none() && !names.has_word(candidate) {
+                continue; // a name of what is out of range
+            }
+            if NO_SLIP.contains(&candidate) {
+                continue;
+            }
+            let rank = (distance, slip, means == Some(false));
             if rank < least {
                 least = rank;
                 best.clear();
@@ -291,22 +310,24 @@ struct Said<'a> {
     word: &'a str,
     length: usize,
     letters: Letters,
+    heard: Heard,
 }
 
 impl<'a> Said<'a> {
     fn new(word: &'a str) -> Self {
-        Self { word, length: word.chars().count(), letters: Letters::of(word) }
+        Self { word, length: word.chars().count(), letters: Letters::of(word), heard: Heard::of(word) }
     }
 
     /// How far it is from a word that it may begin like, in edits, and what kind of slip that is; `None` if it is too far.
-    fn slip(&self, candidate: &str, letters: Letters) -> Option<(usize, Slip)> {
+    fn slip(&self, candidate: &str, letters: Letters, heard: Option<&Heard>) -> Option<(usize, Slip)> {
         let Self { word, length, .. } = *self;
         let tolerance = if length < 7 { 1 } else { 2 };
         let least = self.letters.least_edits(letters);
         if least > 2 || candidate.len() < 3 || candidate.len().abs_diff(word.len()) > 2 {
             return None;
         }
-        if said_alike(word, candidate) {
+        if heard.map_or_else(|| self.heard.is_like(&Heard::of(candidate)), |heard| self.heard.is_like(heard))
+        {
             // What sounds the same is likelier than letters out of order: "foto" is no "foot".
             return Some((0, Slip::Count));
         }
@@ -328,16 +349,25 @@ impl<'a> Said<'a> {
     }
 }
 
-/// Whether two words sound the same, a silent "e" at the end aside.
-fn said_alike(word: &str, candidate: &str) -> bool {
-    let heard = |word: &str| {
+/// How a word sounds, once by its letters alone and once more freely.
+struct Heard {
+    plain: String,
+    sounds: String,
+}
+
+impl Heard {
+    fn of(word: &str) -> Self {
         let mut heard: Vec<char> = sounds(word).collect();
+        // A silent "e" at the end aside.
         let silent =
             heard.len() > 2 && heard.last() == Some(&'e') && heard[heard.len() - 3].is_ascii_uppercase();
         heard.truncate(heard.len() - usize::from(silent));
-        heard
-    };
-    plain(word).eq(plain(candidate)) || heard(word) == heard(candidate)
+        Self { plain: plain(word).collect(), sounds: heard.into_iter().collect() }
+    }
+
+    fn is_like(&self, other: &Self) -> bool {
+        self.plain == other.plain || self.sounds == other.sounds
+    }
 }
 
 /// The letters of a word, each once however often it stands in a row, with "ph" as "f".

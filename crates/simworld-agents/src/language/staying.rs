@@ -5,9 +5,10 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Reference, Spot, Stands, Test};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{Category, RELATIONS, fits, longest, longest_phrase};
+use super::lexicon::{Category, fits, longest_phrase, longest_relation};
 use super::numbers::{self, MOMENT};
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::verbs::Verb;
 
 /// The longest wait, s.
@@ -15,12 +16,12 @@ pub(super) const LONGEST_WAIT: f64 = 86_400.0;
 
 /// What somebody is waited for to do.
 #[rustfmt::skip]
-const TO_COME: &[&str] = &[
+const TO_COME: &Phrases = &Phrases::of(&[
     "to arrive", "to come", "to come here", "to get here", "to reach you", "to come closer", "to come nearer",
     "to come near", "to come over", "to approach", "to come to you", "to be here", "to be near",
     "to come near you", "to get near", "to get close", "to come up", "to return", "to come back", "to walk up",
     "to show up", "to turn up", "to join you", "to catch up",
-];
+]);
 
 impl Parser<'_> {
     pub(super) fn sit(&mut self) -> Result<Vec<Clause>, PlanError> {
@@ -124,7 +125,7 @@ impl Parser<'_> {
         }
         self.at = start;
         // "Stop behind the van".
-        let side = longest(self.rest(), RELATIONS).filter(|(relation, _)| {
+        let side = longest_relation(self.rest()).filter(|(relation, _)| {
             !matches!(relation, Relation::NextTo | Relation::Near | Relation::Inside | Relation::OnTopOf)
         });
         if let Some((relation, words)) = side
@@ -151,7 +152,7 @@ impl Parser<'_> {
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         let mut clauses = Vec::new();
-        if let Some((relation, count)) = longest(self.rest(), RELATIONS)
+        if let Some((relation, count)) = longest_relation(self.rest())
             .or_else(|| fits(self.rest(), "at").map(|count| (Relation::NextTo, count)))
         {
             self.at += count;

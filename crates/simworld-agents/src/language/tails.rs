@@ -4,28 +4,29 @@ use simworld_core::action::StepDirection;
 use simworld_core::seam::PlanError;
 
 use super::blocks::{IF, UNLESS, UNTIL, WHILE};
-use super::clause::{Clause, Pace, Test};
+use super::clause::{Clause, Pace, Target, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::{Extent, Parser};
+use super::phrases::Phrases;
 use super::politeness::MANNERS;
 use super::requests;
 use super::verbs::longest_verb;
 
 /// Before where one goes in the end.
-pub(super) const ON_THE_WAY: &[&str] = &[
+pub(super) const ON_THE_WAY: &Phrases = &Phrases::of(&[
     "on the way to",
     "on your way to",
     "on the way over to",
     "on your way over to",
     "en route to",
     "along the way to",
-];
+]);
 
 /// Doing what was said last, before how often.
 #[rustfmt::skip]
-const DO_SO: &[&str] = &[
+const DO_SO: &Phrases = &Phrases::of(&[
     "and do all that", "and do all of that", "do all that", "do all of that", "and do all this", "do all this",
     "and repeat all that", "and repeat all of that", "repeat all that", "and again", "and repeat this",
     "repeat this", "repeat the whole thing", "and repeat the whole thing", "and repeat", "repeat",
@@ -34,15 +35,15 @@ const DO_SO: &[&str] = &[
     "repeat that", "and repeat that", "do both", "lets do both", "and do both", "do them all", "do the lot", "and that",
     "and all that", "and all of that", "and the whole thing", "the whole thing", "this", "that", "all this", "all of this",
     "and this", "lets do that", "lets do it", "lets do this", "do these", "do that whole thing", "same again", "and the same",
-];
+]);
 
 /// What comes before the order before it.
 #[rustfmt::skip]
-const AFTER: &[&str] = &[
+const AFTER: &Phrases = &Phrases::of(&[
     "after", "but first", "but before that", "but first of all", "but beforehand",
     "but before you do", "but before you do that", "but only after", "right after",
     "straight after",
-];
+]);
 
 impl Parser<'_> {
     /// What follows an order and says how often, how long or when; `whole` is where the sentence begins, and `group` what
@@ -77,6 +78,8 @@ impl Parser<'_> {
                     matches!(&lexeme.token, Token::Word(word) if ["both", "lot", "everything", "these"].contains(&word.as_str()))
                 });
                 self.at += again + count;
+                // "Go to the bakery, then to the mailbox, and do it twice": one is there after the first time.
+                let all = all || group > whole && matches!(clauses.last(), Some(Clause::Go { .. }));
                 let from = if both { 0 } else { whole };
                 repeat(clauses, if all { from } else { group }, times, all);
             } else if self.but_first(clauses, comma)? {
@@ -93,7 +96,7 @@ impl Parser<'_> {
     /// Whether what follows the comma belongs to the order before it.
     fn tail_follows(&self) -> bool {
         #[rustfmt::skip]
-        const AFTER_COMMA: &[&str] = &[
+        const AFTER_COMMA: &Phrases = &Phrases::of(&[
             "until", "till", "unless", "but first", "but before that", "but only if", "only if",
             "if and only if", "but not if", "but not before", "or if", "or in case", "provided",
             "provided that", "with", "run", "sprint", "at", "but only when", "only when", "forever", "for ever",
@@ -101,8 +104,10 @@ impl Parser<'_> {
             "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
             "in a hurry", "but only after", "stopping off at", "stopping by", "but go by way of",
             "but stop off at", "but pass by", "pausing", "waiting", "but only once", "but not until",
-            "at the double", "on the double", "and wait", "leaving",
-        ];
+            "at the double", "on the double", "and wait", "leaving", "and dont stop until", "and do not stop until",
+            "and dont cease until", "and do not cease until", "and dont give up until", "dont stop until",
+            "do not stop until", "never stopping until", "not stopping until",
+        ]);
         let after = self.rest().get(1..).unwrap_or_default();
         // "..., after you've greeted her" ends the sentence; "..., after that, ..." goes on.
         let end = after.iter().position(|lexeme| matches!(lexeme.token, Token::Comma | Token::Break));
@@ -150,7 +155,16 @@ impl Parser<'_> {
             return Ok(false);
         }
         let at = clauses.len() - 1;
-        clauses.splice(at..at, earlier);
+        // "There" is what was spoken of before, and not where one goes first.
+        let spoken_of = match &clauses[..] {
+            [.., spoken_of @ Clause::Mention { .. }, Clause::Go { to, .. }]
+                if matches!(to.target, Target::There | Target::It) =>
+            {
+                Some(spoken_of.clone())
+            }
+            _ => None,
+        };
+        clauses.splice(at..at, earlier.into_iter().chain(spoken_of));
         Ok(true)
     }
 
@@ -176,13 +190,15 @@ impl Parser<'_> {
     /// "Until it is dark", "while it rains", "for ever".
     fn lasts(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
         #[rustfmt::skip]
-        const FOR_EVER: &[&str] = &[
+        const FOR_EVER: &Phrases = &Phrases::of(&[
             "forever", "for ever", "for ever and ever", "endlessly", "for good", "indefinitely", "without end",
             "non stop", "nonstop", "forever and ever", "without stopping", "the whole time", "all the time",
             "all day", "all day long", "until i say stop", "until i tell you to stop", "continuously",
             "constantly", "until further notice", "and never stop", "for all eternity", "till i say stop",
-            "until i say so",
-        ];
+            "until i say so", "until i call you", "till i call you", "until i call", "till i call", "until i come back", "till i come back",
+            "until im back", "till im back", "until i get back", "till i get back", "until i return", "till i return",
+            "until i tell you otherwise", "till i tell you otherwise", "until i say otherwise", "until you hear from me",
+        ]);
         if self.eat_any(FOR_EVER) {
             self.eat_any(&["and never stop", "and dont stop"]);
             if matches!(clauses.last(), Some(Clause::Until { .. })) {
@@ -210,7 +226,7 @@ impl Parser<'_> {
                 (Err(error), _) => return Err(error),
             }
         } else if self.eat_any(WHILE) {
-            Test::Not(Box::new(self.test()?))
+            self.test()?.contrary()
         } else {
             return Ok(false);
         };
@@ -240,7 +256,7 @@ impl Parser<'_> {
             return Ok(true);
         }
         let test = if self.eat_any(UNLESS) {
-            Test::Not(Box::new(self.test()?))
+            self.test()?.contrary()
         } else if self.eat_any(IF) {
             self.test()?
         } else if self.eat_any(&[
@@ -343,7 +359,19 @@ impl Parser<'_> {
             clauses.insert(last, Clause::Go { to, side: None, pace: Pace::Usual, within: None });
         } else if self.eat_any(&["before"]) {
             self.eat_any(&["you"]);
-            clauses.extend(self.order()?);
+            let start = self.at;
+            match self.order() {
+                Ok(later) => clauses.extend(later),
+                // "... before it closes" says by when, and not what to wait for.
+                Err(error) => {
+                    self.at = start;
+                    let end = self.mark_from(start);
+                    if !self.says(start, end) {
+                        return Err(error);
+                    }
+                    self.at = end;
+                }
+            }
         } else {
             return self.after_that(clauses);
         }
@@ -352,7 +380,7 @@ impl Parser<'_> {
 
     /// "Walk to the bench and pass by the light on the way": the last place comes before the one before it.
     fn stopped_over(&mut self, clauses: &mut [Clause]) -> bool {
-        const SO: &[&str] = &[
+        const SO: &Phrases = &Phrases::of(&[
             "on the way",
             "on your way",
             "along the way",
@@ -361,7 +389,7 @@ impl Parser<'_> {
             "on your way there",
             "in passing",
             "on route",
-        ];
+        ]);
         let start = self.at;
         let said = self.eat_any(SO) && self.ends_clause();
         let [.., goal @ (Clause::Go { .. } | Clause::Drive { .. }), over] = clauses else {

@@ -9,6 +9,8 @@ use super::lexicon::{fits, longest, longest_phrase};
 use super::numbers;
 use super::paint::PAINTS;
 use super::parser::Parser;
+use super::phrases::Phrases;
+use super::verbs::longest_verb;
 
 /// How near "near you" is, m.
 const NEAR_ME: f64 = 5.0;
@@ -22,7 +24,7 @@ const ASPECTS: &[(&[&str], Aspect)] = &[
     (&["yellow", "amber", "orange"], Aspect::Yellow),
     (&["red"], Aspect::Red),
 ];
-const LIGHTS: &[&str] = &[
+const LIGHTS: &Phrases = &Phrases::of(&[
     "the light",
     "the traffic light",
     "the signal",
@@ -33,14 +35,14 @@ const LIGHTS: &[&str] = &[
     "the pedestrian light",
     "traffic light",
     "the traffic lights",
-];
+]);
 #[rustfmt::skip]
-const BECOMES: &[&str] = &[
+const BECOMES: &Phrases = &Phrases::of(&[
     "is", "are", "turns", "goes", "changes to", "becomes", "shows", "turns to", "switches to", "gets",
     "has turned", "has gone", "has changed to", "has become", "is on", "jumps to", "has switched to", "stays",
     "to turn", "to change to", "to go", "to become", "to be", "goes to", "gets to", "turns into", "is showing",
     "change to", "turn",
-];
+]);
 
 #[rustfmt::skip]
 const STATES: &[(&[&str], State)] = &[
@@ -57,7 +59,7 @@ const STATES: &[(&[&str], State)] = &[
     (&["findable", "to be found", "visible", "in sight", "in view", "to be seen", "seen", "within sight"], State::Seen),
 ];
 #[rustfmt::skip]
-const ARRIVES: &[&str] = &[
+const ARRIVES: &Phrases = &Phrases::of(&[
     "arrives", "comes", "gets here", "comes near", "arrives here", "comes here", "is here", "comes close",
     "reaches you", "has arrived", "comes back", "comes to you", "turns up", "shows up", "comes near you",
     "arrive", "come", "turn up", "show up", "come back", "come near", "returns", "return", "is back",
@@ -65,8 +67,8 @@ const ARRIVES: &[&str] = &[
     "has come back", "has returned", "has shown up", "has turned up", "approaches", "walks over", "draws near",
     "gets close", "gets near you", "gets close to you", "comes close to you", "walks up to you", "comes by",
     "drops by", "passes by", "has reached you", "has joined you", "has come", "joins you",
-];
-const APPEARS: &[&str] = &[
+]);
+const APPEARS: &Phrases = &Phrases::of(&[
     "comes into view",
     "come into view",
     "appear",
@@ -84,7 +86,15 @@ const APPEARS: &[&str] = &[
     "becomes visible",
     "is visible",
     "is in sight",
-];
+]);
+/// Not being near any longer.
+#[rustfmt::skip]
+const LEAVES: &Phrases = &Phrases::of(&[
+    "leaves", "leave", "leaves you", "goes away", "go away", "is gone", "are gone", "walks away", "walks off", "goes off",
+    "has left", "has gone", "have left", "have gone", "moves away", "moves off", "moves on", "drives off", "drives away",
+    "departs", "is away", "wanders off", "wanders away", "runs off", "runs away", "heads off", "sets off", "has gone away",
+    "is out of the way", "clears off", "trots off", "pulls away", "drives on", "has moved on", "is off", "has departed",
+]);
 const BECOMES_FREE: &[&str] = &["becomes free", "gets free", "becomes available", "frees up"];
 const OPENS: &[(&[&str], bool)] = &[(&["opens"], true), (&["closes", "shuts"], false)];
 
@@ -182,7 +192,9 @@ impl Parser<'_> {
                 "she has",
                 "you have",
             ]);
-        if (so || not) && self.ends_at_mark() {
+        // "Check if it is open, and if so close it".
+        let alone = !so && !not && self.eat_any(&["so"]) && longest_verb(self.rest()).is_some();
+        if alone || (so || not) && self.ends_at_mark() {
             return Some(if not { Test::Not(Box::new(asked)) } else { asked });
         }
         self.at = start;
@@ -254,7 +266,7 @@ impl Parser<'_> {
 
     /// "Somebody is sitting on the bench", "nobody is in the chair".
     pub(super) fn sat_on(&mut self) -> Result<Option<Test>, PlanError> {
-        const SOMEBODY: &[&str] = &[
+        const SOMEBODY: &Phrases = &Phrases::of(&[
             "somebody",
             "someone",
             "anybody",
@@ -263,7 +275,7 @@ impl Parser<'_> {
             "some person",
             "another person",
             "anyone at all",
-        ];
+        ]);
         const NOBODY: &[&str] = &["nobody", "no one", "noone", "nobody else", "no person"];
         self.eat_any(&["there is", "theres"]);
         let nobody = self.eat_any(NOBODY);
@@ -299,7 +311,7 @@ impl Parser<'_> {
             "there happens to be",
             "there is still",
         ];
-        const NOT: &[&str] = &[
+        const NOT: &Phrases = &Phrases::of(&[
             "there is no",
             "theres no",
             "there are no",
@@ -308,7 +320,7 @@ impl Parser<'_> {
             "there is not",
             "there are not",
             "there is not a",
-        ];
+        ]);
         let not = self.eat_any(NOT);
         if !not && !self.eat_any(IS) {
             return Ok(None);
@@ -375,10 +387,10 @@ impl Parser<'_> {
     /// About a thing: "the chair is free", "Anna arrives".
     fn thing_is(&mut self) -> Result<Option<Test>, PlanError> {
         #[rustfmt::skip]
-        const BE: &[&str] = &[
+        const BE: &Phrases = &Phrases::of(&[
             "is", "are", "gets", "stands", "becomes", "be", "should be", "happens to be", "has become",
             "remains", "stays", "sits", "turns out to be", "comes",
-        ];
+        ]);
         let speaker = self.view.speaker.filter(|_| self.eat_any(&["i", "we"]));
         let what = match speaker {
             Some(speaker) => Reference::to(Target::Id(speaker), "me".to_owned()),
@@ -390,6 +402,9 @@ impl Parser<'_> {
         }
         if self.eat_any(APPEARS) {
             return Ok(Some(Test::Sees(what)));
+        }
+        if self.eat_any(LEAVES) {
+            return Ok(Some(Test::Not(Box::new(Test::Near { what, within: NEAR_ME }))));
         }
         if self.eat_any(BECOMES_FREE) {
             return Ok(Some(Test::Not(Box::new(Test::InUse(what)))));

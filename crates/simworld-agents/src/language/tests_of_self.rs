@@ -4,18 +4,19 @@ use super::clause::{Choice, Reference, Test};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{longest, longest_phrase};
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::tests_of::{NEARBY, NEXT_TO_ME};
 use simworld_core::seam::PlanError;
 
 /// Having something in hand.
 #[rustfmt::skip]
-const HOLD: &[&str] = &[
+const HOLD: &Phrases = &Phrases::of(&[
     "holding", "hold", "have", "carrying", "carry", "got", "have got", "in possession of", "in hold of",
     "possess", "have picked up", "have taken",
-];
+]);
 /// Having nothing in hand.
 #[rustfmt::skip]
-const EMPTY: &[&str] = &[
+const EMPTY: &Phrases = &Phrases::of(&[
     "your hands are empty", "your hand is empty", "your hands are free", "your hand is free",
     "holding nothing", "hold nothing", "have nothing in your hands", "carry nothing",
     "carrying nothing", "have nothing", "have got nothing", "got nothing", "empty handed",
@@ -23,11 +24,11 @@ const EMPTY: &[&str] = &[
     "arent holding anything", "are not holding anything", "not holding anything",
     "not carrying anything", "have nothing in your hand", "got nothing in your hands",
     "have got nothing in your hands",
-];
+]);
 /// Sitting.
 const SIT: &[&str] = &["sitting", "seated", "sit", "sitting down", "in a seat", "are sitting", "are seated"];
 /// Not sitting.
-const STAND: &[&str] = &[
+const STAND: &Phrases = &Phrases::of(&[
     "standing",
     "stand",
     "not sitting",
@@ -36,18 +37,18 @@ const STAND: &[&str] = &[
     "standing up",
     "not sitting down",
     "up",
-];
+]);
 /// Being near something.
 #[rustfmt::skip]
-const REACH: &[&str] = &[
+const REACH: &Phrases = &Phrases::of(&[
     "near", "next to", "at", "reach", "get to", "arrive at", "close to", "come to", "beside", "by",
     "reached", "get near", "stand next to", "in front of", "reaching", "arrive in", "within reach of",
     "got to", "arrived at", "come near", "get close to", "come close to", "pass", "come up to",
     "approach", "are near", "are at", "outside", "stand at", "stand by", "stand beside", "arriving at",
     "getting to", "make it to", "made it to", "are next to",
-];
+]);
 /// Being far from it.
-const FAR: &[&str] = &[
+const FAR: &Phrases = &Phrases::of(&[
     "far from",
     "away from",
     "not near",
@@ -57,13 +58,13 @@ const FAR: &[&str] = &[
     "not close to",
     "not next to",
     "have left",
-];
+]);
 
 impl Parser<'_> {
     /// Who is told, or who speaks to him and goes along: "you", "we".
     pub(super) fn subject(&mut self) -> bool {
-        const WITH_HAVE: &[&str] =
-            &["youve", "weve", "ive", "you have", "we have", "i have", "youll have", "you had"];
+        const WITH_HAVE: &Phrases =
+            &Phrases::of(&["youve", "weve", "ive", "you have", "we have", "i have", "youll have", "you had"]);
         if let Some(words) = longest_phrase(self.rest(), WITH_HAVE) {
             // "You have the letter" is about holding it.
             let participle =
@@ -103,19 +104,19 @@ impl Parser<'_> {
 
     pub(super) fn seen(&mut self) -> Result<Option<Test>, PlanError> {
         #[rustfmt::skip]
-        const SEE: &[&str] = &[
+        const SEE: &Phrases = &Phrases::of(&[
             "see", "spot", "notice", "find", "catch a glimpse of", "catch sight of", "get to see", "make out",
             "sight", "seen", "spotted", "encounter", "come across", "happen to see", "seeing", "spotting",
             "noticed", "found", "can see", "can spot", "can make out", "have seen", "have spotted",
             "are able to see", "glimpse", "get a glimpse of", "run into", "bump into", "set eyes on",
             "lay eyes on", "have in sight", "get sight of", "discover", "sighted", "come upon", "have in view",
-        ];
+        ]);
         #[rustfmt::skip]
-        const BLIND: &[&str] = &[
+        const BLIND: &Phrases = &Phrases::of(&[
             "dont see", "cannot see", "cant see", "do not see", "no longer see", "lose sight of", "dont spot",
             "cant find", "cannot find", "dont find", "cant spot", "do not spot", "havent seen", "have not seen",
             "no longer spot", "are not able to see", "can no longer see", "cant make out", "dont notice",
-        ];
+        ]);
         self.subject();
         if self.eat_any(BLIND) {
             self.adverbs();
@@ -180,7 +181,7 @@ impl Parser<'_> {
 
     /// What is in hand: "something", "the letter with you".
     pub(super) fn held(&mut self) -> Result<Test, PlanError> {
-        const WITH_YOU: &[&str] = &[
+        const WITH_YOU: &Phrases = &Phrases::of(&[
             "in your hand",
             "in your hands",
             "with you",
@@ -189,7 +190,7 @@ impl Parser<'_> {
             "in the hand",
             "in your arms",
             "already",
-        ];
+        ]);
         if self.eat_any(&["something", "anything"]) {
             self.eat_any(WITH_YOU);
             return Ok(Test::Holds(None));

@@ -3,14 +3,15 @@
 
 use super::clause::{Choice, Clause, Count, Reference, Stands, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{SIDES, category, longest, longest_phrase};
+use super::lexicon::{category, longest_phrase, longest_side};
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::verbs::longest_verb;
 
 /// What leads to a thing that is only spoken of.
 #[rustfmt::skip]
-const INTRODUCTIONS: &[&str] = &[
+const INTRODUCTIONS: &Phrases = &Phrases::of(&[
     "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
     "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
@@ -18,19 +19,21 @@ const INTRODUCTIONS: &[&str] = &[
     "i want", "i need", "i fancy", "i could do with", "we need", "we want", "here is", "heres", "that is",
     "thats", "over there is", "over there are", "up there is", "back there is", "there sits", "there stands",
     "there lies", "remember", "you remember", "notice", "show me", "spot", "i see", "i can see", "i have",
-    "i like", "i love", "i left", "somebody left", "someone left", "now", "look",
-];
+    "we are out of", "we have run out of", "weve run out of", "i am out of", "im out of", "i have run out of", "ive run out of",
+    "we have no", "weve got no", "i have no", "i like", "i love", "i left", "somebody left", "someone left", "now", "look",
+]);
 /// What somebody or something is or seems to be, in a remark.
 #[rustfmt::skip]
-const STATIVES: &[&str] = &[
+const STATIVES: &Phrases = &Phrases::of(&[
     "is", "are", "was", "were", "has", "have", "had", "looks", "look", "seems", "seem", "feels", "stands",
     "sits", "waits", "lies", "needs", "wants", "likes", "loves", "hates", "lives", "works", "sells", "looked",
     "seemed", "must be", "might be", "could be", "should be", "would like", "would love", "got", "keeps",
     "left", "forgot", "lost", "asked", "said", "called", "belongs", "just", "hasnt", "isnt", "does", "doesnt",
     "cant", "will",
-];
+]);
 /// What makes another thing of a remark: it says when or whether, or that it is an order.
-const NO_REMARK: &[&str] = &["if", "unless", "until", "till", "when", "where i want", "dont", "not", "never"];
+const NO_REMARK: &Phrases =
+    &Phrases::of(&["if", "unless", "until", "till", "when", "where i want", "dont", "not", "never"]);
 
 /// Words of headings that say nothing of what is to be done.
 #[rustfmt::skip]
@@ -151,7 +154,7 @@ impl Parser<'_> {
 
     /// "On your left are three doors".
     fn on_a_side(&mut self) -> Option<Vec<Clause>> {
-        let (side, words) = longest(self.rest(), SIDES)?;
+        let (side, words) = longest_side(self.rest())?;
         self.at += words;
         if !self.eat_any(&[
             "is",
@@ -293,8 +296,39 @@ impl Parser<'_> {
             matches!(&lexeme.token, Token::Word(word) if ["it", "him", "her", "them", "there", "one", "he", "she"].contains(&word.as_str()))
         });
         let mut clauses = if here || taken_up { self.mention(what) } else { Vec::new() };
+        clauses.extend(self.where_that_is());
         clauses.extend(self.rest_of_remark()?);
         Some(clauses)
+    }
+
+    /// "Tom waits at the hospital, hurry there": where somebody is, if "there" takes it up.
+    fn where_that_is(&mut self) -> Option<Clause> {
+        let start = self.at;
+        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+        let mark = self.rest().iter().position(is_mark)?;
+        let there = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "there");
+        if !self.rest()[mark..].iter().any(there) {
+            return None;
+        }
+        self.eat_any(STATIVES);
+        self.eat_any(&["waiting", "sitting", "standing", "now", "already", "for you", "for me", "for us"]);
+        let leads = self.eat_any(&[
+            "at",
+            "in",
+            "by",
+            "near",
+            "outside",
+            "beside",
+            "behind",
+            "in front of",
+            "next to",
+        ]);
+        let place = if leads { self.reference(0).ok() } else { None };
+        let place = place.filter(|place| self.view.find(place, super::resolve::Purpose::Any).is_ok());
+        if place.is_none() {
+            self.at = start;
+        }
+        place.map(|what| Clause::Mention { what })
     }
 
     /// Whether a noun phrase took the "is" of a remark with it: "Jo is at the kerb".

@@ -4,16 +4,17 @@ use simworld_core::seam::PlanError;
 
 use super::clause::Target;
 use super::lexer::{Lexeme, Token, lex, written};
-use super::lexicon::{COPULAS, RELATIONS, longest, longest_phrase};
+use super::lexicon::{COPULAS, longest_phrase, longest_relation};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
+use super::phrases::Phrases;
 use super::politeness::{filler, joint};
 
 /// Words that end a phrase whose words are not known.
-const BOUNDARIES: &[&str] = &[
+const BOUNDARIES: &Phrases = &Phrases::of(&[
     "to", "at", "in", "on", "for", "up", "down", "off", "into", "onto", "with", "until", "if", "unless",
     "when", "from", "of", "or", "that", "while", "before", "after", "via", "past",
-];
+]);
 
 impl<'a> Parser<'a> {
     /// What such a phrase means, if one thing only can be meant.
@@ -22,14 +23,14 @@ impl<'a> Parser<'a> {
         if phrase.is_empty() {
             return Err(self.not_understood("say what: a thing, a place, a name, #id or (x, y)"));
         }
-        // "The library door": the longest beginning that is part of a name.
-        let known = (1..phrase.len())
-            .rev()
-            .find_map(|count| self.names.part(&phrase[..count]).map(|guess| (guess, count)));
-        let (guess, phrase) = match (self.names.guess(phrase), known) {
-            (Guess::Nothing(_), Some((guess, count))) => (guess, &phrase[..count]),
-            (guess, _) => (guess, phrase),
-        };
+        if !self.is_capital(self.at)
+            && let Some(sort) = self.names.sort(&phrase[0].token)
+        {
+            self.at += 1;
+            return Ok(Target::Named(sort));
+        }
+        let (guess, count) = self.names.guess_or_part(phrase);
+        let phrase = &phrase[..count];
         let said = shortened(written(self.words, phrase));
         // "The bookshop" sells books.
         if let (Guess::Nothing(_), Token::Word(word)) = (&guess, &phrase[0].token)
@@ -87,7 +88,7 @@ impl<'a> Parser<'a> {
                 || joint(here).is_some()
                 || filler(here).is_some()
                 || [BOUNDARIES, COPULAS].iter().any(|words| longest_phrase(here, words).is_some())
-                || longest(here, RELATIONS).is_some()
+                || longest_relation(here).is_some()
         };
         let mut end = (0..rest.len()).find(ends).unwrap_or(rest.len());
         if end == 0

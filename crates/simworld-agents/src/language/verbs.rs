@@ -1,10 +1,9 @@
 //! What one can be told to do, in many words.
 
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use super::lexer::{Lexeme, Token};
-use super::lexicon::fits;
+use super::phrases::Index;
 
 /// What one can be told to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,17 +102,9 @@ impl Verb {
 /// Each verb with its phrases, a line each: `Go = go, walk, ...`.
 const TABLE: &str = include_str!("verbs.txt");
 
-/// No verb has more words.
-const LONGEST: usize = 8;
-
-/// The phrases of all verbs by their first word, so that few are looked at.
-static VERBS: LazyLock<BTreeMap<&'static str, Vec<(&'static str, Verb)>>> = LazyLock::new(|| {
-    let mut verbs: BTreeMap<&str, Vec<(&str, Verb)>> = BTreeMap::new();
-    for (verb, phrase) in phrases() {
-        verbs.entry(first_word(phrase)).or_default().push((phrase, verb));
-    }
-    verbs
-});
+/// The phrases of all verbs.
+static VERBS: LazyLock<Index<Verb>> =
+    LazyLock::new(|| Index::new(phrases().map(|(verb, phrase)| (phrase, verb))));
 
 /// Every phrase of every verb.
 pub(super) fn phrases() -> impl Iterator<Item = (Verb, &'static str)> {
@@ -125,11 +116,7 @@ pub(super) fn phrases() -> impl Iterator<Item = (Verb, &'static str)> {
 
 /// Whether the word is an order by itself.
 pub(super) fn is_verb(word: &str) -> bool {
-    VERBS.get(word).is_some_and(|phrases| phrases.iter().any(|(phrase, _)| *phrase == word))
-}
-
-fn first_word(phrase: &str) -> &str {
-    phrase.split_once(' ').map_or(phrase, |(first, _)| first)
+    VERBS.alone(word).is_some()
 }
 
 /// The verb with the most words at the start of `lexemes`, with their number; its first word may be in any form:
@@ -137,26 +124,52 @@ fn first_word(phrase: &str) -> &str {
 pub(super) fn longest_verb(lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
     let first = lexemes.first()?;
     let Token::Word(said) = &first.token else { return None };
-    let plain = longest_from(said, lexemes);
-    let inflected = first.lemma.as_deref().and_then(|lemma| longest_from(lemma, lexemes));
+    let after = &lexemes[1..];
+    let plain = VERBS.longest_behind(said, after);
+    let inflected = first.lemma.as_deref().and_then(|lemma| VERBS.longest_behind(lemma, after));
     match (plain, inflected) {
         (Some(plain), Some(inflected)) if inflected.1 <= plain.1 => Some(plain),
         (plain, inflected) => inflected.or(plain),
     }
 }
 
-/// As [`longest_verb`], with another first word than the one that is said.
-fn longest_from(first: &str, lexemes: &[Lexeme]) -> Option<(Verb, usize)> {
-    let after = &lexemes[1..lexemes.len().min(LONGEST)];
-    let hits = VERBS.get(first)?.iter().filter_map(|(phrase, verb)| match phrase.split_once(' ') {
-        Some((_, rest)) => fits(after, rest).map(|count| (*verb, count + 1)),
-        None => Some((*verb, 1)),
-    });
-    hits.max_by_key(|(_, count)| *count)
-}
-
 /// The base form of an inflected verb, if the word is one: "sitting", "walked", "goes".
 pub(super) fn base_form(word: &str) -> Option<String> {
+    if !matches!(word.as_bytes().last(), Some(b's' | b'd' | b'g')) {
+        return irregular(word).map(str::to_owned); // every other form has one of these endings
+    }
+    if ["lets", "has", "being"].contains(&word) {
+        return None; // "let us"
+    }
+    if let Some(base) = irregular(word) {
+        return Some(base.to_owned());
+    }
+    if let Some(stem) = word.strip_suffix("ied").or_else(|| word.strip_suffix("ies")) {
+        return Some(format!("{stem}y")).filter(|base| VERBS.begins(base));
+    }
+    ["ing", "ed", "es", "s"].into_iter().find_map(|ending| {
+        let stem = word.strip_suffix(ending).filter(|stem| stem.len() >= 2)?;
+        base_of_stem(stem)
+    })
+}
+
+/// "Sit" of "sitt", "wave" of "wav", "walk" of "walk".
+fn base_of_stem(stem: &str) -> Option<String> {
+    if VERBS.begins(stem) {
+        return Some(stem.to_owned());
+    }
+    let silent = format!("{stem}e");
+    if VERBS.begins(&silent) {
+        return Some(silent);
+    }
+    let mut letters = stem.chars().rev();
+    let last = letters.next().filter(|last| letters.next() == Some(*last))?;
+    let single = &stem[..stem.len() - last.len_utf8()];
+    VERBS.begins(single).then(|| single.to_owned())
+}
+
+/// The base of a form that no rule makes.
+fn irregular(word: &str) -> Option<&'static str> {
     #[rustfmt::skip]
     const IRREGULAR: &[(&str, &str)] = &[
         ("went", "go"), ("gone", "go"), ("been", "go"), ("goes", "go"), ("sat", "sit"), ("took", "take"),
@@ -169,30 +182,8 @@ pub(super) fn base_form(word: &str) -> Option<String> {
         ("came", "come"), ("made", "make"), ("kept", "keep"), ("led", "lead"), ("held", "hold"), ("lying",
         "lie"),
     ];
-    if ["lets", "has", "being"].contains(&word) {
-        return None; // "let us"
-    }
-    let is_verb = |stem: &str| VERBS.contains_key(stem);
-    if let Some((_, base)) = IRREGULAR.iter().find(|(form, _)| *form == word) {
-        return (*base != word).then(|| (*base).to_owned());
-    }
-    if let Some(stem) = word.strip_suffix("ied").or_else(|| word.strip_suffix("ies")) {
-        return Some(format!("{stem}y")).filter(|base| is_verb(base));
-    }
-    for ending in ["ing", "ed", "es", "s"] {
-        let Some(stem) = word.strip_suffix(ending).filter(|stem| stem.len() >= 2) else { continue };
-        let mut forms = vec![stem.to_owned(), format!("{stem}e")];
-        let letters: Vec<char> = stem.chars().collect();
-        if let [.., a, b] = letters[..]
-            && a == b
-        {
-            forms.push(letters[..letters.len() - 1].iter().collect());
-        }
-        if let Some(base) = forms.into_iter().find(|form| is_verb(form)) {
-            return Some(base);
-        }
-    }
-    None
+    static FORMS: LazyLock<Index<&str>> = LazyLock::new(|| Index::new(IRREGULAR.iter().copied()));
+    FORMS.alone(word)
 }
 
 #[cfg(test)]
@@ -219,7 +210,6 @@ mod tests {
     fn every_line_is_of_a_verb_and_no_phrase_of_two() {
         assert_eq!(TABLE.lines().count(), Verb::ALL.len());
         let mut all: Vec<&str> = phrases().map(|(_, phrase)| phrase).collect();
-        assert!(all.iter().all(|phrase| phrase.split(' ').count() <= LONGEST));
         for (verb, _) in Verb::ALL {
             assert!(phrases().any(|(other, _)| other == *verb), "{verb:?} has no words");
         }

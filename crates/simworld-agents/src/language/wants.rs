@@ -1,28 +1,120 @@
 //! Orders as statements of who gets what, and where it goes: "Hana needs the letter", "the parcel goes to the museum".
 
-use super::clause::{Clause, Manner, Reference};
+use super::clause::{Clause, Manner, Pace, Reference, Spot};
 use super::lexicon::longest_phrase;
 use super::parser::Parser;
+use super::phrases::Phrases;
 
 /// Between somebody and what he is to get.
 #[rustfmt::skip]
-const GETS: &[&str] = &[
+const GETS: &Phrases = &Phrases::of(&[
     "needs", "should get", "should have", "is to get", "must get", "ought to get", "ought to have", "must have",
     "has to get", "has to have", "gets", "is to have", "is waiting for", "wants", "would like", "would love",
     "could do with", "asked for", "has asked for", "is asking for", "deserves", "fancies", "is supposed to get",
-    "is after", "will want", "is dying for", "is hoping for", "expects", "ordered", "has ordered",
-];
+    "is after", "will want", "is dying for", "is hoping for", "expects", "is expecting", "ordered", "has ordered",
+]);
 /// Between a thing and where or to whom it goes.
 #[rustfmt::skip]
-const GOES: &[&str] = &[
+const GOES: &Phrases = &Phrases::of(&[
     "should go to", "goes to", "belongs to", "has to go to", "must go to", "needs to go to", "is for",
     "is to go to", "ought to go to", "belongs at", "belongs in", "should go in", "goes in", "should end up at",
     "should end up with", "needs to get to", "has to get to", "must get to", "should get to", "needs to be at",
     "must be at", "should be at", "goes back to", "belongs by", "goes next to", "should go next to", "goes by",
     "goes over to", "should go over to", "needs to be with", "is meant for", "should be with",
-];
+]);
+
+/// Who is to be somewhere, before where.
+#[rustfmt::skip]
+const NEEDED: &Phrases = &Phrases::of(&[
+    "youre needed", "you are needed", "youre wanted", "you are wanted", "somebody is needed", "someone is needed", "youre expected",
+    "you are expected", "your presence is required", "your presence is requested", "need you", "need somebody", "need someone",
+    "want you", "i want to see you", "id like to see you", "i need a robot", "i need a hand", "ill meet you", "i will meet you",
+    "ill see you", "i will see you", "ill be waiting for you", "ill wait for you", "meet me", "meet us", "join me", "join us", "see you", "see me",
+    "great to have you", "good to have you", "nice to have you", "lovely to have you", "they are expecting you", "theyre expecting you",
+    "theyre waiting for you", "they are waiting for you",
+]);
+/// Who needs somebody, how, and whom: "they want somebody".
+const WHO: &Phrases = &Phrases::of(&["i", "we", "they", "he", "she", "people", "everybody", "everyone"]);
+#[rustfmt::skip]
+const NEEDS: &Phrases = &Phrases::of(&[
+    "need", "needs", "want", "wants", "would like", "would love", "require", "requires", "could use", "could do with", "expect",
+    "expects", "are expecting", "is expecting", "have asked for", "asked for", "are asking for", "is asking for",
+]);
+const WHOM: &Phrases = &Phrases::of(&[
+    "you",
+    "somebody",
+    "someone",
+    "one of you",
+    "anybody",
+    "anyone",
+    "a helper",
+    "a volunteer",
+    "another person",
+    "a person",
+]);
+/// Between that and a place.
+#[rustfmt::skip]
+const THERE: &Phrases = &Phrases::of(&[
+    "over", "down", "up", "out", "back", "right", "round", "across", "along", "standing", "waiting", "now", "inside",
+    "stationed", "posted", "to be", "to stand", "to wait", "all", "urgently", "quickly", "immediately",
+]);
+/// What says of a thing that was named first that one goes there.
+#[rustfmt::skip]
+const THAT_IS_WHERE: &Phrases = &Phrases::of(&[
+    "thats where", "that is where", "thats the place", "that is the place", "thats the one", "that is the one", "there is where",
+    "thats the spot", "that is the spot", "this is where", "thats our stop", "thats your stop", "thats where its at",
+]);
+#[rustfmt::skip]
+const YOU_GO: &Phrases = &Phrases::of(&[
+    "i want you to", "i want you", "you should", "you need to", "you have to", "you must", "i need you to", "i need you",
+    "id like you to", "id like you", "you are to", "youre to", "we need to", "we have to", "we want to", "i want to", "i need to",
+    "we are", "youre", "you are", "you", "we", "they want you to", "they want you", "they need you", "i mean you to", "were",
+]);
 
 impl Parser<'_> {
+    /// "I need somebody at the bench", "they want you over by the gate".
+    pub(super) fn needed_there(&mut self) -> Option<Vec<Clause>> {
+        self.eat_any(&["it would be", "itd be", "it is", "its"]);
+        if !self.eat_any(NEEDED) {
+            let would = self.eat_any(&["id like", "id love"]);
+            let somebody = would || self.eat_any(WHO) || self.somebody_here().is_some();
+            if !somebody || !would && !self.eat_any(NEEDS) || !self.eat_any(WHOM) {
+                return None;
+            }
+        }
+        while self.eat_any(THERE) {}
+        let at = self.eat_any(&["at", "in", "to", "on", "over at", "down at", "up at", "outside"]);
+        let side = if at { None } else { Some(Spot::Beside(self.side()?, None)) };
+        let to = self.reference(0).map_err(|error| self.missing.get_or_insert(error).clone()).ok()?;
+        Some(vec![Clause::Go { to, side, pace: Pace::Usual, within: None }])
+    }
+
+    /// "The door nearest to the bin, that's where I want you to go".
+    pub(super) fn place_meant(&mut self) -> Option<Vec<Clause>> {
+        let end = self.mark_from(self.at);
+        if !(end..self.lexemes.len()).any(|at| longest_phrase(&self.lexemes[at..], THAT_IS_WHERE).is_some()) {
+            return None;
+        }
+        let to = self.reference(0).ok()?;
+        self.skip_joints();
+        if !self.eat_any(THAT_IS_WHERE) {
+            return None;
+        }
+        self.eat_any(YOU_GO);
+        let sits = self.peeks("sit") || self.peeks("sitting");
+        self.eat_any(&[
+            "go", "be", "head", "walk", "wait", "stand", "going", "headed", "heading", "drive", "sit",
+            "sitting", "meet",
+        ]);
+        self.eat_any(&["to", "next", "now", "down"]);
+        let clause = if sits {
+            Clause::Sit { on: Some(to) }
+        } else {
+            Clause::Go { to, side: None, pace: Pace::Usual, within: None }
+        };
+        self.ends_clause().then(|| vec![clause])
+    }
+
     /// Who gets what, or what goes where.
     pub(super) fn somebody_gets(&mut self) -> Option<Vec<Clause>> {
         let start = self.at;

@@ -10,6 +10,7 @@ use super::draft::{AT_POINT, Draft, speed_of};
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 use super::resolve::Purpose;
 
 /// Room between a thing and the way past or round it, m: half a body and an arm's breadth.
@@ -20,13 +21,13 @@ const LONGEST_WALK: f64 = 10_000.0;
 const SHORT_OF: f64 = 3.0;
 
 #[rustfmt::skip]
-const HALFWAY: &[&str] = &[
+const HALFWAY: &Phrases = &Phrases::of(&[
     "halfway", "half way", "midway", "mid way", "half of the way", "half the way", "in the middle",
     "half the distance", "half of the distance", "half way along", "at the midpoint", "at the middle",
     "in the centre", "in the center", "the middle", "the midpoint", "the centre", "the center", "equidistant",
-];
+]);
 /// How exactly something is meant, which changes nothing.
-const EXACTLY: &[&str] = &[
+const EXACTLY: &Phrases = &Phrases::of(&[
     "right",
     "exactly",
     "precisely",
@@ -37,7 +38,7 @@ const EXACTLY: &[&str] = &[
     "directly",
     "squarely",
     "smack",
-];
+]);
 
 /// Not round a thing, but behind it.
 const BEHIND: &[&str] = &["round the back of", "around the back of", "around behind", "round behind"];

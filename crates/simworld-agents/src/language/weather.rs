@@ -4,6 +4,7 @@ use super::clause::Test;
 use super::lexer::Token;
 use super::lexicon::{longest, longest_phrase};
 use super::parser::Parser;
+use super::phrases::Phrases;
 
 /// What the sky does.
 #[derive(Clone, Copy)]
@@ -43,21 +44,21 @@ const NOUNS: &[(&[&str], Sky)] = &[
     (&["the snow", "snow", "the snowfall"], Sky::Snow),
 ];
 #[rustfmt::skip]
-const BE: &[&str] = &[
+const BE: &Phrases = &Phrases::of(&[
     "is", "be", "gets", "get", "becomes", "become", "has got", "has become", "has gotten", "turns", "grows",
     "is getting", "should be", "has turned", "was", "gets to be", "goes",
-];
+]);
 #[rustfmt::skip]
-const BEGINS: &[&str] = &[
+const BEGINS: &Phrases = &Phrases::of(&[
     "starts", "begins", "start", "begin", "has started", "has begun", "comes", "should start", "started",
     "is here", "sets in", "comes on",
-];
+]);
 #[rustfmt::skip]
-const ENDS: &[&str] = &[
+const ENDS: &Phrases = &Phrases::of(&[
     "stops", "has stopped", "stop", "is over", "ends", "lets up", "has let up", "has ended", "eases",
     "eases off", "passes", "has passed", "is gone", "has gone", "dies down", "stopped", "ceases", "has ceased",
     "clears", "clears up", "has eased", "has cleared", "has finished", "finishes", "quits",
-];
+]);
 /// Whole sayings of the day.
 #[rustfmt::skip]
 const SAYINGS: &[(&[&str], Sky)] = &[

@@ -8,16 +8,17 @@ use super::clause::{Measure, Reference, Stands, Target};
 use super::lexicon::{longest, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
+use super::phrases::Phrases;
 
 /// What stands before a street.
 #[rustfmt::skip]
-const ON_STREET: &[&str] = &[
+const ON_STREET: &Phrases = &Phrases::of(&[
     "on", "along", "in", "at", "down", "lining", "beside", "off", "of", "from", "all along", "up and down", "on the edge of",
     "along the edge of", "on both sides of",
-];
+]);
 /// What stands before an area in which something is.
 #[rustfmt::skip]
-const IN_AREA: &[&str] = &["in", "on", "inside", "at", "within", "of", "in the middle of", "from", "around in"];
+const IN_AREA: &Phrases = &Phrases::of(&["in", "on", "inside", "at", "within", "of", "in the middle of", "from", "around in"]);
 /// What stands before a distance that is the greatest.
 #[rustfmt::skip]
 const WITHIN: &[&str] = &["within", "not more than", "no more than", "at most", "less than", "no farther than", "in a radius of"];

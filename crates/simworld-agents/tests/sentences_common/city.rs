@@ -198,6 +198,7 @@ fn paint(name: &str) -> [f32; 3] {
         "brown" => [0.2, 0.08, 0.03],
         "white" => [0.8, 0.8, 0.8],
         "black" => [0.01, 0.01, 0.012],
+        "grey" => [0.2, 0.2, 0.2],
         other => panic!("no paint {other}"),
     }
 }

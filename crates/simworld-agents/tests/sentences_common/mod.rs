@@ -15,11 +15,12 @@ use simworld_core::value::Value;
 
 /// The cities in which people speak to a walker.
 pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
-/// Those, the town in which they speak to a driver, and two that came later.
-pub(crate) const PLACES: [&str; 6] = ["harbour", "oldtown", "campus", "town", "park", "station"];
+/// Those, the town in which they speak to a driver, and four that came later.
+pub(crate) const PLACES: [&str; 8] =
+    ["harbour", "oldtown", "campus", "town", "park", "station", "depot", "market"];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 8] =
-    ["sentences", "paraphrases", "unheard", "later", "fifth", "sixth", "seventh", "eighth"];
+const SETS: [&str; 10] =
+    ["sentences", "paraphrases", "unheard", "later", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
 
 /// One thing that is said, and what it means.
 pub(crate) struct Said {
