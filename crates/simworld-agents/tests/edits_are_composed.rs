@@ -292,3 +292,48 @@ fn what_is_no_request_changes_nothing() {
     }
     holds(&faults);
 }
+
+#[test]
+fn what_several_things_share_is_read_for_each() {
+    let plain = "put a bench next to the statue and a bench next to the fountain";
+    let frames = [
+        "put a bench next to both the statue and the fountain",
+        "put a bench next to each of the statue and the fountain",
+        "put benches next to the statue and the fountain",
+    ];
+    holds(&astray(plain, &frames, &[&[]]));
+    let frames =
+        ["put between the bin and the hydrant a chair", "between the bin and the hydrant, set a chair"];
+    holds(&astray("put a chair between the bin and the hydrant", &frames, &[&[]]));
+    let frames = ["everything red should be blue", "paint all the red things blue"];
+    holds(&astray("paint everything red blue", &frames, &[&[]]));
+}
+
+#[test]
+fn questions_denials_and_conditions_that_do_not_hold_change_nothing() {
+    let city = City::read("quarter");
+    let said = [
+        "is Mill Lane closed?",
+        "which streets are closed?",
+        "is it raining?",
+        "will it rain?",
+        "is there a cinema?",
+        "do we have a cinema?",
+        "is the postbox red?",
+        "how tall is the statue?",
+        "don't move the statue",
+        "leave the red bench alone",
+        "if there's a cinema, put a bench in front of it and paint it red",
+        "if it rains, put an umbrella next to Ada",
+        "close Elm Street if Oak Street is closed",
+        "Ada wants to sit down",
+        "for more light",
+        "remove the cone as soon as there is a dragon",
+    ];
+    for words in said {
+        let mut world = city.world.clone();
+        let mut editor = SceneEditor::new(Seed(7)).looking_as(city.me, &world);
+        let answer = editor.say(words, &mut world);
+        assert!(Difference::between(&city.world, &world).is_empty(), "{words}: {answer:?}");
+    }
+}

@@ -131,7 +131,13 @@ impl Applier<'_> {
 
     fn add(&mut self, make: &Make, count: u32, stands: &[Stand]) -> Result<(), EditError> {
         let desc = self.recipe(make)?;
-        self.put_new(&desc, count, stands)
+        self.put_new(&desc, count, stands)?;
+        self.focus.beside = beside(stands);
+        if count > 1 {
+            // "Plant three trees behind the school and put a goal in front of it."
+            self.focus.it = self.focus.beside.or(self.focus.it);
+        }
+        Ok(())
     }
 
     fn put_new(&mut self, desc: &EntityDesc, count: u32, stands: &[Stand]) -> Result<(), EditError> {
@@ -225,6 +231,7 @@ impl Applier<'_> {
             self.focus.it = Some(*thing);
             self.focus.place = Some(simworld_core::geometry::planar(&pose));
         }
+        self.focus.beside = beside(stands);
         Ok(())
     }
 
@@ -390,4 +397,12 @@ fn relaxed(placer: &Placer<'_>, subject: Subject<'_>, stands: &[Stand], stream: 
         }
     }
     "there is no room near it either".to_owned()
+}
+
+/// The one thing that stands are about.
+fn beside(stands: &[Stand]) -> Option<EntityId> {
+    match stands {
+        [Stand::To { anchor, .. }] => Some(*anchor),
+        _ => None,
+    }
 }

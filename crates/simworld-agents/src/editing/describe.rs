@@ -70,6 +70,7 @@ impl Stand {
             Self::AcrossFrom { anchor } => format!("across from {}", label(anchor)),
             Self::Along { anchor } => format!("along {}", label(anchor)),
             Self::AlongRoad { .. } => "along the street".to_owned(),
+            Self::OnSide { .. } => "on that side of the street".to_owned(),
             Self::AtCornerOf { anchor } => format!("at the corner of {}", label(anchor)),
             Self::Towards { anchor, .. } => format!("on that side of {}", label(anchor)),
             Self::Offset { anchor, heading, distance } => {

@@ -158,6 +158,13 @@ pub enum Line {
         /// On which side.
         sides: Sides,
     },
+    /// As [`Line::Road`], on the side that lies in a direction.
+    RoadSide {
+        /// The pieces of the street.
+        roads: Vec<RoadId>,
+        /// To which side, radians from east.
+        heading: f64,
+    },
     /// Along one of the long sides of a thing.
     Along {
         /// Which thing.
@@ -235,6 +242,13 @@ pub enum Stand {
     AlongRoad {
         /// The pieces of the street.
         roads: Vec<RoadId>,
+    },
+    /// On a side of a street, seen from its middle.
+    OnSide {
+        /// The pieces of the street.
+        roads: Vec<RoadId>,
+        /// To which side, radians from east.
+        heading: f64,
     },
     /// At most 3 m from a corner of its footprint.
     AtCornerOf {

@@ -73,6 +73,7 @@ impl SceneEditor {
             focus: Focus {
                 from: Point2::origin(),
                 who: None,
+                beside: None,
                 it: None,
                 place: None,
                 roads: Vec::new(),

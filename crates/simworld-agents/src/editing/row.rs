@@ -18,6 +18,8 @@ use super::stand::{ROADSIDE, Subject};
 
 /// How far from its place a thing of a row may stand, as a share of the distance to the next.
 const SLIDES: [f64; 5] = [0.0, 0.05, -0.05, 0.1, -0.1];
+/// The same where it was said how many they are, all of which have to stand.
+const WIDE_SLIDES: [f64; 11] = [0.0, 0.05, -0.05, 0.1, -0.1, 0.15, -0.15, 0.2, -0.2, 0.24, -0.24];
 /// Where this share of the places of a row does not do, the row is refused.
 const LEAST_SHARE: f64 = 0.5;
 /// Off a kerb or a wall things of a row are tried so far, m.
@@ -107,7 +109,11 @@ fn make_name(desc: &EntityDesc) -> String {
 }
 
 fn missing(line: &Line) -> EditError {
-    let wanted = if matches!(line, Line::Road { .. }) { "street" } else { "thing to line up along" };
+    let wanted = if matches!(line, Line::Road { .. } | Line::RoadSide { .. }) {
+        "street"
+    } else {
+        "thing to line up along"
+    };
     EditError::NotFound { wanted: wanted.to_owned(), near: "it is gone".to_owned() }
 }
 
@@ -115,6 +121,10 @@ fn missing(line: &Line) -> EditError {
 fn stands_of(line: &Line) -> Vec<Stand> {
     match line {
         Line::Road { roads, .. } => vec![Stand::AlongRoad { roads: roads.clone() }],
+        Line::RoadSide { roads, heading } => vec![
+            Stand::AlongRoad { roads: roads.clone() },
+            Stand::OnSide { roads: roads.clone(), heading: *heading },
+        ],
         Line::Along { anchor } => vec![Stand::Along { anchor: *anchor }],
         Line::Between { one, other } => vec![Stand::Between { one: *one, other: *other }],
         Line::Around { anchor } => vec![Stand::Apart { anchor: *anchor, least: 0.0, most: 30.0 }],
@@ -142,6 +152,7 @@ impl Row {
             (Spacing::Count(_), [first, second, ..]) => second - first,
             (Spacing::Count(_), _) => track.length * 0.5,
         };
+        let slides: &[f64] = if matches!(spacing, Spacing::Count(_)) { &WIDE_SLIDES } else { &SLIDES };
         let mut row = Self { poses: Vec::new(), left_out: 0, tried: Placing::default() };
         let mut solids: Vec<Solid> = Vec::new();
         // What was off the line so far stands best there again: a row is straight.
@@ -150,7 +161,7 @@ impl Row {
             let subject = Subject { id: None, kind: desc.kind, info: &desc.info };
             let mut found = None;
             'places: for (rank, off) in offs.iter().enumerate() {
-                for slide in SLIDES {
+                for slide in slides {
                     let Some(spot) = (track.spot)(station + slide * step, *off) else { continue };
                     let at = Point3::new(spot.at.x, spot.at.y, spot.base);
                     let solid = Solid::standing(desc.info.shape, at, spot.yaw);
@@ -223,7 +234,7 @@ fn stations(track: &Track<'_>, spacing: Spacing, extent: f64) -> Result<Vec<f64>
 fn tracks<'a>(sampler: &'a Sampler<'a>, line: &'a Line) -> Option<Vec<Track<'a>>> {
     let solid = |id| sampler.scene.entity(id).map(|entity| Solid::of(&entity));
     match line {
-        Line::Road { roads, .. } => {
+        Line::Road { roads, .. } | Line::RoadSide { roads, .. } => {
             let streets = sampler.streets?;
             if roads.is_empty() || roads.iter().any(|road| road.index() >= streets.network().roads.len()) {
                 return None;

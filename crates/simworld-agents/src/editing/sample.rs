@@ -92,7 +92,7 @@ impl Sampler<'_> {
                 let gap = rng.uniform(0.2, ALONG * 0.5);
                 Some(self.beside(&anchor, side, self.in_row(rng), gap, 0.0))
             }
-            Stand::AlongRoad { roads } => self.roadside(roads, rng),
+            Stand::AlongRoad { roads } | Stand::OnSide { roads, .. } => self.roadside(roads, rng),
             Stand::AtCornerOf { anchor } => Some(self.corner(&solid(*anchor)?, rng)),
             Stand::Towards { heading, anchor } => {
                 let anchor = solid(*anchor)?;

@@ -1,7 +1,7 @@
 //! How things stand to each other, as geometric tests.
 
 use simworld_core::geometry::{Aabb, Point2, Twist, direction, heading as heading_of};
-use simworld_core::id::EntityId;
+use simworld_core::id::{EntityId, RoadId};
 use simworld_core::net::{Road, polyline};
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{EntityInfo, EntityKind, EntityRef, Scene};
@@ -82,6 +82,7 @@ impl Stand {
                 self,
                 Self::AcrossFrom { .. }
                     | Self::AlongRoad { .. }
+                    | Self::OnSide { .. }
                     | Self::OnBlockOf { .. }
                     | Self::AtJunction { .. }
             );
@@ -120,6 +121,9 @@ impl Stand {
                     .iter()
                     .any(|road| beyond(*road).is_some_and(|beyond| (0.0..=ROADSIDE).contains(&beyond)))
             }),
+            Self::OnSide { roads, heading } => {
+                streets.is_some_and(|streets| is_on_side(streets, roads, *heading, at))
+            }
             Self::AtCornerOf { anchor: of } => anchor(of).is_some_and(|of| {
                 let corners = Solid::of(&of).corners();
                 corners.into_iter().any(|corner| solid.distance_to(corner) <= CORNER)
@@ -167,7 +171,11 @@ impl Stand {
             | Self::InMiddleOf { anchor }
             | Self::AtEdgeOf { anchor }
             | Self::Between { one: anchor, .. } => Some(*anchor),
-            Self::AlongRoad { .. } | Self::AtJunction { .. } | Self::At { .. } | Self::Around { .. } => None,
+            Self::AlongRoad { .. }
+            | Self::OnSide { .. }
+            | Self::AtJunction { .. }
+            | Self::At { .. }
+            | Self::Around { .. } => None,
         }
     }
 }
@@ -224,6 +232,18 @@ fn is_across(streets: Option<&Streets>, anchor: &Solid, solid: &Solid) -> bool {
             gap >= OPPOSITE && local.x > 0.0 && local.x * half.y >= local.y.abs() * half.x
         }
     }
+}
+
+/// Whether a point lies to a side of the nearest of some roads.
+fn is_on_side(streets: &Streets, roads: &[RoadId], heading: f64, at: Point2) -> bool {
+    let nearest = roads
+        .iter()
+        .filter_map(|road| {
+            let line = &streets.road(*road).centerline;
+            polyline::closest(line, &at).map(|near| (near.distance, polyline::at(line, near.station).0))
+        })
+        .min_by(|one, other| one.0.total_cmp(&other.0));
+    nearest.is_some_and(|(_, foot)| (at - foot).dot(&direction(heading)) > 0.0)
 }
 
 /// How far a point is from the nearer kerb of a road, m, below zero on the carriageway; `None` beyond its ends.

@@ -193,6 +193,13 @@ impl Reader<'_> {
                     "currently stands",
                     "is currently",
                     "sits now",
+                    "stood",
+                    "was",
+                    "used to be",
+                    "used to stand",
+                    "has been",
+                    "was before",
+                    "stood before",
                 ],
             )?;
             Some((cut + is, self.one_of(at, cut).ok().filter(|what| !is_it(what))?))
@@ -255,7 +262,13 @@ impl Reader<'_> {
         let (words, stop) = only.or(keeps)?;
         let kept = self.one_of(at + words, stop).ok()?;
         let Target::Any(_) = &kept.target else { return None };
-        let all = Reference::to(kept.target.clone(), kept.text.clone());
+        let mut all = Reference::to(kept.target.clone(), kept.text.clone());
+        let mut kept = kept;
+        if let Some((number, _)) = super::super::numbers::number(&self.lexemes[at + words..stop]) {
+            // "Only one tree in the park": of those in the park.
+            (all.relation, all.traits) = (kept.relation.clone(), kept.traits.clone());
+            (kept.count, kept.indefinite) = (Count::Exactly(number as u32), true);
+        }
         Some(Wish::Remove {
             what: vec![Reference { count: Count::All, except: Some(Box::new(kept)), ..all }],
         })

@@ -25,6 +25,17 @@ const EXISTENCE: &[&str] = &["are there", "is there", "do we have", "are here", 
 impl Reader<'_> {
     pub(super) fn count(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         self.eat_any(&["of"]);
+        // "How many cars and trucks are there".
+        let stop = self.before_existence(self.at, self.before_politeness(self.at, end));
+        let stop = (self.at + 1..stop).find(|at| self.word(*at) == Some("are")).unwrap_or(stop);
+        if let Ok(several) = self.things(self.at, stop)
+            && several.len() > 1
+            && self.existence(stop, end) + stop >= self.before_politeness(self.at, end)
+        {
+            let text = self.written(self.at, stop);
+            self.at = end;
+            return Ok(vec![vec![Wish::CountAll { what: several, text }]]);
+        }
         let mut what = self.asked_about(self.at, end)?;
         what.count = Count::All;
         self.at = end;
@@ -55,7 +66,7 @@ impl Reader<'_> {
     }
 
     /// What a question is about: all of its words count, also those behind "are there" and "are".
-    fn asked_about(&mut self, start: usize, end: usize) -> Result<Reference, PlanError> {
+    pub(super) fn asked_about(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
         #[rustfmt::skip]
         const COPULA: &[&str] = &["are there", "are", "is there", "is", "stand", "sit", "do we have", "are standing", "there are",
             "exist", "there is", "lie", "are parked", "can be found", "are located", "have we got", "are to be found"];

@@ -2,7 +2,7 @@
 
 use simworld_core::seam::PlanError;
 
-use super::super::clause::{Count, Reference, Target};
+use super::super::clause::{Count, Reference};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::{PAINTS, Paint};
@@ -57,6 +57,11 @@ impl Reader<'_> {
             return Err(refused.unwrap_or_else(|| self.not_understood("say what to move, and where to")));
         }
         self.at = end;
+        // "The benches in the square to the park": where they are said to be is no place where they go.
+        readings.sort_by_key(|wish| match wish {
+            Wish::Move { at, .. } => at.len(),
+            _ => 0,
+        });
         Ok(readings)
     }
 
@@ -143,6 +148,10 @@ impl Reader<'_> {
     }
 
     pub(super) fn swap(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        if let Some(wish) = self.colours_swapped(end) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
         self.eat_any(&[
             "the places of",
             "the positions of",
@@ -313,54 +322,6 @@ impl Reader<'_> {
         (end, 1)
     }
 
-    pub(super) fn name(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let start = self.at;
-        // The shortest thing that is one: the rest is the name.
-        for cut in start + 1..end {
-            let Ok(what) = self.one_of(start, cut) else { continue };
-            let mut from = cut;
-            from += longest_phrase(&self.lexemes[cut..end], &["to", "as", "into", "it"]).unwrap_or(0);
-            let is_later = self.quoted(from.min(end - 1)).is_none()
-                && (from + 1..end).any(|at| self.quoted(at).is_some());
-            if from >= end || is_later || longest(&self.lexemes[from..end], super::words::WAYS).is_some() {
-                continue;
-            }
-            if matches!(
-                what.target,
-                Target::Any(_) | Target::Named(_) | Target::It | Target::Them | Target::Id(_)
-            ) {
-                // Behind a name in quotes goes on what else is asked for.
-                let quoted = self.quoted(from);
-                let closes = quoted.as_ref().map(|name| self.lexemes[from].start + name.len());
-                let after = |close: usize| (from..end).find(|at| self.lexemes[*at].start >= close);
-                self.at = closes.and_then(after).filter(|at| self.is_joint(*at)).unwrap_or(end);
-                // "Name the statue Bob and the fountain Alice".
-                let other = (from + 1..end).filter(|_| quoted.is_none()).find_map(|at| {
-                    let words = longest_phrase(&self.lexemes[at..end], &["and"])
-                        .filter(|words| self.is_certain(at + words))?;
-                    let mut reader = Reader { at: at + words, ..*self };
-                    Some((at, reader.name(end).ok()?))
-                });
-                let stop = other.as_ref().map_or(end, |(at, _)| *at);
-                let name = quoted.unwrap_or_else(|| self.written(from, stop));
-                let wishes = std::iter::once(vec![Wish::Name { what, name }]);
-                return Ok(wishes.chain(other.into_iter().flat_map(|(_, more)| more)).collect());
-            }
-        }
-        Err(self.not_understood("say what to name, and how"))
-    }
-
-    /// What stands between quotation marks from here on.
-    pub(super) fn quoted(&self, from: usize) -> Option<String> {
-        let start = self.lexemes.get(from)?.start;
-        let mark = self.words[..start].chars().next_back().filter(|mark| ['\'', '"'].contains(mark))?;
-        // "'Mayor's Library'" ends with its last mark: behind one that ends it stands no letter.
-        let rest = &self.words[start..];
-        let closes = |at: &usize| !rest[at + mark.len_utf8()..].starts_with(char::is_alphanumeric);
-        let end = rest.match_indices(mark).map(|(at, _)| at).find(closes)?;
-        Some(rest[..end].to_owned())
-    }
-
     /// "Make the bench blue", "make the tree bigger", "let the two cars trade places", "make a bench ...".
     pub(super) fn make(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
@@ -381,6 +342,12 @@ impl Reader<'_> {
             return Ok(vec![vec![wish]]);
         }
         for cut in start + 1..end {
+            if let Some(wishes) =
+                self.things(start, cut).ok().and_then(|what| self.face_each_other(&what, cut, end))
+            {
+                self.at = end;
+                return Ok(wishes);
+            }
             if longest_phrase(&self.lexemes[cut..end], super::predicates::TRADES) == Some(end - cut)
                 && let Ok(wish) = self.pair_up(start, cut)
             {
@@ -435,6 +402,11 @@ impl Reader<'_> {
             self.at = start;
         }
         wishes
+    }
+
+    /// "A copy of the blue car" stands next.
+    pub(super) fn is_copies(&self, end: usize) -> bool {
+        Reader { ..*self }.copies(end).is_some()
     }
 
     /// "Have Ben stand beside the mailbox".

@@ -43,21 +43,51 @@ impl Reader<'_> {
                 continue;
             }
             self.at = from;
-            let Some(anchor) = self.anchor(cut).ok().filter(|_| self.at == cut) else { continue };
+            let sides: &[&str] = &[
+                "on both sides",
+                "on either side",
+                "on each side",
+                "to both sides",
+                "along both sides",
+                "at both sides",
+            ];
+            let stop = (from + 1..cut)
+                .find(|at| longest_phrase(&self.lexemes[*at..cut], sides) == Some(cut - at))
+                .unwrap_or(cut);
+            let Some(anchor) = self.anchor(stop).ok().filter(|_| self.at == stop) else { continue };
+            let both = stop < cut
+                || longest_phrase(
+                    &self.lexemes[from - words..],
+                    &["line both sides of", "line the sides of"],
+                )
+                .is_some();
             self.at = cut + 1;
+            if matches!(dress, Dress::In) {
+                let things = self
+                    .listed(None, end)
+                    .ok()
+                    .filter(|_| self.before_politeness(self.at, end) <= self.at)?;
+                return Some(Wish::Add { things, at: vec![Where::By(anchor)] });
+            }
             let mut thing = self.new_thing(end).ok()?;
             if self.before_politeness(self.at, end) > self.at {
                 continue;
             }
             let place = match dress {
+                Dress::Along if thing.count == 2 => Where::BothSides(anchor),
+                Dress::Along if both => Where::BothSides(anchor),
                 Dress::Along => Where::Along(anchor),
                 Dress::Around => {
+                    if thing.count == 2 {
+                        return Some(Wish::Add { things: vec![thing], at: vec![Where::BothSides(anchor)] });
+                    }
                     // Less does not surround a thing.
                     thing.count = if thing.count == 1 { 8 } else { thing.count };
+                    thing.many = false;
                     let spacing = crate::editing::Spacing::Count(thing.count);
                     return Some(Wish::Row { thing, line: Where::Around(anchor), spacing });
                 }
-                Dress::In => Where::By(anchor),
+                Dress::In => return None,
             };
             return Some(Wish::Add { things: vec![thing], at: vec![place] });
         }

@@ -3,11 +3,12 @@
 
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::{category, longest_phrase};
+use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
 use super::forms::{word_at, words_at};
 use super::parse::Reader;
 use super::wish::{Anchor, NewThing, Where, Wish};
+use super::words::WAYS;
 
 /// What stands for a new thing as the one before.
 #[rustfmt::skip]
@@ -110,7 +111,8 @@ impl Reader<'_> {
 
     /// The words with the noun that was said before in the place of "one": "the white one" behind cars is the white car.
     pub(super) fn with_noun(&self, said: &Said, from: usize, end: usize) -> Option<Vec<Lexeme>> {
-        let noun = said.noun.as_ref()?;
+        let alike = self.noun_of_a_place(from, end);
+        let noun = alike.as_ref().or(said.noun.as_ref())?;
         let mut words = Vec::with_capacity(end - from + 1);
         let mut changed = false;
         for at in from..end {
@@ -141,6 +143,21 @@ impl Reader<'_> {
             }
         }
         changed.then_some(words)
+    }
+
+    /// "Next to the red bench and a lamp next to the blue one": what stands behind the same word of place before.
+    fn noun_of_a_place(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        let one =
+            (from + 2..end).find(|at| self.word(*at) == Some("one") && self.word(at + 1) != Some("of"))?;
+        let way = |at: usize| longest(&self.lexemes[at..end], WAYS);
+        let (own, at) = (from..one)
+            .rev()
+            .find_map(|at| way(at).filter(|(_, words)| at + words + 1 < one).map(|(own, _)| (own, at)))?;
+        self.lexemes.get(at..one).filter(|between| between.len() <= 6)?;
+        let before =
+            (from..at).find_map(|at| way(at).filter(|(way, _)| *way == own).map(|(_, words)| at + words))?;
+        let noun = (before..at.min(before + 4)).find(|at| category(&self.lexemes[*at..end]).is_some())?;
+        self.last_noun(noun, end)
     }
 
     /// The verb of the wish before, where none is said: "... and the chair next to the tree".
@@ -218,7 +235,8 @@ impl Reader<'_> {
             (None, Some((paint, words))) => (1, Some(paint), words),
             (None, None) => (1, None, longest_phrase(rest, ONE_MORE)?),
         };
-        let thing = NewThing { count, paint: paint.or(thing.paint), name: None, ..thing.clone() };
+        let thing =
+            NewThing { count, many: false, paint: paint.or(thing.paint), name: None, ..thing.clone() };
         let at = from + words;
         if at >= end {
             // "And another" stands where the first does.
@@ -250,6 +268,52 @@ impl Reader<'_> {
             things: vec![NewThing { name: None, ..thing.clone() }],
             at: vec![Where::By(anchor)],
         })
+    }
+
+    /// What a remark says is not there, of which one is asked for next: "the school has no bike rack".
+    pub(super) fn noun_lacking(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        let no = (from..end).find_map(|at| {
+            longest_phrase(
+                &self.lexemes[at..end],
+                &[
+                    "no",
+                    "not have a",
+                    "not have any",
+                    "isnt a",
+                    "lacks a",
+                    "not a single",
+                    "isnt any",
+                    "without a",
+                    "blocked by the",
+                    "obstructed by the",
+                    "hidden by the",
+                    "covered by the",
+                ],
+            )
+            .map(|words| at + words)
+        })?;
+        let stop = (no..end)
+            .find(|at| {
+                super::parts::is_mark(&self.lexemes[*at])
+                    || self.is_place(*at)
+                    || matches!(
+                        self.word(*at),
+                        Some(
+                            "here"
+                                | "there"
+                                | "yet"
+                                | "anywhere"
+                                | "nearby"
+                                | "for"
+                                | "to"
+                                | "and"
+                                | "around"
+                        )
+                    )
+            })
+            .unwrap_or(end);
+        let noun = self.lexemes.get(no..stop).filter(|noun| !noun.is_empty() && noun.len() <= 3)?;
+        noun.iter().all(|word| matches!(word.token, Token::Word(_))).then(|| noun.to_vec())
     }
 
     /// The last noun of a class among the words, in the singular as far as rules go.

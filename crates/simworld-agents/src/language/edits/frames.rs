@@ -14,7 +14,7 @@ use super::parse::Reader;
 /// The longest preamble, in words.
 const LONGEST: usize = 16;
 /// The small words of preambles.
-const SMALL: &str = "a able about absolutely actually ahead all alright also am an and any anybody anyone appreciate are as \
+const SMALL: &str = "a able about necessary essential important vital crucial desirable absolutely actually ahead all alright also am an and any anybody anyone appreciate are as \
      ask asking asks awesome be beg begging believe best better bit boss can care chance cheers client could course curious \
      customer dear decided definitely delighted demand do dream dude ensure everybody everyone expect fab fancy \
      fantastic favor favour feel feeling fine finally folks for get getting glad go going gonna good got gotta grand grateful \
@@ -70,6 +70,14 @@ impl Reader<'_> {
     pub(super) fn beginnings(&self, start: usize, end: usize) -> Vec<Beginning> {
         let mut found = vec![Beginning { at: start, wished: false }];
         if longest_phrase(&self.lexemes[start..end], QUESTIONS).is_some() {
+            return found;
+        }
+        // "For more light, ..." says what for.
+        if self.word(start) == Some("for")
+            && self
+                .word(start + 1)
+                .is_some_and(|word| !["me", "us", "my", "the", "this", "a", "starters"].contains(&word))
+        {
             return found;
         }
         let (mut at, mut wished) = (start, false);

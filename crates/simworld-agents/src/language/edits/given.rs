@@ -7,6 +7,7 @@ use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
 use super::super::parser::Parser;
+use super::conditions::at_once;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
 
@@ -14,11 +15,14 @@ use super::wish::Wish;
 #[rustfmt::skip]
 const IF: &[&str] = &["if there is", "if there are", "if you find", "if you see", "in case there is", "if we have",
     "provided there is", "when there is", "should there be", "if there exists", "as long as there is", "in the event that there is", "in case of", "if we find", "if i see", "if we see", "if you come across",
-    "should you see", "should you find", "if theres", "provided that there is", "if there should be", "if there happens to be", "in the event of", "if there stands", "assuming there is"];
+    "should you see", "should you find", "if theres", "provided that there is", "if there should be", "if there happens to be", "in the event of", "if there stands", "assuming there is", "only if there is",
+    "only if there are", "only if theres", "in case theres", "provided theres", "as long as theres", "but only if there is", "as long as there are", "provided there are", "in case there are", "assuming theres", "if there exist",
+    "when theres", "if we had", "were there"];
 /// If there is nothing of the kind.
 #[rustfmt::skip]
 const UNLESS: &[&str] = &["unless there is", "unless there are", "unless you find", "unless we have", "if there isnt",
-    "if there is not", "if there arent", "if there are not", "if we dont have", "unless you see", "if you find no"];
+    "if there is not", "if there arent", "if there are not", "if we dont have", "unless you see", "if you find no", "unless theres", "unless there already is",
+    "unless there are already", "unless theres already", "if there isnt already", "unless we already have"];
 /// What is not meant.
 #[rustfmt::skip]
 const EXCEPT: &[&str] = &["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
@@ -31,6 +35,21 @@ const IS_NOT: &[&str] = &["that is not", "that are not", "which is not", "which 
     "that is not painted", "that are not painted", "which isnt", "which arent"];
 
 impl Reader<'_> {
+    /// A question, an order to do nothing, or a wish on a condition.
+    pub(super) fn asked_or_given(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
+        if let Some(wish) = self.asked(end)? {
+            self.at = end;
+            return Ok(Some(vec![vec![wish]]));
+        }
+        if let Some(made) = self.given_room(end)? {
+            return Ok(Some(made));
+        }
+        if let Some(made) = self.given_sky(end).or_else(|| self.given_passage(end)) {
+            return Ok(Some(made));
+        }
+        self.given(end)
+    }
+
     /// A wish on a condition, before it or behind it.
     pub(super) fn given(&mut self, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let start = self.at;
@@ -64,15 +83,31 @@ impl Reader<'_> {
     ) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
         let stop = self.before_politeness(from, end);
-        let mut what = if from >= stop {
+        let coloured = self.coloured(from, end);
+        let so = (so.0, so.1 == coloured.as_ref().is_none_or(|(_, is)| *is));
+        let is_coloured = coloured.is_some();
+        let what = if from >= stop {
             // "If there are more than three": of what the wish is about.
-            Reference::to(Target::It, "it".to_owned())
+            Ok(Reference::to(Target::It, "it".to_owned()))
         } else {
-            self.coloured(from, end).map_or_else(|| self.one_of(from, end), Ok)?
+            coloured.map_or_else(|| self.one_of(from, end), |(what, _)| Ok(what))
         };
-        let mut reader = Reader { at: start, ..*self };
         let stop = if joint(&self.lexemes[at - 1..at]).is_some() { at - 1 } else { at };
-        let wishes = reader.wish(stop)?;
+        let mut wishes = Reader { at: start, ..*self }.wish(stop)?;
+        let mut what = match what {
+            Err(PlanError::NotFound { wanted, .. }) if so.0 == 1 && is_noun(&wanted) => {
+                self.at = end;
+                return Ok(if so.1 { nothing(&wanted) } else { wishes });
+            }
+            read => read?,
+        };
+        if is_coloured && what.target == Target::Them && so.0 == 1 {
+            // "Paint the benches green unless they are red": those that are not.
+            let all = wishes.iter_mut().flatten().flat_map(Wish::objects_mut);
+            all.for_each(|object| restrict(object, &what, so.1));
+            self.at = end;
+            return Ok(wishes);
+        }
         if super::says::is_it(&what) {
             // "Remove the hydrant unless it is red".
             let object = wishes.first().and_then(|readings| readings.first()?.object().cloned());
@@ -110,28 +145,47 @@ impl Reader<'_> {
             return Err(self.not_understood("put a comma behind the condition"));
         };
         let stop = self.without_there(from, cut);
-        let what = self.coloured(from, stop).map_or_else(|| self.one_of(from, stop), Ok)?;
+        let coloured = self.coloured(from, stop);
+        let there = there == coloured.as_ref().is_none_or(|(_, is)| *is);
+        let what = coloured.map_or_else(|| self.one_of(from, stop), |(what, _)| Ok(what));
         self.at = next;
         self.skip_joints_to(end);
-        if super::says::is_it(&what) {
+        if what.as_ref().is_ok_and(super::says::is_it) {
             return Err(self.not_understood("say what the condition is about"));
         }
         let (stop, other) = self.otherwise(self.at, end);
-        let wishes = match self.one_of_those(&what, stop) {
-            Some(wish) => vec![vec![wish]],
-            None => self.wish(stop)?,
+        let then = self.then(what.as_ref().ok(), self.at, stop)?;
+        let other = match other.filter(|from| !self.is_nothing(*from, end)) {
+            Some(from) => Some(self.then(what.as_ref().ok(), from, end)?),
+            None => None,
         };
-        let mut all = on_condition(wishes, &what, (least, there));
-        if let Some(from) = other.filter(|from| !self.is_nothing(*from, end)) {
-            self.at = from;
-            let wishes = match self.one_of_those(&what, end) {
-                Some(wish) => vec![vec![wish]],
-                None => self.wish(end)?,
-            };
-            all.extend(on_condition(wishes, &what, (least, !there)));
-        }
         self.at = end;
-        Ok(all)
+        match what {
+            // What nobody knows here is not there.
+            Err(PlanError::NotFound { wanted, .. }) if least == 1 && is_noun(&wanted) => {
+                Ok(if there { other.unwrap_or_else(|| nothing(&wanted)) } else { then })
+            }
+            Err(error) => Err(error),
+            Ok(what) => {
+                let mut all = on_condition(then, &what, (least, there));
+                all.extend(other.into_iter().flat_map(|other| on_condition(other, &what, (least, !there))));
+                Ok(all)
+            }
+        }
+    }
+
+    /// The wishes that stand on a condition about something.
+    fn then(
+        &mut self,
+        what: Option<&Reference>,
+        from: usize,
+        stop: usize,
+    ) -> Result<Vec<Vec<Wish>>, PlanError> {
+        self.at = from;
+        match what.and_then(|what| self.one_of_those(what, stop)) {
+            Some(wish) => Ok(vec![vec![wish]]),
+            None => self.wishes_between(from, stop),
+        }
     }
 
     /// Where the words end without "somewhere", "around" and the like.
@@ -230,20 +284,48 @@ impl Reader<'_> {
         (stands && ends).then_some((!is_unless, words))
     }
 
-    /// "The truck is orange": the truck that is.
-    fn coloured(&self, from: usize, end: usize) -> Option<Reference> {
+    /// "The truck is orange": the truck that is; with `false`, that it is not.
+    fn coloured(&self, from: usize, end: usize) -> Option<(Reference, bool)> {
+        const IS: &[&str] = &["is", "are", "is not", "are not", "isnt", "arent", "is already", "are already"];
         let end = self.before_politeness(from, end);
-        let cut =
-            (from + 1..end).find(|at| longest_phrase(&self.lexemes[*at..end], &["is", "are"]).is_some())?;
-        let (paint, words) = longest(&self.lexemes[cut + 1..end], PAINTS)?;
-        let mut what = self.one_of(from, cut).ok().filter(|_| cut + 1 + words == end)?;
+        let is = |at: usize| longest_phrase(&self.lexemes[at..end], IS);
+        let (cut, said) = if self.contracted(from) {
+            (from, 1)
+        } else {
+            (from + 1..end).find_map(|at| Some((at, is(at)?)))?
+        };
+        let not = (cut..cut + said).any(|at| matches!(self.word(at), Some("not" | "isnt" | "arent")));
+        let (paint, words) = longest(&self.lexemes[cut + said..end], PAINTS)?;
+        let mut what = if self.contracted(from) {
+            let them = if self.word(from) == Some("theyre") { Target::Them } else { Target::It };
+            Reference::to(them, "it".to_owned())
+        } else {
+            self.one_of(from, cut).ok()?
+        };
         what.traits.paint = Some(paint);
-        Some(what)
+        (cut + said + words == end).then_some((what, !not))
     }
 
     /// "Add one": of what was just asked for, and where.
     fn one_of_those(&mut self, what: &Reference, end: usize) -> Option<Wish> {
         let stop = self.before_politeness(self.at, end);
+        let removes = longest_phrase(
+            self.rest(stop),
+            &[
+                "remove one",
+                "delete one",
+                "take one away",
+                "remove one of them",
+                "get rid of one",
+                "take away one",
+                "remove any one of them",
+            ],
+        );
+        if removes.is_some_and(|words| self.at + words == stop) {
+            self.at = end;
+            let one = Reference { count: Count::Exactly(1), indefinite: true, ..what.clone() };
+            return Some(Wish::Remove { what: vec![one] });
+        }
         let adds = longest_phrase(
             self.rest(stop),
             &["add", "put", "place", "build", "make", "create", "plant", "set up", "add me"],
@@ -266,6 +348,7 @@ impl Reader<'_> {
         let thing = super::wish::NewThing {
             words: class.words[0].split(' ').map(str::to_owned).collect(),
             count: 1,
+            many: false,
             paint: what.traits.paint,
             scale: 1.0,
             name: None,
@@ -302,10 +385,37 @@ impl Reader<'_> {
 
 fn on_condition(wishes: Vec<Vec<Wish>>, what: &Reference, (least, there): (u32, bool)) -> Vec<Vec<Wish>> {
     let given = |wish| Wish::Given { what: what.clone(), least, there, then: Box::new(wish) };
-    wishes.into_iter().map(|readings| readings.into_iter().map(given).collect()).collect()
+    vec![at_once(wishes).into_iter().map(given).collect()]
+}
+
+/// Whether what nobody knows is a thing, as far as small words tell, and no other condition.
+fn is_noun(wanted: &str) -> bool {
+    const NONE: &[&str] = &[
+        "fewer", "less", "exactly", "neither", "nor", "than", "is", "are", "more", "either", "or", "not",
+        "any", "anything", "enough", "it", "they", "has", "have",
+    ];
+    !wanted.is_empty() && !wanted.to_lowercase().split_whitespace().any(|word| NONE.contains(&word))
+}
+
+/// What is done if something is there that is not.
+fn nothing(wanted: &str) -> Vec<Vec<Wish>> {
+    vec![vec![Wish::Nothing { why: format!("nothing was changed: there is no {wanted}") }]]
+}
+
+/// Of several things those that are of a colour or, with `false`, are not.
+fn restrict(object: &mut Reference, like: &Reference, so: bool) {
+    if so {
+        object.traits.paint = like.traits.paint;
+        return;
+    }
+    let mut except = Reference { count: Count::All, except: None, ..object.clone() };
+    except.traits.paint = like.traits.paint;
+    object.except = Some(Box::new(except));
 }
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    IF.iter().chain(UNLESS).chain(EXCEPT).chain(IS_NOT).flat_map(|phrase| phrase.split(' '))
+    const COUNTED: &[&str] =
+        &["fewer", "less", "more", "than", "least", "most", "exactly", "over", "neither", "nor"];
+    IF.iter().chain(UNLESS).chain(EXCEPT).chain(IS_NOT).chain(COUNTED).flat_map(|phrase| phrase.split(' '))
 }

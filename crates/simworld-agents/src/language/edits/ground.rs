@@ -15,9 +15,15 @@ use super::wish::{Anchor, Bearing, NewThing, StreetRef, Where, Wish};
 use crate::editing::{Edit, EditError, Line, Sides, Spacing, Stand};
 
 /// So many of a kind along something stand in a row.
-const ROW: u32 = 3;
+pub(super) const ROW: u32 = 3;
 /// So many around something stand in a circle, if it is no wider than this, m.
 const RING: (u32, f64) = (4, 8.0);
+/// So many are a circle around a thing of which nobody says how many it has.
+const RING_OF: u32 = 8;
+/// Beside what is longer than the first, things of a row stand so far apart, m: street lamps do.
+const WIDE: (f64, f64) = (60.0, 20.0);
+/// The same of what is no shorter than the first.
+const NARROW: (f64, f64) = (15.0, 5.0);
 /// A street farther than this from a thing is not before, behind or beside it, m.
 const STREET: f64 = 80.0;
 /// The streets around a thing are those within, m.
@@ -31,8 +37,14 @@ impl Finder<'_> {
     /// Several things along something are a row.
     pub(super) fn lined_up(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Edit>, EditError> {
         let ([thing], [line]) = (things, at) else { return Ok(None) };
+        if thing.many {
+            return self.lined_many(thing, line);
+        }
         let is_row = match line {
-            Where::Along(_) | Where::BothSides(_) | Where::Between(..) => thing.count >= ROW,
+            Where::Along(_)
+            | Where::BothSides(_)
+            | Where::Between(..)
+            | Where::Compass(_, Anchor::Street(..)) => thing.count >= ROW,
             Where::Around(anchor @ Anchor::Thing(_)) => {
                 let anchor = self.anchor(anchor, &[])?;
                 let size = self
@@ -46,6 +58,36 @@ impl Finder<'_> {
         if is_row { self.row(thing, line, Spacing::Count(thing.count)).map(Some) } else { Ok(None) }
     }
 
+    /// Things of which nobody says how many: a row of them as wide as such rows are, or a circle.
+    fn lined_many(&self, thing: &NewThing, line: &Where) -> Result<Option<Edit>, EditError> {
+        let size = |anchor: &Anchor| -> Result<f64, EditError> {
+            let anchor = self.anchor(anchor, &[])?;
+            Ok(self.scene.entity(anchor).map_or(0.0, |entity| entity.info.shape.size().xy().max()))
+        };
+        let along = |length: f64| match length {
+            long if long > WIDE.0 => Spacing::Every(WIDE.1),
+            middling if middling > NARROW.0 => Spacing::Every(NARROW.1),
+            _ => Spacing::Count(ROW),
+        };
+        let spacing = match line {
+            Where::Along(Anchor::Street(..))
+            | Where::BothSides(Anchor::Street(..))
+            | Where::Compass(_, Anchor::Street(..)) => Spacing::Every(WIDE.1),
+            Where::Along(anchor) => along(size(anchor)?),
+            Where::Between(one, other) => {
+                let place = |anchor: &Anchor| -> Result<Point2, EditError> {
+                    let id = self.anchor(anchor, &[])?;
+                    Ok(self.scene.entity(id).map_or(Point2::origin(), |entity| entity.planar()))
+                };
+                along((place(one)? - place(other)?).norm())
+            }
+            Where::Around(anchor @ Anchor::Thing(_)) if size(anchor)? <= RING.1 => Spacing::Count(RING_OF),
+            Where::Around(anchor @ Anchor::Thing(_)) => along(size(anchor)? * 2.0),
+            _ => return Ok(None),
+        };
+        self.row(thing, line, spacing).map(Some)
+    }
+
     pub(super) fn row(&self, thing: &NewThing, line: &Where, spacing: Spacing) -> Result<Edit, EditError> {
         let line = match line {
             Where::Along(Anchor::Street(_, roads)) => {
@@ -53,6 +95,9 @@ impl Finder<'_> {
             }
             Where::BothSides(Anchor::Street(_, roads)) => {
                 Line::Road { roads: roads.clone(), sides: Sides::Both }
+            }
+            Where::Compass(compass, Anchor::Street(_, roads)) => {
+                Line::RoadSide { roads: roads.clone(), heading: compass.heading() }
             }
             Where::Along(anchor) | Where::BothSides(anchor) => {
                 Line::Along { anchor: self.anchor(anchor, &[])? }
@@ -93,7 +138,11 @@ impl Finder<'_> {
             };
             return Ok(vec![Edit::Leave { why }]);
         }
-        let focus = super::Focus { it: found.first().copied().or(self.focus.it), ..self.focus.clone() };
+        // "If the truck is not red, paint it red": it is the truck, of whatever colour.
+        let mut plain = all;
+        plain.traits.paint = None;
+        let it = || self.candidates(&plain).ok().filter(|found| found.len() == 1)?.first().copied();
+        let focus = self.focus_on(found.first().copied().or_else(it));
         let view = super::view_of(self.scene, &focus);
         Finder { scene: self.scene, stock: self.stock, focus: &focus, view }.edits(then)
     }
@@ -235,7 +284,7 @@ impl Finder<'_> {
         Ok(Edit::SetPassage { roads, passage })
     }
 
-    fn roads_of(&self, street: &StreetRef) -> Result<Vec<RoadId>, EditError> {
+    pub(super) fn roads_of(&self, street: &StreetRef) -> Result<Vec<RoadId>, EditError> {
         let missing = |wanted: &str, near: &str| {
             Err(EditError::NotFound { wanted: wanted.to_owned(), near: near.to_owned() })
         };

@@ -7,7 +7,8 @@ use super::super::lexicon::category;
 use super::wish::NewThing;
 use super::words::HARMLESS;
 use crate::editing::{EditError, Make, Stock};
-use crate::retrieval::{Choice, Hit};
+use crate::retrieval::{Choice, Hit, Matched};
+use simworld_core::scene::EntityKind;
 
 impl NewThing {
     /// The asset that the words ask for: its name or its kind is the noun, and it answers to all other words that mean
@@ -16,7 +17,28 @@ impl NewThing {
         if let Some(made) = stock.made_for(&self.text) {
             return Ok(Make { name: self.name.clone(), ..Make::of(made) });
         }
-        let (season, words) = self.season();
+        let (season, mut words) = self.season();
+        // A light that somebody asks for is a lamp; traffic lights are called so.
+        if let [.., last] = &mut words[..]
+            && ["light", "lights"].contains(last)
+            && !self
+                .words
+                .iter()
+                .any(|word| ["traffic", "stop", "pedestrian", "signal"].contains(&word.as_str()))
+        {
+            *last = "lamp";
+        }
+        // "A small cone" is one of those that are called so.
+        let sized = |size: &&&str| self.words_of_size().any(|word| word == ***size);
+        if let Some(asset) = ["small", "big", "large", "tiny", "mini", "giant", "huge", "little"]
+            .iter()
+            .filter(sized)
+            .find_map(|size| {
+                stock.catalogue.get(stock.catalogue.find(&format!("{size}_{}", words.join("_")))?)
+            })
+        {
+            return Ok(self.made_from(asset, 1.0, season));
+        }
         let mut left_over = None;
         for from in 0..words.len() {
             let (said, noun) = words.split_at(from);
@@ -37,6 +59,8 @@ impl NewThing {
         }
         let said: Vec<&str> = words.iter().copied().filter(|word| !HARMLESS.contains(word)).collect();
         match (stock.index.choose(&said.join(" ")), left_over) {
+            // "A hat" is nobody who wears one.
+            (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(&words, near(&[]))),
             (Choice::Sure(hit), _) => match stock.catalogue.get(hit.asset) {
                 Some(asset) => Ok(self.made_from(asset, self.scale, season)),
                 None => Err(unknown(&words, near(&[]))),
@@ -54,6 +78,12 @@ impl NewThing {
                 }
             }
         }
+    }
+
+    /// The words that are no noun, as they were said.
+    fn words_of_size(&self) -> impl Iterator<Item = String> {
+        let said = if self.scale == 1.0 { "" } else { self.text.as_str() };
+        said.split_whitespace().map(str::to_lowercase).collect::<Vec<_>>().into_iter()
     }
 
     /// The words from which a generator may make it: without how many, and what it is called.
@@ -86,6 +116,19 @@ impl NewThing {
         }
     }
 }
+
+/// Whether a search found somebody by what they have on.
+fn is_worn(hit: &Hit, stock: &Stock) -> bool {
+    let is_person = stock.catalogue.get(hit.asset).is_some_and(|asset| asset.kind == EntityKind::Person);
+    let in_name = |(_, matched): &(String, Matched)| *matched != Matched::Tag;
+    is_person
+        && !hit.because.iter().any(in_name)
+        && hit.because.iter().any(|(word, _)| WORN.contains(&word.as_str()))
+}
+
+/// What people wear or carry.
+const WORN: &[&str] =
+    &["hat", "helmet", "vest", "uniform", "coat", "suit", "apron", "bag", "backpack", "hardhat", "hard"];
 
 fn unknown(words: &[&str], near: String) -> EditError {
     EditError::UnknownThing { wanted: words.join(" "), near }
@@ -126,7 +169,12 @@ fn assets_called<'a>(stock: &'a Stock, noun: &[&str]) -> Vec<&'a Asset> {
         // "A fire truck" is a fire engine, and not any truck.
         let narrower = found.is_empty().then(|| stock.index.choose(&noun.join(" ")));
         let meant = match narrower {
-            Some(Choice::Sure(hit)) => catalogue.get(hit.asset).filter(|asset| kinds.contains(&asset.kind)),
+            Some(Choice::Sure(hit)) => catalogue.get(hit.asset).filter(|asset| {
+                // "A postbox" is as plain as "a letter box", and "a hatchback" is a small car.
+                let is_plain =
+                    noun.len() == 1 && class.words.contains(&asset.name.replace('_', " ").as_str());
+                kinds.contains(&asset.kind) && !is_plain
+            }),
             _ => None,
         };
         found.extend(meant);

@@ -10,8 +10,11 @@ use simworld_core::seam::PlanError;
 use super::super::clause::Reference;
 use super::super::lexer::{Lexeme, Token};
 
-/// As many phrases are looked up for one sentence; who says more is not understood. A phrase takes some 20 µs.
-const MOST: u32 = 500;
+/// As many phrases are looked up for one sentence; who says more is not understood. The sets of sentences take up to 185.
+const MOST: u32 = 260;
+/// As many wishes are tried for one sentence, whole or in parts, as it stands or put together anew. The sets take up to 31, and odd ones of
+/// strangers twice that.
+const MOST_STEPS: u32 = 64;
 
 /// What words say: they are asked about in many orders, and mean the same in each.
 type Words = u64;
@@ -22,12 +25,18 @@ pub(super) struct Memo {
     things: RefCell<BTreeMap<Words, Result<Reference, PlanError>>>,
     places: RefCell<BTreeMap<Words, bool>>,
     asked: Cell<u32>,
+    steps: Cell<u32>,
 }
 
 impl Memo {
     /// Whether enough was tried.
     pub(super) fn is_spent(&self) -> bool {
-        self.asked.get() >= MOST
+        self.asked.get() >= MOST || self.steps.get() >= MOST_STEPS
+    }
+
+    /// Counts a wish that is tried.
+    pub(super) fn step(&self) {
+        self.steps.set(self.steps.get() + 1);
     }
 
     /// What words name.

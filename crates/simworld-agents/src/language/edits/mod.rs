@@ -3,11 +3,15 @@
 //! The same words, names and noun phrases as in orders to a body; other verbs. A sentence is read whole first; each wish is
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
+mod answers;
 mod apart;
 mod ask;
+mod asked;
 mod change;
 mod complaints;
+mod conditions;
 mod dressed;
+mod each;
 mod facing;
 mod follow;
 mod forms;
@@ -16,8 +20,11 @@ mod given;
 mod ground;
 mod make;
 mod memo;
+mod naming;
 mod offsets;
+mod ordered;
 mod orders;
+mod others;
 mod parse;
 mod parts;
 mod passage;
@@ -30,10 +37,12 @@ mod resolve;
 mod respelt;
 mod rows;
 mod says;
+mod shared;
 mod shares;
 mod sizes;
 pub(super) mod sky;
 mod slips;
+mod spoken;
 mod standing;
 mod stated;
 mod supposed;
@@ -67,6 +76,8 @@ pub(crate) struct Focus {
     pub(crate) who: Option<EntityId>,
     /// What "it" stands for.
     pub(crate) it: Option<EntityId>,
+    /// What that was put beside, if it was.
+    pub(crate) beside: Option<EntityId>,
     /// What "there" stands for.
     pub(crate) place: Option<Point2>,
     /// The streets that were spoken of last.
@@ -107,6 +118,7 @@ pub(crate) fn read(
     respelt::in_plain_spelling(words, &mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     plain::in_plain_words(words, &mut lexemes, &names);
+    others::in_plain_words(&mut lexemes);
     repairs::put_right(&mut lexemes);
     let memo = memo::Memo::default();
     let reader =
@@ -256,6 +268,10 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(supposed::words())
         .chain(plain::words())
         .chain(respelt::words())
+        .chain(asked::words())
+        .chain(others::words())
+        .chain(shared::words())
+        .chain(conditions::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -202,6 +202,7 @@ impl Reader<'_> {
             let what = vec![topic.filter(|_| count.is_none() && marks.len() == 1)?];
             return Some(vec![vec![Wish::Move { what, at }]]);
         };
+        thing.many &= count.is_none();
         thing.count = count.unwrap_or(thing.count);
         let mut anchor = topic.map(super::wish::Anchor::Thing);
         for place in &mut at {

@@ -30,6 +30,19 @@ use super::words::{VERBS, Verb};
 pub(super) const UNDERSTOOD: &str = "say add, put, move, remove, replace, rotate, swap, paint, make bigger or smaller, copy, name, \
      count, list, describe, or what the weather and the time are to be";
 
+/// Before what is to be listed, behind a verb of giving.
+const LISTS: &[&str] = &[
+    "a list of",
+    "the list of",
+    "list of",
+    "an overview of",
+    "a listing of",
+    "a list with",
+    "a short list of",
+    "a full list of",
+    "a complete list of",
+];
+
 /// Reads one sentence.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
@@ -46,11 +59,18 @@ pub(super) struct Reader<'a> {
 impl<'a> Reader<'a> {
     /// All wishes of the sentence, each in all its readings, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let mut wishes = Vec::new();
+        let mut wishes: Vec<Vec<Wish>> = Vec::new();
         self.skip_joints();
         while self.at < self.lexemes.len() {
             let end = self.boundary();
-            wishes.extend(self.wish(end)?);
+            let with = self.at > 0 && self.word(self.at - 1) == Some("with");
+            let mut read = self.wish(end)?;
+            if let (Some([before, ..]), Some(first)) = (wishes.last().map(Vec::as_slice), read.first_mut()) {
+                for wish in first {
+                    super::shared::on_street(before, wish, with);
+                }
+            }
+            wishes.append(&mut read);
             self.skip_joints();
         }
         if wishes.is_empty() { Err(self.not_understood(UNDERSTOOD)) } else { Ok(wishes) }
@@ -59,7 +79,11 @@ impl<'a> Reader<'a> {
     /// One wish up to a boundary, or several that share a verb.
     pub(super) fn wish(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
-        if let Some(made) = self.given(end)? {
+        if self.memo.is_spent() {
+            return Err(self.not_understood(UNDERSTOOD));
+        }
+        self.memo.step();
+        if let Some(made) = self.asked_or_given(end)? {
             return Ok(made);
         }
         if let Some(wish) = self.asked_twice(self.lexemes.len()) {
@@ -105,6 +129,10 @@ impl<'a> Reader<'a> {
             return Ok(made);
         }
         self.at = start;
+        let refused = match refused {
+            Some(refused @ PlanError::NotFound { .. }) => Some(refused),
+            refused => self.not_there(start, end).or(refused),
+        };
         // What is not there is a better answer than that nothing is understood.
         if let Some(error @ PlanError::NotFound { .. }) = refused {
             return Err(error);
@@ -156,9 +184,34 @@ impl<'a> Reader<'a> {
     }
 
     fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        if matches!(verb, Verb::Add | Verb::Put | Verb::Move)
+            && let Some(wishes) = self.place_then_thing(end)
+        {
+            return Ok(wishes);
+        }
+        if verb == Verb::Add
+            && let Some(sky) = self.sky(end)
+        {
+            self.at = end;
+            return Ok(vec![vec![Wish::Sky(sky)]]);
+        }
+        if verb == Verb::Add && self.eat_any(LISTS) {
+            return self.list(end);
+        }
+        if matches!(verb, Verb::Paint | Verb::Make)
+            && let Some(wish) = self.painted_as(self.at, end)
+        {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
         match verb {
             // "Show me the shops" asks for a list.
             Verb::Add if self.is_shown() => self.list(end),
+            Verb::Add if self.is_brought(end) => {
+                let what = self.things(self.at, end)?;
+                self.at = end;
+                Ok(vec![vec![Wish::Move { what, at: vec![super::wish::Where::Here] }]])
+            }
             Verb::Add => {
                 if let Some(wish) = self.copies(end) {
                     return Ok(wish);
@@ -175,6 +228,9 @@ impl<'a> Reader<'a> {
                 }
             }
             // "Put the bench ..." moves it, "put a bench ..." makes one.
+            Verb::Put | Verb::Move if self.is_copies(end) => {
+                self.copies(end).ok_or_else(|| self.not_understood("say what to copy"))
+            }
             Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
             Verb::Put if self.is_definite(self.at) => self.puts(end),
             Verb::Put => self.additions(end),
@@ -209,76 +265,6 @@ impl<'a> Reader<'a> {
                 Err(self.not_understood("say which street: by its name, or in front of what"))
             }
         }
-    }
-
-    fn is_shown(&self) -> bool {
-        self.at > 1
-            && self.word(self.at - 2) == Some("show")
-            && matches!(self.word(self.at - 1), Some("me" | "us"))
-            && matches!(self.word(self.at), Some("the" | "all" | "every" | "which" | "what" | "where"))
-    }
-
-    /// "Put the bench there"; "my castle" need not be there yet.
-    fn puts(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let from = self.at;
-        match self.moves(end) {
-            // "Put books on the bench": what is not there, and is spoken of without an article.
-            Err(refused @ PlanError::NotFound { .. }) if !self.is_certain(from) => {
-                self.at = from;
-                self.additions(end).map_err(|_| refused)
-            }
-            Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
-                self.at = from + 1;
-                self.additions(end).map_err(|_| refused)
-            }
-            read => read.map(|wish| vec![wish]),
-        }
-    }
-
-    /// "Remove the cone"; "I don't want to see that cone here".
-    fn removes(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let here = self.before_politeness(self.at, end).saturating_sub(1);
-        let is_here = here > self.at && matches!(self.word(here), Some("here" | "around" | "standing"));
-        let what = match if is_here { self.things(self.at, here).ok() } else { None } {
-            Some(what) => what,
-            None => self.things(self.at, end)?,
-        };
-        self.at = end;
-        Ok(vec![vec![Wish::Remove { what }]])
-    }
-
-    /// "I want the bench red": something is wanted of a thing that is there.
-    fn is_wanted(&self) -> bool {
-        #[rustfmt::skip]
-        const WHO: &[&str] = &["i", "we", "id", "wed", "have", "let", "lets", "can", "could", "may", "need", "needs"];
-        let is_who = |at: usize| self.word(at).is_some_and(|word| WHO.contains(&word));
-        (self.at.saturating_sub(6)..self.at).any(is_who)
-            && self.is_definite(self.at)
-            && !self.is_bare_plural(self.at, self.lexemes.len())
-    }
-
-    /// "Put me a bench": whoever says so is not put anywhere.
-    fn is_for_me(&self, end: usize) -> bool {
-        longest_phrase(self.rest(end), &["me", "us"])
-            .is_some_and(|words| !self.is_definite((self.at + words).min(end)))
-    }
-
-    /// "Benches": some that are not there yet.
-    pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
-        // "Cherry trees": up to three words say of what kind they are.
-        let ends = |at: usize| {
-            self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], VERBS).is_some()
-        };
-        let noun = (at..end.min(at + 4)).take_while(|next| *next == at || !ends(*next)).find_map(|next| {
-            super::super::lexicon::category(&self.lexemes[next..end]).map(|(_, words)| (next, words))
-        });
-        // "Throw the bins out" holds an order, and certain things.
-        let is_new = |next: usize| {
-            (at..next).all(|at| !self.is_certain(at))
-                && (next == at || longest(&self.lexemes[at..end], VERBS).is_none())
-        };
-        noun.is_some_and(|(next, words)| is_new(next) && self.is_plural(next, next + words))
-            && !self.is_certain(at)
     }
 
     // ---- things ----
@@ -318,6 +304,12 @@ impl<'a> Reader<'a> {
 
     fn look_up(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
         let end = self.before_politeness(start, end);
+        if let Some(what) = self.all_but(start, end) {
+            return Ok(what);
+        }
+        if let Some(what) = self.of_any_kind(start, end) {
+            return what;
+        }
         let me = longest_phrase(&self.lexemes[start..end], &["me", "myself", "you", "yourself", "i"]);
         if me == Some(end - start) {
             return Ok(Reference::to(Target::Here, "me".to_owned()));
@@ -419,6 +411,7 @@ impl<'a> Reader<'a> {
     /// Where the wish that begins here ends: before a joint with a verb behind it, or at the end of the words.
     fn boundary(&self) -> usize {
         let mut at = self.at + 1;
+        let conditional = self.begins_condition();
         while at < self.lexemes.len() {
             if let Some(count) = joint(&self.lexemes[at..]) {
                 let mut next = at + count;
@@ -438,7 +431,11 @@ impl<'a> Reader<'a> {
                 let speaks = self.lexemes[at].token == Token::Break
                     && next < self.lexemes.len()
                     && self.has_verb(self.at, at);
-                if begins && (self.has_verb_or_sky(self.at, at) || self.says_how_it_should_be(at)) || speaks {
+                // What is joined on a condition stands on it too, up to the end of the sentence.
+                let belongs =
+                    conditional && (self.lexemes[at].token != Token::Break || self.goes_on_otherwise(next));
+                let cuts = begins && (self.has_verb_or_sky(self.at, at) || self.says_how_it_should_be(at));
+                if (cuts || speaks) && !belongs {
                     return at;
                 }
                 at = next.max(at + 1);
@@ -461,7 +458,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn has_verb(&self, start: usize, end: usize) -> bool {
-        (start..end).any(|at| longest(&self.lexemes[at..end], VERBS).is_some())
+        (start..end).any(|at| longest(&self.lexemes[at..end], VERBS).is_some() && !self.is_in_noun(start, at))
     }
 
     fn has_verb_or_sky(&self, start: usize, end: usize) -> bool {
@@ -484,6 +481,8 @@ pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
 pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
     match lexemes.first().map(|lexeme| &lexeme.token) {
         Some(Token::Comma | Token::Break) => Some(1),
+        // "Next to the Campus Clinic" is no joint and something on the campus.
+        _ if longest_phrase(lexemes, &["first aid", "next to"]).is_some() => None,
         _ => longest_phrase(lexemes, JOINTS),
     }
 }

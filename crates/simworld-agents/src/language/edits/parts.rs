@@ -5,7 +5,7 @@
 //! why somebody wants something. What begins as an order does is none, nor what says how something should be, so that no
 //! wish is passed over because its words are not understood.
 
-use super::super::clause::{Reference, Target};
+use super::super::clause::Reference;
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::follow::Said;
@@ -36,7 +36,7 @@ const SUBJECTS: &[&str] = &["i", "im", "ive", "id", "we", "were", "weve", "they"
 /// Verbs of what is so.
 #[rustfmt::skip]
 const STATES: &[&str] = &["is", "are", "was", "were", "am", "isnt", "arent", "wasnt", "werent",
-    "has", "have", "had", "hasnt", "havent", "ive", "weve", "theyve", "looks", "look", "looked", "feels", "feel", "seems", "seem", "keeps", "keep", "kept", "uses",
+    "has", "have", "had", "hasnt", "havent", "ive", "weve", "theyve", "looks", "look", "looked", "feels", "feel", "seems", "seem", "keeps", "kept", "uses",
     "use", "used", "likes", "love", "loves", "loved", "hate", "hates", "hated", "cant", "cannot", "couldnt", "dont", "doesnt", "didnt", "wont", "wouldnt", "gives",
     "give", "makes", "made", "blocks", "block", "bothers", "bother", "annoys", "annoy", "said", "says", "say", "told", "asked", "asks", "complained", "complain",
     "complains", "saw", "see", "sees", "seen", "heard", "noticed", "fell", "falls", "fall", "broke", "breaks", "stinks", "stink", "smells", "smell", "trip", "trips",
@@ -48,7 +48,7 @@ const STATES: &[&str] = &["is", "are", "was", "were", "am", "isnt", "arent", "wa
     "complaining", "prefer", "prefers", "remember", "forgot", "enough", "loving", "hating", "scares", "scare", "confuses", "confuse", "faces", "hangs", "lies",
     "shines", "glows", "burns", "grows", "attracts", "disturbs", "reminds", "remind", "happens", "happened", "ends", "hurts", "hurt", "eats", "eat", "drink", "play",
     "plays", "ride", "walk", "walks", "read", "rest", "shop", "wonder", "doubt", "guess", "bet", "swear", "promise", "am",
-    "stays", "stay", "leans", "leaks", "rusts", "rots", "creaks", "blends", "tend", "tends", "just", "always", "never", "wasn", "there", "aint", "nowhere", "hardly"];
+    "lacks", "lack", "stole", "stolen", "stood", "bought", "sold", "dropped", "crashed", "wrecked", "vandalised", "damaged", "ordered", "promised", "planned", "forgotten", "belongs", "stays", "stay", "leans", "leaks", "rusts", "rots", "creaks", "blends", "tend", "tends", "just", "always", "never", "wasn", "there", "aint", "nowhere", "hardly"];
 /// Words by which a part asks for something, or says how something should be.
 #[rustfmt::skip]
 const ASKS: &[&str] = &["should", "must", "ought", "shall", "please", "let", "lets", "instead", "unless", "until", "except", "only", "if", "whenever", "has to",
@@ -129,7 +129,11 @@ impl Reader<'_> {
             if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
                 continue;
             }
+            let with = from > 0 && self.word(from - 1) == Some("with");
             wishes.iter_mut().flatten().for_each(|wish| {
+                if let Some(before) = &said.wish {
+                    super::shared::on_street(before, wish, with);
+                }
                 wish.is_about(spoken_of);
                 wish.stands(&said.place);
             });
@@ -153,7 +157,8 @@ impl Reader<'_> {
             if things.is_empty() {
                 things = spoken_of.to_vec();
             }
-            let noun = self.last_noun(from, end).or_else(|| said.noun.clone());
+            let lacks = self.noun_lacking(from, end);
+            let noun = lacks.or_else(|| self.last_noun(from, end)).or_else(|| said.noun.clone());
             let place = self.place_spoken_of(from, end).unwrap_or_else(|| said.place.clone());
             let now = Said { noun, place, ..said.clone() };
             if let Some(rest) = self.parts_from(end, &now, &things, search) {
@@ -271,6 +276,13 @@ impl Reader<'_> {
         {
             return false;
         }
+        if end < self.lexemes.len() && self.is_lack(from, self.before_politeness(from, end)) {
+            return true;
+        }
+        // "As soon as there is a dragon" is a condition.
+        if longest_phrase(words, &["as soon as", "as long as", "as far as", "as if"]).is_some() {
+            return false;
+        }
         if let Some(reason) = longest_phrase(words, REASONS) {
             let behind = from + reason;
             let is_plain =
@@ -286,6 +298,19 @@ impl Reader<'_> {
                 && !self.is_place(from)
                 && !self.asks(behind, end)
                 && !self.is_order(behind, end);
+        }
+        let tells_time = |at: usize| {
+            super::sky::hour(&self.lexemes[at..end]).is_some_and(|(_, words)| {
+                words > 1
+                    && longest_phrase(
+                        &self.lexemes[at + words - 1..end],
+                        &["pm", "am", "evening", "morning", "afternoon", "oclock", "m", "clock"],
+                    )
+                    .is_some()
+            })
+        };
+        if (from..end).any(tells_time) {
+            return false;
         }
         if self.wants_something_there(from, end)
             || self.is_place(from) && longest_phrase(words, &["to"]).is_some()
@@ -352,13 +377,19 @@ impl Reader<'_> {
     fn wants_something_there(&self, from: usize, end: usize) -> bool {
         (from + 1..end).any(|at| {
             longest_phrase(&self.lexemes[at..end], super::says::LACKS).is_some_and(|words| {
-                (at + words + 1..end).any(|at| self.is_place(at) && self.places_to(at, end).is_some())
+                // "They want somewhere to eat" names nothing.
+                let is_open = matches!(
+                    self.word(at + words),
+                    Some("somewhere" | "something" | "nowhere" | "anything" | "nothing")
+                );
+                !is_open
+                    && (at + words + 1..end).any(|at| self.is_place(at) && self.places_to(at, end).is_some())
             })
         })
     }
 
     /// Whether a name or a thing of the scene stands first.
-    fn one_begins(&self, from: usize, end: usize) -> bool {
+    pub(super) fn one_begins(&self, from: usize, end: usize) -> bool {
         let mut parser = self.parser(from, end);
         parser.reference(0).is_ok() && parser.at > from
     }
@@ -386,62 +417,6 @@ impl Reader<'_> {
                 verb,
                 Verb::Name | Verb::Describe | Verb::List | Verb::Make | Verb::Take | Verb::Put | Verb::Move
             )
-        })
-    }
-
-    /// The things of the scene that a remark names.
-    pub(super) fn spoken_of(&self, from: usize, end: usize) -> Vec<Reference> {
-        let mut things: Vec<Reference> = Vec::new();
-        let mut at = from;
-        // "There's a hydrant by the fountain": of that one it is spoken.
-        if let Some(words) = longest_phrase(
-            &self.lexemes[from..end],
-            &["theres", "there is", "i see", "we have", "i can see", "there stands"],
-        ) {
-            let mut parser = self.parser(from + words, end);
-            if let Ok(mut thing) = parser.reference(0)
-                && parser.at > from + words
-            {
-                thing.indefinite = false;
-                things.push(thing);
-                at = parser.at;
-            }
-        }
-        while at < end {
-            let is_certain = longest_phrase(
-                &self.lexemes[at..end],
-                &["the", "that", "this", "my", "those", "our", "these"],
-            )
-            .is_some()
-                || self.names.exact(&self.lexemes[at..end]).is_some();
-            let mut parser = self.parser(at, end);
-            match parser.reference(0) {
-                Ok(thing)
-                    if is_certain
-                        && parser.at > at
-                        && !matches!(
-                            thing.target,
-                            Target::It | Target::Them | Target::Here | Target::There
-                        ) =>
-                {
-                    things.push(thing);
-                    at = parser.at;
-                }
-                _ => at += 1,
-            }
-        }
-        things
-    }
-
-    /// The first place that a remark names: "by the fountain" of "there is nowhere to sit by the fountain".
-    fn place_spoken_of(&self, from: usize, end: usize) -> Option<Vec<super::wish::Where>> {
-        (from..end).filter(|at| self.is_place(*at)).find_map(|at| {
-            let mut reader = Reader { at, ..self.up_to(end) };
-            let place = reader
-                .place(end)
-                .ok()
-                .filter(|place| place.anchor().is_some_and(|anchor| !anchor.is_it()))?;
-            Some(vec![place])
         })
     }
 

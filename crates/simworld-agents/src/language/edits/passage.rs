@@ -47,6 +47,11 @@ impl Reader<'_> {
     /// A wish about streets alone, if every word up to the end is about it.
     pub(super) fn passage(&self, end: usize) -> Option<Wish> {
         let end = self.before_politeness(self.at, end);
+        if longest_phrase(&self.lexemes[self.at..end], &["if", "unless", "when", "whenever", "once", "until"])
+            .is_some()
+        {
+            return None;
+        }
         for cut in self.at..end {
             let Some((first, mut at)) = self.street_ref(cut, end) else { continue };
             let mut which = vec![first];
@@ -99,7 +104,7 @@ impl Reader<'_> {
     }
 
     /// A street that is named or described from here on, and where that ends.
-    fn street_ref(&self, at: usize, end: usize) -> Option<(StreetRef, usize)> {
+    pub(super) fn street_ref(&self, at: usize, end: usize) -> Option<(StreetRef, usize)> {
         let streets = self.view.streets?;
         let skip = longest_phrase(&self.lexemes[at..end], &["the", "all of", "the whole of", "the whole"])
             .unwrap_or(0);
@@ -178,6 +183,24 @@ impl Reader<'_> {
             .filter(|words| is_it(*words))
         {
             return Some((StreetRef::It, start + words));
+        }
+        let every = phrase(
+            start,
+            &[
+                "all streets",
+                "all the streets",
+                "all roads",
+                "all the roads",
+                "every street",
+                "every road",
+                "all closed streets",
+                "all the closed streets",
+            ],
+        );
+        if let Some(words) = every.filter(|words| is_it(*words))
+            && (0..start).any(|at| matches!(self.word(at), Some("open" | "reopen" | "unblock")))
+        {
+            return Some((StreetRef::Closed, start + words));
         }
         let mut at = start + phrase(start, BEFORE).unwrap_or(0);
         let nearest = phrase(at, &["nearest", "closest", "nearby"]);

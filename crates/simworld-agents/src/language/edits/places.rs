@@ -56,8 +56,12 @@ impl Reader<'_> {
         if kind == Verb::Put
             && numbers::count(self.rest(end)).is_none()
             && longest_phrase(self.rest(end), ARTICLES).is_none_or(|_| self.peeks("the"))
+            && !self.is_bare_plural(self.at, end)
         {
-            return None;
+            let stop = self.before_politeness(self.at, end);
+            let what = self.things(self.at, stop).ok().filter(|_| self.is_certain(self.at))?;
+            self.at = end;
+            return Some(vec![vec![Wish::Move { what, at }]]);
         }
         let made = self.additions(end).ok()?;
         let placed = |wish| match wish {
@@ -85,6 +89,18 @@ impl Reader<'_> {
         {
             return true;
         }
+        // "Two round tables".
+        let is_shape = self.word(at) == Some("round")
+            && at > 0
+            && (numbers::number(&self.lexemes[at - 1..]).is_some_and(|(_, words)| words == 1)
+                || matches!(
+                    self.word(at - 1),
+                    Some("a" | "the" | "some" | "more" | "big" | "small" | "large" | "new")
+                ))
+            && super::super::lexicon::category(&self.lexemes[at + 1..]).is_some();
+        if is_shape {
+            return false;
+        }
         let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
         if self.seen_from(at, self.lexemes.len()).is_some() {
             return true;
@@ -104,6 +120,10 @@ impl Reader<'_> {
     pub(super) fn places(&mut self, end: usize) -> Result<Vec<Where>, PlanError> {
         let mut places = vec![self.place(end)?];
         loop {
+            if let Some(more) = places.last().cloned().and_then(|last| self.more_anchors(&last, end)) {
+                places.push(more);
+                continue;
+            }
             let start = self.at;
             if let Some(count) = joint(self.rest(end)) {
                 self.at += count;
@@ -195,10 +215,19 @@ impl Reader<'_> {
             Way::Corners => Where::Corners(self.anchor(end)?),
             Way::At => Where::By(self.anchor(end)?),
             Way::Around => Where::Around(self.anchor(end)?),
-            Way::Both => Where::BothSides(self.anchor(end)?),
+            Way::Both => {
+                let ends = (self.at - count..self.at).any(|at| self.word(at) == Some("ends"));
+                match self.anchor(end)? {
+                    Anchor::Street(..) if ends => return Err(self.not_understood("say at which junction")),
+                    anchor => Where::BothSides(anchor),
+                }
+            }
             Way::Middle => Where::Middle(self.anchor(end)?),
             Way::Edge => Where::Edge(self.anchor(end)?),
             Way::Block => Where::Block(self.anchor(end)?),
+            Way::In if self.word(self.at - 1) == Some("across") && self.is_water(self.at, end) => {
+                return Err(self.not_understood("say on which side of the water"));
+            }
             Way::In => Where::To(simworld_core::scene::Relation::Inside, self.anchor(end)?),
             Way::On => match self.anchor(end)? {
                 street @ Anchor::Street(..) => Where::Along(street),
@@ -206,6 +235,13 @@ impl Reader<'_> {
             },
         };
         Ok(place)
+    }
+
+    /// Whether water is named from here on, over which nothing stands.
+    fn is_water(&self, at: usize, end: usize) -> bool {
+        const WATER: &[&str] = &["river", "canal", "stream", "lake", "pond", "water", "brook"];
+        let is = |at: usize| self.word(at).is_some_and(|word| WATER.contains(&word));
+        (at..end.min(at + 3)).any(is)
     }
 
     /// "From the kiosk on the left side", "from the statue go two metres left".
@@ -273,6 +309,9 @@ impl Reader<'_> {
         let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);
         let mut thing = parser.reference(0)?;
         thing.indefinite |= any;
+        if thing.count == Count::All {
+            self.except(&mut parser, &mut thing);
+        }
         self.at = parser.at;
         // "Near the fountain and behind the statue" are two places, and so is "in front of it, behind the tree".
         Ok(Anchor::Thing(thing))
@@ -380,6 +419,19 @@ impl Reader<'_> {
         self.at = start;
         None
     }
+}
+
+/// Whether "on top of it" and "around it" are said of what was made last, for what was named is a house or an area.
+pub(super) fn is_of_the_new(
+    place: &Where,
+    named: Option<&Anchor>,
+    is_large: impl Fn(&Reference) -> bool,
+) -> bool {
+    let stands = matches!(
+        place,
+        Where::To(Relation::OnTopOf, anchor) | Where::Around(anchor) if anchor.is_it()
+    );
+    stands && matches!(named, Some(Anchor::Thing(thing)) if is_large(thing))
 }
 
 /// Whether a reference says nothing but "it" or "there".

@@ -146,7 +146,27 @@ impl Reader<'_> {
         let (at, rest) = (self.at, self.rest(end));
         let whole = |phrases: &[&str]| !rest.is_empty() && longest_phrase(rest, phrases) == Some(rest.len());
         let own = || what.to_vec();
-        let wish = if whole(GONE) {
+        // "Ada wants to sit down" asks for no end of her.
+        let poses = (cut..at).any(|at| {
+            matches!(
+                self.word(at),
+                Some(
+                    "sit"
+                        | "sits"
+                        | "sitting"
+                        | "lie"
+                        | "stand"
+                        | "stands"
+                        | "walk"
+                        | "rest"
+                        | "look"
+                        | "looks"
+                        | "hang"
+                        | "work"
+                )
+            )
+        });
+        let wish = if whole(GONE) && !poses {
             Some(Wish::Remove { what: own() })
         } else if whole(TRADES) {
             self.pair_up(from, cut).ok()
@@ -247,7 +267,12 @@ impl Reader<'_> {
     }
 
     /// "Ada and Bo should face each other".
-    fn face_each_other(&self, what: &[Reference], at: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+    pub(super) fn face_each_other(
+        &self,
+        what: &[Reference],
+        at: usize,
+        end: usize,
+    ) -> Option<Vec<Vec<Wish>>> {
         const EACH: &[&str] = &[
             "face each other",
             "face one another",
@@ -281,7 +306,7 @@ impl Reader<'_> {
     }
 
     /// "The museum would benefit from a bench out front"; the reader stands behind the small words.
-    fn lacks(&self, (from, cut): (usize, usize), end: usize) -> Option<Wish> {
+    pub(super) fn lacks(&self, (from, cut): (usize, usize), end: usize) -> Option<Wish> {
         let words = longest_phrase(&self.lexemes[cut..end], LACKS)?;
         let thing = self.one_of(from, cut).ok()?;
         if let Some(paint) = self.paint_to(cut + words, end) {
@@ -289,7 +314,23 @@ impl Reader<'_> {
         }
         let anchor = Anchor::Thing(thing);
         let reader = self.up_to(end);
-        reader.given_to(&anchor, cut + words, end)
+        reader.given_to(&anchor, cut + words, end).or_else(|| reader.brought_to(&anchor, cut + words, end))
+    }
+
+    /// "Carol wants to have the dog beside her": what is there, at an anchor.
+    fn brought_to(&self, anchor: &Anchor, at: usize, end: usize) -> Option<Wish> {
+        if !self.is_certain(at) {
+            return None;
+        }
+        (at + 1..end).filter(|cut| self.is_place(*cut)).find_map(|cut| {
+            let what = self.things(at, cut).ok()?;
+            let mut places = self.places_to(cut, end)?;
+            let is_hers = places.iter().any(|place| place.anchor().is_some_and(|anchor| anchor.is_it()));
+            for place in &mut places {
+                place.means(&mut Some(anchor.clone()));
+            }
+            is_hers.then_some(Wish::Move { what, at: places })
+        })
     }
 
     /// A new thing at an anchor: all the words from here.

@@ -4,15 +4,16 @@ use std::ops::ControlFlow;
 
 use simworld_core::geometry::{Aabb, Point2, Vector2, direction, yaw_of};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, EntityRef, Relation, Scene};
+use simworld_core::scene::{EntityKind, EntityRef, Scene};
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Choice, Count, Reference, Stands, Target};
-use super::super::lexer::lex;
+use super::super::lexer::{Token, lex};
+use super::super::lexicon::category;
 use super::super::resolve::{Purpose, View};
 use super::places::is_pronoun;
 use super::sky::changed;
-use super::wish::{Anchor, NewThing, Where, Wish};
+use super::wish::{NewThing, Where, Wish};
 use super::{Focus, Reading, view_of};
 use crate::editing::{Edit, EditError, Stand, Stock};
 
@@ -70,15 +71,14 @@ impl Finder<'_> {
             Wish::Remove { what } => Edit::Remove { things: self.all(what)? },
             Wish::Move { what, at } => return self.moved(what, at),
             Wish::Replace { what, with } => {
-                let thing = self.one(what)?;
-                let point = self.entity(thing, what)?.planar();
-                let stands = vec![Stand::At { point }];
-                let add = Edit::Add { make: with.make(self.stock)?, count: with.count, stands };
-                return Ok(vec![Edit::Remove { things: vec![thing] }, add]);
+                return self.replaced(what, with);
             }
             Wish::Rotate { what, angle } => Edit::Rotate { things: self.all(what)?, angle: *angle },
             Wish::Face { what, towards } => {
-                Edit::Face { things: self.all(what)?, towards: self.one(towards)? }
+                let (things, towards) = (self.all(what)?, self.one(towards)?);
+                // "Move Fay next to Gus and make her face him": nobody faces themselves.
+                let other = self.focus.beside.filter(|_| things == [towards]);
+                Edit::Face { things, towards: other.unwrap_or(towards) }
             }
             Wish::FaceCompass { what, compass } => {
                 let turn = |thing: EntityId| {
@@ -103,24 +103,44 @@ impl Finder<'_> {
                 };
                 Edit::Count { what: what.text.clone(), things }
             }
+            Wish::CountAll { what, text } => {
+                let mut things = Vec::new();
+                for one in what {
+                    let all = Reference { count: Count::All, ..one.clone() };
+                    match self.candidates(&all) {
+                        Err(EditError::NotFound { .. }) => {}
+                        found => things.extend(found?),
+                    }
+                }
+                things.sort_unstable();
+                things.dedup();
+                Edit::Count { what: text.clone(), things }
+            }
             Wish::List { what, at } => Edit::List { things: self.listed(what.as_ref(), at)? },
             Wish::Describe { what } => Edit::Describe { thing: self.one(what)? },
             Wish::Row { thing, line, spacing } => self.row(thing, line, *spacing)?,
             Wish::Passage { which, passage } => self.passage(which, *passage)?,
+            Wish::Nothing { why } => Edit::Leave { why: why.clone() },
+            Wish::PaintLike { what, like } => self.painted_like(what, like)?,
+            Wish::AskPassage { which } => self.passages_told(which)?,
+            Wish::AskSky => self.sky_told(),
+            Wish::When { sky, so, then } => return self.when(sky, *so, then),
+            Wish::WhenPassage { which, closed, then } => return self.when_passage(which, *closed, then),
+            Wish::All(wishes) => return self.all_of(wishes),
             Wish::Given { what, least, there, then } => return self.given(what, (*least, *there), then),
             Wish::Sky(skies) => Edit::SetEnvironment(changed(*self.scene.environment(), skies)),
         };
         Ok(vec![edit])
     }
 
-    fn added(&self, things: &[NewThing], at: &[Where]) -> Result<Vec<Edit>, EditError> {
+    pub(super) fn added(&self, things: &[NewThing], at: &[Where]) -> Result<Vec<Edit>, EditError> {
         if let Some(each) = self.at_each(things, at)? {
             return Ok(each);
         }
         if let ([thing], [Where::Corners(anchor)]) = (things, at)
             && thing.count == 1
         {
-            let four = NewThing { count: 4, ..thing.clone() };
+            let four = NewThing { count: 4, many: false, ..thing.clone() };
             return self.added(&[four], &[Where::Corner(anchor.clone())]);
         }
         if let Some(sides) = self.at_two_sides(things, at)? {
@@ -131,52 +151,13 @@ impl Finder<'_> {
         }
         let stands = self.stands(at, &[])?;
         let add = |thing: &NewThing| {
-            Ok(Edit::Add { make: thing.make(self.stock)?, count: thing.count, stands: stands.clone() })
+            let make = thing.make(self.stock)?;
+            // "Stairs" are one thing.
+            let is_one = thing.words.last().is_some_and(|word| make.asset.ends_with(word.as_str()));
+            let count = if thing.many && !is_one { super::ground::ROW } else { thing.count };
+            Ok(Edit::Add { make, count, stands: stands.clone() })
         };
         things.iter().map(add).collect()
-    }
-
-    /// "A lamp on either side of the door": one on its left, one on its right, or half of them.
-    fn at_two_sides(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Vec<Edit>>, EditError> {
-        let ([thing], [Where::BothSides(anchor @ (Anchor::Thing(_) | Anchor::It))]) = (things, at) else {
-            return Ok(None);
-        };
-        let is_area =
-            self.scene.entity(self.anchor(anchor, &[])?).is_some_and(|one| one.kind == EntityKind::Ground);
-        if is_area || thing.count > 2 && thing.count % 2 == 1 {
-            return Ok(None);
-        }
-        let thing = NewThing { count: thing.count.div_ceil(2), ..thing.clone() };
-        let mut edits = Vec::new();
-        for relation in [Relation::LeftOf, Relation::RightOf] {
-            edits.extend(self.edits(&Wish::Add {
-                things: vec![thing.clone()],
-                at: vec![Where::To(relation, anchor.clone())],
-            })?);
-        }
-        Ok(Some(edits))
-    }
-
-    /// "A tree in front of each house": the same for every one of them.
-    fn at_each(&self, things: &[NewThing], at: &[Where]) -> Result<Option<Vec<Edit>>, EditError> {
-        let is_each = |place: &Where| match place.anchor() {
-            Some(Anchor::Thing(anchor)) => {
-                let several = anchor.count == Count::All && anchor.choice == Choice::Open;
-                several && !matches!(place, Where::Between(..)) && anchor.target != Target::Them
-            }
-            _ => false,
-        };
-        let [place] = at else { return Ok(None) };
-        let Some(Anchor::Thing(anchor)) = place.anchor().filter(|_| is_each(place)) else { return Ok(None) };
-        let mut edits = Vec::new();
-        for id in self.candidates(&anchor)? {
-            let mut place = place.clone();
-            if let Some(anchor) = place.anchor_mut() {
-                *anchor = Anchor::Thing(Reference::to(Target::Id(id), id.to_string()));
-            }
-            edits.extend(self.edits(&Wish::Add { things: things.to_vec(), at: vec![place] })?);
-        }
-        Ok(Some(edits))
     }
 
     fn moved(&self, what: &[Reference], at: &[Where]) -> Result<Vec<Edit>, EditError> {
@@ -227,27 +208,6 @@ impl Finder<'_> {
             [first, second] => Ok(Edit::Swap { one: first, other: second }),
             _ => Err(self.ambiguous(one, &both)),
         }
-    }
-
-    /// As many more as there are, in the relation that is said of them, or near each.
-    fn multiplied(&self, what: &Reference, times: u32) -> Result<Vec<Edit>, EditError> {
-        let things = self.candidates(what)?;
-        let stand = match &what.relation {
-            Some(Stands::OnStreet(roads)) => Some(Stand::AlongRoad { roads: roads.clone() }),
-            Some(Stands::To(relation, anchor)) => {
-                Some(Stand::To { relation: *relation, anchor: self.one(anchor)? })
-            }
-            _ => None,
-        };
-        let more = |thing: EntityId| {
-            let near = Stand::To { relation: Relation::Near, anchor: thing };
-            Edit::Copy {
-                thing,
-                count: times.saturating_sub(1).max(1),
-                stands: vec![stand.clone().unwrap_or(near)],
-            }
-        };
-        Ok(things.into_iter().map(more).collect())
     }
 
     fn listed(&self, what: Option<&Reference>, at: &[Where]) -> Result<Vec<EntityId>, EditError> {
@@ -327,6 +287,16 @@ impl Finder<'_> {
             let is_one = except.count == Count::One && except.choice != Choice::Open;
             let spared = if is_one { vec![self.one(except)?] } else { self.candidates(except)? };
             things.retain(|thing| !spared.contains(thing));
+        }
+        // "The car by the shop": of cars not next to it, the only one near it.
+        if things.is_empty()
+            && let Some(Stands::To(simworld_core::scene::Relation::NextTo, anchor)) = &reference.relation
+            && reference.text.contains(" by ")
+        {
+            let near = Stands::To(simworld_core::scene::Relation::Near, anchor.clone());
+            let text = reference.text.replace(" by ", " near ");
+            let around = self.candidates(&Reference { relation: Some(near), text, ..reference.clone() });
+            things = around.ok().filter(|found| found.len() == 1).unwrap_or_default();
         }
         if things.is_empty() {
             return Err(self.view.find(reference, Purpose::Any).err().map_or_else(
@@ -412,7 +382,18 @@ impl Finder<'_> {
         const ABOVE: &[&str] = &["moon", "sun", "sky", "star", "stars", "sea", "horizon", "cloud", "clouds"];
         let Target::Named(_) = &reference.target else { return Ok(()) };
         let text = reference.text.trim();
-        let is_common = lex(text).first().is_some_and(|word| super::follow::species(word).is_some())
+        let is_whole = [
+            "campus",
+            "the campus",
+            "harbour",
+            "the harbour",
+            "the old town",
+            "the quarter",
+            "the town",
+            "town",
+        ];
+        let is_common = is_whole.contains(&text.to_lowercase().as_str())
+            || lex(text).first().is_some_and(|word| super::follow::species(word).is_some())
             || ABOVE.contains(&text);
         let is_word = !text.is_empty() && text.chars().all(char::is_lowercase);
         if !is_common || !is_word {
@@ -429,29 +410,38 @@ impl Finder<'_> {
         Ok(())
     }
 
-    fn entity(&self, id: EntityId, what: &Reference) -> Result<EntityRef<'_>, EditError> {
+    pub(super) fn entity(&self, id: EntityId, what: &Reference) -> Result<EntityRef<'_>, EditError> {
         let missing = || EditError::NotFound { wanted: what.text.clone(), near: String::new() };
         self.scene.entity(id).ok_or_else(missing)
     }
 }
 
 /// Whether the noun is in the plural: "the trash bins".
-fn plural(reference: &Reference) -> bool {
+pub(super) fn plural(reference: &Reference) -> bool {
     let Target::Any(class) = &reference.target else { return false };
     let lower = reference.text.to_lowercase();
     let head = lower.split([',', '.']).next().unwrap_or_default();
-    let words: Vec<&str> = head.split_whitespace().collect();
+    let head = lex(head);
     let is_singular = |word: &str| class.words.iter().any(|known| known.rsplit(' ').next() == Some(word));
     let many = ["people", "everybody", "everyone", "men", "women", "kids"];
-    let is_plural = |word: &&str| {
+    let is_plural = |word: &str| {
         let stems = [word.strip_suffix("es"), word.strip_suffix('s')];
         let of_y = word.strip_suffix("ies").map(|stem| format!("{stem}y"));
         !is_singular(word)
             && (stems.into_iter().flatten().any(is_singular) || of_y.is_some_and(|word| is_singular(&word)))
-            || many.contains(word)
+            || many.contains(&word)
     };
     // The first noun of the class is what the phrase is about; what follows belongs to its relation.
-    words.iter().find(|word| is_singular(word) || is_plural(word)).is_some_and(is_plural)
+    let said = |at: usize| match &head.get(at)?.token {
+        Token::Word(word) => Some(word.as_str()),
+        _ => None,
+    };
+    let last = |at: usize| {
+        let words =
+            category(&head[at..]).filter(|(own, _)| std::ptr::eq(*own, *class)).map_or(1, |found| found.1);
+        said(at + words - 1).filter(|word| is_singular(word) || is_plural(word))
+    };
+    (0..head.len()).find_map(last).is_some_and(is_plural)
 }
 
 impl From<PlanError> for EditError {

@@ -21,8 +21,8 @@ const APART: &[&str] = &["apart", "apart from each other", "from each other", "b
     "between one and the next", "apart from one another", "between every two"];
 /// That things stand in a line.
 #[rustfmt::skip]
-const ROWS: &[&str] = &["a row of", "a line of", "in a row", "in a line", "a straight line of", "a queue of", "in a straight line", "a chain of",
-    "an avenue of", "in line", "rows of", "evenly spaced",
+const ROWS: &[&str] = &["a row of", "a line of", "in a row", "in a line", "in an even row", "in an evenly spaced row", "in a neat row", "in one row", "in a single row", "in a tidy row", "in a long row", "in an even line", "in a neat line", "in even rows", "a straight line of", "a queue of", "in a straight line", "a chain of",
+    "an avenue of", "in line", "rows of", "evenly spaced", "evenly",
     "evenly distributed", "at even distances", "at equal distances", "equally spaced", "at regular intervals", "spaced evenly",
     "evenly spread", "spread evenly", "lined up", "one after another", "one after the other"];
 /// That things stand in a circle.
@@ -111,15 +111,23 @@ impl Said {
         let Wish::Add { mut things, mut at } = wish else { return None };
         let ([thing], [line]) = (&mut things[..], &mut at[..]) else { return None };
         if let Some(count) = self.count {
-            thing.count = count;
+            (thing.count, thing.many) = (count, false);
         }
         let spacing = self.every.map_or(Spacing::Count(thing.count), Spacing::Every);
+        if thing.many && self.every.is_none() && !self.in_ring {
+            // "A row of trees along Oak Street": as many as there is room for.
+            *line = along(line.clone()).unwrap_or_else(|| line.clone());
+            return Some(Wish::Add { things, at });
+        }
         if self.every.is_some() {
             // "Two benches every twenty metres" is not understood, rather than half of it.
             let is_plain = thing.count == 1;
             *line = along(line.clone()).filter(|_| is_plain)?;
         } else if self.in_ring {
             *line = Where::Around(anchor_of(line)?);
+            if thing.many {
+                return Some(Wish::Add { things, at });
+            }
         } else if let Some(line_up) = along(line.clone()) {
             *line = line_up;
         } else {
@@ -134,9 +142,12 @@ impl Said {
 /// The line that a place is, if things can be lined up there.
 fn along(place: Where) -> Option<Where> {
     match place {
-        Where::Along(_) | Where::Between(..) | Where::BothSides(_) | Where::Around(_) => Some(place),
-        Where::Compass(_, anchor @ Anchor::Street(..))
-        | Where::By(anchor)
+        Where::Along(_)
+        | Where::Between(..)
+        | Where::BothSides(_)
+        | Where::Around(_)
+        | Where::Compass(_, Anchor::Street(..)) => Some(place),
+        Where::By(anchor)
         | Where::Edge(anchor)
         | Where::To(simworld_core::scene::Relation::NextTo, anchor) => Some(Where::Along(anchor)),
         Where::To(simworld_core::scene::Relation::OnTopOf, anchor @ Anchor::Street(..)) => {
@@ -161,7 +172,12 @@ fn spacing(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
     if let Some(before) = longest_phrase(lexemes, EVERY)
         && let Some((every, words)) = numbers::length(&lexemes[before..]).or_else(|| unit(&lexemes[before..]))
     {
-        let after = longest_phrase(&lexemes[before + words..], APART).unwrap_or(0);
+        let behind = &lexemes[before + words..];
+        // "Every two metres between the kiosk and the statue" says where.
+        let is_where = |after: &usize| {
+            *after == 1 && longest_phrase(behind, &["between"]).is_some() && behind.len() > *after
+        };
+        let after = longest_phrase(behind, APART).filter(|after| !is_where(after)).unwrap_or(0);
         return Some((every, before + words + after));
     }
     let with = longest_phrase(lexemes, &["with", "leaving", "at", "in", "keep", "leave"]).unwrap_or(0);

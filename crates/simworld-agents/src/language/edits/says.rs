@@ -57,7 +57,7 @@ pub(super) const LACKS: &[&str] = &["could use", "needs is", "wants is", "lacks 
     "would be glad of", "would be glad about", "wanna have", "want to have", "wants to have", "would like to have", "would love to have",
     "needs to have", "need to have", "deserves to have", "should receive", "receives", "is to get", "is to have", "shall have", "might use",
     "might like", "will need", "will get", "has to get", "must get", "still needs", "really needs", "badly needs", "desperately needs",
-    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due", "could have", "can have", "may have", "might have", "would have", "are due", "have to have", "would do well with", "would gain from", "will have", "should be provided with", "is to be given", "shall receive", "is to receive", "are to receive", "are to have", "are to get", "must receive", "would be served by", "would be improved by", "merits", "warrants", "could take", "expects", "craves", "seeks", "seek"];
+    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due", "could have", "can have", "may have", "might have", "would have", "are due", "have to have", "would do well with", "would gain from", "will have", "should be provided with", "is to be given", "shall receive", "is to receive", "are to receive", "are to have", "are to get", "must receive", "would be served by", "would be improved by", "merits", "warrants", "could take", "expects", "craves", "seeks", "seek", "fancies", "fancy", "could go for", "hankers after", "yearns for", "yearn for", "hopes for", "hope for", "dreams of", "needs to get", "keep asking for", "keeps asking for", "kept asking for", "keep begging for", "keeps begging for", "are begging for", "have been begging for", "keep requesting", "ask us for", "asks us for", "asked for", "asked us for", "have asked for", "has asked for", "keep wanting", "want us to have", "never stop asking for", "are crying out for", "are longing for", "are hoping for", "is hoping for", "are waiting for"];
 
 /// What a statement is about.
 pub(super) enum Subject {
@@ -75,7 +75,12 @@ impl<'a> Reader<'a> {
     /// A statement that takes all the words up to the end.
     pub(super) fn says(&self, from: usize, end: usize, mood: Mood) -> Option<Vec<Vec<Wish>>> {
         let end = self.before_politeness(from, end);
-        if let Some(wish) = self.goes(from, end) {
+        let fancied = |cut: usize| {
+            longest_phrase(&self.lexemes[cut..end], LACKS).and_then(|_| self.lacks((from, cut), end))
+        };
+        if let Some(wish) =
+            self.goes(from, end).or_else(|| (from + 1..end.min(from + MOST_NAMED)).find_map(fancied))
+        {
             return Some(vec![vec![wish]]);
         }
         (from + 1..end).find_map(|cut| {
@@ -253,7 +258,7 @@ impl<'a> Reader<'a> {
         (start + 1..end.min(start + MOST_NAMED)).find_map(|cut| {
             let words = longest_phrase(&self.lexemes[cut..end], LACKS)?;
             let at = cut + words;
-            if !self.is_nobody_here(start, cut) || at >= end {
+            if !self.is_nobody_here(start, cut) || at >= end || self.word(at) == Some("somewhere") {
                 return None;
             }
             if self.is_definite(at) && !self.is_bare_plural(at, end) {

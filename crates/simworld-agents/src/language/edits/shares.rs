@@ -55,7 +55,7 @@ impl Reader<'_> {
         }
         let (count, words) = any_count(rest)?;
         let behind = from + words;
-        let counted = NewThing { count, ..thing.clone() };
+        let counted = NewThing { count, many: false, ..thing.clone() };
         if behind == end || longest_phrase(&self.lexemes[behind..end], OF_THEM) == Some(end - behind) {
             return (count > 1).then(|| vec![add(counted, at.to_vec())]);
         }
@@ -90,7 +90,7 @@ impl Reader<'_> {
     fn share(&self, thing: &NewThing, at: &[Where], from: usize, end: usize) -> Option<(u32, Wish)> {
         let (count, words) = any_count(&self.lexemes[from..end])?;
         let mut next = from + words;
-        let mut thing = NewThing { count, ..thing.clone() };
+        let mut thing = NewThing { count, many: false, ..thing.clone() };
         if let Some((paint, words)) = longest(&self.lexemes[next..end], PAINTS) {
             (thing.paint, next) = (Some(paint), next + words);
             next += longest_phrase(&self.lexemes[next..end], &["one", "ones"]).unwrap_or(0);

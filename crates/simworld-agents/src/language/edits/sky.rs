@@ -25,8 +25,21 @@ impl Reader<'_> {
             "lift",
             "halt",
             "switch off",
+            "it shouldnt",
+            "it should not",
+            "it must not",
+            "it mustnt",
+            "dont let it",
+            "do not let it",
         ];
+        const DENIES: &[&str] = &["not", "dont", "never", "shouldnt", "mustnt", "doesnt", "isnt"];
         let mut at = self.at;
+        if matches!(self.word(at), Some("if" | "unless" | "when" | "whenever" | "once"))
+            || longest_phrase(&self.lexemes[at..end], &["clear everything", "clear all", "clear it all"])
+                .is_some()
+        {
+            return None;
+        }
         let mut found = Vec::new();
         let mut stops = false;
         while at < end {
@@ -34,6 +47,19 @@ impl Reader<'_> {
             if matches!(rest[0].token, Token::Comma | Token::Break) {
                 at += 1;
                 continue;
+            }
+            // "Clear the fog" is no fog, and "clear" is a sky.
+            let the =
+                |from: usize| longest_phrase(&rest[from..], &["the", "this", "that", "all the"]).unwrap_or(0);
+            if let Some(words) = longest_phrase(rest, STOPS)
+                && longest(&rest[words + the(words)..], ENDINGS).is_some()
+            {
+                stops = true;
+                at += words + the(words);
+                continue;
+            }
+            if longest_phrase(rest, STOPS).is_none() && longest_phrase(rest, DENIES).is_some() {
+                return None;
             }
             let ending = longest(rest, ENDINGS).filter(|_| stops);
             let sky = longest(rest, SKIES);

@@ -7,7 +7,7 @@ use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::CATEGORIES;
 use super::super::names::Names;
 use super::super::paint::PAINTS;
-use super::super::spelling::{correct_but, is_known};
+use super::super::spelling::{NO_SLIP, correct_but, is_known};
 use super::super::streets::StreetNames;
 use super::super::verbs::base_form;
 use super::words;
@@ -184,7 +184,9 @@ fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
         return None;
     }
     let allowed = if length >= LONG { 2 } else { 1 };
-    let near = |known: &&str| known.chars().count().abs_diff(length) <= allowed && known.len() >= 3;
+    let near = |known: &&str| {
+        known.chars().count().abs_diff(length) <= allowed && known.len() >= 3 && !NO_SLIP.contains(known)
+    };
     let own = own.all();
     let ranked = own.into_iter().filter(near).map(|known| {
         let slip = if letters(known) == letters(word) {

@@ -13,6 +13,18 @@ impl Finder<'_> {
         for place in at {
             let stand = match place {
                 Where::To(relation, anchor) => match anchor {
+                    Anchor::Street(name, _) if matches!(relation, Relation::LeftOf | Relation::RightOf) => {
+                        let what = format!("to tell the left of {name} from its right");
+                        let why = "say its north, south, east or west side".to_owned();
+                        return Err(EditError::Impossible { what, why });
+                    }
+                    Anchor::Street(name, _)
+                        if matches!(relation, Relation::FarFrom | Relation::Behind | Relation::InFrontOf) =>
+                    {
+                        let what = format!("to stand so to {name}");
+                        let why = "a street is long; say along it, or name a thing".to_owned();
+                        return Err(EditError::Impossible { what, why });
+                    }
                     Anchor::Street(_, roads) => Stand::AlongRoad { roads: roads.clone() },
                     _ => self.to(*relation, self.anchor(anchor, moved)?)?,
                 },
@@ -29,7 +41,10 @@ impl Finder<'_> {
                 Where::Corner(anchor) | Where::Corners(anchor) => {
                     Stand::AtCornerOf { anchor: self.anchor(anchor, moved)? }
                 }
-                Where::Compass(_, Anchor::Street(_, roads)) => Stand::AlongRoad { roads: roads.clone() },
+                Where::Compass(compass, Anchor::Street(_, roads)) => {
+                    stands.push(Stand::AlongRoad { roads: roads.clone() });
+                    Stand::OnSide { roads: roads.clone(), heading: compass.heading() }
+                }
                 Where::Compass(compass, anchor) => {
                     Stand::Towards { heading: compass.heading(), anchor: self.anchor(anchor, moved)? }
                 }

@@ -11,7 +11,13 @@ use super::words::ABOUT_IT;
 impl Reader<'_> {
     /// "The museum could use a bench out front", "give the café a tree at the back".
     pub(super) fn lacking(&mut self, start: usize, end: usize) -> Option<Wish> {
-        let gives = longest_phrase(&self.lexemes[start..end], &["give", "giving"]);
+        let asks = longest(&self.lexemes[start..end], super::words::VERBS).is_some_and(|(verb, _)| {
+            matches!(
+                verb,
+                super::words::Verb::List | super::words::Verb::Count | super::words::Verb::Describe
+            )
+        });
+        let gives = longest_phrase(&self.lexemes[start..end], &["give", "giving"]).filter(|_| !asks);
         let from = start + gives.unwrap_or(0);
         if let Some(wish) = gives.and_then(|_| self.given_a_name(from, end)) {
             self.at = end;
@@ -34,10 +40,24 @@ impl Reader<'_> {
             };
             self.at = cut + count;
             if self.is_definite(self.at) {
+                // "Give Bo the chair".
+                if gives.is_some()
+                    && self.is_certain(self.at)
+                    && let Anchor::Thing(whose) = &anchor
+                    && !super::says::is_it(whose)
+                    && let Ok(what) = self.things(self.at, end)
+                {
+                    self.at = end;
+                    return Some(Wish::Move { what, at: vec![Where::By(anchor)] });
+                }
                 continue;
             }
             let Ok(thing) = self.new_thing(end) else { continue };
             if let Some(at) = self.one_there(end, &anchor) {
+                self.at = end;
+                return Some(Wish::Add { things: vec![thing], at });
+            }
+            if let Some(at) = self.aside_place(end, &anchor) {
                 self.at = end;
                 return Some(Wish::Add { things: vec![thing], at });
             }
@@ -65,7 +85,7 @@ impl Reader<'_> {
         (from + 1..end).find_map(|cut| {
             let words = longest_phrase(&self.lexemes[cut..end], NAME)?;
             let what = self.one_of(from, cut).ok()?;
-            let start = cut + words;
+            let start = (cut + words..end).find(|at| !super::parts::is_mark(&self.lexemes[*at]))?;
             let quoted = (start..end).find_map(|at| self.quoted(at));
             let name = quoted.unwrap_or_else(|| self.written(start, self.before_politeness(start, end)));
             (!name.is_empty()).then_some(Wish::Name { what, name })
@@ -86,6 +106,32 @@ impl Reader<'_> {
             "place it",
         ]);
         let mut at = puts.then(|| reader.places(end).ok()).flatten().filter(|_| reader.at >= end)?;
+        for place in &mut at {
+            place.means(&mut Some(anchor.clone()));
+        }
+        Some(at)
+    }
+
+    /// "..., right beside him": a place behind a mark.
+    fn aside_place(&self, end: usize, anchor: &Anchor) -> Option<Vec<Where>> {
+        let mut reader = Reader { at: self.at, ..*self };
+        while reader.at < end && super::parts::is_mark(&self.lexemes[reader.at]) {
+            reader.at += 1;
+        }
+        if reader.at == self.at {
+            return None;
+        }
+        reader.eat_any(&[
+            "right",
+            "just",
+            "directly",
+            "and put it",
+            "put it",
+            "preferably",
+            "ideally",
+            "somewhere",
+        ]);
+        let mut at = reader.places_to(reader.at, end)?;
         for place in &mut at {
             place.means(&mut Some(anchor.clone()));
         }

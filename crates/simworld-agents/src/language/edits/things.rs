@@ -1,7 +1,9 @@
 //! New things: the noun phrase of what is to be made, and lists of them with their places.
 
+use simworld_core::scene::EntityKind;
 use simworld_core::seam::PlanError;
 
+use super::super::clause::{Reference, Target};
 use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
@@ -18,6 +20,20 @@ pub(super) const ARTICLES: &[&str] = &["a", "an", "some", "another", "one", "the
     "yet another", "a few", "a second", "a third", "a fourth", "a fifth", "a further", "an extra", "an additional", "a pair of", "a couple of", "me", "us", "of", "up", "down", "a row of", "a line of",
     "a group of", "a bunch of", "any", "also", "like", "maybe", "about", "to see", "to have", "in", "also a",
     "around", "see", "please", "yet another", "one more of", "just one", "just a", "possibly", "ideally", "preferably"];
+/// Some, and not many.
+const FEW: &[&str] = &[
+    "a few",
+    "several",
+    "a handful of",
+    "a number of",
+    "a few more",
+    "several more",
+    "quite a few",
+    "a bunch of",
+    "a group of",
+    "a cluster of",
+    "a small group of",
+];
 /// How something is to be where it stands.
 #[rustfmt::skip]
 const POSTURES: &[&str] = &["standing", "sitting", "waiting", "parked", "placed", "located", "leaning", "lying", "planted", "installed", "that stands", "which stands",
@@ -58,6 +74,16 @@ impl Reader<'_> {
             if whose.is_some() {
                 anchor.clone_from(&whose);
             }
+            if let Some(each) = self.each_place(end) {
+                let one = |thing: &NewThing| NewThing { many: false, ..thing.clone() };
+                let things: Vec<NewThing> = things.iter().map(one).collect();
+                last = things.last().cloned();
+                wishes.extend(
+                    each.into_iter().map(|place| vec![Wish::Add { things: things.clone(), at: vec![place] }]),
+                );
+                self.skip_joints_to(end);
+                continue;
+            }
             let at = if let Some(whose) = whose.filter(|_| self.at >= end || !self.is_place(self.at)) {
                 self.at = from;
                 vec![Where::By(whose)]
@@ -65,7 +91,9 @@ impl Reader<'_> {
                 let mut at = self.places(end)?;
                 // "A tree behind the school and a bench in front of it": of the school.
                 for place in &mut at {
-                    place.means(&mut anchor);
+                    if !super::places::is_of_the_new(place, anchor.as_ref(), |thing| self.is_large(thing)) {
+                        place.means(&mut anchor);
+                    }
                 }
                 at
             } else {
@@ -76,22 +104,37 @@ impl Reader<'_> {
                 return Err(self.not_understood("say from what it is so far"));
             }
             last = things.last().cloned();
+            // "Deliveries to the hall: a pallet behind it" asks for no deliveries.
+            let colon =
+                self.at > 0 && self.words[self.lexemes[self.at - 1].end..].trim_start().starts_with(':');
+            if wishes.is_empty() && !at.is_empty() && things.iter().all(|thing| thing.many) && colon {
+                return Err(self.not_understood("say how many"));
+            }
             // "Benches: one by the fountain, one by the kiosk".
             let is_topic =
                 wishes.is_empty() && at.is_empty() && things.len() == 1 && self.is_topic(last.as_ref(), end);
             if is_topic {
-                last = last.map(|thing| NewThing { count: 1, ..thing });
+                last = last.map(|thing| NewThing { count: 1, many: false, ..thing });
                 self.skip_joints_to(end);
                 continue;
             }
-            wishes.push(vec![Wish::Add { things, at }]);
+            if super::shared::is_one_each(&things, &at) {
+                let one = |thing: &NewThing| NewThing { many: false, ..thing.clone() };
+                let things: Vec<NewThing> = things.iter().map(one).collect();
+                wishes.extend(
+                    at.into_iter().map(|place| vec![Wish::Add { things: things.clone(), at: vec![place] }]),
+                );
+            } else {
+                wishes.push(vec![Wish::Add { things, at }]);
+            }
             self.skip_joints_to(end);
         }
+        super::shared::share_back(&mut wishes);
         if wishes.is_empty() { Err(self.not_understood("say what to add")) } else { Ok(wishes) }
     }
 
     /// New things that share a place: "two benches, a bin and a lamp", "a table a lamp and a bin".
-    fn listed(&mut self, last: Option<&NewThing>, end: usize) -> Result<Vec<NewThing>, PlanError> {
+    pub(super) fn listed(&mut self, last: Option<&NewThing>, end: usize) -> Result<Vec<NewThing>, PlanError> {
         let mut things = vec![self.another(end, last).map_or_else(|| self.new_thing(end), Ok)?];
         while let Some(count) = joint(self.rest(end)).or_else(|| begins_another(self.rest(end)).then_some(0))
         {
@@ -115,6 +158,18 @@ impl Reader<'_> {
         let there = if is_there { self.places_to(self.at, self.at + 1) } else { None };
         self.at += usize::from(there.is_some());
         there
+    }
+
+    /// Whether a thing is a building or an area.
+    fn is_large(&self, thing: &Reference) -> bool {
+        match &thing.target {
+            Target::Any(class) => class.is_place() || class.is_area(),
+            Target::Named(ids) => ids
+                .iter()
+                .filter_map(|id| self.view.scene.entity(*id))
+                .any(|entity| matches!(entity.kind, EntityKind::Building | EntityKind::Ground)),
+            _ => false,
+        }
     }
 
     /// Whether what was named is only what "one" stands for behind it.
@@ -147,7 +202,7 @@ impl Reader<'_> {
             return None;
         }
         self.at += count;
-        Some(NewThing { count: number, ..last.clone() })
+        Some(NewThing { count: number, many: false, ..last.clone() })
     }
 
     /// "A parasol for the café": whose it is to be, if that is a thing of the scene.
@@ -191,6 +246,7 @@ impl Reader<'_> {
         let mut thing = NewThing {
             words: Vec::new(),
             count: 1,
+            many: false,
             paint: None,
             scale: 1.0,
             name: None,
@@ -209,9 +265,13 @@ impl Reader<'_> {
                 self.at += 1;
             } else if let Some((count, words)) = times_behind(rest) {
                 (thing.count, self.at) = (count, self.at + words);
+            } else if let Some(words) = longest_phrase(rest, FEW).filter(|_| thing.words.is_empty()) {
+                (thing.count, self.at) = (super::ground::ROW, self.at + words);
             } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
                 self.at += words;
-            } else if let Some(words) = longest_phrase(rest, CALLED) {
+            } else if let Some(words) =
+                longest_phrase(rest, CALLED).filter(|_| self.word(start) != Some("the"))
+            {
                 self.at += words;
                 thing.name = Some(self.new_name(end));
                 break;
@@ -237,11 +297,36 @@ impl Reader<'_> {
             }
         }
         thing.text = self.written(start, self.at);
-        if thing.words.is_empty() || thing.words.iter().any(|word| NO_NOUNS.contains(&word.as_str())) {
+        thing.many = thing.count == 1 && self.is_of_many(start, &thing);
+        if is_mass(&thing) && !self.says_one(start)
+            || thing.words.is_empty()
+            || thing.words.iter().any(|word| NO_NOUNS.contains(&word.as_str()))
+        {
             self.at = start;
             return Err(self.not_understood("say what to add"));
         }
         Ok(thing)
+    }
+
+    /// Whether an article says that it is one.
+    fn says_one(&self, start: usize) -> bool {
+        #[rustfmt::skip]
+        const ONE: &[&str] = &["a", "an", "one", "another", "a single", "one more", "yet another", "a new", "a further", "an extra", "an additional", "just one", "the", "also a", "just a"];
+        longest_phrase(&self.lexemes[start..], ONE).is_some()
+    }
+
+    /// "Benches", "some trees": in the plural, and nobody says how many.
+    fn is_of_many(&self, start: usize, thing: &NewThing) -> bool {
+        const NONE: [&str; 5] = ["ss", "us", "is", "as", "os"];
+        let said: Vec<&str> = thing.words.iter().map(String::as_str).collect();
+        let head =
+            said.iter().position(|word| ["of", "with", "for", "in"].contains(word)).unwrap_or(said.len());
+        let is_people = said.last().is_some_and(|word| ["people", "children", "men", "women"].contains(word));
+        let is_plural = is_people
+            || head.checked_sub(1).and_then(|last| said.get(last)).is_some_and(|word| {
+                word.len() > 3 && word.ends_with('s') && !NONE.iter().any(|ending| word.ends_with(ending))
+            });
+        is_plural && !self.says_one(start)
     }
 
     /// Whether the noun of a new thing ends here.
@@ -256,6 +341,38 @@ impl Reader<'_> {
             || self.word(self.at) == Some("for") && !thing.words.is_empty() && self.is_certain(self.at + 1)
             || self.before_politeness(start, end) <= self.at
     }
+}
+
+/// Whether it is nothing that can be made, but what for: "more light", "some shade".
+fn is_mass(thing: &NewThing) -> bool {
+    const MASS: &[&str] = &[
+        "light",
+        "lighting",
+        "shade",
+        "seating",
+        "greenery",
+        "life",
+        "parking",
+        "room",
+        "space",
+        "traffic",
+        "fun",
+        "order",
+        "peace",
+        "quiet",
+        "safety",
+        "comfort",
+        "illumination",
+        "decoration",
+        "shelter",
+        "privacy",
+    ];
+    let mut words = thing.words.iter().filter(|word| {
+        !["more", "some", "better", "extra", "of", "for", "less", "fewer"].contains(&word.as_str())
+    });
+    thing.paint.is_none()
+        && words.next().is_some_and(|word| MASS.contains(&word.as_str()))
+        && words.next().is_none()
 }
 
 /// Whether one more thing is named, with nothing between it and the one before.

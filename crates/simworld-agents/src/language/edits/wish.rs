@@ -72,6 +72,11 @@ pub(super) enum Wish {
     Count {
         what: Reference,
     },
+    /// Of several classes together.
+    CountAll {
+        what: Vec<Reference>,
+        text: String,
+    },
     List {
         what: Option<Reference>,
         at: Vec<Where>,
@@ -91,6 +96,35 @@ pub(super) enum Wish {
         which: Vec<StreetRef>,
         passage: Passage,
     },
+    /// Changes nothing, and says why.
+    Nothing {
+        why: String,
+    },
+    /// Gives things the colour of another.
+    PaintLike {
+        what: Vec<Reference>,
+        like: Reference,
+    },
+    /// Asks which of these streets are closed; without any, which of all.
+    AskPassage {
+        which: Vec<StreetRef>,
+    },
+    /// Asks what time it is, and what the weather is like.
+    AskSky,
+    /// Only if the sky is so or, with `false`, if it is not.
+    When {
+        sky: Vec<Sky>,
+        so: bool,
+        then: Box<Self>,
+    },
+    /// Only if these streets are closed or, with `false`, are not.
+    WhenPassage {
+        which: Vec<StreetRef>,
+        closed: bool,
+        then: Box<Self>,
+    },
+    /// Several at once, in the scene as it is before the first.
+    All(Vec<Self>),
     /// Only if there are so many of such things or, with `false`, if there are not.
     Given {
         what: Reference,
@@ -129,6 +163,8 @@ pub(super) struct NewThing {
     /// Its noun and what is said of it, without count, colour and size.
     pub(super) words: Vec<String>,
     pub(super) count: u32,
+    /// Whether they are several, and nobody says how many.
+    pub(super) many: bool,
     pub(super) paint: Option<Paint>,
     pub(super) scale: f64,
     pub(super) name: Option<String>,
@@ -250,7 +286,7 @@ impl Wish {
     }
 
     /// What is changed.
-    fn objects_mut(&mut self) -> Vec<&mut Reference> {
+    pub(super) fn objects_mut(&mut self) -> Vec<&mut Reference> {
         match self {
             Self::Move { what, .. }
             | Self::Remove { what }
@@ -279,7 +315,7 @@ impl Wish {
     }
 
     /// Where something is to stand.
-    fn places_mut(&mut self) -> &mut [Where] {
+    pub(super) fn places_mut(&mut self) -> &mut [Where] {
         match self {
             Self::Move { at, .. } | Self::Add { at, .. } | Self::Copy { at, .. } => at,
             Self::Row { line, .. } => std::slice::from_mut(line),

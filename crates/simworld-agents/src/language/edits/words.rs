@@ -48,7 +48,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
         "need", "assemble", "construct", "lets have", "let us have", "show me", "could do with", "i could do with", "we could do with", "id want", "wed want", "i will have",
         "we will have", "ill have", "well have", "supply", "rear", "there will be", "there is to be", "there are to be", "there shall stand", "there will stand", "get us", "bring us", "fetch us",
         "sort me out with", "deliver", "bring along", "i would want", "im having", "i am having", "were having", "im after", "i am after", "were after", "we are after", "i picture", "i imagine",
-        "we need there", "i need there", "exhibit", "rig up me", "instal", "i would have", "id have", "wed have", "furnish us with", "treat us to", "let me have", "order me", "i was hoping for", "i am hoping for"], Verb::Add),
+        "we need there", "i need there", "exhibit", "rig up me", "start a new", "open up a", "instal", "i would have", "id have", "wed have", "furnish us with", "treat us to", "let me have", "order me", "i was hoping for", "i am hoping for"], Verb::Add),
     (&["move", "relocate", "shift", "bring", "drag", "push", "pull", "carry", "transfer", "teleport", "reposition",
         "slide", "send", "nudge", "budge", "shove", "scoot", "haul", "lug", "roll", "wheel", "heave", "cart",
         "usher", "lead", "escort", "guide", "rehome", "resite", "reseat", "migrate", "shuffle", "swing", "hop", "wander", "drive", "tow", "walk", "translate", "return", "ferry", "advance", "convey", "displace", "trundle", "steer",
@@ -101,7 +101,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
         "the number of", "the total number of", "do you know how many", "give me the number of",
         "tell me the number of", "say how many", "what is the count of"], Verb::Count),
     (&["list", "which", "what are", "state", "report", "identify", "print", "catalogue", "catalog", "point out", "let me know", "let me know which", "give me the names of", "tell me the names of", "display",
-        "show us", "enumerate for me", "name me", "give a list of", "produce a list of", "make a list of", "draw up a list of", "read out", "enumerate", "show all", "show me all", "name all", "what is", "whats",
+        "show us", "enumerate for me", "name me", "give a list of", "a list of", "the list of", "list of", "get a list of", "an overview of", "give me an overview of", "a listing of", "produce a list of", "make a list of", "draw up a list of", "read out", "enumerate", "show all", "show me all", "name all", "what is", "whats",
         "what stands", "give me a list of", "what things are", "list all", "tell me what is", "tell me which",
         "show", "what all is", "whats all", "find", "find all", "where is", "where are", "wheres", "where did you leave", "where did you put", "where did i leave", "where did i put",
         "where did we put", "where did we leave", "where have you put", "where can i find", "where do i find", "do you know where", "where did you park",
@@ -323,7 +323,7 @@ pub(in crate::language) const SKIES: &[(&[&str], Sky)] = &[
     (&["light rain", "drizzle", "a little rain", "a bit of rain", "lightly raining", "rain lightly", "some rain",
         "rain a little"], Sky::Rain(2.0)),
     (&["heavy rain", "pour", "pouring", "downpour", "rain heavily", "pour with rain", "heavily raining", "storm",
-        "stormy", "rainstorm", "rain hard", "thunderstorm", "a lot of rain", "rain cats and dogs"], Sky::Rain(20.0)),
+        "stormy", "rainstorm", "rain hard", "thunderstorm", "a lot of rain", "rain cats and dogs", "raining cats and dogs", "pouring down", "bucketing down"], Sky::Rain(20.0)),
     (&["snow", "snowy", "snowing", "snowfall", "snows", "snow weather"], Sky::Snow(3.0)),
     (&["light snow", "a little snow", "snow lightly", "snow a little", "some snow"], Sky::Snow(1.0)),
     (&["heavy snow", "blizzard", "snowstorm", "snow heavily", "heavily snowing"], Sky::Snow(10.0)),
@@ -375,7 +375,7 @@ pub(super) const SKY_NOISE: &[&str] = &["it", "its", "it is", "be", "a", "an", "
     "town", "just", "mode", "can you", "atmosphere", "mood", "environment", "lighting", "light", "hour", "for",
     "supposed", "let it be", "supposed to be", "season", "months", "late", "early", "atmospheric", "quite", "pitch", "say", "see", "place", "in falling", "could we", "can we", "under", "beneath", "lots of", "plenty of", "maybe", "perhaps", "how about", "what about", "turned", "over everything", "around", "about", "roughly", "sharp", "exactly", "blanket of", "layer of", "hint of", "touch of",
     "then", "fall", "falling", "come", "coming", "down", "shall", "must", "shooting", "filming", "shoot", "thats",
-    "this", "wouldnt", "hurt", "love", "wish", "were", "if", "was", "story", "party", "takes place", "set in", "id love", "wed like",
+    "show me", "show us", "show", "let me see", "id like to see", "i want to see", "keep", "stay", "stays", "keep it", "this", "wouldnt", "hurt", "love", "wish", "were", "if", "was", "story", "party", "takes place", "set in", "id love", "wed like",
     "could do with", "could use", "wed love", "mood", "picture", "be nice", "great", "lovely", "please make"];
 
 /// Every single word here, so that none is taken for a misspelling.

@@ -1,0 +1,72 @@
+//! Names that things are given.
+
+use simworld_core::seam::PlanError;
+
+use super::super::clause::Target;
+use super::super::lexer::Token;
+use super::super::lexicon::{longest, longest_phrase};
+use super::parse::Reader;
+use super::wish::Wish;
+
+impl Reader<'_> {
+    pub(super) fn name(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
+        // The shortest thing that is one: the rest is the name.
+        for cut in start + 1..end {
+            let Ok(what) = self.one_of(start, cut) else { continue };
+            // "Call that a tree? It should be ..." names nothing.
+            if self.lexemes[cut].token == Token::Break
+                && self.words[self.lexemes[cut].start..].trim_start().starts_with('?')
+            {
+                return Err(self.not_understood("say what to name, and how"));
+            }
+            let mut from = cut;
+            from += longest_phrase(&self.lexemes[cut..end], &["to", "as", "into", "it"]).unwrap_or(0);
+            let is_later = self.quoted(from.min(end - 1)).is_none()
+                && (from + 1..end).any(|at| self.quoted(at).is_some());
+            if from >= end
+                || super::parts::is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
+                || is_later
+                || longest(&self.lexemes[from..end], super::words::WAYS).is_some()
+            {
+                continue;
+            }
+            if matches!(
+                what.target,
+                Target::Any(_) | Target::Named(_) | Target::It | Target::Them | Target::Id(_)
+            ) {
+                // Behind a name in quotes goes on what else is asked for.
+                let quoted = self.quoted(from);
+                let closes = quoted.as_ref().map(|name| self.lexemes[from].start + name.len());
+                let after = |close: usize| (from..end).find(|at| self.lexemes[*at].start >= close);
+                self.at = closes.and_then(after).filter(|at| self.is_joint(*at)).unwrap_or(end);
+                // "Name the statue Bob and the fountain Alice".
+                let other = (from + 1..end).filter(|_| quoted.is_none()).find_map(|at| {
+                    let words = longest_phrase(&self.lexemes[at..end], &["and"])
+                        .filter(|words| self.is_certain(at + words))?;
+                    let mut reader = Reader { at: at + words, ..*self };
+                    Some((at, reader.name(end).ok()?))
+                });
+                let mut stop = other.as_ref().map_or(end, |(at, _)| *at);
+                while stop > from + 1 && super::parts::is_mark(&self.lexemes[stop - 1]) {
+                    stop -= 1;
+                }
+                let name = quoted.unwrap_or_else(|| self.written(from, stop));
+                let wishes = std::iter::once(vec![Wish::Name { what, name }]);
+                return Ok(wishes.chain(other.into_iter().flat_map(|(_, more)| more)).collect());
+            }
+        }
+        Err(self.not_understood("say what to name, and how"))
+    }
+
+    /// What stands between quotation marks from here on.
+    pub(super) fn quoted(&self, from: usize) -> Option<String> {
+        let start = self.lexemes.get(from)?.start;
+        let mark = self.words[..start].chars().next_back().filter(|mark| ['\'', '"'].contains(mark))?;
+        // "'Mayor's Library'" ends with its last mark: behind one that ends it stands no letter.
+        let rest = &self.words[start..];
+        let closes = |at: &usize| !rest[at + mark.len_utf8()..].starts_with(char::is_alphanumeric);
+        let end = rest.match_indices(mark).map(|(at, _)| at).find(closes)?;
+        Some(rest[..end].to_owned())
+    }
+}

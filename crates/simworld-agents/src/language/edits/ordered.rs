@@ -1,0 +1,93 @@
+//! Orders whose verb says one thing of what is there and another of what is not: "put a bench", "put the bench", "show me the
+//! shops", "bring me the cone".
+
+use simworld_core::seam::PlanError;
+
+use super::super::lexicon::{longest, longest_phrase};
+use super::parse::Reader;
+use super::wish::Wish;
+use super::words::VERBS;
+
+impl Reader<'_> {
+    pub(super) fn is_shown(&self) -> bool {
+        self.at > 1
+            && self.word(self.at - 2) == Some("show")
+            && matches!(self.word(self.at - 1), Some("me" | "us"))
+            && matches!(self.word(self.at), Some("the" | "all" | "every" | "which" | "what" | "where"))
+    }
+
+    /// "Put the bench there"; "my castle" need not be there yet.
+    pub(super) fn puts(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let from = self.at;
+        match self.moves(end) {
+            // "Put books on the bench": what is not there, and is spoken of without an article.
+            Err(refused @ PlanError::NotFound { .. }) if !self.is_certain(from) => {
+                self.at = from;
+                self.additions(end).map_err(|_| refused)
+            }
+            Err(refused) if longest_phrase(&self.lexemes[from..end], &["my", "our"]).is_some() => {
+                self.at = from + 1;
+                self.additions(end).map_err(|_| refused)
+            }
+            read => read.map(|wish| vec![wish]),
+        }
+    }
+
+    /// "Remove the cone"; "I don't want to see that cone here".
+    pub(super) fn removes(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let here = self.before_politeness(self.at, end).saturating_sub(1);
+        let is_here = here > self.at && matches!(self.word(here), Some("here" | "around" | "standing"));
+        let what = match if is_here { self.things(self.at, here).ok() } else { None } {
+            Some(what) => what,
+            None => self.things(self.at, end)?,
+        };
+        let clears = matches!(self.word(self.at.wrapping_sub(1)), Some("clear" | "empty"));
+        let what = if clears { what.into_iter().map(super::others::on_it).collect() } else { what };
+        self.at = end;
+        Ok(vec![vec![Wish::Remove { what }]])
+    }
+
+    /// "I want the bench red": something is wanted of a thing that is there.
+    pub(super) fn is_wanted(&self) -> bool {
+        #[rustfmt::skip]
+        const WHO: &[&str] = &["i", "we", "id", "wed", "have", "let", "lets", "can", "could", "may", "need", "needs"];
+        let is_who = |at: usize| self.word(at).is_some_and(|word| WHO.contains(&word));
+        (self.at.saturating_sub(6)..self.at).any(is_who)
+            && self.is_definite(self.at)
+            && !self.is_bare_plural(self.at, self.lexemes.len())
+    }
+
+    /// "Bring me the cone": what is there comes here.
+    pub(super) fn is_brought(&self, end: usize) -> bool {
+        let brings = self.at > 1
+            && matches!(self.word(self.at - 1), Some("me" | "us"))
+            && matches!(self.word(self.at - 2), Some("bring" | "fetch" | "get" | "hand" | "pass"));
+        brings
+            && longest_phrase(self.rest(end), &["the", "that", "this", "my", "those", "these"]).is_some()
+            && self.things(self.at, end).is_ok()
+    }
+
+    /// "Put me a bench": whoever says so is not put anywhere.
+    pub(super) fn is_for_me(&self, end: usize) -> bool {
+        longest_phrase(self.rest(end), &["me", "us"])
+            .is_some_and(|words| !self.is_definite((self.at + words).min(end)))
+    }
+
+    /// "Benches": some that are not there yet.
+    pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
+        // "Cherry trees": up to three words say of what kind they are.
+        let ends = |at: usize| {
+            self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], VERBS).is_some()
+        };
+        let noun = (at..end.min(at + 4)).take_while(|next| *next == at || !ends(*next)).find_map(|next| {
+            super::super::lexicon::category(&self.lexemes[next..end]).map(|(_, words)| (next, words))
+        });
+        // "Throw the bins out" holds an order, and certain things.
+        let is_new = |next: usize| {
+            (at..next).all(|at| !self.is_certain(at))
+                && (next == at || longest(&self.lexemes[at..end], VERBS).is_none())
+        };
+        noun.is_some_and(|(next, words)| is_new(next) && self.is_plural(next, next + words))
+            && !self.is_certain(at)
+    }
+}

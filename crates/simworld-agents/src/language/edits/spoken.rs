@@ -1,0 +1,149 @@
+//! What a remark is about, which is what "it" stands for behind it: "the van is ugly; paint it", "they left a bike here, remove it".
+
+use super::super::clause::{Reference, Stands, Target};
+use super::super::lexicon::longest_phrase;
+use super::parse::Reader;
+
+impl Reader<'_> {
+    /// The things of the scene that a remark names.
+    pub(super) fn spoken_of(&self, from: usize, end: usize) -> Vec<Reference> {
+        let mut things: Vec<Reference> = Vec::new();
+        let mut at = from;
+        // "There's a hydrant by the fountain": of that one it is spoken.
+        if let Some(words) = longest_phrase(
+            &self.lexemes[from..end],
+            &[
+                "theres",
+                "there is",
+                "i see",
+                "we have",
+                "i can see",
+                "there stands",
+                "why is there",
+                "why are there",
+                "whys there",
+                "who put",
+                "who parked",
+                "who left",
+                "why do we have",
+                "why have we",
+                "what is",
+                "whats",
+                "who needs",
+            ],
+        ) {
+            let mut parser = self.parser(from + words, end);
+            if let Ok(mut thing) = parser.reference(0)
+                && parser.at > from + words
+            {
+                thing.indefinite = false;
+                things.push(thing);
+                at = parser.at;
+            }
+        }
+        // "That old pine takes the light": it is the pine, which is not here.
+        let that = longest_phrase(&self.lexemes[from..end], &["that", "this", "the"]);
+        let is_unknown = that.is_some_and(|words| {
+            super::follow::species(&self.lexemes[(from + words).min(end - 1)]).is_some()
+                || (from + words + 1 < end)
+                    && super::follow::species(&self.lexemes[from + words + 1]).is_some()
+        });
+        let asks_who = longest_phrase(
+            &self.lexemes[from..end],
+            &["who is that", "whos that", "what is that", "whats that"],
+        )
+        .is_some_and(|words| from + words < end && self.is_place(from + words));
+        if asks_who || is_unknown && !self.one_begins(from, end) {
+            return things;
+        }
+        // "They have dumped a car by the shop": it is the car.
+        if let Some(thing) = self.left_there(from, end) {
+            return vec![thing];
+        }
+        // "Eve says the van is ugly": it is the van of which she speaks.
+        if let Some(what) = self.reported(from, end) {
+            at = what;
+        }
+        while at < end {
+            let is_certain = longest_phrase(
+                &self.lexemes[at..end],
+                &["the", "that", "this", "my", "those", "our", "these"],
+            )
+            .is_some()
+                || self.names.exact(&self.lexemes[at..end]).is_some();
+            let mut parser = self.parser(at, end);
+            match parser.reference(0) {
+                Ok(thing)
+                    if is_certain
+                        && parser.at > at
+                        && !matches!(
+                            thing.target,
+                            Target::It | Target::Them | Target::Here | Target::There
+                        ) =>
+                {
+                    things.push(group_at(&thing).unwrap_or(thing));
+                    at = parser.at;
+                }
+                _ => at += 1,
+            }
+        }
+        things
+    }
+
+    /// What a remark says somebody left somewhere.
+    fn left_there(&self, from: usize, end: usize) -> Option<Reference> {
+        const LEFT: &[&str] =
+            &["dumped", "left", "parked", "put", "placed", "forgot", "dropped", "abandoned", "forgotten"];
+        (from + 1..end).find_map(|at| {
+            self.word(at).filter(|word| LEFT.contains(word))?;
+            longest_phrase(&self.lexemes[at + 1..end], &["a", "an", "another", "their", "his", "her"])?;
+            let mut parser = self.parser(at + 1, end);
+            let mut thing = parser.reference(0).ok()?;
+            thing.indefinite = false;
+            Some(thing)
+        })
+    }
+
+    /// Where begins what somebody says or thinks.
+    fn reported(&self, from: usize, end: usize) -> Option<usize> {
+        #[rustfmt::skip]
+        const SAYS: &[&str] = &["says", "said", "thinks", "thought", "complains", "complained", "told", "hates", "likes", "dislikes", "believes", "reckons", "finds", "found", "noticed", "saw", "loves", "wants", "asked", "claims", "insists",
+            "mentioned", "wonders", "stole", "broke", "hit", "crashed", "prefers", "knows", "sees", "needs", "painted", "bought", "sold", "trips", "tripped"];
+        let mut parser = self.parser(from, end);
+        let somebody = parser.reference(0).ok()?;
+        let at = parser.at;
+        let says = at > from && at + 1 < end && self.word(at).is_some_and(|word| SAYS.contains(&word));
+        let named = says
+            && longest_phrase(&self.lexemes[at + 1..end], &["it", "them", "him", "her"]).is_none()
+            && !super::follow::is_open(&somebody)
+            && (at + 1..end).any(|at| self.is_certain(at));
+        (says && named).then_some(at + 1)
+    }
+
+    /// The first place that a remark names: "by the fountain" of "there is nowhere to sit by the fountain".
+    pub(super) fn place_spoken_of(&self, from: usize, end: usize) -> Option<Vec<super::wish::Where>> {
+        (from..end).filter(|at| self.is_place(*at)).find_map(|at| {
+            let mut reader = Reader { at, ..self.up_to(end) };
+            let place = reader
+                .place(end)
+                .ok()
+                .filter(|place| place.anchor().is_some_and(|anchor| !anchor.is_it()))?;
+            Some(vec![place])
+        })
+    }
+}
+
+/// "The kids at the school": nobody asks anything of them, but of the school.
+fn group_at(thing: &Reference) -> Option<Reference> {
+    let Target::Any(class) = &thing.target else { return None };
+    let are_people = !class.kinds().is_empty()
+        && class.kinds().iter().all(|kind| *kind == simworld_core::scene::EntityKind::Person);
+    match &thing.relation {
+        Some(Stands::To(_, anchor) | Stands::Of(anchor)) if are_people && thing.text.contains('s') => {
+            let first =
+                thing.text.split_whitespace().find(|word| !["the", "those", "our", "my"].contains(word));
+            first.is_some_and(|word| word.ends_with('s') || word == "people").then(|| (**anchor).clone())
+        }
+        _ => None,
+    }
+}
