@@ -17,6 +17,7 @@ pub mod experiment;
 pub mod folder;
 pub mod minds;
 pub mod report;
+pub mod robot;
 pub mod served;
 pub mod timing;
 pub mod traffic;
