@@ -9,7 +9,7 @@ use simworld_core::seed::Seed;
 use simworld_traffic::sumo::{SumoDemand, SumoNet};
 
 static NET: LazyLock<SumoNet> = LazyLock::new(|| {
-    let grid = include_bytes!("../../crates/simworld-traffic/tests/data/grid.net.xml");
+    let grid = include_bytes!("../../crates/simworld-traffic/tests/sumo/data/grid.net.xml");
     SumoNet::read(grid.as_slice()).expect("netgenerate wrote it")
 });
 

@@ -1,11 +1,6 @@
-//! What bodies do: everybody who can sit finds the nearest chair from anywhere, and every primitive action is carried out by
-//! bodies under physics, seen by others, and refused with its reason where it is impossible.
+//! What bodies do in whole worlds: primitive actions under physics, the obstacle course, land beyond the city, walkers who learn.
 
-mod actions;
-mod moving;
-mod people;
-mod sitting;
-mod stage;
-mod things;
-mod town;
-mod vehicles;
+mod courses_are_run;
+mod lands;
+mod primitives;
+mod walkers_learn_by_the_contract;

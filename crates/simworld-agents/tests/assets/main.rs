@@ -1,0 +1,11 @@
+//! Assets from folders, files, servers and words.
+
+mod assets_common;
+#[path = "../shared/fault_server/mod.rs"]
+mod fault_server;
+mod folders_of_assets_are_read;
+mod generators_survive_servers;
+mod hostile_models_are_refused;
+mod loaders_survive_mutations;
+mod models_are_imported;
+mod things_are_made_from_words;

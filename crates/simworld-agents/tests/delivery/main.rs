@@ -1,0 +1,8 @@
+//! The delivery economy: its books, its couriers, and how they think.
+
+mod couriers_think;
+mod delivery_books;
+mod delivery_common;
+mod delivery_life;
+#[path = "../shared/thought_common/mod.rs"]
+mod thought_common;

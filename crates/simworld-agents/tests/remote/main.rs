@@ -1,0 +1,10 @@
+//! The remote interface: both protocols, its limits, and its recordings.
+
+#[path = "../shared/car_common/mod.rs"]
+mod car_common;
+mod remote_common;
+mod remote_keeps_its_limits;
+mod remote_sessions_replay;
+mod remote_speaks_its_types;
+mod remote_speaks_unrealcv;
+mod remote_withstands_clients;

@@ -1,0 +1,13 @@
+//! Files of cities: saved, drawn, and in the formats of others.
+
+mod cities_are_saved_whole;
+mod files_keep_their_form;
+mod geojson_is_valid;
+mod glb_is_valid;
+mod heights_reach_the_files;
+mod maps_are_sheets;
+mod opendrive_comes_back;
+mod opendrive_is_valid;
+mod python_layouts_come_back;
+mod python_worlds_come_back;
+mod sumo_reads_the_roads;

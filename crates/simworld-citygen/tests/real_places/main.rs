@@ -1,0 +1,11 @@
+//! Real places, from extracts of OpenStreetMap.
+
+mod bridges_clear_what_they_cross;
+mod drawn_streets_become_junctions;
+mod hostile_extracts_are_survived;
+mod junctions_of_real_places_are_sound;
+#[cfg(feature = "osm")]
+mod osm_common;
+mod real_places_become_cities;
+mod tags_become_lanes;
+mod turns_are_those_of_the_map;

@@ -1,0 +1,8 @@
+//! Road networks: derived, repaired, and searched.
+
+mod bicycles_have_their_own_lanes;
+mod derived_networks_hold_together;
+mod junctions_have_round_kerbs;
+mod petgraph_agrees;
+mod repairs_equal_derivation;
+mod roads_of_every_kind;

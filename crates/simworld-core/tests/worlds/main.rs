@@ -1,0 +1,10 @@
+//! Worlds: commands, interactions, replays, and the seams' own checks.
+
+mod broken_environments_are_caught;
+mod commands_keep_their_promises;
+mod common;
+mod interactions_have_preconditions;
+mod people_deal_with_doors_and_each_other;
+mod replays_take_the_same_way;
+mod seams_conform;
+mod snapshots_go_on;

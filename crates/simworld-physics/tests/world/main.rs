@@ -1,0 +1,16 @@
+//! The physics of a world: the laws, contacts, solids, doors, and what changes.
+
+mod changes_are_enough;
+#[path = "../common/mod.rs"]
+mod common;
+mod conformance;
+mod contacts;
+mod doors;
+mod errors;
+mod falling;
+mod laws;
+mod models;
+mod rays;
+mod standing_on_ground;
+mod throwing;
+mod world_changes;

@@ -1,0 +1,6 @@
+//! People on foot, alone and in crowds.
+
+mod crowds_walk_as_measured;
+mod people_of_a_city;
+mod rimea;
+mod walkers_mind_the_signals;

@@ -1,0 +1,18 @@
+//! Vehicles on their lanes: following, changing, stopping, parking.
+
+mod buses_keep_their_stops;
+mod busy_network_is_safe;
+mod car_following;
+mod cycle_lanes_are_left_to_bicycles;
+mod drivers_change_lanes;
+mod drivers_of_all_kinds;
+mod drivers_stop_for_others;
+mod engineers_figures;
+mod everybody_keeps_to_their_lanes;
+mod far_from_interest;
+mod kerb_to_kerb;
+mod locks_are_undone;
+mod near_junctions_are_passed;
+mod sirens_are_heard;
+mod watching;
+mod weather_slows_traffic;

@@ -1,0 +1,8 @@
+//! The delivery economy as its example plays it: the same bits, by bodies, from prompts, resumed, reported.
+
+mod delivery_is_deterministic;
+mod delivery_is_physical;
+mod delivery_reads_its_prompt;
+mod delivery_takes_bad_input;
+mod experiments_resume;
+mod reports_open;
