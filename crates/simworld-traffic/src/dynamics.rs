@@ -2,6 +2,7 @@
 
 mod handed;
 mod orders;
+mod others;
 mod passages;
 
 use std::collections::BTreeMap;
@@ -18,6 +19,7 @@ use simworld_core::traffic::RoadLeg;
 use simworld_core::value::Value;
 
 use self::handed::Who;
+use self::others::Others;
 use crate::traffic::State;
 use crate::{Body, DrivingConditions, Foreign, Pedestrian, Sex, Traffic, TrafficConfig, TrafficError};
 
@@ -66,9 +68,8 @@ pub struct TrafficDynamics {
     pedestrians: Vec<EntityId>,
     /// Whom somebody else moves.
     handed: BTreeMap<EntityId, Who>,
-    /// Bodies of others, found anew when entities come or go.
-    others: Vec<EntityId>,
-    revision: Option<u64>,
+    /// Bodies of others, and who left the world.
+    others: Others,
     /// The closures of the streets that the world has closed, by number.
     shut: BTreeMap<RoadLeg, u32>,
     foreign: Vec<Foreign>,
@@ -103,8 +104,7 @@ impl TrafficDynamics {
             paint: stream.named("entered"),
             pedestrians,
             handed: BTreeMap::new(),
-            others: Vec::new(),
-            revision: None,
+            others: Others::default(),
             shut: BTreeMap::new(),
             foreign: Vec::new(),
             weather: None,
@@ -148,31 +148,32 @@ impl TrafficDynamics {
         Ok(())
     }
 
+    /// Finds out who came, and takes out of the traffic whose entities somebody took out of the world.
     fn look_around(&mut self, world: &World) {
-        if self.revision != Some(world.revision()) {
-            self.revision = Some(world.revision());
-            let mut own: Vec<EntityId> = self.vehicles.iter().chain(&self.pedestrians).copied().collect();
-            own.sort_unstable();
-            let is_other =
-                |entity: &EntityRef<'_>| entity.kind.is_mobile() && own.binary_search(&entity.id).is_err();
-            self.others.clear();
-            self.others.extend(world.iter().filter(is_other).map(|entity| entity.id));
+        let Self { others, vehicles, pedestrians, .. } = self;
+        let vehicles_own = (0..).map(Who::Vehicle).zip(vehicles.iter());
+        let own = vehicles_own.chain((0..).map(Who::Walker).zip(pedestrians.iter()));
+        let own = own.filter(|(_, id)| **id != EntityId::default()).map(|(who, id)| (*id, who));
+        for (id, who) in others.look(world, own) {
+            self.bury(id, who);
         }
+    }
+
+    /// Where the bodies of others are.
+    fn watch(&mut self, world: &World) {
         self.foreign.clear();
-        for id in &self.others {
-            let is_here = |entity: &EntityRef<'_>| entity.attachment.is_none() && !is_parked(entity);
-            if let Some(entity) = world.entity(*id).filter(is_here) {
-                let size = entity.info.shape.size() * 0.5;
-                let linear = entity.twist.linear;
-                self.foreign.push(Foreign {
-                    position: entity.planar(),
-                    radius: size.x,
-                    half_width: size.y,
-                    direction: direction(yaw_of(entity.pose)),
-                    velocity: Vector2::new(linear.x, linear.y),
-                });
+        let is_here = |entity: &EntityRef<'_>| entity.attachment.is_none() && !is_parked(entity);
+        self.foreign.extend(self.others.iter(world).filter(is_here).map(|entity| {
+            let size = entity.info.shape.size() * 0.5;
+            let linear = entity.twist.linear;
+            Foreign {
+                position: entity.planar(),
+                radius: size.x,
+                half_width: size.y,
+                direction: direction(yaw_of(entity.pose)),
+                velocity: Vector2::new(linear.x, linear.y),
             }
-        }
+        }));
     }
 
     /// Removes the entities of those who left.
@@ -201,7 +202,9 @@ impl TrafficDynamics {
             let entered = self.traffic.counters().walkers_entered;
             let mut paint = self.paint.named("walkers").indexed(entered).indexed(u64::from(*index)).rng();
             if walker.is_present() {
-                self.pedestrians[*index as usize] = world.spawn(portray(walker, &mut paint))?;
+                let id = world.spawn(portray(walker, &mut paint))?;
+                self.pedestrians[*index as usize] = id;
+                self.others.claim(id, Who::Walker(*index));
             }
         }
         Ok(())
@@ -216,7 +219,9 @@ impl TrafficDynamics {
             }
             let mut paint =
                 self.paint.indexed(self.traffic.counters().entered).indexed(u64::from(body.id)).rng();
-            self.vehicles[index] = world.spawn(describe(&body, &mut paint))?;
+            let id = world.spawn(describe(&body, &mut paint))?;
+            self.vehicles[index] = id;
+            self.others.claim(id, Who::Vehicle(body.id));
         }
         Ok(())
     }
@@ -281,13 +286,11 @@ impl Dynamics for TrafficDynamics {
             return Err(DynamicsError::Other(message.to_owned()));
         }
         self.mind_weather(world)?;
-        if self.revision != Some(world.revision()) {
-            self.bury(world);
-        }
+        self.look_around(world);
         self.mind_passages(world)?;
         self.obey(world);
         self.follow(world);
-        self.look_around(world);
+        self.watch(world);
         // Those who were taken out between two steps or came then, and those who left in this one.
         self.clear_away(world)?;
         self.welcome_walkers(world)?;
@@ -327,7 +330,7 @@ impl Dynamics for TrafficDynamics {
             return Err(refused("it belongs to another network or configuration"));
         }
         (self.vehicles, self.pedestrians, self.handed, self.shut) = (vehicles, pedestrians, handed, shut);
-        self.revision = None;
+        self.others.forget();
         self.weather = None;
         Ok(())
     }

@@ -90,14 +90,16 @@ impl TrafficDynamics {
         !self.handed.is_empty() && self.handed.contains_key(&entity)
     }
 
-    /// Takes out of the traffic whose entities somebody took out of the world.
-    pub(super) fn bury(&mut self, world: &World) {
-        let is_gone = |entity: &EntityId| *entity != EntityId::default() && world.entity(*entity).is_none();
-        for (id, _) in (0..).zip(&self.vehicles).filter(|(_, entity)| is_gone(entity)) {
-            self.traffic.remove(id);
-        }
-        for (id, _) in (0..).zip(&self.pedestrians).filter(|(_, entity)| is_gone(entity)) {
-            self.traffic.remove_walker(id);
+    /// Takes somebody out of the traffic whose entity was taken out of the world, unless the number is another's by now.
+    pub(super) fn bury(&mut self, entity: EntityId, who: Who) {
+        match who {
+            Who::Vehicle(id) if self.vehicles[id as usize] == entity => {
+                self.traffic.remove(id);
+            }
+            Who::Walker(id) if self.pedestrians[id as usize] == entity => {
+                self.traffic.remove_walker(id);
+            }
+            Who::Vehicle(_) | Who::Walker(_) => {}
         }
     }
 }

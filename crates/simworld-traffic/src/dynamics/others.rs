@@ -1,0 +1,155 @@
+//! Whose entities are whose: the traffic's own, and bodies of others that its drivers and walkers have to mind.
+
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityRef, Mark, Scene, World};
+
+use super::handed::Who;
+
+/// Kept in step with the world by what changed in it, so that a step costs nothing for a city in which nobody comes or goes.
+#[derive(Default)]
+pub(super) struct Others {
+    /// The traffic's own entities, by slot; one that is gone stays until its slot is another's.
+    own: Vec<Option<(EntityId, Who)>>,
+    /// Whether something that moves and is another's is in a slot.
+    is_other: Vec<bool>,
+    /// The slots of those, ascending.
+    slots: Vec<u32>,
+    revision: Option<u64>,
+    /// When the world was looked at last.
+    mark: Option<Mark>,
+}
+
+impl Others {
+    /// Notes an entity of the traffic's own.
+    pub(super) fn claim(&mut self, id: EntityId, who: Who) {
+        let slot = id.index();
+        if self.own.len() <= slot {
+            self.own.resize(slot + 1, None);
+        }
+        self.own[slot] = Some((id, who));
+    }
+
+    /// Everything is looked at anew: the traffic is another than it was.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Bodies of others, by ascending slot.
+    pub(super) fn iter<'a>(&'a self, world: &'a World) -> impl Iterator<Item = EntityRef<'a>> {
+        self.slots.iter().filter_map(|slot| world.slot(*slot as usize))
+    }
+
+    /// Looks at what changed in the world since the last step; gives those of the traffic's own entities that are not in it any
+    /// more, ascending. `own` are all of its entities: they are gone through when too much happened to follow.
+    pub(super) fn look(
+        &mut self,
+        world: &World,
+        own: impl Iterator<Item = (EntityId, Who)>,
+    ) -> Vec<(EntityId, Who)> {
+        let mut gone = Vec::new();
+        // Who is in which slot, and of which kind, changes with the revision alone.
+        if self.revision != Some(world.revision()) {
+            self.revision = Some(world.revision());
+            self.own.resize(world.slots().max(self.own.len()), None);
+            self.is_other.resize(world.slots(), false);
+            if let Some(touched) = self.mark.and_then(|mark| world.touched_since(mark)) {
+                touched.for_each(|slot| self.look_at(slot, world, &mut gone));
+            } else {
+                self.own.fill(None);
+                for (id, who) in own {
+                    if world.entity(id).is_some() { self.claim(id, who) } else { gone.push((id, who)) }
+                }
+                (0..world.slots()).for_each(|slot| self.look_at(slot, world, &mut gone));
+            }
+            gone.sort_unstable_by_key(|(_, who)| *who);
+        }
+        self.mark = Some(world.mark());
+        gone
+    }
+
+    fn look_at(&mut self, slot: usize, world: &World, gone: &mut Vec<(EntityId, Who)>) {
+        let entity = world.slot(slot);
+        let is_own = match self.own[slot] {
+            Some((id, who)) if entity.as_ref().is_none_or(|entity| entity.id != id) => {
+                gone.push((id, who));
+                self.own[slot] = None;
+                false
+            }
+            own => own.is_some(),
+        };
+        let is_other = !is_own && entity.is_some_and(|entity| entity.kind.is_mobile());
+        if is_other != self.is_other[slot] {
+            self.is_other[slot] = is_other;
+            match self.slots.binary_search(&(slot as u32)) {
+                Ok(place) => {
+                    self.slots.remove(place);
+                }
+                Err(place) => self.slots.insert(place, slot as u32),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use simworld_core::geometry::{Point3, pose_facing};
+    use simworld_core::scene::{EntityDesc, EntityKind, Shape};
+    use simworld_core::seed::Seed;
+
+    use super::*;
+
+    fn spawn(world: &mut World, kind: EntityKind) -> EntityId {
+        let pose = pose_facing(Point3::origin(), 0.0);
+        world.spawn(EntityDesc::new(kind, pose, Shape::cuboid(1.0, 1.0, 1.0))).expect("a box at the origin")
+    }
+
+    /// However entities come and go, and however many steps pass unseen: the same as if everything had been looked at.
+    #[test]
+    fn what_changed_is_enough() {
+        let (mut removed, mut moved_in) = (0, 0);
+        for seed in 0..30 {
+            let mut rng = Seed(seed).stream("test/others").rng();
+            let (mut world, mut others) = (World::new(), Others::default());
+            let mut own: BTreeMap<Who, EntityId> = BTreeMap::new();
+            for step in 0..120 {
+                for _ in 0..rng.below(4) {
+                    let ids: Vec<EntityId> = world.iter().map(|entity| entity.id).collect();
+                    match rng.below(4) {
+                        0 => drop(spawn(&mut world, EntityKind::Bench)),
+                        1 => drop(spawn(&mut world, EntityKind::Person)),
+                        2 => {
+                            let (id, who) = (spawn(&mut world, EntityKind::Car), Who::Vehicle(step));
+                            others.claim(id, who);
+                            own.insert(who, id);
+                        }
+                        _ if ids.is_empty() => {}
+                        _ => world.remove(ids[rng.below(ids.len())]).map(drop).expect("it lives"),
+                    }
+                }
+                (0..rng.below(3)).for_each(|_| world.finish_step());
+                if rng.below(3) == 0 {
+                    continue;
+                }
+                let gone = others.look(&world, own.iter().map(|(who, id)| (*id, *who)));
+                let expected: Vec<(EntityId, Who)> = own
+                    .iter()
+                    .filter(|(_, id)| world.entity(**id).is_none())
+                    .map(|(who, id)| (*id, *who))
+                    .collect();
+                own.retain(|_, id| world.entity(*id).is_some());
+                assert_eq!(gone, expected, "seed {seed}, step {step}");
+                removed += gone.len();
+                let found: Vec<EntityId> = others.iter(&world).map(|entity| entity.id).collect();
+                let is_other = |entity: &EntityRef<'_>| {
+                    entity.kind.is_mobile() && !own.values().any(|id| *id == entity.id)
+                };
+                let all: Vec<EntityId> = world.iter().filter(is_other).map(|entity| entity.id).collect();
+                assert_eq!(found, all, "seed {seed}, step {step}");
+                moved_in += all.len();
+            }
+        }
+        assert!(removed > 100 && moved_in > 1000, "{removed} and {moved_in}: nothing was tried");
+    }
+}
