@@ -1,8 +1,6 @@
 //! An environment with real bodies, in a generated block among traffic: it keeps the contract over whole trajectories, is the
 //! same in any thread and process, and can be learnt.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::num::NonZeroUsize;
 use std::process::Command;
 use std::sync::Arc;

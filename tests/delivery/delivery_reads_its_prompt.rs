@@ -1,8 +1,6 @@
 //! A script that knows nothing but its prompt and its schema works about as well as the policy after which it was written: prompts
 //! tell what a courier needs to know, and what is offered can be done.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use simworld_agents::delivery::{DeliveryReport, PolicyKind};
 use simworld_core::seed::Seed;
 use simworld_examples::delivery::{

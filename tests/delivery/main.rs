@@ -1,4 +1,5 @@
 //! The delivery economy as its example plays it: the same bits, by bodies, from prompts, resumed, reported.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod delivery_is_deterministic;
 mod delivery_is_physical;

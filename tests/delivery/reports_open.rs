@@ -1,8 +1,6 @@
 //! The report of a run is one page that needs nothing from elsewhere, whatever the couriers are called; it opens in a browser
 //! without an error, its slider shows who was where, and it comes out light, dark and on paper.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;

@@ -1,4 +1,5 @@
 //! What moves through whole cities: traffic by the day, drivers of the agents', and files through SUMO.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod cities_go_through_sumo;
 mod drivers_drive;

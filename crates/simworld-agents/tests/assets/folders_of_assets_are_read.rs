@@ -1,7 +1,5 @@
 //! Folders of assets: what they hold becomes assets, and what is wrong or leads out of them is refused with its place.
 
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 

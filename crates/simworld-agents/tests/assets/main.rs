@@ -1,4 +1,5 @@
 //! Assets from folders, files, servers and words.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod assets_common;
 #[path = "../shared/fault_server/mod.rs"]

@@ -1,6 +1,5 @@
 //! Couriers that think with a model: what they are offered is possible, and what is written changes nothing of it.
 #![cfg(feature = "thought")]
-#![allow(clippy::unwrap_used, reason = "the town of the delivery tests")]
 
 use crate::delivery_common::{Town, quiet};
 use crate::thought_common::answers::at_random;

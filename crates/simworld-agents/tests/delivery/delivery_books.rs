@@ -1,8 +1,6 @@
 //! Whatever couriers try, money is conserved at every step and every order is in one state; and the same seed does
 //! the same, also across a snapshot.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use crate::delivery_common::{Town, world};
 use proptest::prelude::*;
 use simworld_agents::delivery::{

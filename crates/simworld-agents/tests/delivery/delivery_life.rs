@@ -1,7 +1,5 @@
 //! An order from post to door, alone, shared, late and unwanted; purchases; exhaustion.
 
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use std::sync::Arc;
 
 use crate::delivery_common::{Town, quiet, simulation, world};

@@ -1,6 +1,8 @@
 //! Scenes by words: edits, whole scenes, and things from the library.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 #[path = "../sentences/sentences_common/city.rs"]
+#[allow(dead_code, reason = "sentences use all of it")]
 mod city;
 mod edits_are_composed;
 mod edits_are_judged;

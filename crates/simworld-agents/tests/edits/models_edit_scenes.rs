@@ -1,6 +1,5 @@
 //! A model reads what the grammar does not: valid edits of what is there, or a typed error and an unchanged scene.
 #![cfg(feature = "thought")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use crate::city::City;
 use crate::model_server::ModelServer;

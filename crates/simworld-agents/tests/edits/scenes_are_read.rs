@@ -1,6 +1,5 @@
 //! Whole scenes by words: every sentence of `tests/scenes` means its spec, and what was not understood is said.
 #![cfg(feature = "thought")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

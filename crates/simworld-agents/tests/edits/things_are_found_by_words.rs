@@ -1,5 +1,4 @@
 //! Assets by words: what people call things is found first, and nothing is taken for what it is not.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use std::collections::BTreeMap;
 

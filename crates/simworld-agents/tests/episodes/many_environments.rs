@@ -1,7 +1,5 @@
 //! Environments that are stepped together: the same on any number of threads and in any process, with each way to begin anew.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
-
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::process::Command;

@@ -1,6 +1,5 @@
 //! Minds in threads of their own: the world waits for none, nothing they want is lost or used twice, and a run replays.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 #![expect(
     clippy::disallowed_methods,
     reason = "minds live in the time of life; so does the patience of these tests"

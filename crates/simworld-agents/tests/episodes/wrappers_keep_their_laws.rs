@@ -1,7 +1,5 @@
 //! Wrapped environments keep the contract, and each wrapper does what it says.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
-
 use crate::gym_common::{Drift, Drifts};
 use simworld_agents::gym::{
     ClipAction, Detail, EnvExt, EpisodeSummary, FlattenAction, FlattenObservation, FrameStack, Learning,

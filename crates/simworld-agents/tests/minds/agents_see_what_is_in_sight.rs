@@ -1,6 +1,5 @@
 //! What an agent sees: the field of view, what hides what, the receiver's fix, what became of its actions, and prompts that
 //! keep their budget.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use proptest::prelude::*;
 use simworld_agents::observer::{GpsObserver, SceneGraph, SceneGraphObserver, tokens_in};

@@ -1,4 +1,5 @@
 //! Minds and the models behind them: what they see, remember and say.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod agents_see_what_is_in_sight;
 #[path = "../shared/car_common/mod.rs"]

@@ -1,6 +1,5 @@
 //! Over TLS the key reaches a server that is trusted, and no other.
 #![cfg(feature = "https")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::io::{Read, Write};
 use std::net::TcpListener;

@@ -3,7 +3,6 @@
 //! Nonsense within a grammar proves transport, schemas, streams, tools, limits and accounts, and nothing about planning.
 //! `ci/model-server` installs what this needs.
 #![cfg(feature = "http")]
-#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::sync::Arc;
 

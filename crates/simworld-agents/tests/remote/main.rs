@@ -1,4 +1,5 @@
 //! The remote interface: both protocols, its limits, and its recordings.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 #[path = "../shared/car_common/mod.rs"]
 mod car_common;

@@ -1,5 +1,4 @@
 //! Conditions, repetitions and guards are carried out as they are written.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use crate::executor_common::{Walk, at, person, thing};
 use simworld_agents::executor::RuleExecutor;

@@ -1,5 +1,4 @@
 //! A city on hills is hilly in its files too: GLB stands on the ground, OpenDRIVE roads have elevation profiles.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use simworld_citygen::{City, CityConfig};
 use simworld_core::seed::Seed;

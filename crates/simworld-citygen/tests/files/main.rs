@@ -1,4 +1,5 @@
 //! Files of cities: saved, drawn, and in the formats of others.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod cities_are_saved_whole;
 mod files_keep_their_form;

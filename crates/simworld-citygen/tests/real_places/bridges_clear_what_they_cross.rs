@@ -1,5 +1,4 @@
 //! Streets that pass over others: high enough to pass below, not too steep, and solid in a world.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use simworld_citygen::terrain::{DECK, HEADROOM, TerrainConfig, raise_bridges};
 use simworld_citygen::{City, CityConfig};

@@ -1,5 +1,4 @@
 //! Cycle lanes are ridden on: they lead across junctions, and nobody but a bicycle gets on to them.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use simworld_core::id::LaneId;
 use simworld_core::net::*;

@@ -1,5 +1,4 @@
 //! Kerbs at corners are round, dead ends have room to turn, and the paved areas are simple polygons.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use proptest::prelude::*;
 use simworld_core::geometry::{Point2, direction};

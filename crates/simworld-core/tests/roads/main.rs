@@ -1,4 +1,5 @@
 //! Road networks: derived, repaired, and searched.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod bicycles_have_their_own_lanes;
 mod derived_networks_hold_together;

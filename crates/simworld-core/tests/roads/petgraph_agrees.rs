@@ -1,7 +1,6 @@
 //! Under the `petgraph` feature, petgraph's own searches run on the waypoint graph and find routes of the same
 //! length.
 #![cfg(feature = "petgraph")]
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use petgraph::algo::{astar, dijkstra};
 use petgraph::visit::{Dfs, EdgeRef, NodeIndexable};

@@ -1,5 +1,4 @@
 //! Traffic on the left, roundabouts, arrows on lanes, heights: what a plan says of them holds in the derived network.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use simworld_core::geometry::{Point2, direction, heading};
 use simworld_core::net::*;

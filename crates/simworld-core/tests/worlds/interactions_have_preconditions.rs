@@ -1,5 +1,4 @@
 //! What people do with things: each action does what it says, and is refused with a reason where it cannot.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use crate::common::small_world;
 use simworld_core::action::Action;

@@ -1,4 +1,5 @@
 //! Worlds: commands, interactions, replays, and the seams' own checks.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod broken_environments_are_caught;
 mod commands_keep_their_promises;

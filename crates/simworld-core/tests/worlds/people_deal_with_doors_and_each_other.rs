@@ -1,5 +1,4 @@
 //! Doors, gifts, purchases and talk: what each changes, and why it is refused.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::event::EventKind;

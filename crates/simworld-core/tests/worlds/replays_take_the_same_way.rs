@@ -1,5 +1,4 @@
 //! A recording replayed on the same start leads through the same digests; on another start it is noticed.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use crate::common::{any_command, small_world};
 use proptest::prelude::*;

@@ -1,5 +1,4 @@
 //! The implementations of the seams that live here hold to the seams' promises.
-#![allow(clippy::unwrap_used, reason = "a helper of tests")]
 
 use proptest::prelude::*;
 use simworld_core::action::Action;

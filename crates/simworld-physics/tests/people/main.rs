@@ -1,4 +1,5 @@
 //! People: walking, pushing, falling, in crowds.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod blows;
 #[path = "../common/mod.rs"]

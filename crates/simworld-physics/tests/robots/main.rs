@@ -1,4 +1,5 @@
 //! Robots: the dog on its legs, and robots from files.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 #[path = "../common/mod.rs"]
 mod common;

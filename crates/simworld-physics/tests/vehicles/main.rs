@@ -1,4 +1,5 @@
 //! Vehicles: on tyres, reduced, and from one to the other.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 #[path = "../common/mod.rs"]
 mod common;

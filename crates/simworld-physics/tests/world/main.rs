@@ -1,4 +1,5 @@
 //! The physics of a world: the laws, contacts, solids, doors, and what changes.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod changes_are_enough;
 #[path = "../common/mod.rs"]

@@ -1,4 +1,5 @@
 //! What is drawn: colour, depth, ids, files, and the same pixels every time.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod bad_input_is_refused;
 mod common;

@@ -1,4 +1,5 @@
 //! People on foot, alone and in crowds.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod crowds_walk_as_measured;
 mod people_of_a_city;

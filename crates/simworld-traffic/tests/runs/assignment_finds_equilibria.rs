@@ -1,5 +1,4 @@
 //! Assignment against answers that are known, and estimation against demand that it has to find again.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use proptest::prelude::*;
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};

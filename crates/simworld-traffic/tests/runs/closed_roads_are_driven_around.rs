@@ -1,5 +1,4 @@
 //! Closed roads, closed lanes and blocked stretches: nobody enters them, nobody is lost, and traffic goes around.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,5 +1,4 @@
 //! Demand from data: as many depart as the matrix says, when the profile says; people live their days in order.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::sync::Arc;
 

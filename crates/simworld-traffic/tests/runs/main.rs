@@ -1,4 +1,5 @@
 //! Whole runs: demand, routes, signals, orders from outside, snapshots, and what is written of them.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod assignment_finds_equilibria;
 mod closed_roads_are_driven_around;

@@ -1,5 +1,4 @@
 //! What is written is what happened: detectors count every vehicle once, means agree with trips, files are well formed.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::sync::Arc;
 

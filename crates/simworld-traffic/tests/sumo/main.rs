@@ -1,4 +1,5 @@
 //! SUMO's files: networks, demand, stops and people.
+#![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod sumo_demand;
 mod sumo_networks;

@@ -1,5 +1,4 @@
 //! Demand in SUMO's files: every way of writing it departs when and where it says; what is broken is named.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::sync::Arc;
 

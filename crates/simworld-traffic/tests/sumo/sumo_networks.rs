@@ -1,6 +1,5 @@
 //! Networks of SUMO: what the file says of lanes, ways, right of way and signals is what the network has; whatever is
 //! broken is refused with its id, and nothing panics.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::sync::Arc;
 

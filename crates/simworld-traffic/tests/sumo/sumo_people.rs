@@ -1,5 +1,4 @@
 //! Stops and people in SUMO's demand: buses halt where the file says, people walk to them, ride, and walk on.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::sync::Arc;
 

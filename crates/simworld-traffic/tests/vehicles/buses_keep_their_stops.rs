@@ -1,5 +1,4 @@
 //! Buses stand at their stops as long as they should, others pass them or wait; who breaks down is passed, who parks is gone.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

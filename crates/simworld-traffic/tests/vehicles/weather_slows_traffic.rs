@@ -1,5 +1,4 @@
 //! Rain, snow and fog: slower, farther apart, and nobody hits anybody.
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! Models and files for tests of imports.
 // each test file uses its part, and what fails here fails the test
-#![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
+#![allow(unreachable_pub, clippy::unwrap_used)]
 
 use serde_json::{Value, json};
 use simworld_agents::assets::{ImportConfig, ImportError, Imported, Thing, import_glb};

@@ -1,5 +1,4 @@
 //! A small town of kinematic walkers, and a loop that plays the task in it.
-#![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,4 @@
 //! A small field of kinematic walkers, a task of its own and minds that speak, for the tests of the episode driver.
-#![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests; each file uses its own part")]
 
 use simworld_agents::episode::{Agent, Episode, EpisodeError};
 use simworld_agents::executor::RuleExecutor;

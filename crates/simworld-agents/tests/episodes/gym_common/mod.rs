@@ -1,5 +1,4 @@
 //! Small environments in which chance plays a part, for the tests of wrappers and of many environments.
-#![allow(dead_code, reason = "a helper of tests; each file uses its own part")]
 
 use std::collections::BTreeMap;
 

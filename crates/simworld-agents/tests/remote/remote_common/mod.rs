@@ -1,6 +1,5 @@
 //! A served world for the tests of the remote interface: walkers and cars without physics, and an eye that casts rays.
-#![allow(dead_code, reason = "each test uses its part")]
-#![allow(unreachable_pub, reason = "shared by several test crates")]
+#![allow(unreachable_pub, reason = "a helper of tests")]
 
 use std::collections::BTreeSet;
 use std::io::{Read, Write};

@@ -1,5 +1,4 @@
 //! One kinematic walker that carries out a plan, for the tests of the rule-based executor.
-#![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests; each file uses its own part")]
 
 use simworld_agents::executor::RuleExecutor;
 use simworld_core::action::Action;

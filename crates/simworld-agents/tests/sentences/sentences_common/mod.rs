@@ -1,5 +1,4 @@
 //! The three cities and the town of `tests/sentences`, the notation of plans, and the score of what people say in them.
-#![allow(dead_code, clippy::unwrap_used, reason = "a helper of tests; each file uses its own part")]
 
 pub(crate) mod city;
 pub(crate) mod notation;

@@ -11,7 +11,6 @@ fn folder() -> Option<PathBuf> {
 }
 
 /// A real extract; says so where it is not there.
-#[allow(dead_code)] // not every test reads them
 pub(crate) fn real(file: &str) -> Option<Place> {
     let path = folder().map(|folder| folder.join(file)).filter(|path| path.exists());
     let Some(path) = path else {

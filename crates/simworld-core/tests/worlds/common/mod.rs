@@ -1,5 +1,4 @@
 //! Worlds and commands by chance, for the property tests.
-#![allow(dead_code, reason = "each test file uses a part")]
 
 use proptest::prelude::*;
 use simworld_core::action::{Action, ActionKind};

@@ -1,5 +1,5 @@
 //! What the tests of the renderer share.
-#![allow(dead_code, unreachable_pub)]
+#![allow(unreachable_pub, reason = "a helper of tests")]
 
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point3, pose_facing};

@@ -8,7 +8,6 @@ use simworld_core::seed::Seed;
 use simworld_traffic::{Body, Counters, Traffic, TrafficConfig};
 
 /// Traffic on a grid of streets of 130 m.
-#[allow(dead_code, reason = "each test uses what it needs")]
 pub(crate) fn on_grid(columns: usize, config: &TrafficConfig, seed: u64) -> Traffic {
     let plan = StreetPlan::grid(columns, columns, 130.0);
     let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a grid is a network");
