@@ -60,6 +60,15 @@ pub enum EventKind {
         /// Who.
         who: EntityId,
     },
+    /// More was asked of a hand than it holds, and it lost what it had hold of.
+    GraspBroke {
+        /// Who held on.
+        who: EntityId,
+        /// What it held.
+        thing: EntityId,
+        /// What was asked of it, N, as far as the hand gave it.
+        force: f64,
+    },
     /// A plan was carried out to its end.
     PlanDone {
         /// The agent.

@@ -14,8 +14,8 @@ use crate::dynamics::{Owned, PhysicsDynamics};
 use crate::shape::material_of_entity;
 use crate::sync::{Slot, bonds_of};
 use crate::{
-    Door, DoorConfig, Humanoid, HumanoidConfig, PhysicsError, Quadruped, QuadrupedConfig, Rigid, Robot,
-    RobotConfig, Vehicle, VehicleParameters,
+    Cart, CartConfig, Door, DoorConfig, Humanoid, HumanoidConfig, PhysicsError, Quadruped, QuadrupedConfig,
+    Rigid, Robot, RobotConfig, Vehicle, VehicleParameters,
 };
 
 impl PhysicsDynamics {
@@ -71,6 +71,15 @@ impl PhysicsDynamics {
         let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
         let state = BodyState { pose: *entity.pose, twist: *entity.twist };
         self.insert(world, id, Box::new(Robot::new(state, config)?))
+    }
+
+    /// Puts a cart's entity on wheels: a box of its pose, size and mass, whose handle is behind.
+    ///
+    /// # Errors
+    /// An unknown entity, one that has a body, a shape without room for wheels, or a setting out of range.
+    pub fn add_cart(&mut self, world: &World, id: EntityId, config: CartConfig) -> Result<(), PhysicsError> {
+        let entity = world.entity(id).ok_or(PhysicsError::Missing { id })?;
+        self.insert(world, id, Box::new(Cart::of(&entity, config)?))
     }
 
     /// Hangs a door's entity, a closed leaf of its pose, shape and mass, on a hinge.

@@ -15,6 +15,7 @@ use simworld_core::seam::{BodyState, Embodiment};
 
 use crate::PhysicsConfig;
 use crate::claims::{Claim, Claims};
+use crate::grasp::Hold;
 use crate::humanoid::Shove;
 use crate::movers::Movers;
 use crate::surface::Conditions;
@@ -126,6 +127,11 @@ pub trait PhysicsBody: Embodiment + Send + Any {
         Ok(())
     }
 
+    /// Whether it can hold on to things now; a body of most kinds always can.
+    fn can_hold(&self) -> bool {
+        true
+    }
+
     /// Learns what it is tied to, once a step before it moves; of no interest to most bodies.
     fn bind(&mut self, _bonds: Bonds) {}
 
@@ -168,6 +174,8 @@ pub struct Surroundings<'a> {
     pub(crate) movers: &'a Movers,
     /// Who pushed whom in the last substep.
     pub(crate) shoves: &'a [Shove],
+    /// What the body holds, as it feels it.
+    pub(crate) holds: &'a [Hold],
 }
 
 impl Surroundings<'_> {

@@ -18,6 +18,7 @@ use crate::cells::Cells;
 use crate::claims::Claims;
 use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
+use crate::grasp::Grasps;
 use crate::ground;
 use crate::humanoid::{Shove, least_blow};
 use crate::mirror::Moving;
@@ -33,6 +34,8 @@ const MOST_SUBSTEPS: f64 = 1000.0;
 
 /// How many times the solver goes over a substep, as its makers set it.
 const ITERATIONS: usize = 4;
+/// The longest substep in which joints hold, s.
+pub(crate) const LONGEST_JOINTED_SUBSTEP: f64 = 1.0 / 120.0;
 /// In substeps up to this length it does so once, s.
 const SHORT_SUBSTEP: f64 = 0.0051;
 
@@ -84,6 +87,8 @@ pub struct PhysicsDynamics {
     /// By ascending id.
     pub(crate) bodies: Vec<Owned>,
     pub(crate) contacts: Contacts,
+    /// What is held by hands.
+    pub(crate) grasps: Grasps,
     /// What bodies meet of assets with a model.
     pub(crate) solids: Solids,
     /// What the air and the roads are like.
@@ -140,6 +145,7 @@ impl PhysicsDynamics {
             seen: None,
             bodies: Vec::new(),
             contacts: Contacts::default(),
+            grasps: Grasps::default(),
             solids: Solids::default(),
             conditions: Conditions::default(),
             interest: Vec::new(),
@@ -164,6 +170,8 @@ impl PhysicsDynamics {
     fn substeps(&self, dt: f64) -> u32 {
         let longest =
             self.bodies.iter().map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
+        let longest =
+            if self.grasps.list.is_empty() { longest } else { longest.min(LONGEST_JOINTED_SUBSTEP) };
         let needed = (dt / longest - 1e-9).ceil().clamp(1.0, MOST_SUBSTEPS);
         self.config.substeps.max(needed as u32)
     }
@@ -198,10 +206,12 @@ impl PhysicsDynamics {
         let (physics, nobody, config, conditions) =
             (&self.physics, &self.nobody, &self.config, &self.conditions);
         let (ground, surface) = (self.ground, self.surface.as_deref());
-        let (movers, shoves) = (&self.movers, &*self.shoves);
+        let (movers, shoves, holds) = (&self.movers, &*self.shoves, &*self.grasps.holds);
         let sense = |owned: &mut Owned| {
             if owned.bonds.carried.is_none() {
                 let (rigid, detail) = (owned.rigid, owned.detail);
+                let first = holds.partition_point(|hold| hold.who < owned.id);
+                let count = holds[first..].partition_point(|hold| hold.who == owned.id);
                 let around = Surroundings {
                     physics,
                     nobody,
@@ -213,6 +223,7 @@ impl PhysicsDynamics {
                     surface,
                     movers,
                     shoves,
+                    holds: &holds[first..first + count],
                 };
                 owned.body.sense(&around, dt);
             }
@@ -238,6 +249,7 @@ impl PhysicsDynamics {
 
     /// One substep: `share` of the world's step will have passed at its end.
     fn substep(&mut self, dt: f64, share: f64) -> Result<(), PhysicsError> {
+        self.feel_grasps();
         self.sense(dt);
         self.claims.clear();
         self.shoves.clear();
@@ -254,6 +266,7 @@ impl PhysicsDynamics {
         self.advance_mirrors(share);
         self.physics.step();
         self.check_finite()?;
+        self.strain_grasps(dt);
         for owned in self.bodies.iter_mut().filter(|owned| owned.bonds.carried.is_none()) {
             let rigid = &self.physics.bodies[owned.rigid];
             let linear = from_vector(rigid.velocity_at_point(rigid.translation()));
@@ -302,6 +315,8 @@ impl PhysicsDynamics {
 
     /// Puts a body somewhere else from outside.
     pub(crate) fn place(&mut self, index: usize, state: &BodyState) {
+        let id = self.bodies[index].id;
+        self.release(|grasp| grasp.who == id || grasp.thing == id);
         let owned = &mut self.bodies[index];
         owned.body.gather(&mut self.physics, owned.rigid);
         owned.body.place(state);
@@ -336,6 +351,7 @@ impl Dynamics for PhysicsDynamics {
         }
         self.write_back(world)?;
         self.contacts.report(world);
+        self.report_grasps(world);
         Ok(())
     }
 

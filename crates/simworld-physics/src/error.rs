@@ -41,6 +41,16 @@ pub enum PhysicsError {
         /// The entity.
         id: EntityId,
     },
+    /// Somebody cannot hold something.
+    #[error("{who} cannot take hold of {thing}: {reason}")]
+    Grasp {
+        /// Who.
+        who: EntityId,
+        /// What.
+        thing: EntityId,
+        /// What is in the way, and what would do.
+        reason: String,
+    },
     /// Somebody holds nothing.
     #[error("{id} holds nothing to throw: let it pick something up first")]
     EmptyHanded {

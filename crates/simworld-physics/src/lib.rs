@@ -3,6 +3,7 @@
 
 mod bodies;
 mod body;
+mod cart;
 mod cells;
 mod claims;
 mod config;
@@ -12,6 +13,7 @@ mod detail;
 mod door;
 mod dynamics;
 mod error;
+mod grasp;
 mod ground;
 mod humanoid;
 mod joint;
@@ -32,11 +34,13 @@ mod throw;
 mod vehicle;
 
 pub use body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
+pub use cart::{Cart, CartConfig, Castors};
 pub use claims::Claim;
 pub use config::PhysicsConfig;
 pub use door::{Door, DoorConfig, HingeSide, Latch};
 pub use dynamics::PhysicsDynamics;
 pub use error::PhysicsError;
+pub use grasp::{Grip, Turning};
 pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture, Surefootedness};
 pub use joint::{JointCommand, JointReading};
 pub use quadruped::{

@@ -57,6 +57,19 @@ pub(crate) fn marked(tag: BodyTag, material: Material) -> u128 {
 /// Set in the mark of somebody on foot.
 const WALKER: u128 = 1 << 127;
 
+/// Set in the mark of what rolls on wheels of its own.
+const ON_WHEELS: u128 = 1 << 126;
+
+/// The mark of what rolls on wheels of its own.
+pub(crate) fn on_wheels(mark: u128) -> u128 {
+    mark | ON_WHEELS
+}
+
+/// Whether something rolls on wheels of its own, by its mark.
+pub(crate) fn is_on_wheels(data: u128) -> bool {
+    data & ON_WHEELS != 0
+}
+
 /// The mark of somebody on foot.
 pub(crate) fn walker_mark(id: EntityId) -> u128 {
     marked(BodyTag::Entity(id), Material::Flesh) | WALKER
@@ -69,7 +82,7 @@ pub(crate) fn is_walker(data: u128) -> bool {
 
 /// What a collider is made of, by its mark.
 pub(crate) fn material_of(data: u128) -> Material {
-    let index = ((data & !WALKER) >> MATERIAL_BITS) as usize;
+    let index = ((data & !(WALKER | ON_WHEELS)) >> MATERIAL_BITS) as usize;
     Material::ALL.get(index).copied().unwrap_or_default()
 }
 
@@ -132,6 +145,9 @@ mod tests {
         let walker = walker_mark(EntityId::new(u32::MAX, u32::MAX));
         assert_eq!((BodyTag::from_user_data(walker), material_of(walker)), (tag, Material::Flesh));
         assert!(is_walker(walker) && !is_walker(mark));
+        let cart = on_wheels(mark);
+        assert_eq!((BodyTag::from_user_data(cart), material_of(cart)), (tag, Material::Ice));
+        assert!(is_on_wheels(cart) && !is_on_wheels(walker) && !is_walker(cart));
     }
 
     #[test]

@@ -14,6 +14,7 @@ use simworld_core::seam::{BodyState, Embodiment};
 use crate::body::{Bonds, Detail};
 use crate::convert::{from_pose, from_vector};
 use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::grasp::{Grasp, Grasps};
 use crate::humanoid::Shove;
 use crate::slot_set::SlotSet;
 use crate::surface::Conditions;
@@ -21,7 +22,7 @@ use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// The mark of this crate's saved state and its version.
-const MARK: [u8; 8] = *b"swphys04";
+const MARK: [u8; 8] = *b"swphys05";
 
 /// What is written, by reference.
 #[derive(Serialize)]
@@ -35,6 +36,7 @@ struct Written<'a> {
     conditions: Conditions,
     interest: &'a [Point3],
     shoves: &'a [Shove],
+    grasps: &'a [Grasp],
     bodies: Vec<SavedBody>,
 }
 
@@ -51,6 +53,7 @@ struct Read {
     conditions: Conditions,
     interest: Vec<Point3>,
     shoves: Vec<Shove>,
+    grasps: Vec<Grasp>,
     bodies: Vec<SavedBody>,
 }
 
@@ -90,6 +93,7 @@ impl PhysicsDynamics {
             conditions: self.conditions,
             interest: &self.interest,
             shoves: &self.shoves,
+            grasps: &self.grasps.list,
             bodies: self.bodies.iter().map(save).collect(),
         };
         let rest = postcard::to_allocvec(&written).map_err(|error| saved_error(error.to_string()))?;
@@ -143,6 +147,7 @@ impl PhysicsDynamics {
         self.conditions = read.conditions;
         self.interest = read.interest;
         self.shoves = read.shoves;
+        self.grasps = Grasps { list: read.grasps, ..Grasps::default() };
         Ok(())
     }
 
@@ -171,6 +176,10 @@ impl PhysicsDynamics {
         }
         for shove in &self.shoves {
             hasher.u64(shove.whom.into()).f64(shove.velocity.x).f64(shove.velocity.y);
+        }
+        hasher.u64(self.grasps.list.len() as u64);
+        for grasp in &self.grasps.list {
+            hasher.u64(grasp.who.into()).u64(grasp.thing.into()).f64(grasp.force);
         }
         hasher.u64(self.contacts.touching.len() as u64);
         for (a, b) in &self.contacts.touching {

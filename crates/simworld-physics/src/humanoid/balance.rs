@@ -33,7 +33,7 @@ pub(super) const CENTER: f64 = 0.56;
 /// dry and 0.7 wet, shoes on ice 0.1 (static; `OpenStax` College Physics, table 5.1).
 const SOLES: f64 = 1.05;
 /// Somebody careful asks no more than this share of what friction gives.
-const CARE: f64 = 0.7;
+pub(super) const CARE: f64 = 0.7;
 /// Who is shorter keeps its balance like somebody of this height, m.
 const SHORTEST: f64 = 0.3;
 /// Where there is less weight than that of a tenth of the Earth's, nobody stands by it, m/s².
@@ -47,7 +47,7 @@ pub(super) struct Balance {
     /// Velocity of the centre of mass in the plane, m/s: it follows the feet.
     pub(super) momentum: Vector2,
     /// Acceleration that friction gave at the last look, beyond what a slope takes, m/s².
-    traction: f64,
+    pub(super) traction: f64,
     /// Whether it has slipped and goes carefully since.
     pub(super) is_careful: bool,
 }
@@ -113,6 +113,7 @@ impl Humanoid {
         let friction = SOLES * self.plan.stand.grip * gravity * normal.z;
         // The part of gravity along the slope, which the ground has to hold too.
         let downhill = Vector3::new(0.0, 0.0, -gravity) + normal * (gravity * normal.z);
+        let asked = asked + self.plan.effort;
         let asked = Vector3::new(asked.x, asked.y, 0.0) - downhill;
         self.motion.balance.traction = (friction - downhill.norm()).max(0.0);
         asked.norm() > friction

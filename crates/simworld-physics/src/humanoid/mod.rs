@@ -4,6 +4,7 @@
 mod actions;
 mod balance;
 mod gait;
+mod hold;
 mod pace;
 mod physics_body;
 mod push;
@@ -25,7 +26,7 @@ use rapier3d_f64::prelude::ColliderHandle;
 use recovery::Recovery;
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
-use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing, yaw_of};
+use simworld_core::geometry::{Point3, Pose, Twist, Vector2, Vector3, pose_facing, yaw_of};
 use simworld_core::limbs::JointAngles;
 use simworld_core::scene::{EntityKind, EntityRef, FallCause, Footing, Shape};
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
@@ -78,7 +79,7 @@ pub struct HumanoidConfig {
     pub ride_lateral: f64,
     /// Whether it can fall.
     pub balance: Surefootedness,
-    /// The greatest force with which it pushes things that are in the way, N, 0 to 1000. Half of all men push a cart
+    /// The greatest force with which it pushes things that are in the way, and pushes and pulls what it holds, N, 0 to 1000. Half of all men push a cart
     /// with 250 N at the start and hold 150 N (Snook and Ciriello, Ergonomics 34, 1991, rounded).
     pub push_force: f64,
 }
@@ -188,6 +189,8 @@ struct Plan {
     upset: Option<FallCause>,
     /// What is in the way.
     pushes: Vec<Push>,
+    /// What pushing and pulling asks of the ground, as an acceleration of its own mass, m/s².
+    effort: Vector2,
     /// How its limbs lie while it is limp.
     limp: Option<JointAngles>,
     /// What it has to tell at the end of the step: why it fell, and whether it stands again.

@@ -11,10 +11,8 @@ use super::ragdoll::{Ragdoll, dressed};
 use super::{Gait, Humanoid, Pace, Posture, Recovery};
 use crate::body::{BodyContext, Bonds, PhysicsBody, Surroundings};
 use crate::convert::{from_pose, to_pose};
+use crate::dynamics::LONGEST_JOINTED_SUBSTEP;
 use crate::shape::walker_mark;
-
-/// The longest substep in which joints hold, s.
-const LONGEST_LIMP_SUBSTEP: f64 = 1.0 / 120.0;
 
 impl PhysicsBody for Humanoid {
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
@@ -32,7 +30,7 @@ impl PhysicsBody for Humanoid {
     }
 
     fn longest_substep(&self) -> f64 {
-        if self.is_limp() { LONGEST_LIMP_SUBSTEP } else { f64::INFINITY }
+        if self.is_limp() { LONGEST_JOINTED_SUBSTEP } else { f64::INFINITY }
     }
 
     fn bind(&mut self, bonds: Bonds) {
@@ -42,6 +40,10 @@ impl PhysicsBody for Humanoid {
             (None, Some(_)) if self.footing() == Footing::Upright => Posture::Riding,
             (None, _) => Posture::Standing,
         });
+    }
+
+    fn can_hold(&self) -> bool {
+        self.footing() == Footing::Upright && self.motion.posture == Posture::Standing
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {

@@ -15,7 +15,7 @@ use super::walk::SKIN;
 use super::{Humanoid, Posture};
 use crate::body::{BodyContext, Surroundings};
 use crate::convert::{from_vector, to_vector};
-use crate::shape::{BodyTag, is_walker};
+use crate::shape::{BodyTag, is_on_wheels, is_walker};
 
 /// Beyond this gap one does not touch what one pushes, m.
 const TOUCH: f64 = SKIN + 0.03;
@@ -54,7 +54,10 @@ impl Humanoid {
     ) {
         for handle in met {
             let Some(other) = around.physics.colliders.get(*handle) else { continue };
-            if !is_pushed(other, around) || self.plan.pushes.iter().any(|push| push.collider == *handle) {
+            if !is_pushed(other, around)
+                || Self::has_hold_of(other.parent(), around)
+                || self.plan.pushes.iter().any(|push| push.collider == *handle)
+            {
                 continue;
             }
             let Ok(Some(touch)) = contact(end, solid, other.position(), other.shape(), TOUCH) else {
@@ -79,8 +82,11 @@ impl Humanoid {
                 context.shoves.push(Shove { whom, velocity: way * push.speed });
                 continue;
             }
-            let ground = context.conditions.road.friction(context.config.ground);
-            let friction = (collider.friction() * ground).sqrt();
+            let friction = if is_on_wheels(collider.user_data) {
+                0.0
+            } else {
+                (collider.friction() * context.conditions.road.friction(context.config.ground)).sqrt()
+            };
             let Some(rigid) = collider.parent().and_then(|parent| context.physics.bodies.get_mut(parent))
             else {
                 continue;

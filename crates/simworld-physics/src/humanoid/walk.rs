@@ -14,10 +14,11 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{FallCause, Footing};
 
 use super::balance::{look_down, own_way};
-use super::{ColliderForm, Humanoid, Posture, Stand};
+use super::{ColliderForm, Humanoid, Posture, Stand, hold};
 use crate::body::{BodyContext, Surroundings};
 use crate::claims::Claim;
 use crate::convert::{from_vector, to_pose, to_vector};
+use crate::grasp::Hold;
 use crate::shape::{BodyTag, body_from, is_walker, upright};
 
 /// The gap that people keep to solids, m.
@@ -72,20 +73,20 @@ impl Humanoid {
     }
 
     /// Turns and changes speed within the limits; returns the displacement it would like, world frame, m.
-    fn intend(&mut self, gravity: f64, dt: f64) -> Vector3 {
+    fn intend(&mut self, around: &Surroundings<'_>, dt: f64) -> Vector3 {
         let rises = self.footing() == Footing::Rising;
-        let way = if rises { Vector2::zeros() } else { self.intend_to_go(dt) };
+        let way = if rises { Vector2::zeros() } else { self.intend_to_go(around.holds, dt) };
         let way = self.motion.balance.hold_back(way / dt) * dt;
         if self.motion.grounded {
             self.motion.fall_speed = 0.0;
         } else {
-            self.motion.fall_speed += gravity * dt;
+            self.motion.fall_speed += around.config().gravity * dt;
         }
         Vector3::new(way.x, way.y, -self.motion.fall_speed * dt)
     }
 
     /// The part of that in the plane.
-    fn intend_to_go(&mut self, dt: f64) -> Vector2 {
+    fn intend_to_go(&mut self, holds: &[Hold], dt: f64) -> Vector2 {
         let riding = self.motion.posture == Posture::Riding;
         let turn_left = self.motion.turn_left;
         let mut rate = self.config.turning_rate;
@@ -100,7 +101,10 @@ impl Humanoid {
         } else {
             self.motion.speed = self.motion.wanted_speed * self.motion.pace.share();
         }
-        let turn = turn_left.clamp(-rate * dt, rate * dt);
+        if !holds.is_empty() {
+            rate = rate.min(hold::TURN);
+        }
+        let turn = hold::turned_with(holds, turn_left.clamp(-rate * dt, rate * dt));
         self.motion.turn_left = turn_left - turn;
         self.motion.yaw = wrap_angle(self.motion.yaw + turn);
 
@@ -208,7 +212,9 @@ impl Humanoid {
         self.plan.shifted = Vector3::zeros();
         let (carried, turned) = self.carry(around, dt);
         self.motion.yaw = wrap_angle(self.motion.yaw + turned);
-        let wish = self.intend(around.config().gravity, dt) + self.give_way(around, dt);
+        let before = self.motion.yaw;
+        let wish = self.intend(around, dt) + self.give_way(around, dt);
+        let wish = self.lean(wish, wrap_angle(self.motion.yaw - before), around, dt);
         let Some(collider) = around.collider() else { return };
         let (solid, body_from_solid) = (collider.shape(), body_from(collider));
         let start = to_pose(&pose_facing(self.feet(), self.motion.yaw));

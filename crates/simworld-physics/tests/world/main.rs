@@ -1,6 +1,7 @@
 //! The physics of a world: the laws, contacts, solids, doors, and what changes.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
+mod carts;
 mod changes_are_enough;
 #[path = "../common/mod.rs"]
 mod common;
@@ -9,8 +10,10 @@ mod contacts;
 mod doors;
 mod errors;
 mod falling;
+mod grasps;
 mod laws;
 mod models;
+mod probe;
 mod rays;
 mod standing_on_ground;
 mod throwing;

@@ -1,0 +1,324 @@
+//! Every figure that is claimed of what bodies cost, measured here and now, beside its bar and beside the engine alone.
+//!
+//! ```sh
+//! cargo run --release --example bodies_figures
+//! ```
+
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::{Parser, ValueEnum};
+use comfy_table::Table;
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use simworld_core::geometry::Point3;
+use simworld_core::seam::Dynamics;
+use simworld_examples::bodies::{
+    BUILDINGS, Crowd, PlainWalkers, Quarter, SOLIDS, Threads, our_boxes, our_step, our_walkers, plain_boxes,
+};
+use simworld_examples::exit_code;
+use simworld_examples::timing::timed;
+use simworld_physics::proving::{Fleet, Pack, ProvingError};
+
+/// Measures what bodies cost and prints each figure beside its bar.
+#[derive(Parser)]
+struct Arguments {
+    /// Every number of bodies, blocks and steps is this share of what the bar is for.
+    #[arg(long, default_value_t = 1.0)]
+    share: f64,
+    /// Only this part.
+    #[arg(long)]
+    only: Option<Part>,
+}
+
+/// A part of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// The same bodies with and without us.
+    Overhead,
+    /// A city of a million fixed solids, and cities of several sizes.
+    City,
+    /// People on foot.
+    People,
+    /// Cars on tyres.
+    Cars,
+    /// People, dogs and cars, near and far.
+    Mixed,
+    /// Robot dogs.
+    Dogs,
+    /// Saving and taking up.
+    Snapshots,
+}
+
+fn main() -> ExitCode {
+    exit_code(job(&Arguments::parse()))
+}
+
+type Rows = Vec<[String; 3]>;
+
+fn job(arguments: &Arguments) -> Result<(), ProvingError> {
+    type Measure = fn(f64, &mut Rows) -> Result<(), ProvingError>;
+    let share = if (1e-4..=1.0).contains(&arguments.share) { arguments.share } else { 1.0 };
+    let parts: [(Part, Measure); 7] = [
+        (Part::Overhead, overhead),
+        (Part::City, city),
+        (Part::People, people),
+        (Part::Cars, cars),
+        (Part::Mixed, mixed),
+        (Part::Dogs, dogs),
+        (Part::Snapshots, snapshots),
+    ];
+    let mut rows = Rows::new();
+    for (part, measure) in parts {
+        if arguments.only.is_none_or(|only| only == part) {
+            eprintln!("{part:?} ...");
+            measure(share, &mut rows)?;
+        }
+    }
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED);
+    table.set_header(["what", "measured", "bar"]);
+    table.add_rows(rows);
+    println!("{table}");
+    Ok(())
+}
+
+/// A number of things, by the share that is measured.
+fn some(of: usize, share: f64) -> usize {
+    ((of as f64 * share).round() as usize).max(1)
+}
+
+fn ms(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+/// The least mean time of a step in several runs of some steps, ms: what the machine does when it does nothing else.
+fn per_step(
+    runs: usize,
+    steps: usize,
+    mut step: impl FnMut() -> Result<(), ProvingError>,
+) -> Result<f64, ProvingError> {
+    let mut best = f64::INFINITY;
+    for _ in 0..runs {
+        let (done, time) = timed(|| (0..steps).try_for_each(|_| step()));
+        done?;
+        best = best.min(ms(time) / steps as f64);
+    }
+    Ok(best)
+}
+
+/// The least mean times of two things that are done in turns, ms.
+fn in_turns(
+    mut ours: impl FnMut() -> Result<(), ProvingError>,
+    mut plain: impl FnMut(),
+) -> Result<[f64; 2], ProvingError> {
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..6 {
+        best[0] = best[0].min(per_step(1, 20, &mut ours)?);
+        best[1] = best[1].min(per_step(1, 20, || {
+            plain();
+            Ok(())
+        })?);
+    }
+    Ok(best)
+}
+
+fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let count = some(1000, share);
+    let (mut world, mut physics) = our_boxes(count)?;
+    let mut plain = plain_boxes(count);
+    let [ours, theirs] = in_turns(|| our_step(&mut world, &mut physics), || plain.step())?;
+    rows.push([
+        format!("a step of {count} boxes that fall in piles, over the engine alone"),
+        format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
+        "1.15".into(),
+    ]);
+    let (mut world, mut physics) = our_walkers(count)?;
+    let mut plain = PlainWalkers::new(count);
+    let [ours, theirs] = in_turns(|| our_step(&mut world, &mut physics), || plain.step())?;
+    rows.push([
+        format!("a step of {count} walkers past posts, over the engine's character controller alone"),
+        format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
+        "1.15".into(),
+    ]);
+    Ok(())
+}
+
+/// The resident set, bytes; Linux only.
+fn memory() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<f64>().ok()? * 1024.0)
+}
+
+/// A hundred bodies that move: half of them people, half crates.
+const ACTIVE: Crowd = Crowd { people: 50, dogs: 0, cars: 0, crates: 50 };
+
+fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let side = |solids: f64| (solids * share / SOLIDS as f64).sqrt().ceil().max(1.0) as usize;
+    let blocks = side(1e6);
+    let world = Quarter::world(blocks)?;
+    let solids = blocks * blocks * SOLIDS;
+    let before = memory();
+    let ((quarter, first), time) = timed(|| {
+        let mut quarter = Quarter::new(world, 2, ACTIVE, Threads::One);
+        let first = quarter.as_mut().map(Quarter::step);
+        (quarter, matches!(first, Ok(Ok(()))))
+    });
+    let mut quarter = quarter?;
+    if !first {
+        return Err("the first step of the city failed".into());
+    }
+    let grown = before.zip(memory()).map(|(before, after)| (after - before) / 1e6);
+    rows.push([
+        format!("{solids} fixed solids: to make bodies of them"),
+        format!(
+            "{:.2} s, {}",
+            time.as_secs_f64(),
+            grown.map_or("?".into(), |grown| format!("{grown:.0} MB"))
+        ),
+        "5 s, 1000 MB".into(),
+    ]);
+    let step = per_step(3, some(60, share), || quarter.step())?;
+    let count = ACTIVE.people + ACTIVE.crates;
+    rows.push([
+        format!("a step among them with {count} bodies that move"),
+        format!("{step:.2} ms"),
+        "1 ms".into(),
+    ]);
+    drop(quarter);
+    let mut steps = Vec::new();
+    for buildings in [1e3, 1e4, 1e5] {
+        let blocks = side(buildings / BUILDINGS as f64 * SOLIDS as f64);
+        let mut quarter = Quarter::new(Quarter::world(blocks)?, 2, ACTIVE, Threads::One)?;
+        quarter.step()?;
+        let step = per_step(5, some(60, share), || quarter.step())?;
+        steps.push(format!("{step:.2}"));
+    }
+    rows.push([
+        format!("a step with {count} bodies that move, among 1 k, 10 k, 100 k buildings and 8 times as many solids"),
+        format!("{} ms", steps.join(", ")),
+        "by bodies, not by the city".into(),
+    ]);
+    Ok(())
+}
+
+/// A quarter some seconds on, so that those who meet have met.
+fn warmed(blocks: usize, crowd: Crowd, threads: Threads, share: f64) -> Result<Quarter, ProvingError> {
+    let mut quarter = Quarter::new(Quarter::world(blocks)?, blocks, crowd, threads)?;
+    for _ in 0..some(300, share) {
+        quarter.step()?;
+    }
+    Ok(quarter)
+}
+
+fn real_time(what: String, ms: f64, bar: &str, rows: &mut Rows) {
+    let factor = 1000.0 / 60.0 / ms;
+    rows.push([what, format!("{ms:.2} ms a step, {factor:.2} times real time"), bar.into()]);
+}
+
+fn people(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let people = some(1000, share);
+    for blocks in [16, 4] {
+        let mut quarter = warmed(blocks, Crowd { people, ..Crowd::default() }, Threads::One, share)?;
+        let step = per_step(5, some(60, share), || quarter.step())?;
+        let blocks = blocks * blocks;
+        real_time(
+            format!("{people} people in the streets of {blocks} blocks, 60 steps a second, one core"),
+            step,
+            "1 on one core",
+            rows,
+        );
+    }
+    Ok(())
+}
+
+fn cars(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let cars = some(1000, share);
+    let mut fleet = Fleet::new(cars)?;
+    for _ in 0..some(60, share) {
+        fleet.step()?;
+    }
+    let step = per_step(5, some(60, share), || fleet.step())?;
+    real_time(format!("{cars} cars on tyres, 60 steps a second, one core"), step, "1 on one core", rows);
+    Ok(())
+}
+
+fn mixed(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let all = some(10_000, share);
+    let (people, cars) = (all * 6 / 10, all * 3 / 10);
+    let crowd = Crowd { people, cars, dogs: all - people - cars, crates: 0 };
+    let blocks = 30;
+    let mut quarter = Quarter::new(Quarter::world(blocks)?, blocks, crowd, Threads::All)?;
+    // A circle in which about five hundred are.
+    let extent = blocks as f64 * 80.0;
+    let radius = extent * (500.0 / 10_000.0 / std::f64::consts::PI).sqrt();
+    let middle = Point3::new(extent / 2.0, extent / 2.0, 0.0);
+    let mut interest = vec![middle];
+    let near = quarter.physics.config().detail_radius;
+    if radius > near {
+        interest.extend([1.0, -1.0].map(|side| middle + simworld_core::geometry::Vector3::x() * side * near));
+    }
+    quarter.physics.set_interest(&interest);
+    for _ in 0..some(120, share) {
+        quarter.step()?;
+    }
+    let step = per_step(4, some(60, share), || quarter.step())?;
+    let bodies: Vec<_> = quarter.physics.bodies().collect();
+    let full =
+        bodies.iter().filter(|id| quarter.physics.detail(**id) == Some(simworld_physics::Detail::Full));
+    let full = full.count();
+    real_time(
+        format!(
+            "{all} people, cars and dogs, the nearest {full} in full detail, 60 steps a second, all cores"
+        ),
+        step,
+        "1 on two cores",
+        rows,
+    );
+    Ok(())
+}
+
+fn dogs(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    for (dogs, is_reduced, bar) in [(50, false, "1 on two cores"), (400, true, "hundreds in real time")] {
+        let dogs = some(dogs, share);
+        let mut pack = Pack::new(dogs, 0.6)?;
+        if is_reduced {
+            pack.physics.set_interest(&[Point3::new(0.0, 0.0, 1e5)]);
+        }
+        for _ in 0..some(20, share) {
+            pack.step(0.1)?;
+        }
+        let step = per_step(5, some(10, share), || pack.step(0.1))?;
+        let form = if is_reduced { "in the reduced form" } else { "on twelve motors, 200 substeps a second" };
+        rows.push([
+            format!("{dogs} robot dogs {form}"),
+            format!("{step:.1} ms a tenth of a second, {:.2} times real time", 100.0 / step),
+            bar.into(),
+        ]);
+    }
+    Ok(())
+}
+
+fn snapshots(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let count = some(10_000, share);
+    let (mut world, mut physics) = our_boxes(count)?;
+    for _ in 0..30 {
+        our_step(&mut world, &mut physics)?;
+    }
+    let (mut saving, mut restoring, mut size) = (f64::INFINITY, f64::INFINITY, 0);
+    for _ in 0..5 {
+        let (saved, time) = timed(|| physics.save());
+        let saved = saved?;
+        saving = saving.min(ms(time));
+        let (done, time) = timed(|| physics.restore(&world, &saved));
+        done?;
+        restoring = restoring.min(ms(time));
+        size = saved.len();
+    }
+    rows.push([
+        format!("{count} boxes in piles: to save, to take up"),
+        format!("{saving:.0} ms, {restoring:.0} ms, {:.1} MB", size as f64 / 1e6),
+        "50 ms each".into(),
+    ]);
+    Ok(())
+}
