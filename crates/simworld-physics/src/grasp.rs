@@ -145,6 +145,8 @@ pub(crate) struct Hold {
     pub(crate) change: Vector3,
     /// kg.
     pub(crate) mass: f64,
+    /// The moment of a substep, as a share of it, at which the engine's passes over it look in the mean.
+    pub(crate) middle: f64,
     /// N/m and N s/m.
     pub(crate) stiffness: f64,
     pub(crate) damping: f64,
@@ -341,6 +343,8 @@ impl PhysicsDynamics {
             .map(|grasp| grasp.joint)
             .collect();
         self.release(|grasp| gone.contains(&grasp.joint));
+        let passes = self.physics.integration_parameters.num_solver_iterations as f64;
+        let middle = 0.5 * (passes + 1.0) / passes;
         let Grasps { list, holds, .. } = &mut self.grasps;
         holds.clear();
         for grasp in list {
@@ -363,6 +367,7 @@ impl PhysicsDynamics {
                 velocity,
                 change,
                 mass: grasp.mass,
+                middle,
                 stiffness: grasp.grip.stiffness(),
                 damping: grasp.damping,
             });

@@ -108,6 +108,9 @@ pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
             _ => "you were run into and fell".to_owned(),
         },
         EventKind::GotUp { who: actor } if *actor == who => "you are on your feet again".to_owned(),
+        EventKind::GraspBroke { who: actor, thing, .. } if *actor == who => {
+            format!("you lost hold of {thing}")
+        }
         EventKind::PlanDone { who: actor } if *actor == who => "plan done".to_owned(),
         EventKind::PlanFailed { who: actor, reason } if *actor == who => format!("plan failed: {reason}"),
         EventKind::IntentRefused { who: actor, reason } if *actor == who => format!("refused: {reason}"),

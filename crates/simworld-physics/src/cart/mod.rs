@@ -1,15 +1,13 @@
 //! A cart on wheels, which moves as hands at its handle, slopes and blows move it.
 //!
-//! The chassis is a box that clears the ground; under each corner runs a wheel on a joint, round as a ball, so that a castor rolls whichever
-//! way it is led, without the trail of a real one. Lengths are m.
+//! The chassis is a box that clears the ground, with a wheel under each corner, round as a ball; a castor rolls whichever way it is led,
+//! without the trail of a real one, and wheels have no inertia of their own. Lengths are m.
 
 mod physics_body;
 
-use rapier3d_f64::prelude::RigidBodyHandle;
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
 use simworld_core::geometry::{Point3, Vector3};
-use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityRef, Shape};
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
@@ -17,8 +15,6 @@ use crate::error::{PhysicsError, check_range};
 
 /// Mass of a cart that says nothing of it, kg: shopping trolleys weigh 20 to 30 kg.
 const MASS: f64 = 25.0;
-/// Mass of all of its wheels as a share of that.
-const WHEELS: f64 = 0.08;
 
 /// Which of the wheels swivel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,10 +71,9 @@ pub struct Cart {
     config: CartConfig,
     size: Vector3,
     mass: f64,
-    id: Option<EntityId>,
     state: BodyState,
-    /// In the engine; none while it is carried or was just put somewhere.
-    wheels: Vec<RigidBodyHandle>,
+    /// With how much force the ground holds each wheel, N.
+    loads: [f64; 4],
     /// Whether it stands, so that its joints need no short substeps.
     rests: bool,
 }
@@ -99,7 +94,7 @@ impl Cart {
         }
         let mass = entity.info.mass.filter(|mass| (0.1..=1e5).contains(mass)).unwrap_or(MASS);
         let state = BodyState { pose: *entity.pose, twist: *entity.twist };
-        Ok(Self { config, size, mass, id: None, state, wheels: Vec::new(), rests: false })
+        Ok(Self { config, size, mass, state, loads: [0.0; 4], rests: false })
     }
 
     /// Where its handle is, world frame, m.
@@ -107,9 +102,9 @@ impl Cart {
         self.state.pose * Point3::new(-0.5 * self.size.x, 0.0, self.config.handle)
     }
 
-    /// The mass that a force at its handle moves, kg: its own, and what the turning of the wheels adds, two fifths of theirs.
-    pub fn rolling_mass(&self) -> f64 {
-        self.mass * (1.0 + 0.4 * WHEELS)
+    /// With how much force the ground held each wheel in the last substep, N: front left, front right, rear left, rear right.
+    pub fn loads(&self) -> [f64; 4] {
+        self.loads
     }
 
     /// Where the middles of the wheels are, body frame: front left, front right, rear left, rear right.
@@ -135,17 +130,17 @@ impl Embodiment for Cart {
     }
 
     fn save(&self) -> Vec<u8> {
-        let Self { config, size, mass, id, wheels, rests, .. } = self;
-        postcard::to_allocvec(&("cart", config, size, mass, (id, wheels, rests)))
+        let Self { config, size, mass, loads, rests, .. } = self;
+        postcard::to_allocvec(&("cart", config, size, mass, (loads, rests)))
             .expect("plain numbers always serialise")
     }
 
     fn restore(&mut self, state: &BodyState, saved: &[u8]) -> bool {
-        type Inner = (Option<EntityId>, Vec<RigidBodyHandle>, bool);
+        type Inner = ([f64; 4], bool);
         type Saved<'a> = (&'a str, CartConfig, Vector3, f64, Inner);
         match postcard::from_bytes::<Saved<'_>>(saved) {
-            Ok(("cart", config, size, mass, (id, wheels, rests))) if config.validate().is_ok() => {
-                *self = Self { config, size, mass, id, state: *state, wheels, rests };
+            Ok(("cart", config, size, mass, (loads, rests))) if config.validate().is_ok() => {
+                *self = Self { config, size, mass, state: *state, loads, rests };
                 true
             }
             _ => false,

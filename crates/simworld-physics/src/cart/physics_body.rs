@@ -1,9 +1,12 @@
-//! How a cart takes part in a physics world: a chassis on four wheels, each on an impulse joint.
+//! How a cart takes part in a physics world: one rigid body of a box on four balls.
+//!
+//! A wheel that turns freely passes on nothing but what its bearing holds against it, and at an edge the force square to the tyre: that
+//! of a ball without friction. What the bearings hold, and what keeps a wheel that does not swivel from going sideways, is added
+//! by hand, as shares of the load that the engine found on each wheel.
 
-use rapier3d_f64::dynamics::{GenericJointBuilder, JointAxesMask, MotorModel};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::prelude::{
-    ColliderBuilder, JointAxis, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape,
+    ColliderHandle, ContactPair, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
 use simworld_core::asset::Material;
 use simworld_core::geometry::Vector3;
@@ -11,60 +14,73 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::Shape;
 use simworld_core::seam::BodyState;
 
-use super::{Cart, Castors, WHEELS};
+use super::{Cart, Castors};
 use crate::body::{BodyContext, PhysicsBody, Surroundings};
 use crate::convert::{to_pose, to_vector};
-use crate::dynamics::LONGEST_JOINTED_SUBSTEP;
 use crate::shape::{collider_for, on_wheels};
 
-/// Bearings take up their friction at this speed, rad/s; slower they creep.
-const CREEP: f64 = 0.02;
-/// The way a bearing's friction counts on, N m s/rad at least: a bearing without friction turns freely.
-const SMOOTH: f64 = 1e-9;
+/// The longest substep in which wheels keep to the ground, s.
+const LONGEST_ROLLING_SUBSTEP: f64 = 1.0 / 60.0;
 
 impl PhysicsBody for Cart {
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
-        self.id = Some(id);
-        let clearance = 2.0 * self.config.wheel_radius;
+        let radius = self.config.wheel_radius;
         let half = self.size * 0.5;
-        let rise = (self.size.z - clearance) * 0.5;
-        let middle = RapierPose::from_translation(Vector::new(0.0, 0.0, clearance + rise));
+        let rise = half.z - radius;
         let shape = Shape::cuboid(self.size.x, self.size.y, self.size.z);
-        let mut collider =
-            collider_for(&shape, id, Material::Metal).position(middle).mass(self.mass * (1.0 - WHEELS));
-        collider.shape = SharedShape::cuboid(half.x, half.y, rise);
-        collider.user_data = on_wheels(collider.user_data);
+        let mut chassis = collider_for(&shape, id, Material::Metal)
+            .position(RapierPose::from_translation(Vector::new(0.0, 0.0, 2.0 * radius + rise)))
+            .mass(self.mass);
+        chassis.shape = SharedShape::cuboid(half.x, half.y, rise);
+        chassis.user_data = on_wheels(chassis.user_data);
         let body = RigidBodyBuilder::dynamic()
             .pose(to_pose(&self.state.pose))
             .linvel(to_vector(&self.state.twist.linear))
             .angvel(to_vector(&self.state.twist.angular));
-        let rigid = physics.insert(body, collider).0;
-        self.put_on_wheels(physics, rigid);
+        let rigid = physics.insert(body, chassis).0;
+        for axle in self.axles() {
+            let place = RapierPose::from_translation(to_vector(&axle));
+            let mut tyre = collider_for(&Shape::Sphere { radius }, id, Material::Rubber)
+                .position(place)
+                .density(0.0)
+                // The mean with whatever it stands on is none as well.
+                .friction(0.0)
+                .restitution(0.0);
+            tyre.user_data = on_wheels(tyre.user_data);
+            physics.insert_collider(tyre, Some(rigid));
+        }
         rigid
     }
 
-    fn parts(&self) -> &[RigidBodyHandle] {
-        &self.wheels
+    fn longest_substep(&self) -> f64 {
+        if self.rests { f64::INFINITY } else { LONGEST_ROLLING_SUBSTEP }
     }
 
-    fn gather(&mut self, physics: &mut PhysicsWorld, _: RigidBodyHandle) {
-        for wheel in std::mem::take(&mut self.wheels) {
-            physics.remove_body(wheel);
+    fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
+        self.rests = around.is_sleeping();
+        let wheels = around.physics.bodies.get(around.rigid).map_or(&[][..], |rigid| rigid.colliders());
+        for (load, wheel) in self.loads.iter_mut().zip(wheels.iter().skip(1)) {
+            *load = load_on(around.physics, *wheel, dt);
         }
     }
 
-    fn longest_substep(&self) -> f64 {
-        if self.rests { f64::INFINITY } else { LONGEST_JOINTED_SUBSTEP }
-    }
-
-    fn sense(&mut self, around: &Surroundings<'_>, _: f64) {
-        self.rests = around.is_sleeping();
-    }
-
-    fn drive(&mut self, context: &mut BodyContext<'_>, _: f64) {
-        if self.wheels.is_empty() {
-            let rigid = context.rigid;
-            self.put_on_wheels(context.physics, rigid);
+    fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64) {
+        if self.rests {
+            return;
+        }
+        let grip = context.conditions.road.friction(Material::Rubber);
+        let weight = self.loads.iter().sum::<f64>().max(1e-9);
+        for (index, axle) in self.axles().iter().enumerate() {
+            let load = self.loads[index];
+            let is_fixed = match self.config.castors {
+                Castors::Front => index >= 2,
+                Castors::All => false,
+                Castors::None => true,
+            };
+            self.roll(context, axle, [load / weight, load * self.config.rolling_resistance], dt);
+            if is_fixed {
+                self.keep_to_its_way(context, axle, load * grip, dt);
+            }
         }
     }
 
@@ -73,57 +89,44 @@ impl PhysicsBody for Cart {
     }
 }
 
+/// With how much force a wheel was pressed in the last substep of `dt` s, N.
+fn load_on(physics: &PhysicsWorld, wheel: ColliderHandle, dt: f64) -> f64 {
+    let pairs = physics.contact_pairs_with(wheel).filter(|pair| pair.has_any_active_contact());
+    pairs.map(ContactPair::total_impulse_magnitude).sum::<f64>() / dt
+}
+
 impl Cart {
-    /// Puts wheels under the chassis, which roll as fast as it goes.
-    fn put_on_wheels(&mut self, physics: &mut PhysicsWorld, rigid: RigidBodyHandle) {
-        let Some(id) = self.id else { return };
-        let frame = *physics.bodies[rigid].position();
-        let radius = self.config.wheel_radius;
-        let velocity = self.state.twist.linear;
-        let spin = (self.state.pose.rotation * Vector3::z()).cross(&velocity) / radius;
-        for (index, axle) in self.axles().iter().enumerate() {
-            let place = RapierPose::from_parts(frame * to_vector(axle), frame.rotation);
-            let body =
-                RigidBodyBuilder::dynamic().pose(place).linvel(to_vector(&velocity)).angvel(to_vector(&spin));
-            let shape = Shape::Sphere { radius };
-            let tyre: ColliderBuilder = collider_for(&shape, id, Material::Rubber)
-                .position(RapierPose::IDENTITY)
-                .mass(0.25 * WHEELS * self.mass);
-            let tyre = ColliderBuilder { user_data: on_wheels(tyre.user_data), ..tyre };
-            let wheel = physics.insert(body, tyre).0;
-            physics.bodies[wheel].recompute_mass_properties_from_colliders(&physics.colliders);
-            let is_front = index < 2;
-            let swivels = match self.config.castors {
-                Castors::Front => is_front,
-                Castors::All => true,
-                Castors::None => false,
-            };
-            physics.insert_impulse_joint(rigid, wheel, self.bearing(axle, swivels));
-            self.wheels.push(wheel);
+    /// The place under a wheel where it stands, and what its velocity will be by the weight of the cart, if nothing holds it.
+    fn tread(&self, rigid: &RigidBody, axle: &Vector3, fall: f64) -> (Vector, Vector) {
+        let place = *rigid.position() * to_vector(&(axle - Vector3::z() * self.config.wheel_radius));
+        (place, rigid.velocity_at_point(place) - Vector::Z * fall)
+    }
+
+    /// Takes from a wheel, which bears a share of the weight, what it would roll in the coming substep, with no more than a force.
+    fn roll(&self, context: &mut BodyContext<'_>, axle: &Vector3, [share, most]: [f64; 2], dt: f64) {
+        let fall = context.config.gravity * dt;
+        let rigid = context.rigid_body();
+        let (place, velocity) = self.tread(rigid, axle, fall);
+        let up = *rigid.rotation() * Vector::Z;
+        let along = velocity - up * velocity.dot(up);
+        let wanted = along.length() * rigid.mass() * share;
+        if wanted > 0.0 {
+            let impulse = along * (-wanted.min(most * dt) / along.length());
+            rigid.apply_impulse_at_point(impulse, place, false);
         }
     }
 
-    /// The joint of a wheel: it turns about its axle, or whichever way it is led, against the friction of its share of the weight.
-    fn bearing(&self, axle: &Vector3, swivels: bool) -> rapier3d_f64::dynamics::GenericJoint {
-        const WEIGHT: f64 = 9.81;
-        let torque = 0.25 * self.config.rolling_resistance * self.mass * WEIGHT * self.config.wheel_radius;
-        let (locked, axes): (_, &[JointAxis]) = if swivels {
-            (JointAxesMask::LIN_AXES, &[JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ])
-        } else {
-            // About the first axis of the joint, which is laid along the axle.
-            (JointAxesMask::LOCKED_REVOLUTE_AXES, &[JointAxis::AngX])
-        };
-        let mut joint = GenericJointBuilder::new(locked)
-            .local_axis1(Vector::Y)
-            .local_axis2(Vector::Y)
-            .local_anchor1(to_vector(axle))
-            .contacts_enabled(false);
-        for axis in axes {
-            joint = joint
-                .motor_model(*axis, MotorModel::ForceBased)
-                .motor_velocity(*axis, 0.0, (torque / CREEP).max(SMOOTH))
-                .motor_max_force(*axis, torque);
-        }
-        joint.build()
+    /// Takes from one of two wheels on an axle what it would go sideways, with no more than a force.
+    fn keep_to_its_way(&self, context: &mut BodyContext<'_>, axle: &Vector3, most: f64, dt: f64) {
+        let fall = context.config.gravity * dt;
+        let rigid = context.rigid_body();
+        let (place, velocity) = self.tread(rigid, axle, fall);
+        let [ahead, aside, up] = [Vector::X, Vector::Y, Vector::Z].map(|axis| *rigid.rotation() * axis);
+        let arm = (place - rigid.center_of_mass()).dot(ahead);
+        let turning = (rigid.mass_properties().effective_world_inv_inertia * up).dot(up);
+        // The mass that it feels, as the cart turns about the vertical alone: the ground holds it upright.
+        let mass = 1.0 / (1.0 / rigid.mass().max(1e-9) + arm * arm * turning);
+        let impulse = (-0.5 * mass * velocity.dot(aside)).clamp(-most * dt, most * dt);
+        rigid.apply_impulse_at_point(aside * impulse, place, false);
     }
 }

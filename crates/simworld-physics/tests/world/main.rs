@@ -13,7 +13,6 @@ mod falling;
 mod grasps;
 mod laws;
 mod models;
-mod probe;
 mod rays;
 mod standing_on_ground;
 mod throwing;
