@@ -203,7 +203,9 @@ pub(super) fn can_be_done(step: &PlanStep, depth: u32) -> bool {
 
 fn is_sound(condition: &Condition, depth: u32) -> bool {
     match condition {
-        Condition::Near { within, .. } | Condition::FreeNear { within, .. } => within.is_finite(),
+        Condition::Near { within, .. }
+        | Condition::FreeNear { within, .. }
+        | Condition::Together { within, .. } => within.is_finite(),
         Condition::Elapsed(seconds) => seconds.is_finite(),
         Condition::Not(inner) => depth < DEEPEST && is_sound(inner, depth + 1),
         Condition::All(inner) | Condition::Any(inner) => {

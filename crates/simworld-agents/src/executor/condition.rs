@@ -38,6 +38,10 @@ pub(crate) fn holds(condition: &Condition, scene: &dyn Scene, me: &EntityRef<'_>
         Condition::Not(inner) => !again(inner),
         Condition::All(inner) => inner.iter().all(again),
         Condition::Any(inner) => inner.iter().any(again),
+        Condition::Together { one, other, within } => {
+            let both = scene.entity(*one).zip(scene.entity(*other));
+            both.is_some_and(|(one, other)| are_together(&one, &other, *within))
+        }
         _ => false,
     }
 }
@@ -83,6 +87,15 @@ fn any(
         if found { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     found
+}
+
+/// Whether the gap between two footprints, or between one and where the other is entered, is at most so wide, m.
+fn are_together(one: &EntityRef<'_>, other: &EntityRef<'_>, within: f64) -> bool {
+    let gap = |of: &EntityRef<'_>, to: &EntityRef<'_>| {
+        let reach = of.info.shape.planar_distance(of.pose, &to.planar());
+        reach.min((of.access().xy() - to.planar()).norm())
+    };
+    gap(one, other).min(gap(other, one)) <= within
 }
 
 /// Whether somebody sits on it, is in it, or has it; oneself does not count.

@@ -78,9 +78,10 @@ impl Parser<'_> {
         let begin = self.at;
         let mut clauses = self.names_within(end);
         self.at = end;
-        let goods = (begin..end).find_map(|at| self.names.goods(&self.lexemes[at..end]));
-        if let Some((goods, _)) = &goods {
-            self.view_goods(goods); // "I forgot my newspaper, could you buy me one"
+        let goods = self.goods_within(begin, end);
+        if let Some(goods) = goods.clone() {
+            self.wish_for(goods); // "I forgot my newspaper, could you buy me one"
+            self.settle_wish(&clauses);
         }
         self.skip_joints();
         if self.at >= self.lexemes.len() {

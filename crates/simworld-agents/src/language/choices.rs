@@ -59,7 +59,7 @@ impl Parser<'_> {
     }
 
     /// By what one of several is chosen.
-    fn most_asked(&mut self) -> Option<Choice> {
+    pub(super) fn most_asked(&mut self) -> Option<Choice> {
         if self.eat_any(&[
             "nearest",
             "closest",

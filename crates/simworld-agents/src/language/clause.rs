@@ -114,6 +114,12 @@ pub(super) enum Test {
     InUse(Reference),
     Open(Reference),
     Holds(Option<Reference>),
+    /// Two others are near one another.
+    Together {
+        one: Reference,
+        other: Reference,
+        within: f64,
+    },
     Seated,
     Raining,
     Snowing,
@@ -146,7 +152,8 @@ impl Test {
             | Self::There { what, .. }
             | Self::InUse(what)
             | Self::Open(what)
-            | Self::Holds(Some(what)) => matches!(what.target, Target::It | Target::Them),
+            | Self::Holds(Some(what))
+            | Self::Together { one: what, .. } => matches!(what.target, Target::It | Target::Them),
             Self::Not(test) => test.is_about_it(),
             Self::Both(one, other) | Self::Either(one, other) => one.is_about_it() || other.is_about_it(),
             _ => false,
@@ -409,6 +416,31 @@ impl Clause {
             | Self::Follow { whom: what, .. }
             | Self::Board { what, .. }
             | Self::Drive { to: what, .. }
+            | Self::Around { what, .. }
+            | Self::Past { what, .. }
+            | Self::Buy { at: Some(what), .. }
+            | Self::Door { what: Some(what), .. }
+            | Self::Sit { on: Some(what) }
+            | Self::Photo { of: Some(what), .. } => Some(what),
+            _ => None,
+        }
+    }
+
+    /// As [`about`](Self::about), to be put in another's place.
+    pub(super) const fn about_mut(&mut self) -> Option<&mut Reference> {
+        match self {
+            Self::Go { to: what, .. }
+            | Self::Take { what, .. }
+            | Self::Wave { to: what }
+            | Self::Say { to: what, .. }
+            | Self::Face { what }
+            | Self::Point { at: what }
+            | Self::Argue { with: what }
+            | Self::Follow { whom: what, .. }
+            | Self::Board { what, .. }
+            | Self::Drive { to: what, .. }
+            | Self::Around { what, .. }
+            | Self::Past { what, .. }
             | Self::Buy { at: Some(what), .. }
             | Self::Door { what: Some(what), .. }
             | Self::Sit { on: Some(what) }

@@ -351,6 +351,14 @@ impl<'a> Draft<'a> {
         }
     }
 
+    /// The thing that "there" stands for.
+    pub(super) fn gone_to(&self) -> Option<EntityId> {
+        match self.there {
+            Some((Goal::Entity(id), _)) => Some(id),
+            _ => None,
+        }
+    }
+
     // ---- going somewhere ----
 
     pub(super) fn go_on_to(&mut self, to: Option<&Reference>) -> Result<(), PlanError> {

@@ -56,6 +56,9 @@ impl Parser<'_> {
             return self.photo(number as u32);
         }
         self.eat_any(&["up", "over", "back"]);
+        if let Some(goods) = self.wished_goods() {
+            return self.purchase(goods, None);
+        }
         if let Some(photo) = self.portrait()? {
             return Ok(photo);
         }
@@ -97,7 +100,7 @@ impl Parser<'_> {
         let start = self.at;
         let Some(whom) = self.somebody_here() else { return Ok(None) };
         let at = self.at;
-        if let Some(goods) = self.goods() {
+        if let Some(goods) = self.wished_goods().or_else(|| self.goods()) {
             return self.purchase(goods, Some(whom)).map(Some);
         }
         self.at = at;
@@ -242,8 +245,11 @@ impl Parser<'_> {
     pub(super) fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {
         let start = self.at;
         if manner == Manner::Deliver {
+            if let Some(goods) = self.wished_goods() {
+                return self.purchase(goods, None);
+            }
             let whom = self.receiver();
-            if let Some(goods) = self.goods() {
+            if let Some(goods) = self.wished_goods().or_else(|| self.goods()) {
                 return self.purchase(goods, whom);
             }
             self.at = start;

@@ -45,10 +45,91 @@ pub(super) fn hear(text: &str, name: Option<&str>) -> Vec<Lexeme> {
         without_commas_in(&mut lexemes, &[first, "i meant"]);
     }
     with_dashes(&mut lexemes, text);
+    without_company(&mut lexemes);
     if let Some(name) = name {
         drop_address(&mut lexemes, &lex(name));
     }
     lexemes
+}
+
+/// "Walk with me to the well", "go to the museum with me": who speaks goes along, and leads nowhere. "Come with me" alone is following.
+fn without_company(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const MOVES: &[&str] = &[
+        "come", "walk", "go", "run", "ride", "drive", "stroll", "sit", "stand", "wait", "rest", "travel", "head", "hurry", "move", "stay", "cycle", "march",
+        "hike", "down", "along", "over", "up", "out", "on", "here", "there", "back", "off", "jog", "wander", "pop", "step", "going", "coming", "join",
+    ];
+    const WITH_ME: &Phrases = &Phrases::of(&[
+        "with me",
+        "with us",
+        "together with me",
+        "together with us",
+        "along with me",
+        "along with us",
+    ]);
+    const LEADS: &Phrases = &Phrases::of(&[
+        "to",
+        "over",
+        "towards",
+        "into",
+        "on",
+        "at",
+        "by",
+        "until",
+        "till",
+        "for",
+        "in",
+        "near",
+        "next to",
+        "beside",
+        "under",
+        "behind",
+        "down",
+        "up",
+        "out",
+        "across",
+        "around",
+        "round",
+        "through",
+        "past",
+        "from",
+        "as far as",
+        "in front of",
+        "here",
+        "there",
+        "onto",
+        "inside",
+        "back",
+        "while",
+    ]);
+    /// What is left with who speaks stays there.
+    const KEPT: &[&str] = &[
+        "leave", "put", "drop", "keep", "left", "is", "are", "be", "talk", "speak", "argue", "share",
+        "agree", "swap", "chat", "was",
+    ];
+    let word = |lexeme: &Lexeme| match &lexeme.token {
+        Token::Word(word) => Some(word.clone()),
+        _ => None,
+    };
+    let mut at = 1;
+    while at < lexemes.len() {
+        let begin = (0..at).rev().find(|at| word(&lexemes[*at]).is_none()).map_or(0, |mark| mark + 1);
+        let said = &lexemes[begin..at];
+        let kept = said.iter().filter_map(word).any(|word| KEPT.contains(&word.as_str()));
+        let Some(words) = longest_phrase(&lexemes[at..], WITH_ME).filter(|_| !kept && !said.is_empty())
+        else {
+            at += 1;
+            continue;
+        };
+        let moves = said.last().and_then(word).is_some_and(|word| MOVES.contains(&word.as_str()));
+        let after = &lexemes[at + words..];
+        let led = said.len() > 2 && (0..said.len()).any(|at| longest_phrase(&said[at..], LEADS).is_some());
+        if moves && longest_phrase(after, LEADS).is_some() || !moves && led {
+            lexemes.drain(at..at + words);
+        } else {
+            at += 1;
+        }
+    }
 }
 
 /// "St. Mary's": the full stop of an abbreviation ends no sentence.

@@ -7,6 +7,8 @@
 //!
 //! Distances are in m, seen from the agent; of two things at the same distance the lower id is meant.
 
+mod again;
+mod alternatives;
 mod asides;
 mod between;
 mod blocks;
@@ -37,16 +39,19 @@ mod orders;
 mod paces;
 pub(crate) mod paint;
 mod parser;
+mod passengers;
 mod passive;
 mod pauses;
 mod phrases;
 mod pointing;
 mod politeness;
+mod portions;
 mod reference;
 mod relate;
 mod remarks;
 mod requests;
 mod resolve;
+mod routes;
 pub(crate) mod scenes;
 mod sequence;
 mod shopping;
@@ -59,6 +64,7 @@ pub(crate) mod streets;
 mod structured;
 mod tails;
 mod tests_of;
+mod tests_of_others;
 mod tests_of_self;
 mod things;
 mod topics;

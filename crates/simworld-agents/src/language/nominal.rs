@@ -256,6 +256,9 @@ impl Parser<'_> {
         if self.mark() == Some('?') && self.rest().len() > 1 {
             return Ok(None); // "what about a coffee? go and buy one"
         }
+        if self.orders_what_is_wished() {
+            return Ok(None); // "we need two pretzels, please buy them"
+        }
         let clauses = self.purchase(goods, None)?;
         Ok(self.ends_clause().then_some(clauses))
     }

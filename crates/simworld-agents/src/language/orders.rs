@@ -207,8 +207,15 @@ impl Parser<'_> {
             [Verb::Go, Verb::Run, Verb::Stroll, Verb::Take, Verb::Follow, Verb::Drive].contains(&verb);
         if leads && self.best_way() {
             let pace = if verb == Verb::Run { Pace::Run } else { Pace::Usual };
+            self.eat_any(&["back"]);
             let to = self.reference(0)?;
             return self.after_place(Clause::Go { to, side: None, pace, within: None }, pace);
+        }
+        if leads && matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll)) && self.way_alone() {
+            return Ok(Vec::new());
+        }
+        if let Some(clauses) = self.passenger(verb) {
+            return Ok(clauses);
         }
         match verb {
             Verb::Go | Verb::Run if self.moves_thing(start) => self.drop(Manner::Deliver),

@@ -25,6 +25,7 @@ use super::phrases::{PhraseList, Phrases};
 use super::politeness::{NEGATIONS, filler, joint};
 use super::requests;
 use super::resolve::View;
+use super::shopping::Goods;
 use super::tails::ON_THE_WAY;
 use super::verbs::{Verb, longest_verb};
 
@@ -63,7 +64,12 @@ pub(super) struct Parser<'a> {
     /// Out of which things "the middle one" is chosen.
     pub(super) scope: Option<Reference>,
     /// The goods that "one" stands for.
-    pub(super) wanted: Option<String>,
+    pub(super) wanted: Option<Goods>,
+    /// Whether they were only wished for so far, and by whom if somebody here is to have them.
+    pub(super) wished: bool,
+    pub(super) wished_by: Option<Reference>,
+    /// Whether a driver was told of passengers who are no part of the scene.
+    pub(super) rides: bool,
     /// To which side one turned last: 1 is left.
     pub(super) turned: Option<f64>,
     /// What was asked last: "until it is".
@@ -111,6 +117,9 @@ impl<'a> Parser<'a> {
             previous: None,
             scope: None,
             wanted: None,
+            wished: false,
+            wished_by: None,
+            rides: false,
             said: None,
             turned: None,
             tested: None,
@@ -176,7 +185,7 @@ impl<'a> Parser<'a> {
         if self.skip_purpose() {
             return Ok(false);
         }
-        let _ = self.skip_outcome() || self.skip_use();
+        let _ = self.skip_portions() || self.skip_outcome() || self.skip_use();
         self.skip_fillers();
         self.at += requests::coda(self.rest());
         self.skip_manner();
@@ -218,20 +227,11 @@ impl<'a> Parser<'a> {
 
     /// Whether "and if not" follows, which belongs to the condition around.
     fn denies(&self) -> bool {
-        longest_phrase(
-            self.rest(),
-            &[
-                "and if not",
-                "and otherwise",
-                "and else",
-                "and if it",
-                "and if he",
-                "and if she",
-                "and if they",
-                "and if there",
-            ],
-        )
-        .is_some()
+        #[rustfmt::skip]
+        const DENIED: &[&str] = &[
+            "and if not", "and otherwise", "and else", "and if it", "and if he", "and if she", "and if they", "and if there",
+        ];
+        longest_phrase(self.rest(), DENIED).is_some()
     }
 
     /// Whether the words from a place to here are "and" alone.
@@ -296,6 +296,7 @@ impl<'a> Parser<'a> {
         self.tries = self.tries.checked_sub(1)?;
         let start = self.at;
         let kept = (self.class, self.bearers.clone(), self.verb, self.scope.clone());
+        let wish = (self.wanted.clone(), self.wished, self.wished_by.clone());
         let mut found = None;
         for rule in [
             Self::instead,
@@ -305,6 +306,7 @@ impl<'a> Parser<'a> {
             Self::in_nouns,
             Self::clipped,
             Self::which_one,
+            Self::way_asked,
             Self::itinerary,
             Self::wants_one,
             Self::somebody_gets,
@@ -318,6 +320,7 @@ impl<'a> Parser<'a> {
             }
             self.at = start;
             (self.class, self.bearers, self.verb, self.scope) = kept.clone();
+            (self.wanted, self.wished, self.wished_by) = wish.clone();
         }
         found
     }

@@ -44,6 +44,9 @@ impl Parser<'_> {
         {
             self.at += 1; // "both Anna and Ben" are each named
         }
+        if let Some(one) = self.chosen_of_named() {
+            return Ok(one);
+        }
         if let Some(them) = self.somebody() {
             return Ok(them);
         }
@@ -79,7 +82,7 @@ impl Parser<'_> {
         if reference.relation.is_some() {
             reference.text = self.text_from(text_at);
         }
-        self.or_another(&reference)?;
+        self.or_another(&mut reference)?;
         Ok(reference)
     }
 
@@ -116,27 +119,6 @@ impl Parser<'_> {
         }
         self.at = start;
         Ok(())
-    }
-
-    /// "The bench or the chair" leaves open which.
-    fn or_another(&mut self, reference: &Reference) -> Result<(), PlanError> {
-        let start = self.at;
-        if !self.eat_any(&["or", "or else", "or maybe", "or perhaps"]) {
-            return Ok(());
-        }
-        self.eat_any(&["to", "at", "on"]);
-        let Ok(other) = self.reference(0) else {
-            self.at = start;
-            return Ok(());
-        };
-        let mut candidates = Vec::new();
-        for one in [reference, &other] {
-            if let Ok(found) = self.view.find(one, super::resolve::Purpose::Any) {
-                candidates.push((found.id, found.label().to_owned()));
-            }
-        }
-        let wanted = format!("of {} or {}", reference.text, other.text);
-        Err(PlanError::Ambiguous { wanted, candidates })
     }
 
     /// "The dog called Rex", "the building by the name of Maple House".

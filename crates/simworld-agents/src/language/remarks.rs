@@ -44,9 +44,8 @@ impl Parser<'_> {
         if is_remark {
             let count = self.rest().iter().position(ends).unwrap_or(self.rest().len());
             // "We're out of bread, can you buy some".
-            let goods = (0..count).find_map(|at| self.names.goods(&self.rest()[at..count]));
-            if let Some((goods, _)) = goods {
-                self.view_goods(&goods);
+            if let Some(goods) = self.goods_within(self.at, self.at + count) {
+                self.wish_for(goods);
             }
             let end = self.at + count;
             let takes_up = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if PRONOUNS.contains(&word.as_str()));

@@ -1,14 +1,16 @@
 //! Orders about goods: what places sell, for whom it is, and who sells it.
 
 use simworld_core::id::EntityId;
+use simworld_core::scene::EntityKind;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Count, Reference, Target};
-use super::lexer::Token;
+use super::lexer::{Lexeme, Token};
 use super::lexicon::{DETERMINERS, category, is_animate, longest_phrase};
 use super::numbers;
 use super::parser::{Parser, shortened};
 use super::phrases::Phrases;
+use super::verbs::{Verb, longest_verb};
 
 /// Who sells what is said before: "the coffee shop".
 const SELLERS: &Phrases =
@@ -22,11 +24,41 @@ const VESSELS: &[&str] = &[
 ];
 /// Who or what goods are for who is no part of a scene.
 #[rustfmt::skip]
-const OTHERS: &Phrases = &Phrases::of(&[
+pub(super) const OTHERS: &Phrases = &Phrases::of(&[
     "kids", "children", "boys", "girls", "guys", "team", "crew", "family", "class", "office", "party", "meeting", "guests", "visitors",
     "friends", "colleagues", "others", "gang", "staff", "workers", "students", "lot", "lot of us", "everyone", "everybody", "us", "later", "lunch",
     "dinner", "breakfast", "tonight", "tomorrow", "mum", "mom", "dad", "wife", "husband", "boss", "grandma", "grandpa", "parents", "picnic", "trip",
-    "road", "train", "journey", "way",
+    "road", "train", "journey", "way", "sister", "brother", "son", "daughter", "grandmother", "grandfather", "mother", "father", "aunt", "uncle", "cousin",
+    "neighbour", "neighbor", "neighbours", "neighbors", "girlfriend", "boyfriend", "teacher", "friend", "colleague", "granny", "gran", "nan", "mummy", "daddy",
+    "nephew", "niece", "grandson", "granddaughter", "grandparents", "grandkids", "grandchildren", "little ones", "twins", "baby", "husband and me", "birthday",
+]);
+/// The place that was spoken of, behind what is bought there.
+const THERE: &Phrases = &Phrases::of(&[
+    "there",
+    "in there",
+    "right there",
+    "from there",
+    "over there",
+    "at that place",
+    "at that shop",
+]);
+/// To who speaks, who is nobody in the scene.
+const TO_ME: &Phrases = &Phrases::of(&[
+    "to me",
+    "over to me",
+    "back to me",
+    "to us",
+    "back to us",
+    "over to us",
+    "back here",
+    "over here",
+]);
+/// What goods are called that were wanted before: "buy them".
+#[rustfmt::skip]
+const WISHED: &Phrases = &Phrases::of(&[
+    "it", "them", "those", "these", "that", "both", "both of them", "all of them", "the lot", "one", "one of them", "some", "some of it", "some of that",
+    "one of those", "that one", "this", "them all", "it all", "all of it", "any", "one of these", "some of them", "some more", "another", "a few", "the two",
+    "the two of them",
 ]);
 /// What is said of goods, and makes them no others.
 #[rustfmt::skip]
@@ -37,6 +69,7 @@ const ADJECTIVES: &Phrases = &Phrases::of(&[
 ]);
 
 /// What is bought, and how many times.
+#[derive(Clone, Debug)]
 pub(super) struct Goods {
     pub(super) name: String,
     pub(super) times: u32,
@@ -45,8 +78,11 @@ pub(super) struct Goods {
 impl Parser<'_> {
     /// "Buy a coffee at the corner shop": goods are what a place nearby sells.
     pub(super) fn buy(&mut self) -> Result<Vec<Clause>, PlanError> {
+        if let Some(goods) = self.wished_goods() {
+            return self.purchase(goods, None);
+        }
         let whom = self.receiver();
-        match self.goods() {
+        match self.wished_goods().or_else(|| self.goods()) {
             Some(goods) => self.purchase(goods, whom),
             None => Err(self.not_sold()),
         }
@@ -60,11 +96,16 @@ impl Parser<'_> {
     ) -> Result<Vec<Clause>, PlanError> {
         let mut at = None;
         let mut times = goods.times;
+        let whom_wished = self.wished_by.take();
+        self.wished = false;
         loop {
-            if whom.is_none()
+            if at.is_none() && self.eat_any(THERE) {
+                at = Some(Reference::to(Target::There, "there".to_owned()));
+            } else if whom.is_none()
                 && let Some(receiver) = self.for_whom()
             {
                 whom = Some(receiver);
+            } else if self.view.speaker.is_none() && self.eat_any(TO_ME) {
             } else if at.is_none()
                 && longest_phrase(self.rest(), &["at", "from", "in", "inside", "over at", "down at", "up at"])
                     .is_some()
@@ -74,15 +115,116 @@ impl Parser<'_> {
                 self.at += words;
                 times *= more;
             } else {
-                self.view_goods(&goods.name);
+                self.wanted = Some(Goods { name: goods.name.clone(), times: 1 });
+                let whom = whom.or(whom_wished);
                 return Ok(vec![Clause::Buy { goods: goods.name, times, at, whom }]);
             }
         }
     }
 
-    /// Remembers what "one" stands for: "what about a coffee? Go and buy one".
-    pub(super) fn view_goods(&mut self, goods: &str) {
-        self.wanted = Some(goods.to_owned());
+    /// Remembers what is wanted, and "one" stands for: "what about a coffee? Go and buy one".
+    pub(super) fn wish_for(&mut self, goods: Goods) {
+        (self.wanted, self.wished) = (Some(goods), true);
+    }
+
+    /// What is spoken of and can be taken is what "it" stands for, and not the goods beside it: "a basket of apples".
+    pub(super) fn settle_wish(&mut self, spoken_of: &[Clause]) {
+        let is_item = |what: &Reference| {
+            let found = self.view.find(what, super::resolve::Purpose::Any);
+            found.is_ok_and(|found| {
+                matches!(
+                    found.kind,
+                    EntityKind::Parcel | EntityKind::Prop | EntityKind::Cone | EntityKind::Chair
+                )
+            })
+        };
+        if spoken_of.iter().any(|clause| matches!(clause, Clause::Mention { what } if is_item(what))) {
+            self.wished = false;
+        }
+    }
+
+    /// Goods that are named somewhere before a place, with how many.
+    pub(super) fn goods_within(&mut self, from: usize, end: usize) -> Option<Goods> {
+        let whole = self.lexemes;
+        let start = std::mem::replace(&mut self.at, from);
+        let wanted = self.wanted.take();
+        self.lexemes = &whole[..end];
+        let found = (from..end).find_map(|at| {
+            self.at = at;
+            self.goods()
+        });
+        self.lexemes = whole;
+        (self.at, self.wanted) = (start, wanted);
+        found
+    }
+
+    /// "Them", "it", "one" for what was wanted before and is not ordered yet: "we need two pretzels, please buy them".
+    pub(super) fn wished_goods(&mut self) -> Option<Goods> {
+        let goods = self.wanted.clone().filter(|_| self.wished)?;
+        let start = self.at;
+        let single = longest_phrase(
+            self.rest(),
+            &["one", "some", "another", "one of them", "one of those", "one of these"],
+        )
+        .is_some();
+        if self.eat_any(WISHED) {
+            let counts = matches!(self.rest().first(), Some(Lexeme { token: Token::Word(_), .. }))
+                && self.names.goods(self.rest()).is_some();
+            let goes_on = longest_phrase(
+                self.rest(),
+                &[
+                    "to", "for", "at", "from", "in", "over", "there", "here", "back", "up", "right",
+                    "straight", "with",
+                ],
+            );
+            if !counts && (self.ends_clause() || goes_on.is_some()) {
+                self.eat_any(&["here", "back", "over", "up", "back here", "over here"]);
+                return Some(if single { Goods { times: 1, ..goods } } else { goods });
+            }
+        }
+        self.at = start;
+        None
+    }
+
+    /// Whether what follows orders the goods that were only wished for: "..., can you go and get them?".
+    pub(super) fn orders_what_is_wished(&self) -> bool {
+        const MOST: usize = 24;
+        let rest = self.rest();
+        let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+        let Some(mark) =
+            rest.iter().position(|lexeme| is_mark(lexeme) || lexeme.token == Token::Word("so".to_owned()))
+        else {
+            return false;
+        };
+        let mut at = mark + 1;
+        while at < rest.len().min(mark + MOST) {
+            let Some((verb, words)) = longest_verb(&rest[at..]) else {
+                at += 1;
+                continue;
+            };
+            let gets = matches!(verb, Verb::Buy | Verb::Take | Verb::Deliver);
+            let mut after = &rest[(at + words).min(rest.len())..];
+            if gets {
+                let whom = longest_phrase(
+                    after,
+                    &["me", "us", "him", "her", "yourself", "up", "me up", "over", "them both"],
+                );
+                let named = self.names.exact(after).map(|(_, words)| words).filter(|_| whom.is_none());
+                let skipped = &after[whom.or(named).unwrap_or(0)..];
+                if longest_phrase(skipped, WISHED).is_some() || longest_phrase(after, WISHED).is_some() {
+                    return true;
+                }
+            }
+            // "Go to the tearoom and get it": going there comes first.
+            let goes =
+                matches!(verb, Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive) || gets && after.is_empty();
+            if !goes {
+                return false;
+            }
+            after = &after[after.len().min(1)..];
+            at = rest.len() - after.len();
+        }
+        false
     }
 
     fn not_sold(&self) -> PlanError {
@@ -128,7 +270,7 @@ impl Parser<'_> {
             }
         } else if one
             && self.ends_clause_or_place()
-            && let Some(name) = self.wanted.clone()
+            && let Some(Goods { name, .. }) = self.wanted.clone()
         {
             return Some(Goods { name, times });
         }

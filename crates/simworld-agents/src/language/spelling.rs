@@ -216,7 +216,7 @@ enum Slip {
 fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> {
     let said = Said::new(word);
     let mut best: Vec<&str> = Vec::new();
-    let mut least = (usize::MAX, Slip::Letter, true);
+    let mut least = (usize::MAX, true, Slip::Letter);
     let beginnings = beginnings(word);
     for beginning in &beginnings {
         let known = words_from(beginning)
@@ -231,7 +231,7 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
             if NO_SLIP.contains(&candidate) {
                 continue;
             }
-            let rank = (distance, slip, means == Some(false));
+            let rank = (distance, means == Some(false), slip);
             if rank < least {
                 least = rank;
                 best.clear();
@@ -256,7 +256,7 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
         }
     }
     match best[..] {
-        [one] if !least.2 => Some(one.to_owned()),
+        [one] if !least.1 => Some(one.to_owned()),
         _ => None,
     }
 }

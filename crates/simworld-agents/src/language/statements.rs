@@ -311,11 +311,13 @@ impl Parser<'_> {
             self.verb,
             self.previous,
             self.scope.clone(),
-            self.wanted.clone(),
+            (self.wanted.clone(), self.wished, self.wished_by.clone()),
         );
         let understood = self.statement().is_ok() && self.ends_clause();
         self.at = start;
-        (self.class, self.bearers, self.verb, self.previous, self.scope, self.wanted) = kept;
+        (self.class, self.bearers, self.verb, self.previous, self.scope) =
+            (kept.0, kept.1, kept.2, kept.3, kept.4);
+        (self.wanted, self.wished, self.wished_by) = kept.5;
         understood
     }
 }

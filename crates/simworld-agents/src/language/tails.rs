@@ -24,19 +24,6 @@ pub(super) const ON_THE_WAY: &Phrases = &Phrases::of(&[
     "along the way to",
 ]);
 
-/// Doing what was said last, before how often.
-#[rustfmt::skip]
-const DO_SO: &Phrases = &Phrases::of(&[
-    "and do all that", "and do all of that", "do all that", "do all of that", "and do all this", "do all this",
-    "and repeat all that", "and repeat all of that", "repeat all that", "and again", "and repeat this",
-    "repeat this", "repeat the whole thing", "and repeat the whole thing", "and repeat", "repeat",
-    "and do the whole thing", "do the whole thing", "do so", "all of that", "all that", "do it", "and do it",
-    "do that", "and do that", "do this", "and do this", "and do so", "repeat it", "and repeat it",
-    "repeat that", "and repeat that", "do both", "lets do both", "and do both", "do them all", "do the lot", "and that",
-    "and all that", "and all of that", "and the whole thing", "the whole thing", "this", "that", "all this", "all of this",
-    "and this", "lets do that", "lets do it", "lets do this", "do these", "do that whole thing", "same again", "and the same",
-]);
-
 /// What comes before the order before it.
 #[rustfmt::skip]
 const AFTER: &Phrases = &Phrases::of(&[
@@ -64,24 +51,7 @@ impl Parser<'_> {
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
             let goes_on = comma && self.tail_follows();
-            let mark =
-                usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
-            let again = mark + longest_phrase(&self.rest()[mark..], DO_SO).unwrap_or(0);
-            if again > mark
-                && let Some((times, count)) = numbers::times(&self.rest()[again..])
-            {
-                let all = self.rest()[..again].iter().any(|lexeme| {
-                    let Token::Word(word) = &lexeme.token else { return lexeme.token == Token::Break };
-                    ["all", "whole", "that", "this", "repeat"].contains(&word.as_str())
-                });
-                let both = self.rest()[..again].iter().any(|lexeme| {
-                    matches!(&lexeme.token, Token::Word(word) if ["both", "lot", "everything", "these"].contains(&word.as_str()))
-                });
-                self.at += again + count;
-                // "Go to the bakery, then to the mailbox, and do it twice": one is there after the first time.
-                let all = all || group > whole && matches!(clauses.last(), Some(Clause::Go { .. }));
-                let from = if both { 0 } else { whole };
-                repeat(clauses, if all { from } else { group }, times, all);
+            if self.done_again(clauses, whole, group) || self.done_to_another(clauses, group) {
             } else if self.but_first(clauses, comma)? {
             } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
@@ -457,7 +427,7 @@ fn numbers_for(lexemes: &[Lexeme]) -> bool {
 }
 
 /// The last order, or all of the group if the last one is not a thing that one does twice in a row.
-fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
+pub(super) fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
     let last_alone = !all && clauses.last().is_some_and(Clause::is_repeatable);
     let from = if last_alone { clauses.len() - 1 } else { group.min(clauses.len()) };
     let body: Vec<Clause> = clauses.drain(from..).collect();

@@ -13,7 +13,7 @@ use super::phrases::Phrases;
 use super::verbs::longest_verb;
 
 /// How near "near you" is, m.
-const NEAR_ME: f64 = 5.0;
+pub(super) const NEAR_ME: f64 = 5.0;
 /// How near "next to you" is, m, and how near one comes when one arrives.
 pub(super) const NEXT_TO_ME: f64 = 3.0;
 /// How near "is there a chair nearby" means, m.
@@ -397,6 +397,9 @@ impl Parser<'_> {
             None => self.reference(0)?,
         };
         self.adverbs();
+        if let Some(test) = self.reaches_another(&what) {
+            return Ok(Some(test));
+        }
         if self.eat_any(ARRIVES) {
             return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));
         }
@@ -418,7 +421,7 @@ impl Parser<'_> {
             return Ok(Some(test));
         }
         if !self.eat_any(BE) {
-            return Ok(None);
+            return Ok(self.stands_by_another(&what));
         }
         Ok(self.state_of(what))
     }
@@ -426,23 +429,26 @@ impl Parser<'_> {
     /// Behind "the chair is".
     pub(super) fn state_of(&mut self, what: Reference) -> Option<Test> {
         self.adverbs();
+        if let Some(test) = self.beside_another(&what) {
+            return Some(test);
+        }
         // "Is not free" is a state of its own, "is not near you" is not.
         let negated =
             longest(self.rest(), STATES).is_none() && self.eat_any(&["not", "no longer", "not yet"]);
         self.adverbs();
         let not = |test: Test| Test::Not(Box::new(test));
         let (state, count) = longest(self.rest(), STATES)?;
-        self.at += count;
-        // "Anna is near the bin" is about the two of them, and not about who is told.
+        // "Anna is near ..." is about the two of them, and not about who is told.
         let of_another = matches!(state, State::Near | State::Next)
             && longest_phrase(
-                self.rest(),
+                &self.rest()[count..],
                 &["the", "a", "an", "my", "his", "her", "that", "this", "it", "him", "them", "to"],
             )
             .is_some();
         if of_another {
             return None;
         }
+        self.at += count;
         let test = match state {
             State::Free => not(Test::InUse(what)),
             State::InUse => Test::InUse(what),

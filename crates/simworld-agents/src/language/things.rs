@@ -2,7 +2,7 @@
 
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, EntityRef, OPEN};
+use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
 use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
 
 use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test, Vehicle};
@@ -357,11 +357,26 @@ impl<'a> Draft<'a> {
         self.view.scene.nearest(door.planar(), PART, &|at| at.kind == EntityKind::Building)
     }
 
+    /// The place that "there" stands for, if anything is sold there or nothing else is done in it; with a door its house.
+    fn shop_there(&self) -> Option<EntityRef<'a>> {
+        let there = self.gone_to().and_then(|id| self.view.scene.entity(id))?;
+        match there.kind {
+            EntityKind::Building => Some(there),
+            EntityKind::Door => {
+                self.view.scene.nearest(there.planar(), PART, &|at| at.kind == EntityKind::Building)
+            }
+            _ => Some(there).filter(|there| there.info.attributes.get(SELLS).is_some()),
+        }
+    }
+
     fn purchase(&mut self, goods: &str, at: Option<&Reference>) -> Result<(), PlanError> {
         let sells = |place: &EntityRef<'_>| sells(place, goods);
         self.can(ActionKind::Buy)?;
         let not_sold = |near: String| PlanError::NotFound { wanted: format!("{goods} to buy"), near };
-        let place = if let Some(at) = at {
+        let there = at.filter(|at| at.target == Target::There).and_then(|_| self.shop_there());
+        let place = if let Some(there) = there {
+            there
+        } else if let Some(at) = at.filter(|at| at.target != Target::There) {
             self.find(at, Purpose::Any)?
         } else {
             let here = self.beside.and_then(|id| self.view.scene.entity(id)).filter(sells);
@@ -413,6 +428,17 @@ impl<'a> Draft<'a> {
                 Some(what) => Condition::Holds(Some(self.find(what, Purpose::Any)?.id)),
                 None => Condition::Holds(None),
             },
+            Test::Together { one, other, within } => {
+                let one = self.find(one, Purpose::Any)?.id;
+                // "If Anna is near the bin, wave at her": the place is not what is spoken of.
+                let (it, them) = (self.view.it, self.view.them);
+                let other = self.find(other, Purpose::Any)?.id;
+                if one != other && them.is_some() {
+                    self.view.them = them;
+                }
+                self.view.it = it.or(self.view.it);
+                Condition::Together { one, other, within: *within }
+            }
             Test::Seated => Condition::Seated,
             Test::Raining => Condition::Raining,
             Test::Snowing => Condition::Snowing,

@@ -75,6 +75,7 @@ impl Parser<'_> {
             if let Some(clauses) = rule(self)
                 && self.order_follows()
             {
+                self.settle_wish(&clauses);
                 return Some(clauses);
             }
             self.at = start;
@@ -141,8 +142,10 @@ impl Parser<'_> {
         self.at +=
             longest_phrase(self.rest(), &["that"]).filter(|_| category(self.rest()).is_none()).unwrap_or(0);
         if let Some(goods) = self.goods() {
-            self.view_goods(&goods.name);
-            return self.ends_at_mark().then(Vec::new);
+            let whom = self.for_whom();
+            let clauses = self.rest_of_remark()?;
+            (self.wished_by, self.wanted, self.wished) = (whom, Some(goods), true);
+            return Some(clauses);
         }
         let what = self.reference(0).ok()?;
         let mut clauses = self.mention(what);
@@ -374,9 +377,10 @@ impl Parser<'_> {
             {
                 return Some(clauses);
             }
-            let goods = if self.eat_any(&["a", "an", "some"]) { self.goods() } else { None };
+            let counted = self.peek_count().is_some();
+            let goods = if counted || self.eat_any(&["a", "an", "some"]) { self.goods() } else { None };
             if let Some(goods) = goods {
-                self.view_goods(&goods.name);
+                self.wish_for(goods);
                 continue;
             }
             if self.ends_at_mark() {

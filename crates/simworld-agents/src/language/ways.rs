@@ -269,30 +269,6 @@ impl Parser<'_> {
         Ok(Some(vec![Clause::Go { to: self.reference(0)?, side: None, pace: Pace::Usual, within }]))
     }
 
-    /// "The shortest way to", before a place.
-    pub(super) fn best_way(&mut self) -> bool {
-        let start = self.at;
-        self.eat_any(&["the", "a", "your"]);
-        self.eat_any(&[
-            "shortest",
-            "quickest",
-            "fastest",
-            "most direct",
-            "direct",
-            "best",
-            "easiest",
-            "shortest possible",
-            "quickest possible",
-            "straightest",
-        ]);
-        let way = self.eat_any(&["way", "route", "path", "road"])
-            && self.eat_any(&["to", "over to", "back to", "towards", "into", "for"]);
-        if !way {
-            self.at = start;
-        }
-        way
-    }
-
     /// "To the shop for a coffee".
     fn for_goods(&mut self, go: &Clause) -> Option<Clause> {
         let Clause::Go { to, .. } = go else { return None };
@@ -340,21 +316,7 @@ impl Parser<'_> {
         if let Some(photo) = self.for_photo(&go) {
             return Ok(vec![go, photo]);
         }
-        self.eat_any(&[
-            "by the shortest way",
-            "by the shortest route",
-            "by the shortest path",
-            "by the quickest way",
-            "by the quickest route",
-            "by the fastest way",
-            "by the fastest route",
-            "by the most direct way",
-            "by the most direct route",
-            "the shortest way",
-            "the quickest way",
-            "the short way",
-            "the quick way",
-        ]);
+        self.by_best_way();
         self.eat_any(&["on foot", "by foot"]);
         if let Some(board) = self.by_vehicle() {
             return Ok(vec![board, go]);

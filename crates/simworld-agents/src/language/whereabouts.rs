@@ -35,8 +35,18 @@ const THAN: &[(&[&str], (Measure, bool))] = &[
 impl Parser<'_> {
     /// On a street, in an area, or within a distance.
     pub(super) fn on_ground(&mut self, depth: u32) -> Result<Option<Stands>, PlanError> {
-        let Some(streets) = self.view.streets else { return Ok(None) };
         let start = self.at;
+        let Some(streets) = self.view.streets else {
+            // "The tallest tree in the park".
+            if depth < 3
+                && self.eat_any(&["in", "inside", "within", "of"])
+                && let Some(area) = self.area(depth)
+            {
+                return Ok(Some(Stands::To(Relation::Inside, Box::new(area))));
+            }
+            self.at = start;
+            return Ok(None);
+        };
         if self.eat_any(WITHIN)
             && let Some((reach, words)) = numbers::length(self.rest())
         {

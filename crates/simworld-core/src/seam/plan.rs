@@ -163,6 +163,15 @@ pub enum Condition {
     All(Vec<Self>),
     /// At least one of them.
     Any(Vec<Self>),
+    /// Two others are near one another: "Anna is near the bin".
+    Together {
+        /// One of them.
+        one: EntityId,
+        /// The other.
+        other: EntityId,
+        /// The widest gap between their footprints, in the plane, m.
+        within: f64,
+    },
 }
 
 /// What is to be done, in order.

@@ -136,6 +136,7 @@ fn condition(when: &Condition, city: &City) -> String {
         Condition::Snowing => "snowing".into(),
         Condition::Dark => "dark".into(),
         Condition::Elapsed(seconds) => format!("elapsed {seconds}"),
+        Condition::Together { one, other, .. } => format!("{} near {}", city.key(*one), city.key(*other)),
         Condition::Not(inner) => format!("not {}", condition(inner, city)),
         Condition::All(all) => all.iter().map(|one| condition(one, city)).collect::<Vec<_>>().join(" and "),
         Condition::Any(none) if none.is_empty() => "never".into(),

@@ -1,0 +1,107 @@
+//! For whom the parts of something are who is no part of a scene: "one is for my sister", "one for me and one for you".
+
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{category, longest_phrase};
+use super::parser::Parser;
+use super::phrases::Phrases;
+
+/// A part of what was asked for.
+#[rustfmt::skip]
+const PARTS: &Phrases = &Phrases::of(&[
+    "one", "the other", "the other one", "another", "another one", "both", "they", "theyre", "the first", "the first one", "the second", "the second one",
+    "the third", "the last one", "two", "three", "the rest", "half", "half of them", "one each", "the others", "these", "those", "all", "the lot", "its",
+    "it", "that", "thats", "this",
+]);
+/// Between a part and whom it is for.
+const ARE: &Phrases = &Phrases::of(&[
+    "is",
+    "are",
+    "will be",
+    "would be",
+    "should be",
+    "goes",
+    "go",
+    "is meant",
+    "are meant",
+    "s",
+]);
+/// Those who get it and are no part of the scene, or are told.
+const MINE: &Phrases = &Phrases::of(&[
+    "me",
+    "you",
+    "us",
+    "yourself",
+    "myself",
+    "each of us",
+    "both of us",
+    "ourselves",
+    "later",
+    "each",
+    "everyone",
+    "everybody",
+]);
+
+impl Parser<'_> {
+    /// Passes "one is for my sister and one for me" behind an order, with the mark before it; whether there was any.
+    pub(super) fn skip_portions(&mut self) -> bool {
+        let start = self.at;
+        self.at +=
+            usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
+        self.eat_any(&["and", "because", "since", "as"]);
+        let mut end = start;
+        while self.portion() {
+            end = self.at;
+            let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+            self.at += usize::from(comma);
+            self.eat_any(&["and", "but"]);
+        }
+        self.at = end;
+        if end == start || !self.ends_clause() {
+            self.at = start;
+            return false;
+        }
+        true
+    }
+
+    fn portion(&mut self) -> bool {
+        if !self.eat_any(PARTS) {
+            return false;
+        }
+        self.eat_any(&["of them", "of these", "of those", "of it"]);
+        self.eat_any(ARE);
+        if !self.eat_any(&["for", "to", "just for", "only for", "all for"]) {
+            return false;
+        }
+        self.eat_any(MINE) || self.somebody_elsewhere()
+    }
+
+    /// "My sister", "the office": whom nothing in the scene is called.
+    fn somebody_elsewhere(&mut self) -> bool {
+        const MOST: usize = 4;
+        let own = self.eat_any(&["my", "our", "your", "his", "her", "their", "the", "a", "an", "some"]);
+        let ends = |at: &usize| {
+            let rest = &self.lexemes[*at..];
+            !matches!(rest.first(), Some(Lexeme { token: Token::Word(_), .. }))
+                || longest_phrase(rest, &["and", "but", "so", "please", "then"]).is_some()
+        };
+        if own && self.eat_any(super::shopping::OTHERS) {
+            return true;
+        }
+        let last = (self.at + MOST).min(self.lexemes.len());
+        let Some(end) = (self.at..=last).find(|at| *at == self.lexemes.len() || ends(at)) else {
+            return false;
+        };
+        let whom = &self.lexemes[self.at..end];
+        let elsewhere = own
+            && !whom.is_empty()
+            && (0..whom.len()).all(|at| {
+                category(&whom[at..]).is_none()
+                    && self.names.exact(&whom[at..]).is_none()
+                    && self.names.goods(&whom[at..]).is_none()
+            });
+        if elsewhere {
+            self.at = end;
+        }
+        elsewhere
+    }
+}
