@@ -71,7 +71,7 @@ impl Parser<'_> {
         self.at += mark;
         let joined = self.joins_again();
         if let Some(words) = longest_phrase(self.rest(), ONCE_MORE) {
-            let all = self.says_one_of(words, WHOLE) || mark > 0 && joined == 0;
+            let all = self.says_one_of(words, WHOLE) || mark > 0;
             let lone = words == 1 && self.peeks("again");
             self.at += words;
             self.skip_fillers();
@@ -81,6 +81,23 @@ impl Parser<'_> {
                 repeat(clauses, if all { whole } else { group }, 2, all);
                 return true;
             }
+        }
+        // "Take a photo of the well and then another one".
+        let repeatable = clauses.last().is_some_and(Clause::is_repeatable);
+        if joined > 0
+            && repeatable
+            && self.eat_any(&[
+                "another one",
+                "one more",
+                "another",
+                "another photo",
+                "one more photo",
+                "another picture",
+            ])
+            && self.ends_there()
+        {
+            repeat(clauses, clauses.len() - 1, 2, false);
+            return true;
         }
         self.at = start;
         false
@@ -161,4 +178,19 @@ fn about_another(done: &[Clause], about: &Reference, other: &Reference) -> Optio
         again.push(clause);
     }
     replaced.then_some(again)
+}
+
+/// "Follow the dog, but stop when you see the mailbox": what never ends by itself is done until then.
+pub(super) fn stops_then(clauses: &mut Vec<Clause>) {
+    if let [.., Clause::Follow { .. } | Clause::Forward, Clause::Until { body, .. }, Clause::Stop] =
+        &clauses[..]
+        && body.is_empty()
+    {
+        clauses.pop();
+        let until = clauses.pop();
+        let goes_on = clauses.pop();
+        if let (Some(Clause::Until { test, .. }), Some(goes_on)) = (until, goes_on) {
+            clauses.push(Clause::Until { test, body: vec![goes_on] });
+        }
+    }
 }

@@ -154,7 +154,7 @@ impl Parser<'_> {
     }
 
     /// Two or more that are named one by one.
-    fn named_apart(&mut self) -> Option<Vec<EntityId>> {
+    pub(super) fn named_apart(&mut self) -> Option<Vec<EntityId>> {
         let mut ids = Vec::new();
         loop {
             let end = (self.at..self.lexemes.len())

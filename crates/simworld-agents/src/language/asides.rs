@@ -78,6 +78,7 @@ impl Parser<'_> {
         let begin = self.at;
         let mut clauses = self.names_within(end);
         self.at = end;
+        self.absent |= self.speaks_of_absent(begin, end, &clauses);
         let goods = self.goods_within(begin, end);
         if let Some(goods) = goods.clone() {
             self.wish_for(goods); // "I forgot my newspaper, could you buy me one"
@@ -142,7 +143,10 @@ impl Parser<'_> {
         let end = self.segment_end();
         let said = self.lexemes.get(self.at..end).filter(|said| !said.is_empty() && said.len() <= LONGEST)?;
         let mark = self.lexemes.get(end).and_then(|lexeme| self.words[lexeme.start..].chars().next());
-        let named = category(said).is_some() || self.is_capital(self.at) || self.names.exact(said).is_some();
+        let named = category(said).is_some()
+            || self.is_capital(self.at)
+            || self.names.exact(said).is_some()
+            || self.whose(&said[..1]).is_some();
         let stated = says_what_is(said) || named && has_finite(said) && !asks(said);
         let aside = stated
             || mark == Some('?') && is_question(said)
@@ -168,7 +172,16 @@ impl Parser<'_> {
             let begins = longest_phrase(self.rest(), &["the", "that", "this", "my", "a", "an"]).is_some()
                 || self.is_capital(self.at)
                 || category(self.rest()).is_some();
-            let what = if begins { self.reference(0).ok() } else { None };
+            // "Lena's birthday is today".
+            let owner = self.whose(&self.lexemes[start..=start]).filter(|owner| *owner != Target::Them);
+            let what = match owner {
+                Some(owner) => {
+                    self.at += 1;
+                    Some(Reference::to(owner, self.text_from(start)))
+                }
+                None if begins => self.reference(0).ok(),
+                None => None,
+            };
             let plain =
                 |what: &Reference| matches!(what.target, Target::Named(_) | Target::Any(_) | Target::Id(_));
             // "Is that Ben by the mailbox?" is about Ben, wherever he is.

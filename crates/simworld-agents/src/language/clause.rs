@@ -426,6 +426,14 @@ impl Clause {
         }
     }
 
+    /// The thing that is handed over or put down.
+    pub(super) const fn handled(&self) -> Option<&Reference> {
+        match self {
+            Self::Give { what: Some(what), .. } | Self::Drop { what: Some(what), .. } => Some(what),
+            _ => None,
+        }
+    }
+
     /// As [`about`](Self::about), to be put in another's place.
     pub(super) const fn about_mut(&mut self) -> Option<&mut Reference> {
         match self {

@@ -20,7 +20,7 @@ const CORRECTIONS: &Phrases = &Phrases::of(&[
     "change of plan", "no hang on", "hang on no", "forget that", "better still", "that is", "that is to say",
     "in other words", "by which i mean", "as in", "or should i say", "or better", "no forget it", "forget it",
     "never mind", "wait what no", "belay that", "cancel that", "no no", "oh no", "oops no", "i said", "rather",
-    "well make it", "make it", "no make it", "i take that back", "my mistake", "or perhaps better",
+    "not that one", "not this one", "not that", "not there", "not him", "not her", "not those", "not them", "well make it", "make it", "no make it", "i take that back", "my mistake", "or perhaps better",
 ]);
 /// What is not to be done, behind what is.
 const INSTEAD: &[&str] = &["instead of", "rather than", "and not", "not", "in place of", "as opposed to"];

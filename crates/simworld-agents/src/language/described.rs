@@ -238,8 +238,17 @@ impl Parser<'_> {
         start: usize,
         depth: u32,
     ) -> Result<bool, PlanError> {
+        // "The bench that is second closest to the canteen".
+        let before = self.at;
+        let nth =
+            if self.at > start { super::numbers::ordinal(self.rest()).filter(|nth| *nth > 1) } else { None };
+        self.at += usize::from(nth.is_some());
         if !self.eat_any(NEAR_MOST) {
+            self.at = before;
             return Ok(false);
+        }
+        if let Some(nth) = nth {
+            reference.choice = Choice::Nth(nth);
         }
         let bare = ["nearest", "closest", "nearer", "closer"]
             .iter()

@@ -83,6 +83,17 @@ fn digit_for_word(lexemes: &[Lexeme], at: usize) -> Option<&'static str> {
     let Token::Number(number) = lexemes[at].token else { return None };
     let next = lexemes.get(at + 1).and_then(word_of)?;
     let follows_word = at > 0 && word_of(&lexemes[at - 1]).is_some();
+    let brought = at > 0
+        && word_of(&lexemes[at - 1])
+            .is_some_and(|word| ["it", "them", "this", "over", "back", "go", "walk", "run"].contains(&word));
+    let one = lexemes.get(at + 2).is_none_or(|after| word_of(after).is_none());
+    if number == 2.0
+        && brought
+        && one
+        && !["times", "steps", "metres", "meters", "m", "seconds", "minutes"].contains(&next)
+    {
+        return Some("to"); // "bring it 2 Hugo"
+    }
     if number == 2.0 && follows_word && ["the", "my", "your", "that", "this"].contains(&next) {
         return Some("to");
     }

@@ -12,7 +12,7 @@ use simworld_core::seam::{Condition, Goal, Plan, PlanError, PlanStep, Which};
 use super::clause::{Clause, Pace, Reference, Spot, Target, Test};
 use super::lexicon::is_animate;
 use super::relate::spot_on_side;
-use super::resolve::{Purpose, View};
+use super::resolve::{Purpose, View, is_item};
 use super::sequence;
 
 /// How near one comes to a thing, or to its door, m: well within reach of an arm.
@@ -64,6 +64,8 @@ pub(super) struct Draft<'a> {
     /// What one will stand beside, and where one went last.
     pub(super) beside: Option<EntityId>,
     there: Option<(Goal, f64)>,
+    /// Whether that is a house that was only spoken of so far.
+    spoken_of_place: bool,
     /// What was let go of last, and to whom it was given: "carry it there and leave it" says one thing twice.
     pub(super) delivered: Option<(Load, Option<EntityId>)>,
     /// What one is in or on.
@@ -92,6 +94,7 @@ impl<'a> Draft<'a> {
             carried: scene.attached(me.id, Role::Carried),
             beside: None,
             there: None,
+            spoken_of_place: false,
             mount: None,
             view,
         }
@@ -336,7 +339,12 @@ impl<'a> Draft<'a> {
             return self.view.find_all(what, Purpose::Any).map(|_| ());
         }
         let found = self.find(what, Purpose::Any)?;
-        self.there = Some((Goal::Entity(found.id), reach_of(&found)));
+        // "The bookshop is waiting for the letter, bring it there": the place is where it is brought.
+        let leads = found.kind == EntityKind::Building || !self.spoken_of_place;
+        if leads {
+            self.spoken_of_place = found.kind == EntityKind::Building;
+            self.there = Some((Goal::Entity(found.id), reach_of(&found)));
+        }
         Ok(())
     }
 
@@ -349,6 +357,23 @@ impl<'a> Draft<'a> {
         if entity.kind != EntityKind::Person {
             self.view.it = Some(entity.id);
         }
+        if is_item(entity.kind) {
+            self.view.item = Some(entity.id);
+        }
+    }
+
+    /// "There" stands for it from now on.
+    pub(super) fn lead_to(&mut self, id: EntityId) {
+        self.there = self.view.scene.entity(id).map(|entity| (Goal::Entity(id), reach_of(&entity)));
+    }
+
+    pub(super) const fn there_now(&self) -> Option<(Goal, f64)> {
+        self.there
+    }
+
+    /// "There" leads where it did before something was gone to by the way.
+    pub(super) fn leads_there(&mut self, there: Option<(Goal, f64)>) {
+        self.there = there.or(self.there);
     }
 
     /// The thing that "there" stands for.
@@ -372,6 +397,11 @@ impl<'a> Draft<'a> {
         pace: Pace,
         within: Option<f64>,
     ) -> Result<(), PlanError> {
+        if to.target == Target::There
+            && matches!((self.last_step(), self.there), (Some(PlanStep::Navigate { to, .. }), Some((there, _))) if *to == there)
+        {
+            return Ok(()); // "I want to go to the museum, take the shortest way there"
+        }
         let (goal, usual) = match (&to.target, side) {
             (Target::There, _) => self.there.ok_or_else(|| PlanError::NotFound {
                 wanted: "place that \"there\" could stand for".to_owned(),
@@ -414,6 +444,7 @@ impl<'a> Draft<'a> {
             self.get_up()?;
         }
         self.there = Some((to, within));
+        self.spoken_of_place = false;
         let before = self.view.from;
         self.view.from = self.place_of(to);
         self.view.told.take();

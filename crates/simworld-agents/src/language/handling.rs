@@ -59,6 +59,10 @@ impl Parser<'_> {
         if let Some(goods) = self.wished_goods() {
             return self.purchase(goods, None);
         }
+        if self.shots && self.eat_any(&["it", "them", "those", "one", "some", "these"]) && self.ends_clause()
+        {
+            return Ok(Vec::new());
+        }
         if let Some(photo) = self.portrait()? {
             return Ok(photo);
         }
@@ -74,12 +78,18 @@ impl Parser<'_> {
                 return self.buy().map_err(|_| error);
             }
         };
+        if let Some(clauses) = self.bought_rather(&what, start)? {
+            return Ok(clauses);
+        }
         self.eat_any(&["up", "along", "with you", "over", "across", "back", "off"]);
         let mut what = what;
         if what.relation.is_none() && self.eat_any(&["from"]) {
             what.relation = Some(Stands::Of(Box::new(self.reference(0)?)));
         }
-        let to = self.tail_place(BRINGS)?;
+        let mut to = self.tail_place(BRINGS)?;
+        if to.is_none() && what.target == Target::It {
+            to = self.there_behind();
+        }
         if to.is_none()
             && self.peeks("for")
             && let Some(whom) = self.for_whom()
@@ -89,9 +99,39 @@ impl Parser<'_> {
         Ok(vec![Clause::Take { what, to, grip }])
     }
 
+    /// "Get bread" where a house is called after what it sells: the house is not meant.
+    fn bought_rather(&mut self, what: &Reference, start: usize) -> Result<Option<Vec<Clause>>, PlanError> {
+        let end = std::mem::replace(&mut self.at, start);
+        let house = self.view.find(what, super::resolve::Purpose::Any);
+        if house.is_ok_and(|found| found.kind == simworld_core::scene::EntityKind::Building)
+            && let Some(goods) = self.goods()
+        {
+            return self.purchase(goods, None).map(Some);
+        }
+        self.at = end;
+        Ok(None)
+    }
+
+    /// "There", behind what is brought there.
+    fn there_behind(&mut self) -> Option<Reference> {
+        self.eat_any(&["there", "over there", "down there", "up there", "back there", "right there"])
+            .then(|| Reference::to(Target::There, "there".to_owned()))
+    }
+
     /// "Take me to the school", "pick me up at the café": who is driven says where to.
     fn takes_me(&mut self) -> bool {
         let brings_me = self.at > 0 && self.lexemes[self.at - 1].token == Token::Word("me".to_owned());
+        // "Take me there", "take me somewhere to eat".
+        let me = longest_phrase(self.rest(), &["me", "us"]).unwrap_or(0);
+        let after = &self.rest()[me..];
+        let place = me > 0
+            && (longest_phrase(after, &["there", "home", "over there"]).is_some()
+                || longest_phrase(after, &["somewhere", "someplace"]).is_some()
+                    && category(after).is_some_and(|(class, _)| class.is_place()));
+        if place {
+            self.at += me;
+            return true;
+        }
         self.eat_any(ME_TO) || brings_me && self.eat_any(&["to", "over to", "back to"])
     }
 
@@ -175,6 +215,14 @@ impl Parser<'_> {
 
     pub(super) fn give(&mut self) -> Result<Vec<Clause>, PlanError> {
         let start = self.at;
+        if self.eat_any(&["me", "us", "it", "them"])
+            && let Some((seconds, words)) =
+                numbers::duration(self.rest()).filter(|(seconds, words)| *seconds > 0.0 && *words > 1)
+        {
+            self.at += words;
+            return Ok(vec![Clause::Wait { seconds }]); // "give me a minute"
+        }
+        self.at = start;
         self.eat_any(&["me", "us"]);
         if let Some(clauses) = self.gesture_to()? {
             return Ok(clauses);
@@ -270,6 +318,9 @@ impl Parser<'_> {
             }
             what
         });
+        if at.is_none() && manner == Manner::Deliver {
+            at = self.there_behind();
+        }
         if at.is_none() && self.eat_any(&["here", "back", "back here"]) {
             at = Some(Reference::to(Target::Here, "here".to_owned()));
         }
@@ -296,12 +347,19 @@ impl Parser<'_> {
 
     /// "Move the letter to the clinic" is about the letter.
     pub(super) fn moves_thing(&mut self, start: usize) -> bool {
-        let moves = ["move", "shift", "relocate", "run", "rush"]
+        let moves = ["move", "shift", "relocate", "run", "rush", "return"]
             .iter()
             .any(|word| fits(&self.lexemes[start..self.at], word).is_some());
         let at = self.at;
         let thing = moves
-            && longest_phrase(self.rest(), &["the", "that", "this", "it", "my", "a"]).is_some()
+            && longest_phrase(
+                self.rest(),
+                &[
+                    "the", "that", "this", "it", "my", "a", "both", "all", "these", "those", "two", "his",
+                    "her", "them", "your",
+                ],
+            )
+            .is_some()
             && self.reference(0).is_ok();
         let leads = thing && longest_phrase(self.rest(), BRINGS).is_some();
         self.at = at;

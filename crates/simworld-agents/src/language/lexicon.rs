@@ -96,7 +96,7 @@ pub(super) const fn is_animate(kind: EntityKind) -> bool {
 #[rustfmt::skip]
 pub(super) const CATEGORIES: &[Category] = &[
     things(&["seat", "thing you can sit on", "thing to sit on", "something to sit on", "place to sit",
-        "place to sit down", "spot to sit", "somewhere to sit", "place to rest"], &[EntityKind::Chair,
+        "place to sit down", "spot to sit", "somewhere to sit", "place to rest", "place where i can sit", "place where you can sit", "place where we can sit", "somewhere i can sit"], &[EntityKind::Chair,
         EntityKind::Bench]),
     things(&["chair", "armchair", "stool", "deck chair", "bar stool", "barstool", "garden chair", "folding chair", "camping chair", "lawn chair", "rocking chair", "easy chair"], &[EntityKind::Chair]),
     things(&["bench", "park bench", "public bench", "garden bench", "street bench"], &[EntityKind::Bench]),
@@ -138,7 +138,7 @@ pub(super) const CATEGORIES: &[Category] = &[
     things(&["sidewalk", "pavement", "walkway"], &[EntityKind::Sidewalk]),
     things(&["crosswalk", "crossing", "zebra crossing", "zebra", "pedestrian crossing", "crossing point", "zebra stripes"], &[EntityKind::Crosswalk]),
     places(&["home", "house", "apartment", "flat", "residence", "cottage", "dorm", "dormitory", "villa", "townhouse", "apartment building", "apartment block", "block of flats", "bungalow", "farmhouse", "dwelling", "student home"], Place::Home),
-    places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery", "canteen", "cafeteria", "place to eat", "somewhere to eat", "place to have lunch", "place to have dinner", "pub", "tavern", "pizzeria", "snack bar", "tea room", "tearoom", "coffeehouse", "coffee house", "brasserie", "trattoria", "dining hall"], Place::Restaurant),
+    places(&["restaurant", "diner", "café", "cafe", "bistro", "eatery", "canteen", "cafeteria", "place to eat", "somewhere to eat", "someplace to eat", "place where i can eat", "place where you can eat", "place where we can eat", "somewhere i can eat", "somewhere we can eat", "place that serves food", "place to have lunch", "place to have dinner", "pub", "tavern", "pizzeria", "snack bar", "tea room", "tearoom", "coffeehouse", "coffee house", "brasserie", "trattoria", "dining hall"], Place::Restaurant),
     places(&["store", "shop", "supermarket", "grocery", "grocery store", "market", "convenience store", "corner store", "general store", "department store", "minimarket", "mini market"], Place::Store),
     places(&["hospital", "clinic", "infirmary", "medical centre", "medical center", "health centre", "health center"], Place::Hospital),
     places(&["museum", "gallery", "art gallery", "art museum"], Place::Museum),
@@ -323,10 +323,15 @@ pub(super) fn fits_noun(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
     }
 }
 
-fn is_plural(said: &str, noun: &str) -> bool {
+pub(super) fn is_plural(said: &str, noun: &str) -> bool {
     match said.strip_prefix(noun) {
         Some(ending) => matches!(ending, "s" | "es"),
-        None => noun.strip_suffix('y').is_some_and(|stem| said.strip_prefix(stem) == Some("ies")),
+        None => {
+            let of = |ending: &str, plural: &str| {
+                noun.strip_suffix(ending).is_some_and(|stem| said.strip_prefix(stem) == Some(plural))
+            };
+            of("y", "ies") || of("f", "ves") || of("fe", "ves")
+        }
     }
 }
 

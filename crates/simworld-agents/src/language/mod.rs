@@ -49,6 +49,7 @@ mod portions;
 mod reference;
 mod relate;
 mod remarks;
+mod reported;
 mod requests;
 mod resolve;
 mod routes;

@@ -65,7 +65,7 @@ enum Sense {
 const SENSES: &[(&[&str], Sense)] = &[
     (&["left", "to the left", "to your left", "leftwards", "anticlockwise", "counterclockwise"], Sense::Left),
     (&["right", "to the right", "to your right", "rightwards", "clockwise"], Sense::Right),
-    (&["around", "round", "back", "about"], Sense::Around),
+    (&["around", "round", "back", "about", "u turn"], Sense::Around),
 ];
 
 impl Parser<'_> {
@@ -325,8 +325,11 @@ impl Parser<'_> {
     }
 
     pub(super) fn step(&mut self) -> Result<Clause, PlanError> {
-        self.eat_any(&["aside", "a bit", "a little", "a little bit", "slightly"]);
-        let mut direction = self.direction();
+        let aside = self
+            .eat_any(&["aside", "to the side", "to one side", "sideways"])
+            .then_some(StepDirection::Right);
+        self.eat_any(&["a bit", "a little", "a little bit", "slightly"]);
+        let mut direction = self.direction().or(aside);
         let mut distance = 0.5;
         let number_at = self.at;
         self.eat_any(&["by", "for"]);
@@ -458,6 +461,9 @@ impl Parser<'_> {
         }
         if let Some(compass) = self.compass() {
             return Ok(Clause::FaceCompass(compass));
+        }
+        if self.eat_any(&["away from"]) {
+            return Ok(Clause::TurnFrom { what: self.reference(0)? });
         }
         Ok(Clause::Face { what: self.reference(0)? })
     }

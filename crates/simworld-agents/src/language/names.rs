@@ -14,8 +14,8 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{NameIndex, Scene};
 
 use super::lexer::{Lexeme, Token, tokens};
-use super::lexicon::{CATEGORIES, Category};
-use super::spelling::Letters;
+use super::lexicon::{CATEGORIES, Category, is_plural};
+use super::spelling::{Letters, is_anagram};
 
 /// The names within range.
 pub(super) struct Names<'a> {
@@ -140,10 +140,7 @@ impl<'a> Names<'a> {
         let fits = |tokens: &[Token]| {
             let said = lexemes.get(..tokens.len())?;
             let same = said.iter().zip(tokens).all(|(lexeme, token)| match (&lexeme.token, token) {
-                (Token::Word(said), Token::Word(word)) => {
-                    said == word
-                        || said.strip_prefix(word.as_str()).is_some_and(|end| end == "s" || end == "es")
-                }
+                (Token::Word(said), Token::Word(word)) => said == word || is_plural(said, word),
                 (said, token) => said == token,
             });
             same.then_some(tokens.len())
@@ -259,7 +256,14 @@ impl<'a> Names<'a> {
                 found.push(candidate);
             }
         }
-        if found.is_empty() || least > tolerance(&said) {
+        // Two letters of somebody's name in each other's place: "Delai".
+        let swapped = match found[..] {
+            [Candidate::Name(name)] if least == 1 && length > 3 => {
+                is_anagram(&said, &join(name.tokens.iter()))
+            }
+            _ => false,
+        };
+        if found.is_empty() || least > tolerance(&said) && !swapped {
             return Guess::Nothing(found.first().filter(|_| least <= similar).map(Candidate::label));
         }
         agreed(&found)

@@ -45,6 +45,25 @@ const TURNS_BEHIND: &Phrases = &Phrases::of(&[
     "to end with",
 ]);
 
+/// How welcome something would be, behind it.
+const WELCOME: &Phrases = &Phrases::of(&[
+    "would be nice",
+    "would be great",
+    "would be good",
+    "would be lovely",
+    "would be wonderful",
+    "would be perfect",
+    "would be just the thing",
+    "would do me good",
+    "sounds good",
+    "sounds great",
+    "sounds nice",
+    "would be awesome",
+    "would be much appreciated",
+    "would be appreciated",
+    "would be handy",
+    "would help",
+]);
 /// Reads one kind of such orders; nothing where it is none.
 type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
 
@@ -110,7 +129,7 @@ impl Parser<'_> {
             }]));
         }
         if photos || again && self.verb == Some(Verb::Photo) {
-            self.verb = Some(Verb::Photo);
+            (self.verb, self.shots) = (Some(Verb::Photo), true);
             let of = if self.eat_any(&["of", "more of"]) { Some(self.reference(0)?) } else { None };
             return Ok(Some(vec![Clause::Photo { of, times }]));
         }
@@ -226,8 +245,26 @@ impl Parser<'_> {
 
     /// "A coffee, please", "soup from the Blue Spoon first".
     fn wanted_goods(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        self.eat_any(&[
+        let wished = self.eat_any(&[
             "i want",
+            "have",
+            "lets have",
+            "let us have",
+            "i would like to have",
+            "id like to have",
+            "i want to have",
+            "id love to have",
+            "i would love",
+            "i would love to have",
+            "i would like to get",
+            "id like to get",
+            "i want to get",
+            "we would like",
+            "wed like",
+            "we want",
+            "we could do with",
+            "i could use",
+            "we could use",
             "id like",
             "i would like",
             "id love",
@@ -256,10 +293,17 @@ impl Parser<'_> {
         if self.mark() == Some('?') && self.rest().len() > 1 {
             return Ok(None); // "what about a coffee? go and buy one"
         }
-        if self.orders_what_is_wished() {
-            return Ok(None); // "we need two pretzels, please buy them"
+        let welcome = self.eat_any(WELCOME);
+        if (wished || welcome) && self.orders_what_is_wished() {
+            // "We need two pretzels, please buy them".
+            let whom = self.for_whom();
+            let mark = self.mark_from(self.at);
+            (self.wished_by, self.wanted, self.wished, self.at) = (whom, Some(goods), true, mark);
+            self.skip_joints();
+            return Ok(self.statement_here());
         }
         let clauses = self.purchase(goods, None)?;
+        self.eat_any(WELCOME);
         Ok(self.ends_clause().then_some(clauses))
     }
 

@@ -64,6 +64,7 @@ impl Parser<'_> {
             return self.order();
         }
         self.at += count;
+        self.shots &= verb == Verb::Take;
         self.previous = self.verb.replace(verb);
         // "Wave twice at Carol"; at the end of an order it may be about more than this one.
         let mut times = numbers::times(self.rest());
@@ -126,6 +127,10 @@ impl Parser<'_> {
             )
         };
         if let Some(clauses) = self.counted_deeds()? {
+            return Ok(clauses);
+        }
+        let goes = matches!(self.verb, Some(Verb::Go | Verb::Run | Verb::Stroll));
+        if goes && let Some(clauses) = self.by_the_compass(Pace::Usual).ok().flatten() {
             return Ok(clauses);
         }
         // "... and then on to the taxi" goes on going, whatever was done in between.

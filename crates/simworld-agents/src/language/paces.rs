@@ -35,7 +35,7 @@ impl Parser<'_> {
             "as fast as possible", "rapidly", "at a run", "at full speed", "at top speed",
             "as quick as you can", "as quickly as you can", "at a jog", "at speed", "swiftly", "speedily",
             "very fast", "very quickly", "really fast", "real fast", "at a trot", "in haste", "hurriedly",
-            "double quick",
+            "double quick", "like hell", "like the wind", "like mad", "like crazy", "like lightning", "like a shot", "as if your life depended on it",
         ]);
         #[rustfmt::skip]
         const SLOW: &Phrases = &Phrases::of(&[

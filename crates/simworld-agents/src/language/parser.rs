@@ -68,6 +68,10 @@ pub(super) struct Parser<'a> {
     /// Whether they were only wished for so far, and by whom if somebody here is to have them.
     pub(super) wished: bool,
     pub(super) wished_by: Option<Reference>,
+    /// Whether photos were asked for as things: "I need two photos of the well, please take them".
+    pub(super) shots: bool,
+    /// Whether somebody was spoken of who is no part of the scene: "my sister loves apples, buy her one".
+    pub(super) absent: bool,
     /// Whether a driver was told of passengers who are no part of the scene.
     pub(super) rides: bool,
     /// To which side one turned last: 1 is left.
@@ -120,6 +124,8 @@ impl<'a> Parser<'a> {
             wished: false,
             wished_by: None,
             rides: false,
+            shots: false,
+            absent: false,
             said: None,
             turned: None,
             tested: None,
@@ -135,6 +141,7 @@ impl<'a> Parser<'a> {
     /// All orders of the sentence, at least one.
     pub(super) fn sentence(&mut self) -> Result<Vec<Clause>, PlanError> {
         self.skip_opening();
+        self.skip_warning();
         self.skip_joints();
         if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
             self.at += 2;
@@ -160,8 +167,13 @@ impl<'a> Parser<'a> {
                 clauses.remove(clauses.len() - 2); // "sit down and rest on the red chair"
             }
             self.tails(&mut clauses, whole, group)?;
+            super::again::stops_then(&mut clauses);
             while let Some(instead) = self.correction()? {
-                clauses.truncate(before);
+                let slip = clauses.drain(before..).next_back();
+                // "Go to the cone. Not that one, the other one".
+                let other = instead.iter().any(|clause| clause.about().is_some_and(|what| what.traits.other));
+                let spoken_of = slip.as_ref().and_then(Clause::about).filter(|_| other).cloned();
+                clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
                 clauses.extend(instead);
                 self.tails(&mut clauses, whole, group)?;
             }
@@ -185,7 +197,7 @@ impl<'a> Parser<'a> {
         if self.skip_purpose() {
             return Ok(false);
         }
-        let _ = self.skip_portions() || self.skip_outcome() || self.skip_use();
+        let _ = self.skip_portions() || self.skip_outcome() || self.skip_use() || self.skip_threat();
         self.skip_fillers();
         self.at += requests::coda(self.rest());
         self.skip_manner();
@@ -267,7 +279,7 @@ impl<'a> Parser<'a> {
             self.at = start;
         }
         let refused = match self.plain_statement() {
-            Ok(clauses) => return Ok(clauses),
+            Ok(clauses) => return Ok(self.at_pace_before(begin, start, clauses)),
             Err(refused) => refused,
         };
         for beginning in requests::beginnings(&self.lexemes[start..]) {
@@ -307,6 +319,7 @@ impl<'a> Parser<'a> {
             Self::clipped,
             Self::which_one,
             Self::way_asked,
+            Self::told_by_another,
             Self::itinerary,
             Self::wants_one,
             Self::somebody_gets,
@@ -345,7 +358,7 @@ impl<'a> Parser<'a> {
         Some(clauses)
     }
 
-    /// A statement on trial; of one that is about what is not here the answer is kept.
+    /// A statement on trial; the answer to what is not here is kept.
     pub(super) fn statement_here(&mut self) -> Option<Vec<Clause>> {
         match self.statement() {
             Ok(clauses) => Some(clauses),

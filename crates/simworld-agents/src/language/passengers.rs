@@ -39,6 +39,16 @@ const THEM: &[&str] =
     &["him", "her", "them", "us", "everyone", "everybody", "all of them", "all of us", "both of them"];
 
 impl Parser<'_> {
+    /// Whether a remark is about somebody who is not here, and nobody who is: "my grandmother loves sunflowers".
+    pub(super) fn speaks_of_absent(&self, from: usize, end: usize, named: &[Clause]) -> bool {
+        let somebody = |clause: &Clause| matches!(clause, Clause::Mention { what } if self.is_somebody(what));
+        !named.iter().any(somebody)
+            && (from..end).any(|at| {
+                longest_phrase(&self.lexemes[at..], &["my", "our", "his", "her"]).is_some()
+                    && longest_phrase(&self.lexemes[at + 1..], RIDERS).is_some()
+            })
+    }
+
     /// Where a vehicle goes to let somebody in or out; of who is in the scene nothing is said here.
     pub(super) fn passenger(&mut self, verb: Verb) -> Option<Vec<Clause>> {
         let drives = || self.view.scene.entity(self.view.who).is_some_and(|me| me.kind.is_vehicle());

@@ -104,6 +104,11 @@ impl Parser<'_> {
         if *pace != Pace::Usual {
             return Ok(false);
         }
+        if self.rest().len() > 1
+            && longest_phrase(&self.rest()[1..], &["slowly", "quickly", "fast", "at", "run"]).is_some()
+        {
+            self.eat_any(&["but", "and"]);
+        }
         let run = self.eat_any(&[
             "run",
             "running",

@@ -159,7 +159,7 @@ pub(super) const FILLERS: &[&str] = &[
     "wed like to", "we would like to", "if it is possible", "if it is not too much trouble",
     "if it is no trouble", "if it is no bother", "if it is not too much to ask", "if that is ok",
     "if that is okay", "if that is all right", "if that is alright", "if it is convenient",
-    "while youre at it", "while you are at it", "while youre there", "while you are there", "while youre about it",
+    "as you can", "as possible", "as you can get", "by noon", "by tonight", "by lunchtime", "by midday", "before lunch", "before dinner", "in time", "if it is not a bother", "if it is no bother at all", "if its not a bother", "sorry to bug you", "sorry to trouble you", "sorry to interrupt", "sorry to disturb you", "sorry for bothering you", "while youre at it", "while you are at it", "while youre there", "while you are there", "while youre about it",
     "while you are about it", "while youre up", "while you are up", "while im at it", "while were at it", "while we are at it", "today", "tonight", "this morning",
     "this afternoon", "this evening", "later today", "when you get round to it", "when you get around to it", "when its your turn", "when it is your turn", "say nothing", "saying nothing", "say not a word", "dont say a word", "without a word", "not a word",
     "if it is not out of your way", "if it is not far out of your way", "if that is not out of your way",

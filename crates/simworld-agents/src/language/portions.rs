@@ -1,5 +1,6 @@
 //! For whom the parts of something are who is no part of a scene: "one is for my sister", "one for me and one for you".
 
+use super::clause::Clause;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{category, longest_phrase};
 use super::parser::Parser;
@@ -61,6 +62,28 @@ impl Parser<'_> {
             return false;
         }
         true
+    }
+
+    /// "Buy a rose, it's for Delia": somebody who is here gets it.
+    pub(super) fn is_for_somebody(&mut self, clauses: &mut [Clause]) -> bool {
+        let Some(Clause::Buy { whom: whom @ None, .. }) = clauses.last_mut() else { return false };
+        let start = self.at;
+        if self.eat_any(&[
+            "its for",
+            "it is for",
+            "theyre for",
+            "they are for",
+            "thats for",
+            "that is for",
+            "its meant for",
+        ]) && let Some(somebody) = self.somebody_here()
+            && self.ends_clause()
+        {
+            *whom = Some(somebody);
+            return true;
+        }
+        self.at = start;
+        false
     }
 
     fn portion(&mut self) -> bool {

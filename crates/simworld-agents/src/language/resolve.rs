@@ -46,6 +46,8 @@ pub(super) struct View<'a> {
     pub(super) range: f64,
     /// What "it" stands for.
     pub(super) it: Option<EntityId>,
+    /// What of that can be taken up: "they wait for the letter at the museum, bring it there".
+    pub(super) item: Option<EntityId>,
     /// Who "him", "her" and "them" stand for.
     pub(super) them: Option<EntityId>,
     /// What one has given away or put down by then: where it is, it is not taken from again.
@@ -81,6 +83,7 @@ impl<'a> View<'a> {
             heading: yaw_of(me.pose),
             range: RANGE,
             it: None,
+            item: None,
             them: None,
             gone: Vec::new(),
             speaker: None,
@@ -243,6 +246,10 @@ impl<'a> View<'a> {
         match &reference.target {
             // What is named outright is meant, in use or not.
             Target::Id(id) => Ok(self.scene.entity(*id).map(|entity| (0.0, entity.id)).into_iter().collect()),
+            Target::It if purpose == Purpose::Item => {
+                let taken = self.it.filter(|id| self.scene.entity(*id).is_some_and(|it| is_item(it.kind)));
+                Self::spoken_of(taken.or(self.item).or(self.it).or(self.them), reference)
+            }
             Target::It => Self::spoken_of(self.it.or(self.them), reference),
             Target::Them => Self::spoken_of(self.them, reference),
             Target::There | Target::Here | Target::Point { .. } => {
@@ -468,6 +475,11 @@ pub(super) fn sort(found: &mut [Ranked]) {
 /// Whether two figures differ by less than people see, 1 %.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= a.abs() * 0.01
+}
+
+/// Whether one takes it up and carries it.
+pub(super) const fn is_item(kind: EntityKind) -> bool {
+    matches!(kind, EntityKind::Parcel | EntityKind::Prop | EntityKind::Cone | EntityKind::Chair)
 }
 
 const fn is_surface(kind: EntityKind) -> bool {

@@ -9,6 +9,12 @@ pub(super) fn in_view_of(clause: &Clause, later: &[Clause]) -> Option<Vec<Clause
     {
         return Some(vec![Clause::Take { what: what.clone(), to: None, grip: Grip::Lift }, going(to)]);
     }
+    // "Go by the canteen and get a coffee": by it is where it is bought.
+    if let Clause::Past { what, pace } = clause
+        && let Some(Clause::Buy { at: None, .. }) = later.first()
+    {
+        return Some(vec![Clause::Go { to: what.clone(), side: None, pace: *pace, within: None }]);
+    }
     let Clause::Take { what, to, grip } = clause else { return None };
     match (to, later.first()) {
         // A seat or a door that is chosen is not carried away.

@@ -1,7 +1,6 @@
 //! Orders about goods: what places sell, for whom it is, and who sells it.
 
 use simworld_core::id::EntityId;
-use simworld_core::scene::EntityKind;
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Count, Reference, Target};
@@ -10,6 +9,7 @@ use super::lexicon::{DETERMINERS, category, is_animate, longest_phrase};
 use super::numbers;
 use super::parser::{Parser, shortened};
 use super::phrases::Phrases;
+use super::resolve::is_item;
 use super::verbs::{Verb, longest_verb};
 
 /// Who sells what is said before: "the coffee shop".
@@ -105,7 +105,16 @@ impl Parser<'_> {
                 && let Some(receiver) = self.for_whom()
             {
                 whom = Some(receiver);
-            } else if self.view.speaker.is_none() && self.eat_any(TO_ME) {
+            } else if self.view.speaker.is_none() && self.eat_any(TO_ME)
+                || self.eat_any(&[
+                    "to go",
+                    "to take away",
+                    "to take with you",
+                    "takeaway",
+                    "to eat",
+                    "to drink",
+                ])
+            {
             } else if at.is_none()
                 && longest_phrase(self.rest(), &["at", "from", "in", "inside", "over at", "down at", "up at"])
                     .is_some()
@@ -129,16 +138,10 @@ impl Parser<'_> {
 
     /// What is spoken of and can be taken is what "it" stands for, and not the goods beside it: "a basket of apples".
     pub(super) fn settle_wish(&mut self, spoken_of: &[Clause]) {
-        let is_item = |what: &Reference| {
-            let found = self.view.find(what, super::resolve::Purpose::Any);
-            found.is_ok_and(|found| {
-                matches!(
-                    found.kind,
-                    EntityKind::Parcel | EntityKind::Prop | EntityKind::Cone | EntityKind::Chair
-                )
-            })
+        let is_thing = |what: &Reference| {
+            self.view.find(what, super::resolve::Purpose::Any).is_ok_and(|found| is_item(found.kind))
         };
-        if spoken_of.iter().any(|clause| matches!(clause, Clause::Mention { what } if is_item(what))) {
+        if spoken_of.iter().any(|clause| matches!(clause, Clause::Mention { what } if is_thing(what))) {
             self.wished = false;
         }
     }
@@ -168,6 +171,7 @@ impl Parser<'_> {
         )
         .is_some();
         if self.eat_any(WISHED) {
+            self.for_others();
             let counts = matches!(self.rest().first(), Some(Lexeme { token: Token::Word(_), .. }))
                 && self.names.goods(self.rest()).is_some();
             let goes_on = longest_phrase(
@@ -297,6 +301,9 @@ impl Parser<'_> {
 
     /// Whoever gets it, before what he gets: "fetch Gus a newspaper".
     pub(super) fn receiver(&mut self) -> Option<Reference> {
+        if self.absent && self.eat_any(&["him", "her", "them"]) {
+            return None;
+        }
         if self.eat_any(&["me", "yourself", "us", "myself", "ourselves"]) {
             self.eat_any(&["up", "over", "back"]);
             return None;
@@ -348,6 +355,9 @@ impl Parser<'_> {
     /// "... for Hana", "... to Hana".
     pub(super) fn for_whom(&mut self) -> Option<Reference> {
         self.for_others();
+        if self.absent && self.eat_any(&["for him", "for her", "for them", "to him", "to her", "to them"]) {
+            return None;
+        }
         let start = self.at;
         if !self.eat_any(&["for", "to", "over to", "across to", "and give it to", "and take it to"]) {
             return None;

@@ -228,7 +228,7 @@ impl Parser<'_> {
     }
 
     /// The words as they were written, up to a token or the end of the sentence.
-    fn speech(&mut self, end: usize) -> Result<String, PlanError> {
+    pub(super) fn speech(&mut self, end: usize) -> Result<String, PlanError> {
         let said = &self.lexemes[self.at..end];
         let ends = |at: &usize| match said[*at].token {
             Token::Break => true,

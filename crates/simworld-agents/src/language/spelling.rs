@@ -41,6 +41,14 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
                 lexeme.lemma = base_form(&word);
                 lexeme.token = Token::Word(word);
             }
+        } else if let Some(words) = run_together(word) {
+            let lexeme = lexemes[here].clone();
+            let both = words.map(|word| Lexeme {
+                lemma: base_form(&word),
+                token: Token::Word(word),
+                ..lexeme.clone()
+            });
+            lexemes.splice(here..=here, both);
         } else if let Some(right) = nearest(word, names, follows_verb) {
             lexemes[here].lemma = base_form(&right);
             lexemes[here].token = Token::Word(right);
@@ -105,6 +113,14 @@ const SHIFTED: &[&str] = &[
     "to", "the", "at", "on", "in", "and", "of", "for", "by", "go", "with", "then", "it", "up", "a", "into",
     "from",
 ];
+
+/// "Siton the bench", "runto the bin": a verb and a small word that are written as one.
+fn run_together(word: &str) -> Option<[String; 2]> {
+    ["into", "onto", "to", "on", "at", "the", "it", "up"].iter().find_map(|small| {
+        let verb = word.strip_suffix(small).filter(|verb| verb.len() > 2 && verbs::is_verb(verb))?;
+        Some([verb.to_owned(), (*small).to_owned()])
+    })
+}
 
 /// "Tot he" for "to the": a letter on the wrong side of the blank between two words.
 fn shifted(word: &str, next: Option<&Lexeme>) -> Option<[String; 2]> {
@@ -243,6 +259,12 @@ fn nearest(word: &str, names: &Names<'_>, follows_verb: bool) -> Option<String> 
     }
     if follows_verb && best.len() > 1 {
         best.retain(|word| !verbs::is_verb(word));
+    }
+    if best.len() > 1 {
+        // Of two that sound the same the one that is written more like it: a "wel" is a well, and no wheel.
+        let edits = |candidate: &str| strsim::osa_distance(word, candidate);
+        let fewest = best.iter().map(|word| edits(word)).min();
+        best.retain(|word| Some(edits(word)) == fewest);
     }
     if best.len() > 1 {
         // A letter is left out rather than added, and frequent words are meant rather than others.
@@ -418,7 +440,7 @@ fn sound(letters: &[char]) -> (Option<char>, usize) {
     #[rustfmt::skip]
     const PAIRS: &[(&str, char)] = &[
         ("ph", 'f'), ("ck", 'k'), ("wh", 'w'), ("ai", 'A'), ("ay", 'A'), ("ei", 'A'), ("ee", 'E'), ("ea", 'E'),
-        ("ie", 'E'), ("oa", 'O'), ("oe", 'O'), ("oo", 'U'), ("ue", 'U'), ("ui", 'U'), ("gh", 'h'), ("kn", 'n'),
+        ("ie", 'E'), ("oa", 'O'), ("oe", 'O'), ("oo", 'U'), ("ue", 'U'), ("ui", 'U'), ("ou", 'U'), ("gh", 'h'), ("kn", 'n'),
         ("wr", 'r'), ("sc", 's'), ("qu", 'q'),
     ];
     let is_vowel = |letter: &char| "aeiou".contains(*letter);
@@ -458,7 +480,7 @@ fn alike(word: &str, candidate: &str) -> bool {
     a0 == b0 || (a0 == b1 && a1 == b0)
 }
 
-fn is_anagram(a: &str, b: &str) -> bool {
+pub(super) fn is_anagram(a: &str, b: &str) -> bool {
     let sorted = |text: &str| {
         let mut letters: Vec<char> = text.chars().collect();
         letters.sort_unstable();

@@ -47,9 +47,9 @@ const STATES: &Phrases = &Phrases::of(&[
     "want", "wants", "need", "needs", "like", "likes", "love", "loves", "hate", "hates", "know", "knows", "think", "thinks",
     "guess", "hope", "live", "lives", "work", "works", "keeps", "keep", "hurts", "hurt", "ache", "aches", "flickers", "leaks",
     "wobbles", "squeaks", "creaks", "rattles", "closes", "opens", "starts", "begins", "ends", "stops", "sells", "costs",
-    "comes", "go", "takes", "gets", "get", "goes", "says", "asked", "called", "promised", "bet", "swear", "miss", "misses", "fell",
+    "comes", "leaves", "arrives", "departs", "drives", "go", "takes", "gets", "get", "goes", "says", "asked", "called", "promised", "bet", "swear", "miss", "misses", "fell",
     "broke", "died", "ran", "im", "ive", "hes", "shes", "its", "thats", "theres", "theyre", "theyve", "weve", "youre", "youve",
-    "used", "just", "always", "never", "must be", "meet", "fits", "helps", "matters", "moved", "barks", "bites", "deserve",
+    "used", "cut", "ate", "drank", "burnt", "slept", "woke", "caught", "bit", "tore", "won", "grew", "stole", "hit", "froze", "met", "paid", "sold", "sent", "sleeps", "eats", "drinks", "just", "always", "never", "must be", "meet", "fits", "helps", "matters", "moved", "barks", "bites", "deserve",
     "deserves", "belong", "prefer", "prefers", "missed", "spilt", "spilled", "dropped", "needed", "wanted", "whos", "whats",
 ]);
 
@@ -117,6 +117,28 @@ impl Parser<'_> {
         let end = self.mark_from(self.at);
         if longest_phrase(self.rest(), &["you", "youre", "youve"]).is_some() && end + 1 < self.lexemes.len() {
             self.skip_statement();
+        }
+    }
+
+    /// "Careful, ...", "hurry, ...": what is called out before an order.
+    pub(super) fn skip_warning(&mut self) {
+        let start = self.at;
+        let said = self.eat_any(&[
+            "careful",
+            "be careful",
+            "hurry",
+            "hurry up",
+            "watch out",
+            "look out",
+            "quick",
+            "come quick",
+            "mind your step",
+            "watch your step",
+            "heads up",
+        ]);
+        let marked = matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, _, ..]);
+        if !(said && marked) {
+            self.at = start;
         }
     }
 

@@ -63,6 +63,13 @@ impl Parser<'_> {
         if let Some(clauses) = self.stop_of_it() {
             return Ok(clauses);
         }
+        let stays = self.at > 0
+            && ["stay", "keep", "remain"].contains(&self.word_before())
+            && longest_phrase(self.rest(), &["away from", "clear of", "well away from", "off", "out of"])
+                .is_some();
+        if stays {
+            return Err(self.not_understood("keeping away from things is not understood: say where to go"));
+        }
         if let Some(clauses) = self.short_of()? {
             return Ok(clauses);
         }
@@ -143,7 +150,11 @@ impl Parser<'_> {
     }
 
     pub(super) fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
-        self.eat_any(&["here", "there", "right here", "right there", "where you are"]);
+        let here = self.eat_any(&["here", "right here", "where you are"]);
+        self.eat_any(&["there", "right there"]);
+        if here && self.ends_at_mark() {
+            return Ok(vec![Clause::Stop]); // "wait here, I'll be back soon"
+        }
         if self.eat_any(&["until", "till", "up until"]) {
             return Ok(vec![Clause::Until { test: self.test()?, body: Vec::new() }]);
         }
@@ -195,6 +206,9 @@ impl Parser<'_> {
             self.at = number_at;
             return Err(self.not_understood("wait for more than 0 and at most 86400 seconds"));
         }
+        if clauses.is_empty() {
+            self.rests_there(&mut clauses)?; // "rest for a minute on the blue bench"
+        }
         clauses.push(Clause::Wait { seconds });
         Ok(clauses)
     }
@@ -236,6 +250,18 @@ impl Parser<'_> {
         }
         self.at = start;
         if let Some(test) = self.sky_to().or_else(|| self.light_to_turn()) {
+            return Ok(vec![Clause::Until { test, body: Vec::new() }]);
+        }
+        self.at = start;
+        // "If the light isn't green wait for it".
+        let light = match &self.tested {
+            Some(Test::Not(test)) => Some((**test).clone()),
+            tested => tested.clone(),
+        };
+        if let Some(test @ Test::Light { .. }) = light
+            && self.eat_any(&["it", "that"])
+            && self.ends_clause()
+        {
             return Ok(vec![Clause::Until { test, body: Vec::new() }]);
         }
         self.at = start;

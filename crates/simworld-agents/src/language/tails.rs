@@ -67,9 +67,9 @@ impl Parser<'_> {
     fn tail_follows(&self) -> bool {
         #[rustfmt::skip]
         const AFTER_COMMA: &Phrases = &Phrases::of(&[
-            "until", "till", "unless", "but first", "but before that", "but only if", "only if",
+            "until", "till", "unless", "but if", "but first", "but before that", "but only if", "only if",
             "if and only if", "but not if", "but not before", "or if", "or in case", "provided",
-            "provided that", "with", "run", "sprint", "at", "but only when", "only when", "forever", "for ever",
+            "provided that", "its for", "it is for", "theyre for", "they are for", "thats for", "that is for", "with", "run", "sprint", "at", "but slowly", "but quickly", "but fast", "and quickly", "and slowly", "but at", "nice and slowly", "but run", "and fast", "but only when", "only when", "forever", "for ever",
             "for ever and ever", "but go via", "stopping at", "with a stop at", "but before you do", "but via",
             "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
             "in a hurry", "but only after", "stopping off at", "stopping by", "but go by way of",
@@ -152,6 +152,8 @@ impl Parser<'_> {
         Ok(self.lasts(clauses)?
             || self.on_condition(clauses)?
             || self.in_turn(clauses)?
+            || self.delayed(clauses)
+            || self.is_for_somebody(clauses)
             || self.for_a_while(clauses)
             || self.with_pauses(clauses)
             || self.at_a_pace(clauses)?)
@@ -165,7 +167,7 @@ impl Parser<'_> {
             "non stop", "nonstop", "forever and ever", "without stopping", "the whole time", "all the time",
             "all day", "all day long", "until i say stop", "until i tell you to stop", "continuously",
             "constantly", "until further notice", "and never stop", "for all eternity", "till i say stop",
-            "until i say so", "until i call you", "till i call you", "until i call", "till i call", "until i come back", "till i come back",
+            "until i say so", "until i call you", "till i call you", "until i call", "till i call", "until i come", "till i come", "until i come back", "till i come back",
             "until im back", "till im back", "until i get back", "till i get back", "until i return", "till i return",
             "until i tell you otherwise", "till i tell you otherwise", "until i say otherwise", "until you hear from me",
         ]);
@@ -250,7 +252,8 @@ impl Parser<'_> {
             return Ok(false);
         };
         let last = clauses.pop();
-        let spoken_of = last.as_ref().filter(|_| test.is_about_it()).and_then(Clause::about).cloned();
+        let about_it = last.as_ref().filter(|_| test.is_about_it());
+        let spoken_of = about_it.and_then(|last| last.about().or_else(|| last.handled())).cloned();
         let otherwise = self.alternative()?;
         clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
         clauses.push(Clause::If { test, then: last.into_iter().collect(), otherwise });
@@ -282,7 +285,11 @@ impl Parser<'_> {
             return Ok(false);
         };
         self.skip_joints();
-        let then = self.orders(Extent::Group)?;
+        let mut then = self.orders(Extent::Group)?;
+        if let (Some(Clause::Sit { .. }), [Clause::Take { what, to: None, .. }]) = (clauses.last(), &then[..])
+        {
+            then = vec![Clause::Sit { on: Some(what.clone()) }]; // "..., but if it is taken take the blue one"
+        }
         let otherwise = clauses.pop().into_iter().collect();
         clauses.extend(spoken_of.map(|what| Clause::Mention { what }));
         clauses.push(Clause::If { test, then, otherwise });
@@ -404,8 +411,29 @@ impl Parser<'_> {
         while self.eat_any(&["and then", "then"]) {
             earlier.extend(self.order()?);
         }
-        clauses.splice(last..last, earlier);
+        // "Close the bakery door after you've bought a cake there".
+        let there = earlier
+            .iter()
+            .any(|clause| matches!(clause, Clause::Buy { at: Some(at), .. } if at.target == Target::There));
+        let spoken_of = clauses[last].about().filter(|_| there).cloned().map(|what| Clause::Mention { what });
+        clauses.splice(last..last, spoken_of.into_iter().chain(earlier));
         Ok(true)
+    }
+
+    /// "Meet me at the well in five minutes": what is waited for first.
+    fn delayed(&mut self, clauses: &mut Vec<Clause>) -> bool {
+        let start = self.at;
+        let time = if self.eat_any(&["in", "in about"]) { numbers::duration(self.rest()) } else { None };
+        if let Some((seconds, words)) = time.filter(|(seconds, words)| *seconds > 0.0 && *words > 1) {
+            self.at += words;
+            self.eat_any(&["time", "from now"]);
+            if self.ends_clause() {
+                clauses.insert(clauses.len() - 1, Clause::Wait { seconds });
+                return true;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// What was done before: an order, or a place alone.

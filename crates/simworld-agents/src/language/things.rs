@@ -40,7 +40,11 @@ impl<'a> Draft<'a> {
             self.board(&Reference::to(Target::Id(item.id), what.text.clone()))?; // "take the taxi to the school"
             return self.go_on_to(to);
         }
+        let there = self.there_now();
         self.take(what)?;
+        if to.is_some_and(|to| to.target == Target::There) {
+            self.leads_there(there); // and not to what was taken
+        }
         to.map_or(Ok(()), |to| self.bring(to, Manner::PutDown))
     }
 
@@ -130,7 +134,11 @@ impl<'a> Draft<'a> {
             let item = self.find(what, Purpose::Item)?;
             let in_hand = self.held == Some(Load::Thing(item.id)) || self.carried == Some(item.id);
             if !in_hand && (manner == Manner::Deliver || at.is_some()) {
+                let there = self.there_now();
                 self.take(what)?;
+                if at.is_some_and(|at| at.target == Target::There) {
+                    self.leads_there(there);
+                }
             } else if !in_hand {
                 return Err(self.nothing_in_hand(&what.text));
             }
@@ -235,7 +243,13 @@ impl<'a> Draft<'a> {
     pub(super) fn sit(&mut self, on: Option<&Reference>) -> Result<(), PlanError> {
         self.can(ActionKind::SitDown)?;
         let seat = match on {
-            Some(reference) => self.find(reference, Purpose::Seat)?,
+            Some(reference) => {
+                let seat = self.find(reference, Purpose::Seat)?;
+                if seat.kind.is_vehicle() && !self.drives() {
+                    return self.board(&Reference::to(Target::Id(seat.id), reference.text.clone())); // "sit in the car"
+                }
+                seat
+            }
             None => self.any_seat()?,
         };
         if !seat.kind.is_seat() {
@@ -414,7 +428,13 @@ impl<'a> Draft<'a> {
             }
             Test::InUse(what) => Condition::InUse(self.find(what, Purpose::Any)?.id),
             Test::Open(what) => {
-                let door = self.find(what, Purpose::Any)?;
+                let mut door = self.find(what, Purpose::Any)?;
+                // A house is open if its door is.
+                if door.kind == EntityKind::Building && !door.info.attributes.contains_key(OPEN) {
+                    let of_house = |at: &EntityRef<'_>| at.kind == EntityKind::Door;
+                    let near = door.access().xy();
+                    door = self.view.scene.nearest(near, PART, &of_house).unwrap_or(door);
+                }
                 if door.kind != EntityKind::Door && !door.info.attributes.contains_key(OPEN) {
                     let near = format!("a {} neither opens nor closes", door.kind);
                     return Err(PlanError::NotFound {
@@ -437,6 +457,7 @@ impl<'a> Draft<'a> {
                     self.view.them = them;
                 }
                 self.view.it = it.or(self.view.it);
+                self.lead_to(other);
                 Condition::Together { one, other, within: *within }
             }
             Test::Seated => Condition::Seated,

@@ -7,18 +7,21 @@ use super::lexicon::{category, longest_phrase, longest_side};
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;
+use super::resolve::is_item;
 use super::verbs::longest_verb;
 
 /// What leads to a thing that is only spoken of.
 #[rustfmt::skip]
 const INTRODUCTIONS: &Phrases = &Phrases::of(&[
     "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
-    "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
+    "know", "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
     "what is", "wheres", "where is", "which is", "who is", "whos", "id like", "i would like", "id love",
     "i want", "i need", "i fancy", "i could do with", "we need", "we want", "here is", "heres", "that is",
     "thats", "over there is", "over there are", "up there is", "back there is", "there sits", "there stands",
     "there lies", "remember", "you remember", "notice", "show me", "spot", "i see", "i can see", "i have",
+    "i would like to have", "id like to have", "i want to have", "id love to have", "i would love", "i would love to have", "i would like to get", "id like to get",
+    "i want to get", "we would like", "wed like", "we could do with", "i could use", "we could use", "i really want", "i really need", "we really need",
     "we are out of", "we have run out of", "weve run out of", "i am out of", "im out of", "i have run out of", "ive run out of",
     "we have no", "weve got no", "i have no", "i like", "i love", "i left", "somebody left", "someone left", "now", "look",
 ]);
@@ -86,9 +89,11 @@ impl Parser<'_> {
     /// As [`topic`](Self::topic), of what would be an order without its mark: "see the blue car? get in".
     pub(super) fn marked_topic(&mut self) -> Option<Vec<Clause>> {
         const LONGEST: usize = 14;
-        let begins =
-            longest_phrase(self.rest(), &["see", "spot", "show me", "look", "find", "remember", "notice"])
-                .is_some();
+        let begins = longest_phrase(
+            self.rest(),
+            &["see", "spot", "show me", "look", "find", "remember", "notice", "know"],
+        )
+        .is_some();
         if let Some(clauses) = self.seen_by_you() {
             return Some(clauses);
         }
@@ -179,6 +184,14 @@ impl Parser<'_> {
 
     /// "Of the people here, ...": what is chosen from.
     fn out_of(&mut self) -> Option<()> {
+        let start = self.at;
+        if self.eat_any(&["of", "out of", "between"])
+            && let Some(ids) = self.named_apart()
+        {
+            (self.class, self.bearers) = (None, Some(ids));
+            return Some(());
+        }
+        self.at = start;
         if self.peeks("of") && self.is_capital(self.at + 1) {
             self.at += 1;
             return self.out_of_named();
@@ -365,6 +378,42 @@ impl Parser<'_> {
         vec![Clause::Mention { what }]
     }
 
+    /// A thing or a place that is named in a remark, where it or "there" is taken up behind it.
+    fn thing_here(&mut self) -> Option<Reference> {
+        let start = self.at;
+        let is_mark = |lexeme: &Lexeme| {
+            matches!(lexeme.token, Token::Comma | Token::Break)
+                || lexeme.token == Token::Word("so".to_owned())
+        };
+        let mark = start + self.rest().iter().position(is_mark)?;
+        let takes_up = |word: &str| {
+            self.lexemes[mark..].iter().any(|lexeme| lexeme.token == Token::Word(word.to_owned()))
+        };
+        let (it, there) = (takes_up("it"), takes_up("there"));
+        let begins = longest_phrase(
+            self.rest(),
+            &["the", "a", "an", "my", "his", "her", "that", "our", "your", "their"],
+        )
+        .is_some()
+            || self.is_capital(start) && there;
+        if !begins || !it && !there {
+            return None;
+        }
+        let whole = self.lexemes;
+        self.lexemes = &whole[..mark];
+        let what = self.reference(0).ok();
+        self.lexemes = whole;
+        let found = what.as_ref().and_then(|what| self.view.find(what, super::resolve::Purpose::Any).ok());
+        let kept = found.is_some_and(|found| {
+            let place = found.kind == simworld_core::scene::EntityKind::Building;
+            is_item(found.kind) && it || place && there
+        });
+        if !kept {
+            self.at = start;
+        }
+        what.filter(|_| kept)
+    }
+
     /// To the end of a remark; names in it are spoken of.
     fn rest_of_remark(&mut self) -> Option<Vec<Clause>> {
         let mut clauses = Vec::new();
@@ -387,8 +436,8 @@ impl Parser<'_> {
                 break;
             }
             let named = if self.is_capital(self.at) { self.somebody_here() } else { None };
-            match named {
-                Some(somebody) => clauses.push(Clause::Mention { what: somebody }),
+            match named.or_else(|| self.thing_here()) {
+                Some(named) => clauses.push(Clause::Mention { what: named }),
                 None => self.at += 1,
             }
         }

@@ -20,6 +20,8 @@ const GOES: &Phrases = &Phrases::of(&[
     "is to go to", "ought to go to", "belongs at", "belongs in", "should go in", "goes in", "should end up at",
     "should end up with", "needs to get to", "has to get to", "must get to", "should get to", "needs to be at",
     "must be at", "should be at", "goes back to", "belongs by", "goes next to", "should go next to", "goes by",
+    "goes on", "goes onto", "goes into", "belongs on", "belongs next to", "should go on", "should go into", "has to be at", "has to be in", "should be in",
+    "must be in", "needs to be in", "has to go in", "has to go on", "should be on", "goes under", "belongs under", "is supposed to be at", "is meant to be at",
     "goes over to", "should go over to", "needs to be with", "is meant for", "should be with",
 ]);
 

@@ -7,6 +7,7 @@ use simworld_core::seam::{Goal, PlanError};
 
 use super::clause::{Clause, Course, Pace, Reference, Target};
 use super::draft::{AT_POINT, Draft, speed_of};
+use super::lexer::Token;
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
@@ -51,7 +52,14 @@ impl Parser<'_> {
     pub(super) fn by_the_compass(&mut self, pace: Pace) -> Result<Option<Vec<Clause>>, PlanError> {
         let start = self.at;
         self.eat_any(&["off", "out", "away", "straight", "for"]);
-        let before = self.length();
+        // "Thirty metres to the south and then twenty to the east".
+        let bare = numbers::number(self.rest()).filter(|(number, _)| *number >= 1.0 && self.length_before());
+        let before = self.length().or_else(|| {
+            let (number, words) = bare?;
+            self.at += words;
+            self.eat_any(&["more"]);
+            Some(number)
+        });
         let Some(compass) = self.compass() else {
             self.at = start;
             return Ok(None);
@@ -89,6 +97,13 @@ impl Parser<'_> {
             return Err(self.not_understood("go more than 0 and at most 10000 metres"));
         }
         Ok(Some(vec![Clause::Walk { course: Course::Compass(compass), distance, pace }]))
+    }
+
+    /// Whether a unit of length was said earlier, which a bare number goes on with.
+    fn length_before(&self) -> bool {
+        self.lexemes[..self.at].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["metres", "metre", "meters", "meter", "m", "steps", "paces"].contains(&word.as_str()))
+        })
     }
 
     /// A length, m; a step is taken for a metre.
@@ -189,6 +204,9 @@ impl Parser<'_> {
 
     /// After "past".
     pub(super) fn past(&mut self, pace: Pace) -> Result<Vec<Clause>, PlanError> {
+        if longest_phrase(self.rest(), &["between", "in between"]).is_some() && self.eat_up_to_middle() {
+            return self.halfway(pace);
+        }
         let what = self.reference(0)?;
         let mut clauses = vec![Clause::Past { what, pace }];
         if self.eat_any(&[

@@ -242,6 +242,7 @@ fn view_of<'a>(scene: &'a dyn Scene, focus: &'a Focus) -> View<'a> {
             .map_or(0.0, |me| simworld_core::geometry::yaw_of(me.pose)),
         range: EVERYWHERE,
         it,
+        item: None,
         them: it.filter(|it| scene.entity(*it).is_some_and(|it| super::lexicon::is_animate(it.kind))),
         gone: Vec::new(),
         policy: AmbiguityPolicy::Nearest,

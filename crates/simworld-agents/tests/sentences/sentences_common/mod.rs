@@ -14,12 +14,23 @@ use simworld_core::value::Value;
 
 /// The cities in which people speak to a walker.
 pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
-/// Those, the town in which they speak to a driver, and four that came later.
-pub(crate) const PLACES: [&str; 8] =
-    ["harbour", "oldtown", "campus", "town", "park", "station", "depot", "market"];
+/// Those, the town in which they speak to a driver, and six that came later.
+pub(crate) const PLACES: [&str; 10] =
+    ["harbour", "oldtown", "campus", "town", "park", "station", "depot", "market", "airport", "campsite"];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 10] =
-    ["sentences", "paraphrases", "unheard", "later", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"];
+const SETS: [&str; 11] = [
+    "sentences",
+    "paraphrases",
+    "unheard",
+    "later",
+    "fifth",
+    "sixth",
+    "seventh",
+    "eighth",
+    "ninth",
+    "tenth",
+    "eleventh",
+];
 
 /// One thing that is said, and what it means.
 pub(crate) struct Said {

@@ -1,0 +1,163 @@
+//! Orders that are told as somebody's wish: "Marta says you should go to the office", "Hugo wants to talk to you", "let Ben know
+//! that the bus is late".
+
+use super::clause::{Clause, Pace};
+use super::lexer::{Lexeme, Token};
+use super::lexicon::longest_phrase;
+use super::parser::Parser;
+use super::phrases::Phrases;
+use super::verbs::longest_verb;
+
+/// Between who wants something and what he wants to be done.
+#[rustfmt::skip]
+const WANTS_YOU_TO: &Phrases = &Phrases::of(&[
+    "wants you to", "would like you to", "needs you to", "asked you to", "says you should", "says you have to", "says you need to", "says you must", "says to",
+    "said to", "said you should", "told you to", "asks you to", "is asking you to", "expects you to", "said you have to", "says that you should", "said that you should",
+    "has asked you to", "asks if you could", "asked if you could", "asks whether you could", "is asking if you could", "wonders if you could", "wants us to",
+    "thinks you should", "suggests you", "suggested you", "suggests that you", "recommends you", "want you to", "would love you to", "wishes you to", "begs you to",
+    "orders you to", "wants to know if you could", "asks if you can", "asked if you can", "would be happy if you", "would be glad if you", "would appreciate it if you",
+]);
+/// Wanting somebody to come.
+#[rustfmt::skip]
+const WANTS_YOU: &Phrases = &Phrases::of(&[
+    "wants to see you", "would like to see you", "wants to meet you", "would like to meet you", "is asking for you", "is looking for you", "is calling you",
+    "is waiting for you", "needs you", "wants you", "would like you to come over", "wants you to come over", "wants you to come", "would like you to come",
+    "wants a word with you", "would like a word with you", "is expecting you", "needs your help", "could use your help", "could use a hand", "needs a hand",
+    "needs help", "needs some help", "wants you over there", "needs you over there", "needs you right now", "is calling for you", "asked for you", "called you",
+    "wants your help", "would like your help", "could do with a hand", "could do with some help", "wants some company", "needs some company", "could use some company",
+]);
+/// Wanting to be spoken to.
+#[rustfmt::skip]
+const WANTS_TO_TALK: &Phrases = &Phrases::of(&[
+    "wants to talk to you", "wants to speak to you", "would like to talk to you", "would like to speak to you", "wants to talk with you", "wants to speak with you",
+    "would like to talk with you", "would like to speak with you", "wants to have a word with you", "wants to chat with you", "needs to talk to you", "needs to speak to you",
+    "has to talk to you", "must talk to you", "wants a chat", "wants to have a chat with you", "wants someone to talk to", "needs somebody to talk to", "needs someone to talk to",
+    "wants somebody to talk to", "would like to say hello to you",
+]);
+
+impl Parser<'_> {
+    /// What somebody else wants of who is told.
+    pub(super) fn told_by_another(&mut self) -> Option<Vec<Clause>> {
+        if let Some(clauses) = self.lets_know() {
+            return Some(clauses);
+        }
+        let start = self.at;
+        let who = self.somebody_here();
+        if who.is_none() {
+            self.at = start;
+            if !self.eat_any(&["my", "our", "the", "they", "he", "she"]) {
+                return None;
+            }
+            // "My boss says ...": who is no part of the scene.
+            let named = self.lexemes[start].token != Token::Word("they".to_owned())
+                && !["he", "she"].contains(&self.word_before());
+            self.at += usize::from(named);
+            if self.at >= self.lexemes.len() {
+                return None;
+            }
+        }
+        if let Some(who) = &who {
+            if self.eat_any(WANTS_TO_TALK) && self.ends_clause() {
+                return Some(vec![Clause::Say { to: who.clone(), words: "hello".to_owned() }]);
+            }
+            if self.eat_any(WANTS_YOU) && self.ends_clause() {
+                let to = who.clone();
+                return Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+            }
+        }
+        if !self.eat_any(WANTS_YOU_TO) || longest_verb(self.rest()).is_none() {
+            return None;
+        }
+        let mut clauses: Vec<Clause> = who.into_iter().map(|what| Clause::Mention { what }).collect();
+        clauses.extend(self.statement_here()?);
+        Some(clauses)
+    }
+
+    /// "Let Marta know that the bus is late".
+    fn lets_know(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        if self.eat_any(&["let"])
+            && let Some(to) = self.somebody_here()
+            && self.eat_any(&["know that", "know", "hear that", "know about", "in on"])
+            && !self.ends_at_mark()
+            && let Ok(words) = self.speech(self.lexemes.len())
+        {
+            return Some(vec![Clause::Say { to, words }]);
+        }
+        self.at = start;
+        None
+    }
+
+    /// "Slowly walk over to Anna": how fast, where it was said before the verb.
+    pub(super) fn at_pace_before(&self, begin: usize, start: usize, mut clauses: Vec<Clause>) -> Vec<Clause> {
+        let said = |words: &[&str]| {
+            self.lexemes[begin..start]
+                .iter()
+                .any(|lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if words.contains(&word.as_str())))
+        };
+        let pace = if said(&["slowly"]) {
+            Pace::Slow
+        } else if said(&["quickly"]) {
+            Pace::Run
+        } else {
+            return clauses;
+        };
+        if let [Clause::Go { pace: usual @ Pace::Usual, .. }] = &mut clauses[..] {
+            *usual = pace;
+        }
+        clauses
+    }
+
+    /// "... or you'll miss the bus": what happens otherwise; whether there was any.
+    pub(super) fn skip_threat(&mut self) -> bool {
+        let start = self.at;
+        self.at += usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]));
+        let said = longest_phrase(
+            self.rest(),
+            &[
+                "or youll",
+                "or you will",
+                "or well",
+                "or we will",
+                "or ill",
+                "or i will",
+                "or theyll",
+                "or they will",
+                "or hell be",
+                "or shell be",
+                "or itll",
+                "or it will",
+                "or else ill",
+                "or else you",
+                "or else we",
+                "or else it",
+                "or else the",
+                "or else youll",
+                "or else well",
+                "otherwise youll",
+                "otherwise well",
+                "otherwise it",
+                "otherwise you",
+                "otherwise we",
+                "or he will",
+                "or she will",
+                "or someone will",
+                "or somebody will",
+                "otherwise ill",
+                "otherwise i",
+                "otherwise theyll",
+            ],
+        );
+        let end = self.mark_from(self.at);
+        let stated = said.is_some_and(|words| {
+            longest_verb(&self.lexemes[(self.at + words).min(end)..end]).is_none()
+                || self.words[self.lexemes[self.at].start..].contains("ll")
+        });
+        if !stated {
+            self.at = start;
+            return false;
+        }
+        self.at = end;
+        true
+    }
+}
