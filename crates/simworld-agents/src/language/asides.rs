@@ -165,6 +165,7 @@ impl Parser<'_> {
     /// Who and what is named on the way to a place.
     pub(super) fn names_within(&mut self, end: usize) -> Vec<Clause> {
         let mut clauses = Vec::new();
+        let mut spoken_of = None;
         let whole = self.lexemes;
         self.lexemes = &whole[..end];
         while self.at < end && clauses.len() < 2 {
@@ -193,11 +194,16 @@ impl Parser<'_> {
             match what {
                 Some(what) if self.view.find(&what, super::resolve::Purpose::Any).is_ok() => {
                     clauses.push(Clause::Mention { what });
+                    // "The nearest shop is full of people, go to the second nearest one": one of the shops.
+                    spoken_of = spoken_of.or_else(|| Some((self.class, self.bearers.clone())));
                 }
                 _ => self.at = start + 1,
             }
         }
         self.lexemes = whole;
+        if let Some(spoken_of) = spoken_of {
+            (self.class, self.bearers) = spoken_of;
+        }
         clauses
     }
 }

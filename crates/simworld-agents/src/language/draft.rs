@@ -228,7 +228,10 @@ impl<'a> Draft<'a> {
             Clause::Point { at } => {
                 self.can(ActionKind::PointDirection)?;
                 let at = self.goal(at)?;
-                self.push(PlanStep::Point { at });
+                // "Show me the tower, just point at it".
+                if !matches!(self.last_step(), Some(PlanStep::Point { at: last }) if *last == at) {
+                    self.push(PlanStep::Point { at });
+                }
                 Ok(())
             }
             Clause::Wave { to } => {

@@ -326,7 +326,7 @@ fn drop_address(lexemes: &mut Vec<Lexeme>, name: &[Lexeme]) {
         let is_mark = |at: usize| matches!(lexemes[at].token, Token::Comma | Token::Break);
         let begins = at == 0 || is_mark(at - 1) || is_polite(&lexemes[..at]);
         let called = at > 0
-            && end >= lexemes.len()
+            && (end >= lexemes.len() || is_mark(end))
             && matches!(&lexemes[at - 1].token, Token::Word(word)
                 if ["me", "here", "please", "now", "boy", "girl", "down", "still", "it", "back", "home", "there"].contains(&word.as_str()));
         let begins = begins || called || end >= lexemes.len() && at > 1 && stands_apart(&lexemes[..at]);

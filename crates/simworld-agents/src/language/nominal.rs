@@ -220,6 +220,11 @@ impl Parser<'_> {
         Ok(said.then(|| vec![step]))
     }
 
+    /// "Twenty metres further east", behind who is needed there.
+    pub(super) fn in_so_many_steps(&mut self) -> Option<Vec<Clause>> {
+        self.measured_way().ok().flatten().filter(|_| self.ends_clause())
+    }
+
     /// "Once around the block".
     fn rounds(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
         let Some((times, words)) = numbers::times(self.rest()) else { return Ok(None) };

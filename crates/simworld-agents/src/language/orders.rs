@@ -254,6 +254,9 @@ impl Parser<'_> {
             Verb::Drop => self.drop(Manner::DropOff),
             Verb::PutDown => self.drop(Manner::PutDown),
             Verb::Buy => self.buy(),
+            Verb::Sit if self.lies(start) => {
+                Err(self.not_understood("people sit and do not lie: say sit down"))
+            }
             Verb::Sit => self.sit(),
             Verb::StandUp if self.is_place() => self.go(Pace::Usual, start),
             Verb::StandUp => {
@@ -325,6 +328,12 @@ impl Parser<'_> {
             return Ok(Clause::Follow { whom, pace: Pace::Usual });
         }
         let whom = self.reference(0)?;
+        // "Accompany Nora to the café".
+        if self.is_somebody(&whom) && self.eat_any(BRINGS) {
+            let test =
+                super::clause::Test::Near { what: self.reference(0)?, within: super::tests_of::NEXT_TO_ME };
+            return Ok(Clause::Until { test, body: vec![Clause::Follow { whom, pace: Pace::Usual }] });
+        }
         // "Stay close to the statue" is about staying.
         let stays = ["stay", "keep", "stick", "remain"]
             .iter()
@@ -361,6 +370,16 @@ impl Parser<'_> {
             "where she goes",
         ]);
         Ok(Clause::Follow { whom, pace: self.pace(Pace::Usual)? })
+    }
+
+    /// Whether who is no dog is told to lie down.
+    fn lies(&self, start: usize) -> bool {
+        let dog = self
+            .view
+            .scene
+            .entity(self.view.who)
+            .is_some_and(|me| me.kind == simworld_core::scene::EntityKind::Dog);
+        !dog && ["lie", "lie down"].iter().any(|words| fits(&self.lexemes[start..self.at], words).is_some())
     }
 
     /// "Open the door for me", "close it behind you".

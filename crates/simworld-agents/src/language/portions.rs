@@ -46,8 +46,19 @@ impl Parser<'_> {
     /// Passes "one is for my sister and one for me" behind an order, with the mark before it; whether there was any.
     pub(super) fn skip_portions(&mut self) -> bool {
         let start = self.at;
+        self.skip_fillers();
         self.at +=
             usize::from(matches!(self.rest(), [Lexeme { token: Token::Comma | Token::Break, .. }, ..]));
+        // "Two ice creams please, for my kids".
+        let after_mark = self.at;
+        if after_mark > start
+            && self.eat_any(&["for", "just for", "only for"])
+            && (self.eat_any(MINE) || self.somebody_elsewhere())
+            && self.ends_clause()
+        {
+            return true;
+        }
+        self.at = after_mark;
         self.eat_any(&["and", "because", "since", "as"]);
         let mut end = start;
         while self.portion() {

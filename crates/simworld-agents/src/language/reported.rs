@@ -38,7 +38,12 @@ const WANTS_TO_TALK: &Phrases = &Phrases::of(&[
 impl Parser<'_> {
     /// What somebody else wants of who is told.
     pub(super) fn told_by_another(&mut self) -> Option<Vec<Clause>> {
-        if let Some(clauses) = self.lets_know() {
+        if let Some(clauses) = self.lets_know().or_else(|| self.kind_words()) {
+            return Some(clauses);
+        }
+        if self.eat_any(&["let", "set", "help"])
+            && let Some(clauses) = self.passenger(super::verbs::Verb::Drop)
+        {
             return Some(clauses);
         }
         let start = self.at;
@@ -71,6 +76,37 @@ impl Parser<'_> {
         let mut clauses: Vec<Clause> = who.into_iter().map(|what| Clause::Mention { what }).collect();
         clauses.extend(self.statement_here()?);
         Some(clauses)
+    }
+
+    /// "Thank Agnes for me", "wish Emil a good day".
+    fn kind_words(&mut self) -> Option<Vec<Clause>> {
+        const WORDS: &[(&[&str], &str)] = &[
+            (&["thank", "say thanks to"], "thank you"),
+            (&["congratulate"], "congratulations"),
+            (&["apologise to", "apologize to", "say you are sorry to"], "sorry"),
+            (&["welcome"], "welcome"),
+            (&["praise"], "well done"),
+        ];
+        let start = self.at;
+        if let Some((words, count)) = super::lexicon::longest(self.rest(), WORDS) {
+            self.at += count;
+            if let Some(to) = self.somebody_here() {
+                if self.eat_any(&["for", "on", "to"]) && longest_phrase(self.rest(), &["me", "us"]).is_none()
+                {
+                    self.at = self.mark_from(self.at);
+                }
+                return Some(vec![Clause::Say { to, words: words.to_owned() }]);
+            }
+        } else if self.eat_any(&["wish"])
+            && let Some(to) = self.somebody_here()
+        {
+            self.eat_any(&["a", "a very"]);
+            if let Ok(words) = self.speech(self.lexemes.len()) {
+                return Some(vec![Clause::Say { to, words }]);
+            }
+        }
+        self.at = start;
+        None
     }
 
     /// "Let Marta know that the bus is late".

@@ -106,10 +106,14 @@ impl Parser<'_> {
 
     /// "What's the quickest way to the hospital? Take it".
     pub(super) fn way_asked(&mut self) -> Option<Vec<Clause>> {
-        if !self.eat_any(ASKED) || !self.best_way() {
+        let uses = self.eat_any(&["use", "choose", "pick", "go for"]);
+        if !uses && !self.eat_any(ASKED) || !self.best_way() {
             return None;
         }
         let to = self.reference(0).ok()?;
+        if uses && self.ends_clause() {
+            return Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
+        }
         self.eat_any(&["from here", "is", "please"]);
         self.skip_joints();
         let taken = self.eat_any(TAKEN);

@@ -101,6 +101,10 @@ impl Parser<'_> {
         loop {
             if at.is_none() && self.eat_any(THERE) {
                 at = Some(Reference::to(Target::There, "there".to_owned()));
+                let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+                if comma && longest_phrase(&self.rest()[1..], &["at", "from", "in"]).is_some() {
+                    (self.at, at) = (self.at + 1, None); // "buy a soup there, at the tearoom"
+                }
             } else if whom.is_none()
                 && let Some(receiver) = self.for_whom()
             {

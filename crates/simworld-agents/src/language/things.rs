@@ -22,6 +22,15 @@ impl<'a> Draft<'a> {
         if self.is_mount(what) {
             return self.go_on_to(to); // "take the car: drive it to the museum"
         }
+        // "The suitcase must go to the bus, carry it there" says one thing twice.
+        let brought = |to: &Reference| {
+            to.target == Target::There
+                || self.beside.is_some()
+                    && self.view.find(to, Purpose::Any).ok().map(|to| to.id) == self.beside
+        };
+        if what.target == Target::It && to.is_some_and(brought) && self.is_done(Some(what), None) {
+            return Ok(());
+        }
         if let Some(other) = self.another(what) {
             return self.take_to(&other, to, grip); // "pick up the letter and the parcel"
         }
@@ -241,6 +250,12 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn sit(&mut self, on: Option<&Reference>) -> Result<(), PlanError> {
+        // A dog that is told to sit by the tree goes there.
+        if self.kind == EntityKind::Dog
+            && let Some(Reference { relation: Some(super::clause::Stands::To(_, anchor)), .. }) = on
+        {
+            return self.go(anchor, None, Pace::Usual, None);
+        }
         self.can(ActionKind::SitDown)?;
         let seat = match on {
             Some(reference) => {

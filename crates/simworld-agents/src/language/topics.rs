@@ -1,6 +1,8 @@
 //! What is spoken of before an order: "there is a robot on the square: follow it", "see the blue car? get in", "Dmitri
 //! looks lonely, go and talk to him". Nothing is done about it, but later words stand for it.
 
+use simworld_core::seam::PlanError;
+
 use super::clause::{Choice, Clause, Count, Reference, Stands, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{category, longest_phrase, longest_side};
@@ -152,7 +154,17 @@ impl Parser<'_> {
             (self.wished_by, self.wanted, self.wished) = (whom, Some(goods), true);
             return Some(clauses);
         }
-        let what = self.reference(0).ok()?;
+        let what = match self.reference(0) {
+            Ok(what) => what,
+            Err(error) => {
+                // "Where is Stefan? Wave to him": that he is not here is the answer.
+                let asked = matches!(error, PlanError::NotFound { .. }) && self.is_capital(self.at);
+                if asked {
+                    self.missing.get_or_insert(error);
+                }
+                return None;
+            }
+        };
         let mut clauses = self.mention(what);
         clauses.extend(self.rest_of_remark()?);
         let mark = self.mark();
@@ -400,6 +412,7 @@ impl Parser<'_> {
             return None;
         }
         let whole = self.lexemes;
+        let class = (self.class, self.bearers.clone());
         self.lexemes = &whole[..mark];
         let what = self.reference(0).ok();
         self.lexemes = whole;
@@ -410,6 +423,7 @@ impl Parser<'_> {
         });
         if !kept {
             self.at = start;
+            (self.class, self.bearers) = class;
         }
         what.filter(|_| kept)
     }

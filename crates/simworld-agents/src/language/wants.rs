@@ -85,6 +85,9 @@ impl Parser<'_> {
             }
         }
         while self.eat_any(THERE) {}
+        if super::numbers::walked(self.rest()).is_some() {
+            return self.in_so_many_steps(); // "I need you twenty metres further east"
+        }
         let at = self.eat_any(&["at", "in", "to", "on", "over at", "down at", "up at", "outside"]);
         let side = if at { None } else { Some(Spot::Beside(self.side()?, None)) };
         let to = self.reference(0).map_err(|error| self.missing.get_or_insert(error).clone()).ok()?;

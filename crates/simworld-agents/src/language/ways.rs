@@ -60,6 +60,18 @@ impl Parser<'_> {
             self.eat_any(&["more"]);
             Some(number)
         });
+        if before.is_some() {
+            self.eat_any(&[
+                "further",
+                "farther",
+                "more",
+                "away",
+                "off",
+                "further to the",
+                "farther to the",
+                "to the",
+            ]);
+        }
         let Some(compass) = self.compass() else {
             self.at = start;
             return Ok(None);
@@ -335,6 +347,13 @@ impl Parser<'_> {
             return Ok(vec![go, photo]);
         }
         self.by_best_way();
+        if let Clause::Go { to, .. } = &go
+            && self.is_somebody(to)
+            && self.eat_any(super::orders::BRINGS)
+        {
+            let to = self.reference(0)?; // "lead Omar to the hospital"
+            return Ok(vec![go, Clause::Go { to, side: None, pace, within: None }]);
+        }
         self.eat_any(&["on foot", "by foot"]);
         if let Some(board) = self.by_vehicle() {
             return Ok(vec![board, go]);
