@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 use simworld_core::net::Workers;
 
-/// The threads of rayon's pool, for [`RoadNetwork::derive_with`](simworld_core::net::RoadNetwork::derive_with).
+/// The threads of rayon's pool, for [`RoadNetwork::derive_with`](simworld_core::net::RoadNetwork::derive_with) and whatever else
+/// asks for workers, as traffic does.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AllThreads;
 

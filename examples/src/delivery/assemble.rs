@@ -11,7 +11,7 @@ use simworld_agents::language::GrammarPlanner;
 use simworld_agents::mind::{Mind, Silent};
 use simworld_citygen::files::save::SaveError;
 use simworld_citygen::python::{FormatError, Warning, read_roads};
-use simworld_citygen::{City, CityError};
+use simworld_citygen::{AllThreads, City, CityError};
 use simworld_core::environment::EnvironmentError;
 use simworld_core::geometry::{Aabb, Point2, Point3, direction, pose_facing};
 use simworld_core::id::EntityId;
@@ -159,7 +159,11 @@ pub fn assemble_with(
         pedestrians: config.pedestrians,
         ..config.traffic.clone()
     };
-    let traffic = TrafficDynamics::new(&mut world, &traffic_config, seed)?;
+    let mut traffic = TrafficDynamics::new(&mut world, &traffic_config, seed)?;
+    if config.seeds == 1 {
+        // Several seeds share the threads among them; one alone has them all, to the same bits.
+        traffic.traffic_mut().set_workers(Box::new(AllThreads));
+    }
     let passers =
         Passers { vehicles: traffic.vehicles().to_vec(), pedestrians: traffic.pedestrians().to_vec() };
     let couriers = spawn_couriers(&mut world, city, config.agents, seed)?;
