@@ -247,8 +247,19 @@ pub(super) struct Reference {
     pub(super) indefinite: bool,
     /// Which of them are not meant.
     pub(super) except: Option<Box<Self>>,
+    /// Of every nth, which one is the first, if that was said.
+    pub(super) first: Option<First>,
     /// The words themselves, for answers.
     pub(super) text: String,
+}
+
+/// The first of every nth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum First {
+    /// By its place in the row, from 1.
+    Nth(u32),
+    /// The one farthest in a direction.
+    Compass(Compass),
 }
 
 /// How a thing stands to others.
@@ -370,6 +381,7 @@ impl Reference {
             relation: None,
             indefinite: false,
             except: None,
+            first: None,
             text,
         }
     }

@@ -14,7 +14,7 @@ use super::parser::Parser;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Compass(u8);
 
-const DIRECTIONS: &[(&[&str], Compass)] = &[
+pub(super) const DIRECTIONS: &[(&[&str], Compass)] = &[
     (&["east", "eastward", "eastwards"], Compass(0)),
     (&["north east", "northeast", "northeastward", "northeastwards", "north eastwards"], Compass(1)),
     (&["north", "northward", "northwards"], Compass(2)),
@@ -37,6 +37,10 @@ pub(super) const MOST: &[(&[&str], Compass)] = &[
         &["southernmost", "southern most", "southmost", "most southerly", "most southern", "southern"],
         Compass(6),
     ),
+    (&["northeastern", "north eastern", "northeasternmost", "north easternmost"], Compass(1)),
+    (&["northwestern", "north western", "northwesternmost", "north westernmost"], Compass(3)),
+    (&["southwestern", "south western", "southwesternmost", "south westernmost"], Compass(5)),
+    (&["southeastern", "south eastern", "southeasternmost", "south easternmost"], Compass(7)),
 ];
 
 /// Every word of this table, for the spelling.
@@ -122,6 +126,14 @@ impl Parser<'_> {
         let said = compass.filter(|_| longest_phrase(after, &["of", "from", "side", "end"]).is_none());
         self.at = said.map_or(start, |(_, count)| self.at + count);
         said.map(|(compass, _)| compass)
+    }
+
+    /// "North", "northern": a direction as it is said of a part of something.
+    pub(super) fn compass_of_part(&mut self) -> Option<Compass> {
+        let found = longest(self.rest(), MOST).or_else(|| longest(self.rest(), DIRECTIONS));
+        let (compass, count) = found?;
+        self.at += count;
+        Some(compass)
     }
 
     /// "The northernmost".

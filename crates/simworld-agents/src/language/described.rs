@@ -178,7 +178,7 @@ impl Parser<'_> {
     }
 
     /// "... that is red", "... that isn't white".
-    fn likeness_behind(&mut self, reference: &mut Reference) -> bool {
+    pub(super) fn likeness_behind(&mut self, reference: &mut Reference) -> bool {
         let start = self.at;
         let not = self.eat_any(&["not", "neither"]);
         self.eat_any(&["painted", "coloured", "colored", "the", "both"]);

@@ -27,7 +27,7 @@ pub(super) struct Category {
 
 impl Category {
     /// Anything to sit on: the first class.
-    pub(super) const fn seat() -> &'static Self {
+    pub(super) fn seat() -> &'static Self {
         &CATEGORIES[0]
     }
 
@@ -94,7 +94,7 @@ pub(super) const fn is_animate(kind: EntityKind) -> bool {
 
 /// Every class. Plurals follow from the singular.
 #[rustfmt::skip]
-pub(super) const CATEGORIES: &[Category] = &[
+pub(super) static CATEGORIES: &[Category] = &[
     things(&["seat", "thing you can sit on", "thing to sit on", "something to sit on", "place to sit",
         "place to sit down", "spot to sit", "somewhere to sit", "place to rest", "place where i can sit", "place where you can sit", "place where we can sit", "somewhere i can sit"], &[EntityKind::Chair,
         EntityKind::Bench]),

@@ -243,7 +243,11 @@ impl Parser<'_> {
                 // "The taxi" is rather what is called so than any car.
                 let is_narrower = !category.is_place()
                     && fits_noun(&self.lexemes[self.at..next], category.words[0]).is_none();
+                // "Cafe lumen": what follows is a word of a name alone.
+                let is_named = matches!(self.rest().get(words).map(|next| &next.token),
+                    Some(Token::Word(word)) if !super::spelling::is_known(word) && self.names.has_word(word));
                 is_narrower
+                    || is_named
                     || self.is_capital(self.at)
                     || self.is_capital(next)
                     || fits(&self.lexemes[next..], "of").is_some()

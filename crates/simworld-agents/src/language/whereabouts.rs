@@ -64,6 +64,25 @@ impl Parser<'_> {
             }
         }
         self.at = start;
+        // "The tree in the western half of the park".
+        if depth < 3
+            && self.eat_any(&["in the", "on the", "at the", "inside the"])
+            && let Some(compass) = self.compass_of_part()
+            && self.eat_any(&[
+                "half of",
+                "part of",
+                "corner of",
+                "section of",
+                "end of",
+                "side of",
+                "area of",
+            ])
+            && let Some(area) = self.area(depth)
+        {
+            let there = Stands::Compass(compass, Some(Box::new(area.clone())));
+            return Ok(Some(Stands::All(vec![Stands::To(Relation::Inside, Box::new(area)), there])));
+        }
+        self.at = start;
         if depth < 3
             && self.eat_any(IN_AREA)
             && let Some(area) = self.area(depth)

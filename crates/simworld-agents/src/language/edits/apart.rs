@@ -66,6 +66,7 @@ impl Reader<'_> {
     pub(super) fn apart(&self, at: usize, end: usize) -> Option<Wish> {
         let end = self.before_politeness(at, end);
         self.kept(at, end)
+            .or_else(|| if at > 0 { self.goodbye(at, end) } else { None })
             .or_else(|| self.replaced(at, end))
             .or_else(|| self.put_in_place(at, end))
             .or_else(|| self.taken_away(at, end))
@@ -282,7 +283,7 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 }
 
 /// Whether the words name a thing that can be made, as far as nouns tell: "half its size" is none.
-fn is_some_thing(thing: &NewThing) -> bool {
+pub(super) fn is_some_thing(thing: &NewThing) -> bool {
     #[rustfmt::skip]
     const NONE: &[&str] = &["size", "bit", "lot", "turn", "degrees", "percent", "side", "times", "place", "spot", "it", "way", "half", "quarter", "third",
         "copy", "little", "metre", "metres", "meter", "meters", "while", "colour", "color", "name", "where", "near", "shade"];

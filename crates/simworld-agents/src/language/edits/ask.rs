@@ -20,7 +20,7 @@ const EXISTENCE: &[&str] = &["are there", "is there", "do we have", "are here", 
     "can i see", "does this place have", "does the campus have", "does the city have", "does the harbour have",
     "does the town have", "this town has", "this city has", "the campus has", "the city has", "the town has",
     "the harbour has", "this campus has", "this harbour has", "this place has", "we have got", "have we",
-    "there is", "in this scene", "in my city", "in our city"];
+    "there is", "in this scene", "in my city", "in our city", "do you count", "can you count", "do you find", "are around here", "around", "do we count", "there are in total", "there are altogether", "do you make it", "are about"];
 
 impl Reader<'_> {
     pub(super) fn count(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
@@ -107,6 +107,10 @@ impl Reader<'_> {
         }
         let mut parser = self.parser(at, end);
         let start = parser.at;
+        if parser.likeness_behind(&mut what) && parser.at == end {
+            return Ok(what);
+        }
+        parser.at = start;
         if let Some(than) = parser.comparison() {
             what.traits.than = Some(than);
         } else if what.relation.is_none() {

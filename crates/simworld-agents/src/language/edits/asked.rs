@@ -161,7 +161,16 @@ impl Reader<'_> {
     fn asks_existence(&self, start: usize, end: usize) -> Result<Option<Wish>, PlanError> {
         #[rustfmt::skip]
         const NONE: &[&str] = &["any chance", "a chance", "any way", "a way", "a possibility", "any possibility", "room", "space", "any room", "enough room", "time", "any reason", "a reason", "any hope", "nothing", "something"];
-        let Some(words) = longest_phrase(&self.lexemes[start..end], EXISTS) else { return Ok(None) };
+        let asks = self
+            .lexemes
+            .get(end - 1)
+            .is_some_and(|last| self.words[last.end..].trim_start().starts_with('?'));
+        let any = longest_phrase(&self.lexemes[start..end], &["any", "any more", "no"])
+            .filter(|_| asks && self.word(start) == Some("any"));
+        let any = any.filter(|_| {
+            longest_phrase(&self.lexemes[start..end], &["any chance", "any way", "any idea"]).is_none()
+        });
+        let Some(words) = longest_phrase(&self.lexemes[start..end], EXISTS).or(any) else { return Ok(None) };
         let from = start + words;
         let is_order = (from..end).any(|at| {
             self.lexemes[at].token == super::super::lexer::Token::Break

@@ -208,6 +208,10 @@ impl Reader<'_> {
     /// Things and a colour, several times.
     pub(super) fn paints(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let mut wishes = Vec::new();
+        if let Some(wish) = self.painted_in_turn(self.at, end) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
         while self.at < end {
             let start = self.at;
             let Some((what, paint, next)) = self.colored(start, end) else {
@@ -328,6 +332,10 @@ impl Reader<'_> {
         if let Some(wish) = self.copies(end) {
             return Ok(wish);
         }
+        if let Some(wish) = self.painted_in_turn(start, end) {
+            self.at = end;
+            return Ok(vec![vec![wish]]);
+        }
         if let Some((what, paint, next)) = self.colored(start, end) {
             self.at = next;
             let mut wishes = vec![vec![Wish::Paint { what, paint }]];
@@ -385,6 +393,9 @@ impl Reader<'_> {
     const COPIES: &[&str] = &["copies of", "copy of", "clones of", "clone of", "duplicates of", "duplicate of",
         "more copies of", "more of"];
         let start = self.at;
+        if let Some(copies) = self.just_like(end) {
+            return Some(copies);
+        }
         let (count, words) = numbers::count(self.rest(end)).unwrap_or((1, 0));
         self.at += words;
         self.eat_any(&["a", "an", "another", "one", "one more", "more"]);
@@ -402,6 +413,30 @@ impl Reader<'_> {
             self.at = start;
         }
         wishes
+    }
+
+    /// "Another postbox just like the red one next to the school".
+    fn just_like(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
+        #[rustfmt::skip]
+        const LIKE: &[&str] = &["just like", "exactly like", "identical to", "the same as", "like", "similar to", "that looks like", "that looks just like", "the spitting image of", "matching", "of the same kind as", "same as"];
+        #[rustfmt::skip]
+        const MORE: &[&str] = &["another", "one more", "a second", "a third", "yet another", "an identical", "another one", "a", "an", "one", "a copy"];
+        let start = self.at;
+        let more = longest_phrase(self.rest(end), MORE)?;
+        let is_more = more > 1 || matches!(self.word(start), Some("another"));
+        let noun = start + more;
+        let like = (noun..end.min(noun + 4)).find_map(|at| {
+            let words = longest_phrase(&self.lexemes[at..end], LIKE)?;
+            (is_more || words > 1).then_some((at, at + words))
+        });
+        let (cut, from) = like.filter(|(_, from)| self.is_certain(*from))?;
+        // "The red one" is of the class that was named.
+        let said = super::follow::Said { noun: self.last_noun(noun, cut), ..super::follow::Said::default() };
+        let words = self.with_noun(&said, from, end).unwrap_or_else(|| self.lexemes[from..end].to_vec());
+        let mut inner = Reader { depth: super::says::DEEPEST, ..self.over(&words) };
+        let copies = inner.copy(words.len()).ok()?;
+        self.at = end;
+        Some(copies)
     }
 
     /// "A copy of the blue car" stands next.

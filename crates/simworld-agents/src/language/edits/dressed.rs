@@ -70,6 +70,7 @@ impl Reader<'_> {
                 return Some(Wish::Add { things, at: vec![Where::By(anchor)] });
             }
             let mut thing = self.new_thing(end).ok()?;
+            let both = both | self.eat_any(sides);
             if self.before_politeness(self.at, end) > self.at {
                 continue;
             }

@@ -16,6 +16,9 @@ impl Finder<'_> {
         things: &[NewThing],
         at: &[Where],
     ) -> Result<Option<Vec<Edit>>, EditError> {
+        if let ([thing], [Where::Ends(roads, name)]) = (things, at) {
+            return self.at_two_ends(thing, roads, name).map(Some);
+        }
         if let ([thing], [Where::BothSides(Anchor::Street(_, roads))]) = (things, at) {
             return self.at_two_kerbs(thing, roads);
         }

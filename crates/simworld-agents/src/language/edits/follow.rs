@@ -131,6 +131,18 @@ impl Reader<'_> {
                 changed = true;
                 let ones = self.word(at) == Some("ones");
                 let (last, head) = noun.split_last()?;
+                // "Put one in front" is one that is not there yet.
+                let is_new = at > from
+                    && self.word(at) == Some("one")
+                    && longest(&self.lexemes[at - 1..at], super::words::VERBS).is_some_and(|(verb, _)| {
+                        matches!(
+                            verb,
+                            super::words::Verb::Add | super::words::Verb::Put | super::words::Verb::Take
+                        )
+                    });
+                if is_new {
+                    words.push(word_at(lexeme, "a"));
+                }
                 words.extend(head.iter().map(|word| Lexeme {
                     start: lexeme.start,
                     end: lexeme.end,
@@ -165,7 +177,7 @@ impl Reader<'_> {
         let verbs: &[&str] = match last {
             Wish::Move { .. } => &["move"],
             Wish::Paint { .. } => &["paint"],
-            Wish::Scale { .. } => &["make"],
+            Wish::Scale { .. } | Wish::Resize { .. } => &["make"],
             Wish::Rotate { .. } | Wish::Face { .. } | Wish::FaceCompass { .. } => &["turn", "make"],
             Wish::Swap { .. } => &["swap"],
             Wish::Name { .. } => &["call"],
@@ -205,6 +217,7 @@ impl Reader<'_> {
             | Wish::Face { what: own, .. }
             | Wish::FaceCompass { what: own, .. }
             | Wish::Paint { what: own, .. }
+            | Wish::Resize { what: own, .. }
             | Wish::Scale { what: own, .. } => *own = what,
             Wish::Replace { what: own, .. }
             | Wish::Copy { what: own, .. }

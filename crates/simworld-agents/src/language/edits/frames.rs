@@ -53,7 +53,7 @@ const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "
 #[rustfmt::skip]
 const QUESTIONS: &[&str] = &["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
-    "what was", "what are", "is the", "are the", "how do", "how does"];
+    "what was", "what are", "is the", "are the", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"];
 
 static WORDS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| SMALL.split_whitespace().collect());
 
@@ -94,6 +94,7 @@ impl Reader<'_> {
             } else {
                 break;
             };
+            wished |= words > 2 && self.word(at) == Some("from");
             wished |= (at..at + words).any(|at| self.word(at).is_some_and(|word| WISHING.contains(&word)));
             at += words;
             found.push(Beginning { at, wished });

@@ -25,7 +25,7 @@ const UNLESS: &[&str] = &["unless there is", "unless there are", "unless you fin
     "unless there are already", "unless theres already", "if there isnt already", "unless we already have"];
 /// What is not meant.
 #[rustfmt::skip]
-const EXCEPT: &[&str] = &["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
+pub(super) const EXCEPT: &[&str] = &["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
     "with the exception of", "not counting", "not", "without", "but leave", "but keep", "but spare", "leaving", "keeping", "sparing",
     "but leave out", "but not for", "leaving out", "only not", "and leave", "and keep"];
 
@@ -42,6 +42,9 @@ impl Reader<'_> {
             return Ok(Some(vec![vec![wish]]));
         }
         if let Some(made) = self.given_room(end)? {
+            return Ok(Some(made));
+        }
+        if let Some(made) = self.given_larger(end) {
             return Ok(Some(made));
         }
         if let Some(made) = self.given_sky(end).or_else(|| self.given_passage(end)) {
@@ -135,12 +138,13 @@ impl Reader<'_> {
         // "If there is a fountain put a dog next to it": without a comma the verb begins the wish.
         let orders = |at: &usize| {
             longest(&self.lexemes[*at..end], super::words::VERBS).is_some()
+                && !self.is_in_noun(from, *at)
+                && !self.words[self.lexemes[*at].start..].starts_with(char::is_uppercase)
                 && self.one_of(from, self.without_there(from, *at)).is_ok()
         };
         let marked = (from + 1..self.lexemes.len().min(end)).find(ends);
-        let Some((cut, next)) =
-            marked.map(|cut| (cut, cut + 1)).or_else(|| (from + 1..end).find(orders).map(|cut| (cut, cut)))
-        else {
+        let ordered = (from + 1..marked.unwrap_or(end)).find(orders).map(|cut| (cut, cut));
+        let Some((cut, next)) = ordered.or_else(|| marked.map(|cut| (cut, cut + 1))) else {
             self.at = end;
             return Err(self.not_understood("put a comma behind the condition"));
         };
@@ -334,6 +338,10 @@ impl Reader<'_> {
             &self.lexemes[self.at + adds..stop],
             &["one", "one there", "one here", "a new one"],
         )?;
+        // "Put one in": where one was looked for.
+        let last = self.at + adds + words;
+        let is_particle = last + 1 == stop && matches!(self.word(last), Some("in" | "up" | "down" | "out"));
+        let words = words + usize::from(is_particle);
         let Target::Any(class) = &what.target else { return None };
         let from = self.at + adds + words;
         let at = if from < stop {
@@ -351,6 +359,7 @@ impl Reader<'_> {
             many: false,
             paint: what.traits.paint,
             scale: 1.0,
+            height: None,
             name: None,
             text: class.words[0].to_owned(),
         };

@@ -150,8 +150,7 @@ impl Finder<'_> {
     /// Every second, third ... of all that fit, in the order in which they stand.
     pub(super) fn every_nth(&self, reference: &Reference, nth: u32) -> Result<Vec<EntityId>, EditError> {
         let all = self.in_a_row(&Reference { choice: Choice::Open, ..reference.clone() })?;
-        let step = nth.max(1) as usize;
-        let chosen: Vec<EntityId> = all.into_iter().skip(step - 1).step_by(step).collect();
+        let chosen = self.from_first(all, nth, reference.first);
         if chosen.is_empty() {
             let near = format!("there are fewer than {nth}");
             return Err(EditError::NotFound { wanted: reference.text.clone(), near });
@@ -390,7 +389,11 @@ impl Finder<'_> {
 }
 
 /// The pieces of a street that lie on a side of its middle.
-fn half_of(network: &RoadNetwork, roads: &[RoadId], compass: super::super::compass::Compass) -> Vec<RoadId> {
+pub(super) fn half_of(
+    network: &RoadNetwork,
+    roads: &[RoadId],
+    compass: super::super::compass::Compass,
+) -> Vec<RoadId> {
     let way = direction(compass.heading());
     let middles: Vec<(RoadId, f64)> = roads
         .iter()

@@ -14,6 +14,16 @@ impl NewThing {
     /// The asset that the words ask for: its name or its kind is the noun, and it answers to all other words that mean
     /// something; or else the one that a search is sure of.
     pub(super) fn make(&self, stock: &Stock) -> Result<Make, EditError> {
+        self.made(stock).map_err(|error| match error {
+            // "Spaceship" is not told as "space ship".
+            EditError::UnknownThing { wanted, near } if !self.text.to_lowercase().contains(&wanted) => {
+                EditError::UnknownThing { wanted: self.text.clone(), near }
+            }
+            error => error,
+        })
+    }
+
+    fn made(&self, stock: &Stock) -> Result<Make, EditError> {
         if let Some(made) = stock.made_for(&self.text) {
             return Ok(Make { name: self.name.clone(), ..Make::of(made) });
         }
@@ -37,7 +47,7 @@ impl NewThing {
                 stock.catalogue.get(stock.catalogue.find(&format!("{size}_{}", words.join("_")))?)
             })
         {
-            return Ok(self.made_from(asset, 1.0, season));
+            return Ok(self.made_from(asset, self.scale_of(&asset.name, 1.0, stock), season));
         }
         let mut left_over = None;
         for from in 0..words.len() {
@@ -52,7 +62,7 @@ impl NewThing {
             let is_large = |asset: &&&Asset| self.scale > 1.0 && asset.tags.iter().any(|tag| tag == "large");
             if let Some(asset) = fitting.iter().find(is_large).or(fitting.first()) {
                 let scale = if is_large(&asset) { 1.0 } else { self.scale };
-                return Ok(self.made_from(asset, scale, season));
+                return Ok(self.made_from(asset, self.scale_of(&asset.name, scale, stock), season));
             }
             left_over = Some(modifiers.join(" "));
             break;
@@ -62,7 +72,9 @@ impl NewThing {
             // "A hat" is nobody who wears one.
             (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(&words, near(&[]))),
             (Choice::Sure(hit), _) => match stock.catalogue.get(hit.asset) {
-                Some(asset) => Ok(self.made_from(asset, self.scale, season)),
+                Some(asset) => {
+                    Ok(self.made_from(asset, self.scale_of(&asset.name, self.scale, stock), season))
+                }
                 None => Err(unknown(&words, near(&[]))),
             },
             (Choice::Unsure(_), Some(modifiers)) => {
@@ -73,7 +85,9 @@ impl NewThing {
             // "A soda" is any of those that are told apart by a number alone.
             (Choice::Unsure(hits), None) => {
                 match hits.first().filter(|_| are_one(&hits)).and_then(|hit| stock.catalogue.get(hit.asset)) {
-                    Some(asset) => Ok(self.made_from(asset, self.scale, season)),
+                    Some(asset) => {
+                        Ok(self.made_from(asset, self.scale_of(&asset.name, self.scale, stock), season))
+                    }
                     None => Err(unknown(&words, near(&hits))),
                 }
             }

@@ -11,7 +11,7 @@ use super::super::clause::Reference;
 use super::super::lexer::{Lexeme, Token};
 
 /// As many phrases are looked up for one sentence; who says more is not understood. The sets of sentences take up to 185.
-const MOST: u32 = 260;
+const MOST: u32 = 360;
 /// As many wishes are tried for one sentence, whole or in parts, as it stands or put together anew. The sets take up to 31, and odd ones of
 /// strangers twice that.
 const MOST_STEPS: u32 = 64;

@@ -12,25 +12,32 @@ mod complaints;
 mod conditions;
 mod dressed;
 mod each;
+mod ends;
 mod facing;
 mod follow;
 mod forms;
 mod frames;
 mod given;
+mod goodbye;
 mod ground;
 mod make;
+mod measures;
 mod memo;
 mod naming;
+mod nearer;
+mod nth;
 mod offsets;
 mod ordered;
 mod orders;
 mod others;
+mod painted;
 mod parse;
 mod parts;
 mod passage;
 mod places;
 mod plain;
 mod polite;
+mod portions;
 mod predicates;
 mod repairs;
 mod resolve;
@@ -119,12 +126,20 @@ pub(crate) fn read(
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
+    rows::on_both_sides(&mut lexemes, &focus.streets);
     repairs::put_right(&mut lexemes);
+    let first = nth::first_of(&mut lexemes);
     let memo = memo::Memo::default();
     let reader =
         Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+    let numbered = reader.with_number();
+    let reader = Reader { lexemes: numbered.as_deref().unwrap_or(&lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
+    if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
+        return Err(reader.not_understood("say of what every second one is meant").into());
+    }
     dress_new(&mut wishes);
+    gone_once(&mut wishes);
     let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     paint_at_once(&mut wishes, &finder);
     Ok(Reading { words: words.to_owned(), wishes })
@@ -181,6 +196,20 @@ fn paint_at_once(wishes: &mut [Vec<Wish>], finder: &resolve::Finder<'_>) {
             let id =
                 |id: EntityId| super::clause::Reference::to(super::clause::Target::Id(id), id.to_string());
             *what = things.into_iter().map(id).collect();
+        }
+    }
+}
+
+/// "I'm sick of that crate, get it out of here": what goes goes once.
+fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
+    let removes = |readings: &[Wish]| matches!(readings.first(), Some(Wish::Remove { .. }));
+    let it = |readings: &[Wish]| matches!(readings, [Wish::Remove { what }] if what.iter().all(says::is_it));
+    let mut at = 1;
+    while at < wishes.len() {
+        if removes(&wishes[at - 1]) && it(&wishes[at]) {
+            wishes.remove(at);
+        } else {
+            at += 1;
         }
     }
 }
@@ -267,6 +296,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(facing::words())
         .chain(shares::words())
         .chain(supposed::words())
+        .chain(stated::words())
+        .chain(goodbye::words())
         .chain(plain::words())
         .chain(respelt::words())
         .chain(asked::words())
@@ -282,4 +313,9 @@ fn more_words() -> impl Iterator<Item = &'static str> {
         .chain(rows::words())
         .chain(dressed::words())
         .chain(given::words())
+        .chain(measures::words())
+        .chain(nearer::words())
+        .chain(nth::words())
+        .chain(ends::words())
+        .chain(portions::words())
 }

@@ -49,6 +49,11 @@ impl Reader<'_> {
     /// Whether a distance from something, or within which it is, begins at a token.
     pub(super) fn begins_offset(&self, at: usize) -> bool {
         let rest = &self.lexemes[at.min(self.lexemes.len())..];
+        if let Some(gap) = longest_phrase(rest, super::rows::GAPS)
+            && let Some((_, words)) = numbers::length(&rest[gap..])
+        {
+            return longest_phrase(&rest[gap + words..], &["to", "from"]).is_some();
+        }
         let before = longest_phrase(rest, WITHIN).or(longest_phrase(rest, BEYOND)).unwrap_or(0);
         let Some((_, words)) = numbers::length(&rest[before..]) else { return false };
         before > 0 || self.direction_at(at + words).is_some() || longest(&rest[words..], OWN).is_some()
@@ -94,6 +99,15 @@ impl Reader<'_> {
             self.at += words;
             if self.eat_any(FROM) {
                 return Ok(Some(Where::Apart(least, least + REACH, self.anchor(end)?)));
+            }
+        }
+        self.at = start;
+        if self.eat_any(super::rows::GAPS)
+            && let Some((gap, words)) = numbers::length(self.rest(end))
+        {
+            self.at += words;
+            if self.eat_any(&["to", "from"]) {
+                return Ok(Some(Where::Apart((gap - 0.25).max(0.0), gap + 0.25, self.anchor(end)?)));
             }
         }
         self.at = start;

@@ -8,6 +8,11 @@ use super::parse::Reader;
 use super::wish::Wish;
 use super::words::VERBS;
 
+/// Behind what somebody does not like as it is.
+#[rustfmt::skip]
+pub(super) const WHERE_IT_IS: &[&str] = &["where it is", "where it stands", "where it is now", "where he is", "where she is", "where they are", "where they stand", "the way it is", "the way it looks", "the way it stands", "as it is", "like that", "like this", "in this place",
+    "in that place", "in that spot", "in this spot", "over there", "in that colour", "in this colour"];
+
 impl Reader<'_> {
     pub(super) fn is_shown(&self) -> bool {
         self.at > 1
@@ -41,6 +46,12 @@ impl Reader<'_> {
             Some(what) => what,
             None => self.things(self.at, end)?,
         };
+        // "I don't like this hydrant where it is" leaves open what is to be done.
+        if longest_phrase(&self.lexemes[self.at..end], &["where"]).is_some()
+            || (self.at..end).any(|at| longest_phrase(&self.lexemes[at..end], WHERE_IT_IS) == Some(end - at))
+        {
+            return Err(self.not_understood("say what is to become of it"));
+        }
         let clears = matches!(self.word(self.at.wrapping_sub(1)), Some("clear" | "empty"));
         let what = if clears { what.into_iter().map(super::others::on_it).collect() } else { what };
         self.at = end;

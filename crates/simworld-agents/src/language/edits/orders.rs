@@ -14,11 +14,13 @@ impl Reader<'_> {
         if self.depth >= super::says::DEEPEST || self.memo.is_spent() {
             return None;
         }
-        self.shared_out(start, end)
+        self.with_topic(start, end)
+            .or_else(|| self.shared_out(start, end))
             .or_else(|| self.looking(start, end))
             .or_else(|| self.behind_preamble(start, end))
             .or_else(|| self.others_want(start, end))
             .or_else(|| self.cleft(start, self.before_politeness(start, end)))
+            .or_else(|| self.there_lacks(start, end))
             .or_else(|| self.fronted(start, end))
             .or_else(|| self.told_in_pieces(start, end))
             .or_else(|| self.reordered(start, end))
@@ -112,9 +114,93 @@ impl Reader<'_> {
             if !lacks || from >= end || self.is_definite(from) && !self.is_bare_plural(from, end) {
                 return None;
             }
+            // "What the museum needs is a bench outside": of the museum.
+            let whose = start + 1;
+            let owner = (whose + 1..at).find_map(|cut| {
+                let lacks = self.word(cut).is_some_and(|word| LACKING.contains(&word) || word == "is");
+                self.one_of(whose, cut).ok().filter(|_| lacks && self.is_certain(whose))
+            });
+            if let Some(owner) = owner.filter(|owner| !super::says::is_it(owner)) {
+                let anchor = super::wish::Anchor::Thing(owner);
+                return self.up_to(end).given_to(&anchor, from, end).map(|wish| vec![vec![wish]]);
+            }
             let mut reader = Reader { at: from, ..self.up_to(end) };
             reader.additions(end).ok().filter(|_| reader.at >= end)
         })
+    }
+
+    /// "The two cars, they must change places", "of the chairs only the red one stays", "except for the blue one, all cars become
+    /// grey": what is spoken of comes first.
+    fn with_topic(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        if let Some(words) = longest_phrase(
+            &self.lexemes[start..end],
+            &["of the", "among the", "of all the", "out of the", "of our", "from the"],
+        ) {
+            let noun = self.last_noun(start, end)?;
+            let (_, count) = category(&self.lexemes[start + words..end])?;
+            let mut from = start + words + count;
+            from += usize::from(self.lexemes.get(from).is_some_and(super::parts::is_mark));
+            let said = super::follow::Said { noun: Some(noun), ..super::follow::Said::default() };
+            return self.with_noun(&said, from, end).and_then(|order| self.read_anew(&order));
+        }
+        let comma = (start + 1..end).find(|at| self.lexemes[*at].token == Token::Comma)?;
+        if longest_phrase(&self.lexemes[start..comma], super::given::EXCEPT).is_some() {
+            return self.excepted_first(start, comma, end);
+        }
+        let is_again = matches!(
+            self.word(comma + 1),
+            Some("they" | "it" | "he" | "she" | "those" | "these" | "that" | "this")
+        );
+        if !is_again || !self.is_certain(start) || self.things(start, comma).is_err() {
+            return None;
+        }
+        let order: Vec<Lexeme> =
+            self.lexemes[start..comma].iter().chain(&self.lexemes[comma + 2..end]).cloned().collect();
+        self.read_anew(&order)
+    }
+
+    /// "Except for the blue one, all cars become grey".
+    fn excepted_first(&self, start: usize, comma: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let words = longest_phrase(&self.lexemes[start..comma], super::given::EXCEPT)?;
+        let mut wishes = self.read_anew(&self.lexemes[comma + 1..end])?;
+        for object in wishes.iter_mut().flatten().flat_map(Wish::objects_mut) {
+            let mut parser = self.parser(start + words, comma);
+            parser.class = match &object.target {
+                super::super::clause::Target::Any(class) => Some(class),
+                _ => None,
+            };
+            let except = parser.reference(1).ok().filter(|_| parser.at >= comma)?;
+            object.except = Some(Box::new(except));
+        }
+        Some(wishes)
+    }
+
+    /// "There's a bench missing in front of the bakery".
+    fn there_lacks(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        let end = self.before_politeness(start, end);
+        let from = start
+            + longest_phrase(
+                &self.lexemes[start..end],
+                &[
+                    "theres",
+                    "there is",
+                    "there are",
+                    "there is still",
+                    "theres still",
+                    "i think theres",
+                    "i think there is",
+                ],
+            )?;
+        let cut = (from + 1..end).find(|at| {
+            matches!(
+                self.word(*at),
+                Some("missing" | "lacking" | "needed" | "wanted" | "due" | "required" | "absent")
+            )
+        })?;
+        let mut reader = Reader { at: from, ..self.up_to(cut) };
+        let thing = reader.new_thing(cut).ok().filter(|_| reader.at >= cut && !self.is_certain(from))?;
+        let at = if cut + 1 < end { self.places_to(cut + 1, end)? } else { Vec::new() };
+        Some(vec![vec![Wish::Add { things: vec![thing], at }]])
     }
 
     /// "... is where the statue should be", "... would be a good spot for a bench".
@@ -181,9 +267,7 @@ impl Reader<'_> {
                 count.replace(number).is_none()
             } else if let Some(at) = self.places_to(from, to) {
                 places.replace(at).is_none()
-            } else if let Some(thing) =
-                self.one_of(from, to).ok().filter(|_| from == start && self.is_certain(from))
-            {
+            } else if let Some(thing) = self.one_of(from, to).ok().filter(|_| self.is_certain(from)) {
                 topic.replace(thing).is_none()
             } else {
                 let mut reader = Reader { at: from, ..self.up_to(to) };

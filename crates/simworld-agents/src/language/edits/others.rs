@@ -193,5 +193,5 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    NOUNS.iter().flat_map(|(words, _)| *words).flat_map(|phrase| phrase.split(' '))
+    NOUNS.iter().flat_map(|(words, _)| *words).flat_map(|phrase| phrase.split(' ')).chain(["selling"])
 }

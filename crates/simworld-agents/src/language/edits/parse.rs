@@ -147,7 +147,11 @@ impl<'a> Reader<'a> {
     fn stated(&mut self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
         let polite = start + self.polite_at(start);
         let paint = self.coated(polite, self.before_politeness(polite, end));
-        if let Some(wish) = paint.or_else(|| self.lacking(polite, end)) {
+        if let Some(wish) = paint
+            .or_else(|| self.measured(polite, end))
+            .or_else(|| self.goodbye(polite, end))
+            .or_else(|| self.lacking(polite, end))
+        {
             return Some(vec![vec![wish]]);
         }
         self.beginnings(start, end).into_iter().find_map(|begins| {
@@ -167,6 +171,7 @@ impl<'a> Reader<'a> {
                 continue;
             }
             self.at = begin + count;
+            self.at += self.particle(verb, end);
             let read = self.after(verb, end);
             // What else stands before a verb may change what is meant; but a thing that is not there is not there.
             if !self.is_preamble(start, begin) {
@@ -181,6 +186,28 @@ impl<'a> Reader<'a> {
             }
         }
         refused.map_or(Ok(None), Err)
+    }
+
+    /// Whether a size is told up to the end.
+    fn has_size(&self, from: usize, end: usize) -> bool {
+        (from..end).any(|at| {
+            longest(&self.lexemes[at..end], super::words::FACTORS).is_some_and(|(_, words)| words > 1)
+                || longest_phrase(&self.lexemes[at..end], &["by"]).is_some()
+                    && super::super::numbers::number(&self.lexemes[at + 1..end]).is_some()
+        })
+    }
+
+    /// "Plop down a barrel", "put out two chairs": a particle between a verb and what is new.
+    fn particle(&self, verb: Verb, end: usize) -> usize {
+        let is_particle = matches!(
+            self.word(self.at),
+            Some("down" | "up" | "out" | "in" | "over" | "on" | "together" | "about")
+        );
+        let is_new = self.at + 1 < end
+            && (longest_phrase(&self.lexemes[self.at + 1..end], &["a", "an", "some", "another", "one"])
+                .is_some()
+                || super::super::numbers::count(&self.lexemes[self.at + 1..end]).is_some());
+        usize::from(matches!(verb, Verb::Add | Verb::Put) && is_particle && is_new)
     }
 
     fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
@@ -233,8 +260,23 @@ impl<'a> Reader<'a> {
             }
             Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
             Verb::Put if self.is_definite(self.at) => self.puts(end),
-            Verb::Put => self.additions(end),
-            Verb::Move if !self.is_definite(self.at) && self.word(self.at - 1) == Some("bring") => {
+            Verb::Put => {
+                let spreads = (self.at.saturating_sub(2)..self.at).any(|at| {
+                    matches!(
+                        self.word(at),
+                        Some("dot" | "scatter" | "sprinkle" | "strew" | "spread" | "distribute")
+                    )
+                });
+                let mut wishes = self.additions(end)?;
+                if spreads {
+                    wishes.iter_mut().flatten().for_each(|wish| self.spread(wish));
+                }
+                Ok(wishes)
+            }
+            Verb::Move
+                if !self.is_definite(self.at)
+                    && matches!(self.word(self.at - 1), Some("bring" | "send" | "ship" | "ferry")) =>
+            {
                 self.additions(end)
             }
             Verb::Move => self.moves(end).map(|wish| vec![wish]),
@@ -244,6 +286,8 @@ impl<'a> Reader<'a> {
             Verb::Turn => self.turns(end),
             Verb::Swap => self.swap(end),
             Verb::Paint => self.paints(end),
+            // "Grow a tall hedge between the cottages".
+            Verb::Grow if !self.is_definite(self.at) && !self.has_size(self.at, end) => self.additions(end),
             Verb::Grow => self.sized(end, 1.5),
             Verb::Shrink => self.sized(end, 1.0 / 1.5),
             Verb::Double => self.double(end),
@@ -306,6 +350,12 @@ impl<'a> Reader<'a> {
         let end = self.before_politeness(start, end);
         if let Some(what) = self.all_but(start, end) {
             return Ok(what);
+        }
+        if let Some(each) = self.each_of_them(start, end).filter(|(_, words)| start + words == end) {
+            return Ok(each.0);
+        }
+        if let Some(what) = self.share_of(start, end) {
+            return what;
         }
         if let Some(what) = self.of_any_kind(start, end) {
             return what;
@@ -477,12 +527,24 @@ pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
     JOINTS.iter().chain(POLITE).chain(CODA).flat_map(|phrase| phrase.split(' '))
 }
 
+/// "Too" before a word of which there is too much.
+fn is_too_much(lexemes: &[Lexeme]) -> bool {
+    const GOES_ON: &[&str] = &[
+        "and", "please", "then", "thanks", "but", "plus", "also", "thank", "with", "put", "add", "paint",
+        "move", "remove", "make",
+    ];
+    longest_phrase(lexemes, &["too"]).is_some()
+        && matches!(lexemes.get(1).map(|next| &next.token), Some(Token::Word(word)) if !GOES_ON.contains(&word.as_str()))
+}
+
 /// How many words at the start join two things or wishes.
 pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
     match lexemes.first().map(|lexeme| &lexeme.token) {
         Some(Token::Comma | Token::Break) => Some(1),
         // "Next to the Campus Clinic" is no joint and something on the campus.
         _ if longest_phrase(lexemes, &["first aid", "next to"]).is_some() => None,
+        // "Too bright" is no joint and something bright.
+        _ if is_too_much(lexemes) => None,
         _ => longest_phrase(lexemes, JOINTS),
     }
 }

@@ -150,16 +150,59 @@ impl Reader<'_> {
         // A remark ends at any of the next marks: "the crate, I think, is ugly".
         for end in cuts.iter().copied().take(4) {
             let is_heading = said.wish.is_none() && end < self.lexemes.len() && self.is_heading(from, end);
-            if !is_heading && !self.is_remark(from, end) && !self.is_remark(remark.min(from), end) {
+            // "Bruno wants to watch Carol, turn him".
+            let is_said_twice = matches!(
+                said.wish,
+                Some(Wish::Face { .. } | Wish::Rotate { .. } | Wish::Move { .. } | Wish::Swap { .. })
+            ) && longest_phrase(
+                &self.lexemes[from..end],
+                &[
+                    "turn him",
+                    "turn her",
+                    "turn it",
+                    "turn them",
+                    "rotate him",
+                    "rotate her",
+                    "rotate it",
+                    "rotate them",
+                    "move him",
+                    "move her",
+                    "move it",
+                    "move them",
+                    "do it",
+                    "do that",
+                    "so turn him",
+                    "so turn her",
+                    "so turn it",
+                    "so move it",
+                    "swap them",
+                    "switch them",
+                ],
+            ) == Some(self.before_politeness(from, end) - from);
+            if !is_said_twice
+                && !is_heading
+                && !self.is_remark(from, end)
+                && !self.is_remark(remark.min(from), end)
+            {
                 continue;
             }
             let mut things = self.spoken_of(from, end);
+            // "There is nowhere to sit near the table": it is the table.
+            if (from..end).any(|at| self.word(at) == Some("nowhere"))
+                && let Some([super::wish::Where::To(_, super::wish::Anchor::Thing(near))]) =
+                    self.place_spoken_of(from, end).as_deref()
+            {
+                things = vec![near.clone()];
+            }
             if things.is_empty() {
                 things = spoken_of.to_vec();
             }
             let lacks = self.noun_lacking(from, end);
             let noun = lacks.or_else(|| self.last_noun(from, end)).or_else(|| said.noun.clone());
-            let place = self.place_spoken_of(from, end).unwrap_or_else(|| said.place.clone());
+            let place = self
+                .place_spoken_of(from, end)
+                .or_else(|| self.subject_place(from, end))
+                .unwrap_or_else(|| said.place.clone());
             let now = Said { noun, place, ..said.clone() };
             if let Some(rest) = self.parts_from(end, &now, &things, search) {
                 return Some(rest);
@@ -271,12 +314,37 @@ impl Reader<'_> {
         {
             return true;
         }
+        let dislikes = longest_phrase(
+            words,
+            &[
+                "i dont like",
+                "we dont like",
+                "i do not like",
+                "we do not like",
+                "i hate",
+                "we hate",
+                "i dont want",
+                "we dont want",
+                "nobody likes",
+                "i cant stand",
+                "we cant stand",
+            ],
+        )
+        .is_some()
+            && (from..end).any(|at| {
+                longest_phrase(&self.lexemes[at..end], super::ordered::WHERE_IT_IS) == Some(end - at)
+            });
+        if dislikes {
+            return true;
+        }
         if longest(words, VERBS)
             .is_some_and(|(verb, _)| !matches!(verb, Verb::Name | Verb::Describe | Verb::List))
         {
             return false;
         }
-        if end < self.lexemes.len() && self.is_lack(from, self.before_politeness(from, end)) {
+        if end < self.lexemes.len()
+            && (self.is_lack(from, self.before_politeness(from, end)) || self.lacks_something(from, end))
+        {
             return true;
         }
         // "As soon as there is a dragon" is a condition.
@@ -340,7 +408,31 @@ impl Reader<'_> {
     fn is_heading(&self, from: usize, end: usize) -> bool {
         // "The parade forms up outside the school, so four coaches ...".
         let is_so = |at: usize| self.word(at) == Some("so") && self.word(at + 1) != Some("that");
-        let ends = self.lexemes.get(end).is_some_and(|lexeme| lexeme.token == Token::Break)
+        // "Hot dog time, get a food cart ...".
+        let is_time = end > from
+            && end - from <= 5
+            && self.lexemes.get(end).is_some_and(is_mark)
+            && matches!(
+                self.word(end - 1),
+                Some(
+                    "time"
+                        | "day"
+                        | "night"
+                        | "season"
+                        | "week"
+                        | "party"
+                        | "tomorrow"
+                        | "tonight"
+                        | "today"
+                        | "weekend"
+                        | "festival"
+                        | "fair"
+                )
+            )
+            && super::sky::hour(&self.lexemes[from..end]).is_none()
+            && longest(&self.lexemes[end - 1..end], super::words::SKIES).is_none_or(|_| end - from > 1);
+        let ends = is_time
+            || self.lexemes.get(end).is_some_and(|lexeme| lexeme.token == Token::Break)
             || is_so(end)
             || self.lexemes.get(end).is_some_and(is_mark) && is_so(end + 1);
         let is_change = |at: usize| {
@@ -404,9 +496,42 @@ impl Reader<'_> {
             "better so",
             "better like this",
         ];
-        (from..end).any(|at| {
-            longest_phrase(&self.lexemes[at..end], ASKS).is_some()
-                && longest_phrase(&self.lexemes[at..end], SO).is_none()
+        !self.longs(from, end)
+            && (from..end).any(|at| {
+                longest_phrase(&self.lexemes[at..end], ASKS).is_some()
+                    && longest_phrase(&self.lexemes[at..end], SO).is_none()
+            })
+    }
+
+    /// "Bo would like very much to sit": what somebody would like to do, which is done to nothing.
+    fn longs(&self, from: usize, end: usize) -> bool {
+        const ACTS: &[&str] = &[
+            "sit", "rest", "eat", "drink", "read", "play", "relax", "swim", "sleep", "nap", "wait", "lunch",
+            "picnic", "cycle", "ride", "climb", "exercise", "cool", "warm", "chat", "camp", "barbecue",
+            "grill", "paint",
+        ];
+        let act = (from + 1..end).find(|at| {
+            self.word(*at - 1) == Some("to") && self.word(*at).is_some_and(|word| ACTS.contains(&word))
+        });
+        act.is_some_and(|act| {
+            (from..act).any(|at| {
+                matches!(
+                    self.word(at),
+                    Some(
+                        "would"
+                            | "wants"
+                            | "want"
+                            | "likes"
+                            | "like"
+                            | "love"
+                            | "loves"
+                            | "needs"
+                            | "need"
+                            | "has"
+                            | "have"
+                    )
+                )
+            }) && !(act..end).any(|at| self.is_place(at) && self.places_to(at, end).is_some() && at > act + 1)
         })
     }
 

@@ -89,6 +89,10 @@ impl Reader<'_> {
         {
             return true;
         }
+        // "A merry-go-round" is a thing.
+        if self.word(at) == Some("round") && at > 0 && self.word(at - 1) == Some("go") {
+            return false;
+        }
         // "Two round tables".
         let is_shape = self.word(at) == Some("round")
             && at > 0
@@ -103,6 +107,9 @@ impl Reader<'_> {
         }
         let over = Reader { at, ..*self }.over_the_street(self.lexemes.len());
         if self.seen_from(at, self.lexemes.len()).is_some() {
+            return true;
+        }
+        if self.begins_step(at) || self.begins_part(at) {
             return true;
         }
         if self.begins_offset(at) || self.begins_junction(at) || matches!(over, Ok(Some(_))) {
@@ -166,6 +173,12 @@ impl Reader<'_> {
         if let Some(place) = self.junction(end) {
             return Ok(place);
         }
+        if let Some(place) = self.part_of(end)? {
+            return Ok(place);
+        }
+        if let Some(place) = self.step(end)? {
+            return Ok(place);
+        }
         if let Some(place) = self.offset(end)? {
             return Ok(place);
         }
@@ -184,7 +197,8 @@ impl Reader<'_> {
             return self.point(end).ok_or_else(|| self.not_understood("write a point as (x, y)"));
         }
         if let Some((relation, count)) = longest(self.rest(end), ABOUT_IT)
-            && longest(self.rest(end), WAYS).is_none_or(|(_, words)| words < count)
+            && (longest(self.rest(end), WAYS).is_none_or(|(_, words)| words < count)
+                || self.at + count >= self.before_politeness(self.at, end))
         {
             self.at += count;
             let mine = self.word(self.at - 2).is_some_and(|word| word == "my");
@@ -218,7 +232,7 @@ impl Reader<'_> {
             Way::Both => {
                 let ends = (self.at - count..self.at).any(|at| self.word(at) == Some("ends"));
                 match self.anchor(end)? {
-                    Anchor::Street(..) if ends => return Err(self.not_understood("say at which junction")),
+                    Anchor::Street(name, roads) if ends => Where::Ends(roads, name),
                     anchor => Where::BothSides(anchor),
                 }
             }
@@ -304,6 +318,10 @@ impl Reader<'_> {
         }
         if let Some(street) = self.street(end) {
             return Ok(street);
+        }
+        if let Some((them, words)) = self.each_of_them(start, self.before_politeness(start, end)) {
+            self.at = start + words;
+            return Ok(Anchor::Thing(them));
         }
         let mut parser = self.parser(start, self.before_politeness(start, end));
         let any = parser.eat_any(&["any of", "any one of", "either of", "whichever of"]);

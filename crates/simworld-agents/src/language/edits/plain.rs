@@ -30,6 +30,9 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
     judged(words, lexemes, names);
     called_to(lexemes);
     of_colour(lexemes);
+    spots(lexemes);
+    others_too(lexemes);
+    needed_one(lexemes);
     relatives(lexemes);
     super::supposed::in_plain_words(lexemes);
     let is_call =
@@ -104,6 +107,15 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
                 at - 1..=at + 1,
                 [word_at(&place, "next"), word_at(&place, "to"), word_at(&place, &stem)],
             );
+        } else if is_owner(written)
+            && let Some((plain, said)) = longest(&lexemes[at + 1..], OF_IT)
+        {
+            // "The robot's place is behind the school": the robot should be there.
+            let (place, stem) = (lexemes[at].clone(), word.strip_suffix('s').unwrap_or(word).to_owned());
+            let plain: Vec<Lexeme> = std::iter::once(word_at(&place, &stem))
+                .chain(super::forms::words_at(&place, plain))
+                .collect();
+            lexemes.splice(at..=at + said, plain);
         } else if word == "what" && category(&lexemes[at + 1..]).is_some() {
             let place = lexemes[at].clone();
             lexemes[at] = word_at(&place, "which");
@@ -130,6 +142,20 @@ fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
     }
 }
 
+/// What is said of something by what it has.
+#[rustfmt::skip]
+const OF_IT: &[(&[&str], &str)] = &[
+    (&["new name is", "name is", "new name should be", "name should be", "name shall be", "new name shall be", "name will be", "name is now", "name from now on is", "new name will be", "name must be"], "should be called"),
+    (&["place is", "place should be", "rightful place is", "proper place is", "new place is", "right place is", "spot is", "spot should be", "new home is", "new spot is", "home should be"], "should be"),
+    (&["colour should be", "color should be", "new colour is", "new color is", "colour must be", "colour shall be", "colour is to be", "colour ought to be", "colour has to be", "new colour should be"], "should be"),
+    (&["height should be", "height must be", "height is to be", "height shall be", "height ought to be", "size should be", "size must be"], "should be a height of"),
+];
+
+/// Whether a word says whose something is.
+fn is_owner(written: &str) -> bool {
+    written.ends_with("'s") || written.ends_with("’s")
+}
+
 /// Who is spoken to, and what is said before one speaks.
 #[rustfmt::skip]
 const CALLED: &[&str] = &["right lads", "lads", "class", "kids", "children", "folks", "team", "guys", "boys", "girls", "ladies and gentlemen", "mate", "dear", "my dear", "love", "lass", "laddie", "sir", "madam",
@@ -137,7 +163,13 @@ const CALLED: &[&str] = &["right lads", "lads", "class", "kids", "children", "fo
     "excuse me", "pardon", "pardon me", "hello", "hey", "hi", "good morning", "good day", "good evening", "bro", "dude", "yo", "nah", "sorry my english", "dear all", "colleagues", "crew", "everyone", "everybody",
     "attention", "note", "be a love and", "be a dear and", "all right", "alright", "well then", "so then", "come on", "comrades", "shipmates", "dear sir", "dear madam", "old chap", "my lad", "man", "gosh", "blimey",
     "for the record", "as i said", "as agreed", "as discussed", "as promised", "as per the report", "as ordered", "per the plan", "lastly", "firstly", "secondly", "thirdly", "furthermore", "moreover", "additionally",
-    "in addition", "notwithstanding the above", "for clarity", "to be clear", "to be precise", "honest", "in short", "long story short", "if you please", "if i may", "if you would", "with your permission"];
+    "in addition", "notwithstanding the above", "for clarity", "to be clear", "to be precise", "honest", "in short", "long story short", "if you please", "if i may", "if you would", "with your permission",
+    "you know what would be great", "you know what would be nice", "you know what would be lovely", "you know what would be cool", "know what would be great", "know what would be nice", "do you know what would be great",
+    "do you know what would be nice", "you know what we need", "know what we need", "guess what we need", "you know what is missing", "you know whats missing", "know whats missing", "what is missing", "whats missing", "what do we need",
+    "do you know what we need", "you know what i want", "you know what id like", "you know what i would like", "know what id like", "what else", "one more thing", "here goes", "quick one", "quick question", "next job", "next task", "small request",
+    "tiny request", "request", "idea", "suggestion", "proposal", "thought", "new request", "another thing", "another request", "hear me out", "picture this", "imagine this", "check this out", "get this", "question", "morning", "evening", "afternoon",
+    "cheers mate", "hiya", "howdy", "greetings", "good afternoon", "dear editor", "dear simulator", "hey you", "hey computer", "computer", "editor", "hi team", "hello team", "update", "change of heart", "good news", "bad news", "be a darling",
+    "be an angel", "be a sport", "if you ask me", "in my opinion", "in my view", "personally speaking", "between you and me", "no rush", "no hurry", "when you can", "when you get a sec", "when you get a minute", "urgent", "important", "reminder"];
 
 /// "Spot seven" is called Spot 7.
 fn numbered(lexemes: &mut [Lexeme], names: &Names<'_>) {
@@ -242,6 +274,91 @@ fn of_colour(lexemes: &mut Vec<Lexeme>) {
         }
         at += 1;
     }
+}
+
+/// "Only the red chair stays, remove the others" says the same twice.
+fn others_too(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const OTHERS: &[&str] = &["remove the others", "delete the others", "remove the rest", "delete the rest", "take the others away", "take the rest away", "get rid of the others", "get rid of the rest", "the others go", "the rest go", "the rest goes",
+        "the others can go", "the rest can go", "the others must go", "the rest must go", "the others have to go", "the rest has to go", "clear the rest", "clear the others", "clear away the rest", "remove all the others", "remove all others",
+        "delete all others", "lose the rest", "lose the others", "all others go", "all the others go", "ditch the rest", "ditch the others", "bin the rest", "scrap the rest", "away with the rest", "away with the others"];
+    let Some(only) =
+        (0..lexemes.len()).find(|at| longest_phrase(&lexemes[*at..], &["only", "keep", "just"]).is_some())
+    else {
+        return;
+    };
+    let stop = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+    let found = (only + 2..stop).find(|at| longest_phrase(&lexemes[*at..stop], OTHERS) == Some(stop - at));
+    if let Some(at) = found {
+        let before = lexemes[..at].iter().rev().take_while(|lexeme| {
+            is_mark(lexeme) || matches!(&lexeme.token, Token::Word(word) if word == "and" || word == "so")
+        });
+        let from = at - before.count();
+        lexemes.truncate(from);
+    }
+}
+
+/// "The ladder I need goes by the tree": it is one that is not there yet.
+fn needed_one(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const I_NEED: &[&str] = &["i need", "we need", "i want", "we want", "i ordered", "we ordered", "i asked for", "we asked for", "that i need", "that we need", "that i want", "that we want", "that i ordered", "that we ordered", "i was promised",
+        "we were promised", "i have in mind", "we have in mind", "im thinking of", "i am thinking of", "i was thinking of", "we are planning", "we planned"];
+    let the = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "the");
+    let found = (0..lexemes.len()).filter(|at| the(&lexemes[*at])).find_map(|at| {
+        (at + 2..lexemes.len().min(at + 5)).find_map(|need| {
+            let plain = lexemes[at + 1..need].iter().all(|lexeme| matches!(lexeme.token, Token::Word(_)));
+            let words = longest_phrase(&lexemes[need..], I_NEED).filter(|_| plain)?;
+            Some((at, need, words))
+        })
+    });
+    if let Some((at, need, words)) =
+        found.filter(|(at, need, words)| *at + 1 < *need && need + words < lexemes.len())
+    {
+        lexemes.drain(need..need + words);
+        lexemes[at] = word_at(&lexemes[at], "a");
+    }
+}
+
+/// "To a spot near the kiosk" is near the kiosk, and "in the hospital's block" on the block of the hospital.
+fn spots(lexemes: &mut Vec<Lexeme>) {
+    #[rustfmt::skip]
+    const SPOTS: &[&str] = &["to a spot", "at a spot", "in a spot", "on a spot", "to a place", "at a place", "in a place", "to somewhere", "to some place", "to some spot", "at some spot", "in some spot", "to the spot", "to the area", "to a position",
+        "to a location", "to the place", "into the spot", "to the ground", "on the ground", "on the floor", "to the space", "into the space", "in the space", "to a point", "somewhere", "someplace", "anywhere", "to the patch", "on a patch", "into position",
+        "in position", "into place", "in place"];
+    let mut at = 1;
+    while at < lexemes.len() {
+        let words = longest_phrase(&lexemes[at..], SPOTS).filter(|words| {
+            let behind = &lexemes[at + words..];
+            longest(behind, super::words::WAYS).is_some_and(|(way, _)| {
+                !matches!(way, super::words::Way::At | super::words::Way::Here | super::words::Way::There)
+            })
+        });
+        if let Some(words) = words {
+            lexemes.drain(at..at + words);
+        }
+        at += 1;
+    }
+    let word = |lexemes: &[Lexeme], at: usize| match lexemes.get(at).map(|lexeme| &lexeme.token) {
+        Some(Token::Word(word)) => word.clone(),
+        _ => String::new(),
+    };
+    let block =
+        (2..lexemes.len()).find(|at| word(lexemes, *at) == "block" && word(lexemes, at - 1).ends_with('s'));
+    let Some(block) = block else { return };
+    let Some(from) = (block.saturating_sub(5)..block)
+        .find(|at| ["in", "on", "within", "inside"].contains(&word(lexemes, *at).as_str()))
+    else {
+        return;
+    };
+    let place = lexemes[from].clone();
+    let mut whose: Vec<Lexeme> = lexemes[from + 1..block].to_vec();
+    if let Some(last) = whose.last_mut()
+        && let Token::Word(word) = &mut last.token
+    {
+        word.pop();
+    }
+    let words: Vec<Lexeme> = super::forms::words_at(&place, "on the block of").chain(whose).collect();
+    lexemes.splice(from..=block, words);
 }
 
 /// "A motorbike, black, by the kiosk" is a black motorbike, and "the hospital that has the museum near it" is near the museum.

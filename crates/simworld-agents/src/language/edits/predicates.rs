@@ -37,7 +37,7 @@ const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away", "out
     "no longer there", "no longer here", "come down", "come out", "come off", "down", "be taken down", "pulled down", "come away", "cut down", "chopped down", "felled", "no more", "disposed of", "torn down", "out of there"];
 /// That two should stand where the other does.
 #[rustfmt::skip]
-pub(super) const TRADES: &[&str] = &["have their places exchanged", "exchange spots", "change spots", "trade their places", "swap their places", "exchange their places", "change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
+pub(super) const TRADES: &[&str] = &["have their places exchanged", "change their places", "switch their places", "switch their positions", "swap their positions", "swap their spots", "exchange their positions", "change their positions", "exchange spots", "change spots", "trade their places", "swap their places", "exchange their places", "change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
     "exchange places", "swap positions", "switch positions", "exchange positions", "be swapped", "be switched", "swapped", "trade positions",
     "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"];
 /// Before a colour.
@@ -90,6 +90,10 @@ impl Reader<'_> {
                 self.read_plainly(&order)
             }
             Subject::Place(places) => {
+                #[rustfmt::skip]
+                const MISSING: &[&str] = &["missing", "lacking", "needed", "wanted", "required", "missing still", "due"];
+                let missing = longest_phrase(self.rest(end), MISSING).unwrap_or(0);
+                let at = at + missing;
                 if self.is_definite(at) && !self.is_bare_plural(at, end) {
                     return None;
                 }
@@ -115,6 +119,14 @@ impl Reader<'_> {
         let add = |at| Wish::Add { things: vec![thing.clone()], at };
         if self.is_welcome(at, end) && (at > cut || !rest.is_empty()) {
             return Some(add(places.to_vec()));
+        }
+        // "A bin would not go amiss next to the museum".
+        if places.is_empty()
+            && let Some(cut) = (at + 1..end).find(|at| self.is_place(*at))
+            && self.is_welcome(at, cut)
+            && let Some(places) = self.places_to(cut, end)
+        {
+            return Some(add(places));
         }
         // "Seats along the school would let people rest".
         let is_would = matches!(self.word(cut), Some("would" | "could" | "will" | "might" | "certainly"));
@@ -172,8 +184,14 @@ impl Reader<'_> {
             self.pair_up(from, cut).ok()
         } else if let Some(paint) = self.colour_to(at, end) {
             Some(Wish::Paint { what: own(), paint })
+        } else if let Some((paints, _)) =
+            self.colours(at, end).filter(|(_, after)| *after == end && super::painted::are_several(what))
+        {
+            Some(Wish::PaintEach { what: own(), paints })
         } else if let Some(factor) = size_of(rest) {
             Some(Wish::Scale { what: own(), factor })
+        } else if let Some(size) = self.measure(at, end) {
+            Some(Wish::Resize { what: own(), size })
         } else if let Some(wish) = self.faces(what, at, end) {
             Some(wish)
         } else if let Some(angle) = self.turned_by(at, end) {
@@ -234,7 +252,7 @@ impl Reader<'_> {
     }
 
     /// "A fresh coat of pink", "some yellow paint": paint is spoken of.
-    fn paint_to(&self, at: usize, end: usize) -> Option<Paint> {
+    pub(super) fn paint_to(&self, at: usize, end: usize) -> Option<Paint> {
         const COAT: &[&str] =
             &["coat", "coats", "lick", "layer", "paint", "colour", "color", "job", "repaint"];
         let spoken = (at..end).any(|at| self.word(at).is_some_and(|word| COAT.contains(&word)));
@@ -308,7 +326,10 @@ impl Reader<'_> {
     /// "The museum would benefit from a bench out front"; the reader stands behind the small words.
     pub(super) fn lacks(&self, (from, cut): (usize, usize), end: usize) -> Option<Wish> {
         let words = longest_phrase(&self.lexemes[cut..end], LACKS)?;
-        let thing = self.one_of(from, cut).ok()?;
+        let me = super::super::clause::Target::Here;
+        let thing = self.one_of(from, cut).ok().filter(|thing| thing.target != me)?;
+        // "The kids at the school would love a goal": it is for the school.
+        let thing = super::spoken::group_at(&thing).unwrap_or(thing);
         if let Some(paint) = self.paint_to(cut + words, end) {
             return Some(Wish::Paint { what: vec![thing], paint });
         }
@@ -354,6 +375,9 @@ impl Reader<'_> {
         }
         let mut at = reader.places_to(reader.at, end)?;
         for place in &mut at {
+            if let Some(own) = place.anchor_mut().filter(|own| own.is_the_building()) {
+                *own = anchor.clone();
+            }
             place.means(&mut Some(anchor.clone()));
         }
         Some(Wish::Add { things: vec![thing], at })

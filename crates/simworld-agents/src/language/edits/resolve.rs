@@ -90,6 +90,7 @@ impl Finder<'_> {
             }
             Wish::Swap { one, other } => self.swapped(one, other.as_ref())?,
             Wish::Paint { what, paint } => Edit::Paint { things: self.all(what)?, color: paint.color() },
+            Wish::Resize { what, size } => return self.resized(what, size),
             Wish::Scale { what, factor } => Edit::Scale { things: self.all(what)?, factor: *factor },
             Wish::Copy { what, count, at } => {
                 Edit::Copy { thing: self.one(what)?, count: *count, stands: self.stands(at, &[])? }
@@ -121,11 +122,15 @@ impl Finder<'_> {
             Wish::Row { thing, line, spacing } => self.row(thing, line, *spacing)?,
             Wish::Passage { which, passage } => self.passage(which, *passage)?,
             Wish::Nothing { why } => Edit::Leave { why: why.clone() },
+            Wish::PaintEach { what, paints } => return self.painted_each(what, paints),
             Wish::PaintLike { what, like } => self.painted_like(what, like)?,
             Wish::AskPassage { which } => self.passages_told(which)?,
             Wish::AskSky => self.sky_told(),
             Wish::When { sky, so, then } => return self.when(sky, *so, then),
             Wish::WhenPassage { which, closed, then } => return self.when_passage(which, *closed, then),
+            Wish::WhenLarger { one, other, extent, larger, then } => {
+                return self.when_larger((one, other), (*extent, *larger), then);
+            }
             Wish::All(wishes) => return self.all_of(wishes),
             Wish::Given { what, least, there, then } => return self.given(what, (*least, *there), then),
             Wish::Sky(skies) => Edit::SetEnvironment(changed(*self.scene.environment(), skies)),
@@ -189,6 +194,9 @@ impl Finder<'_> {
                 Some(Edit::Move { things: vec![thing], stands: vec![Stand::At { point }] })
             };
             return Ok(things.into_iter().filter_map(shifted).collect());
+        }
+        if let Some(steps) = self.stepped(&things, at)? {
+            return Ok(steps);
         }
         let stands = self.stands(at, &things)?;
         Ok(vec![Edit::Move { things, stands }])

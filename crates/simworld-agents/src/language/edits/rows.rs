@@ -13,7 +13,10 @@ use crate::editing::Spacing;
 #[rustfmt::skip]
 const EVERY: &[&str] = &["every", "each", "one every", "one each", "at intervals of", "at an interval of", "in intervals of",
     "with intervals of", "with a gap of", "with gaps of", "with a spacing of", "with a distance of", "at a spacing of",
-    "at distances of", "spaced every", "and one every", "with one every", "placed every", "spaced"];
+    "at distances of", "spaced every", "and one every", "with one every", "placed every", "spaced", "per", "one per", "for every", "one for every", "one to every", "once every", "a piece every"];
+/// Of those, the ones that may be of a distance from one thing.
+#[rustfmt::skip]
+pub(super) const GAPS: &[&str] = &["with a gap of", "with a distance of", "at a distance of", "leaving a gap of", "at a gap of", "in a distance of", "with a clearance of", "keeping a distance of", "at an interval of"];
 /// Behind a distance.
 #[rustfmt::skip]
 const APART: &[&str] = &["apart", "apart from each other", "from each other", "between them", "between each", "between each other",
@@ -88,6 +91,11 @@ impl Reader<'_> {
                 });
             if let Some(words) = words {
                 at += words;
+                // "Every ten metres of Harbour Road" is along it.
+                if at < end && self.word(at) == Some("of") && said.every.is_some() {
+                    said.rest.push(super::forms::word_at(&self.lexemes[at], "along"));
+                    at += 1;
+                }
             } else {
                 said.rest.push(rest[0].clone());
                 at += 1;
@@ -173,6 +181,11 @@ fn spacing(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         && let Some((every, words)) = numbers::length(&lexemes[before..]).or_else(|| unit(&lexemes[before..]))
     {
         let behind = &lexemes[before + words..];
+        // "With a gap of ten metres to the tower" says where.
+        if longest_phrase(lexemes, GAPS) == Some(before) && longest_phrase(behind, &["to", "from"]).is_some()
+        {
+            return None;
+        }
         // "Every two metres between the kiosk and the statue" says where.
         let is_where = |after: &usize| {
             *after == 1 && longest_phrase(behind, &["between"]).is_some() && behind.len() > *after
@@ -188,6 +201,45 @@ fn spacing(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         && matches!(&lexemes[with + words].token, Token::Word(word) if word == "between")
         && lexemes.len() > with + words + after;
     (!is_place).then_some((every, with + words + after))
+}
+
+/// "River Walk: a bench every 40 metres, both sides" is a bench every 40 metres on both sides of River Walk.
+pub(super) fn on_both_sides(lexemes: &mut Vec<Lexeme>, streets: &super::super::streets::StreetNames) {
+    #[rustfmt::skip]
+    const BOTH: &[&str] = &["on both sides", "on either side", "on each side", "both sides", "along both sides", "at both sides", "to both sides", "left and right", "on the left and on the right", "on both sides of it", "on either side of it", "each side"];
+    const EVERY: &[&str] = &["every", "each", "per", "apart", "in a row", "in a line", "evenly"];
+    let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
+    let Some(place) = lexemes.first().cloned() else { return };
+    if let Some(street) = streets.at(lexemes)
+        && lexemes.get(street.words).is_some_and(is_mark)
+        && (street.words..lexemes.len()).any(|at| longest_phrase(&lexemes[at..], EVERY).is_some())
+        && (street.words..lexemes.len()).all(|at| streets.at(&lexemes[at..]).is_none())
+    {
+        let name: Vec<Lexeme> = lexemes.drain(..=street.words).take(street.words).collect();
+        let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+        let both = (0..end).find(|at| longest_phrase(&lexemes[*at..end], BOTH) == Some(end - at));
+        let at =
+            both.map_or(end, |both| if both > 0 && is_mark(&lexemes[both - 1]) { both - 1 } else { both });
+        let along = super::forms::word_at(&place, "along");
+        lexemes.splice(at..at, std::iter::once(along).chain(name));
+    }
+    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+    let Some(both) = (1..end).find(|at| longest_phrase(&lexemes[*at..end], BOTH) == Some(end - at)) else {
+        return;
+    };
+    let named = (1..both).rev().find_map(|at| {
+        let street = streets.at(&lexemes[at..both])?;
+        let way = (at.saturating_sub(4)..at).find(|way| {
+            longest(&lexemes[*way..at], super::words::WAYS).is_some_and(|(_, words)| way + words == at)
+        })?;
+        Some((way, at, at + street.words))
+    });
+    if let Some((way, at, _)) = named {
+        let from = if is_mark(&lexemes[both - 1]) { both - 1 } else { both };
+        lexemes.drain(from..end);
+        let sides: Vec<Lexeme> = super::forms::words_at(&place, "on both sides of").collect();
+        lexemes.splice(way..at, sides);
+    }
 }
 
 /// "From the bench to the tree" is between the two.

@@ -101,7 +101,9 @@ impl<'a> Reader<'a> {
                     || self.says_ought(cut, cut + words);
                 let rest = Reader { at: cut + words, ..*self };
                 let needed = |subject: &&Subject| {
-                    matches!(subject, Subject::New(..)) && words > 0 && rest.is_needed(end)
+                    matches!(subject, Subject::New(..) | Subject::Place(_))
+                        && words > 0
+                        && rest.is_needed(end)
                 };
                 subject
                     .iter()
@@ -264,7 +266,26 @@ impl<'a> Reader<'a> {
             if self.is_definite(at) && !self.is_bare_plural(at, end) {
                 return self.says(at, end, Mood::Wished).or_else(|| self.small_clause(at, end));
             }
-            self.all_added(at, end)
+            let mut wishes = self.all_added(at, end)?;
+            // "The clinic staff would love a table out the back": of the clinic.
+            let whose = self.owner_among(start, cut).map(super::wish::Anchor::Thing);
+            for place in wishes.iter_mut().flatten().flat_map(Wish::places_mut) {
+                if let (Some(anchor), Some(whose)) = (place.anchor_mut(), &whose)
+                    && (anchor.is_it() || anchor.is_the_building())
+                {
+                    *anchor = whose.clone();
+                }
+            }
+            Some(wishes)
+        })
+    }
+
+    /// The one thing of the scene that is named among who wants something: "the clinic staff".
+    fn owner_among(&self, from: usize, cut: usize) -> Option<Reference> {
+        (from..cut).find_map(|at| {
+            let mut parser = self.parser(at, cut);
+            let thing = parser.reference(0).ok().filter(|thing| parser.at > at && !is_it(thing))?;
+            (self.how_many(&thing) == 1).then_some(thing)
         })
     }
 
@@ -274,7 +295,7 @@ impl<'a> Reader<'a> {
         const DENIES: &[&str] = &["nobody", "noone", "not", "no", "never", "none", "if", "unless", "dont", "doesnt"];
         let is_word = |at: usize| {
             self.word(at).is_some()
-                && !self.is_place(at)
+                && (!self.is_place(at) || matches!(self.word(at), Some("at" | "of" | "from" | "in" | "on")))
                 && longest(&self.lexemes[at..cut], super::words::VERBS)
                     .is_none_or(|(verb, _)| matches!(verb, Verb::Name | Verb::Describe | Verb::List))
         };
@@ -303,10 +324,12 @@ impl<'a> Reader<'a> {
 
     /// "The taxi pink, please": without a verb, what a thing is to look like, and not where it stands.
     fn is_look(wishes: &[Vec<Wish>]) -> bool {
-        wishes
-            .iter()
-            .flatten()
-            .all(|wish| matches!(wish, Wish::Paint { .. } | Wish::Scale { .. } | Wish::Remove { .. }))
+        wishes.iter().flatten().all(|wish| {
+            matches!(
+                wish,
+                Wish::Paint { .. } | Wish::Scale { .. } | Wish::Resize { .. } | Wish::Remove { .. }
+            )
+        })
     }
 
     /// As [`Self::small_clause`], where nobody says that it is wanted.

@@ -139,13 +139,22 @@ impl Reader<'_> {
         Some(Wish::All(vec![like(one, other), like(other, one)]))
     }
 
+    /// "The park could use some life": what is lacking is no thing.
+    pub(super) fn lacks_something(&self, from: usize, end: usize) -> bool {
+        (from + 1..end).any(|at| {
+            longest_phrase(&self.lexemes[at..end], super::says::LACKS).is_some_and(|words| {
+                self.is_lack(at + words, self.before_politeness(at + words, end)) && self.is_certain(from)
+            })
+        })
+    }
+
     /// "More light near the bakery": what is lacking, which is no thing.
     pub(super) fn is_lack(&self, from: usize, end: usize) -> bool {
         #[rustfmt::skip]
         const MORE: &[&str] = &["more", "some more", "a bit more", "we need more", "we need", "need more", "i need more", "i want more", "better", "extra", "not enough", "too little", "there is not enough", "there isnt enough",
             "theres not enough", "for more", "some", "a little more", "we want more", "a lack of", "lack of", "no"];
         #[rustfmt::skip]
-        const OF: &[&str] = &["light", "lighting", "shade", "seating", "greenery", "life", "parking", "green", "colour", "seats", "safety", "shelter", "comfort", "decoration", "storage", "space to sit", "places to sit", "room to sit", "illumination"];
+        const OF: &[&str] = &["light", "lighting", "shade", "seating", "greenery", "life", "parking", "green", "colour", "seats", "safety", "shelter", "comfort", "decoration", "storage", "space to sit", "places to sit", "room to sit", "illumination", "charm", "atmosphere", "entertainment", "fun", "cheering up", "love", "attention", "help", "company", "protection", "security", "brightening up", "livening up", "sprucing up", "shade", "fresh air"];
         let Some(more) = longest_phrase(&self.lexemes[from..end], MORE) else { return false };
         let Some(words) = longest_phrase(&self.lexemes[from + more..end], OF) else { return false };
         let at = from + more + words;

@@ -6,6 +6,7 @@ use super::super::clause::Count;
 use super::super::lexer::{Lexeme, Token, lex};
 use super::super::lexicon::longest_phrase;
 use super::super::numbers;
+use super::measures::{Extent, Size};
 use super::parse::Reader;
 use super::wish::Wish;
 
@@ -15,6 +16,19 @@ impl Reader<'_> {
         if let Some(wish) = self.scaled(start, end) {
             self.at = end;
             return Ok(vec![vec![wish]]);
+        }
+        // "Shrink the statue by one metre".
+        let metres = (start + 1..end).find_map(|at| {
+            let by = longest_phrase(&self.lexemes[at..end], &["by"])?;
+            let (metres, words) = numbers::length(&self.lexemes[at + by..end])?;
+            (at + by + words == self.before_politeness(at, end)).then_some((at, metres))
+        });
+        if let Some((cut, metres)) = metres
+            && let Ok(what) = self.things(start, cut)
+        {
+            self.at = end;
+            let more = if usual < 1.0 { -metres } else { metres };
+            return Ok(vec![vec![Wish::Resize { what, size: Size::More(Extent::Height, more) }]]);
         }
         // "Shrink the crate a little".
         let little = (start + 1..end).find(|at| {
@@ -33,12 +47,13 @@ impl Reader<'_> {
         for cut in start + 1..end {
             let rest = &self.lexemes[cut..end];
             let number = factor_in_numbers(rest).filter(|(_, count)| cut + count == end);
-            let Some(factor) = number.map(|(factor, _)| factor).or_else(|| super::predicates::size_of(rest))
-            else {
-                continue;
-            };
+            let factor = number.map(|(factor, _)| factor).or_else(|| super::predicates::size_of(rest));
+            let Some(size) = factor.map(Size::Times).or_else(|| self.measure(cut, end)) else { continue };
             if let Ok(what) = self.things(start, cut) {
-                return Some(Wish::Scale { what, factor });
+                return Some(match size {
+                    Size::Times(factor) => Wish::Scale { what, factor },
+                    size => Wish::Resize { what, size },
+                });
             }
         }
         None

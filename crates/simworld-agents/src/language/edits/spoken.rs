@@ -2,7 +2,9 @@
 
 use super::super::clause::{Reference, Stands, Target};
 use super::super::lexicon::longest_phrase;
+use super::super::resolve::Purpose;
 use super::parse::Reader;
+use super::wish::{Anchor, Where};
 
 impl Reader<'_> {
     /// The things of the scene that a remark names.
@@ -15,6 +17,9 @@ impl Reader<'_> {
             &[
                 "theres",
                 "there is",
+                "there are",
+                "you see",
+                "you can see",
                 "i see",
                 "we have",
                 "i can see",
@@ -84,10 +89,32 @@ impl Reader<'_> {
                     things.push(group_at(&thing).unwrap_or(thing));
                     at = parser.at;
                 }
-                _ => at += 1,
+                // "Dmitri is waiting for the bus": a name, whatever is said behind it.
+                _ => match self.names.exact(&self.lexemes[at..end]) {
+                    Some((ids, words)) => {
+                        things.push(Reference::to(Target::Named(ids), self.written(at, at + words)));
+                        at += words;
+                    }
+                    None => match self.shortest_named(at, end).filter(|_| is_certain) {
+                        Some((thing, after)) => {
+                            things.push(thing);
+                            at = after;
+                        }
+                        None => at += 1,
+                    },
+                },
             }
         }
         things
+    }
+
+    /// "The green bench is facing the wrong way": the thing, where what is said behind it makes no sense.
+    fn shortest_named(&self, at: usize, end: usize) -> Option<(Reference, usize)> {
+        const LONGEST: usize = 6;
+        (at + 2..end.min(at + LONGEST)).find_map(|cut| {
+            let thing = self.one_of(at, cut).ok().filter(|thing| !super::says::is_it(thing))?;
+            Some((thing, cut))
+        })
     }
 
     /// What a remark says somebody left somewhere.
@@ -124,17 +151,36 @@ impl Reader<'_> {
     pub(super) fn place_spoken_of(&self, from: usize, end: usize) -> Option<Vec<super::wish::Where>> {
         (from..end).filter(|at| self.is_place(*at)).find_map(|at| {
             let mut reader = Reader { at, ..self.up_to(end) };
-            let place = reader
-                .place(end)
-                .ok()
-                .filter(|place| place.anchor().is_some_and(|anchor| !anchor.is_it()))?;
+            let place = reader.place(end).ok().filter(|place| {
+                // "Looks empty to me" says nothing of where.
+                place.anchor().is_some_and(|anchor| !anchor.is_it() && anchor != Anchor::Viewer)
+            })?;
             Some(vec![place])
         })
     }
 }
 
+impl Reader<'_> {
+    /// What a remark says how it is, if there is only one of it: "Rose Park feels empty" asks for something in the park.
+    pub(super) fn subject_place(&self, from: usize, end: usize) -> Option<Vec<Where>> {
+        let small = longest_phrase(
+            &self.lexemes[from..end],
+            &["oh", "well", "how", "poor", "also", "i think", "i feel", "honestly"],
+        );
+        let from = from + small.unwrap_or(0);
+        if !self.is_certain(from) || self.reported(from, end).is_some() {
+            return None;
+        }
+        let mut parser = self.parser(from, end);
+        let thing =
+            parser.reference(0).ok().filter(|thing| parser.at > from && !super::follow::is_open(thing))?;
+        let found = self.view.candidates(&thing, Purpose::Any).ok()?;
+        (found.len() == 1).then(|| vec![Where::By(Anchor::Thing(thing))])
+    }
+}
+
 /// "The kids at the school": nobody asks anything of them, but of the school.
-fn group_at(thing: &Reference) -> Option<Reference> {
+pub(super) fn group_at(thing: &Reference) -> Option<Reference> {
     let Target::Any(class) = &thing.target else { return None };
     let are_people = !class.kinds().is_empty()
         && class.kinds().iter().all(|kind| *kind == simworld_core::scene::EntityKind::Person);

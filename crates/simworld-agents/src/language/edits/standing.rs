@@ -51,7 +51,11 @@ impl Finder<'_> {
                 Where::At(point) => Stand::At { point: *point },
                 Where::Here => Stand::Around { point: self.focus.from },
                 Where::There => self.there(moved)?,
-                Where::Anywhere | Where::Shift(..) | Where::ShiftOwn(..) => continue,
+                Where::End(..) | Where::Ends(..) | Where::Part(..) => {
+                    stands.extend(self.part(place, moved)?);
+                    continue;
+                }
+                place if place.is_step() || *place == Where::Anywhere => continue,
                 place => self.stand_on_ground(place, moved)?,
             };
             stands.push(stand);

@@ -2,14 +2,37 @@
 
 use simworld_core::seam::PlanError;
 
+use super::super::clause::{Count, Reference, Target};
 use super::super::lexicon::{longest, longest_phrase};
 use super::parse::Reader;
 use super::says::LACKS;
 use super::wish::{Anchor, Where, Wish};
 use super::words::ABOUT_IT;
 
+/// How somebody is told to give.
+#[derive(Clone, Copy)]
+enum Gives {
+    /// "Give Bo a chair".
+    Plainly,
+    /// "Spoil Bo with a chair", "set Bo up with a chair".
+    With,
+    /// "Treat Bo to a chair".
+    To,
+    /// "Let Bo have a chair".
+    Have,
+}
+
+#[rustfmt::skip]
+const GIVES: &[(&[&str], Gives)] = &[
+    (&["give", "giving", "get", "hand", "buy", "lend", "offer", "pass", "fetch", "bring", "grant", "slip", "gift", "award", "donate"], Gives::Plainly),
+    (&["spoil", "present", "surprise", "reward", "supply", "provide", "cheer", "hook", "set", "fix", "kit", "fit", "deck", "equip", "load", "furnish", "help", "serve", "honour", "honor", "bless", "gladden",
+        "delight", "sort"], Gives::With),
+    (&["treat"], Gives::To),
+    (&["let"], Gives::Have),
+];
+
 impl Reader<'_> {
-    /// "The museum could use a bench out front", "give the café a tree at the back".
+    /// "The museum could use a bench out front", "give the café a tree at the back", "set the office up with a flagpole".
     pub(super) fn lacking(&mut self, start: usize, end: usize) -> Option<Wish> {
         let asks = longest(&self.lexemes[start..end], super::words::VERBS).is_some_and(|(verb, _)| {
             matches!(
@@ -17,65 +40,121 @@ impl Reader<'_> {
                 super::words::Verb::List | super::words::Verb::Count | super::words::Verb::Describe
             )
         });
-        let gives = longest_phrase(&self.lexemes[start..end], &["give", "giving"]).filter(|_| !asks);
-        let from = start + gives.unwrap_or(0);
+        let gives = longest(&self.lexemes[start..end], GIVES).filter(|_| !asks);
+        let from = start + gives.map_or(0, |(_, words)| words);
         if let Some(wish) = gives.and_then(|_| self.given_a_name(from, end)) {
             self.at = end;
             return Some(wish);
         }
-        for cut in from + 1..end {
-            let lacks = longest_phrase(&self.lexemes[cut..end], LACKS);
-            let Some(count) = (if gives.is_some() { Some(0) } else { lacks }) else { continue };
-            self.at = from;
-            let both = longest_phrase(
-                &self.lexemes[from..cut],
-                &["both sides of", "each side of", "either side of", "the two sides of"],
-            );
-            self.at = from + both.unwrap_or(0);
-            let street = self.street(cut).filter(|_| self.at == cut);
-            let anchor = match (street, self.one_of(from, cut)) {
-                (Some(street), _) => street,
-                (None, Ok(thing)) => Anchor::Thing(thing),
-                (None, Err(_)) => continue,
-            };
-            self.at = cut + count;
-            if self.is_definite(self.at) {
-                // "Give Bo the chair".
-                if gives.is_some()
-                    && self.is_certain(self.at)
-                    && let Anchor::Thing(whose) = &anchor
-                    && !super::says::is_it(whose)
-                    && let Ok(what) = self.things(self.at, end)
-                {
-                    self.at = end;
-                    return Some(Wish::Move { what, at: vec![Where::By(anchor)] });
-                }
-                continue;
-            }
-            let Ok(thing) = self.new_thing(end) else { continue };
-            if let Some(at) = self.one_there(end, &anchor) {
-                self.at = end;
-                return Some(Wish::Add { things: vec![thing], at });
-            }
-            if let Some(at) = self.aside_place(end, &anchor) {
-                self.at = end;
-                return Some(Wish::Add { things: vec![thing], at });
-            }
-            let relation = longest(self.rest(end), ABOUT_IT);
-            let stop = self.at + relation.map_or(0, |(_, words)| words);
-            if self.before_politeness(stop.saturating_sub(1), end) <= stop {
-                self.at = end;
-                let place = match (relation, anchor) {
-                    (None, street @ Anchor::Street(..)) if both.is_some() => Where::BothSides(street),
-                    (None, street @ Anchor::Street(..)) => Where::Along(street),
-                    (None, anchor) => Where::By(anchor),
-                    (Some((relation, _)), anchor) => Where::To(relation, anchor),
-                };
-                return Some(Wish::Add { things: vec![thing], at: vec![place] });
-            }
+        // Whoever speaks is given things by other rules.
+        if gives.is_some() && matches!(self.word(from), Some("me" | "us" | "myself")) {
+            return None;
         }
-        self.at = start;
-        None
+        let found = (from + 1..end).find_map(|cut| {
+            let rest = &self.lexemes[cut..end];
+            let count = match gives {
+                Some((Gives::Plainly, _)) => Some(0),
+                Some((Gives::With, _)) => longest_phrase(rest, &["with", "up with", "out with", "over with"]),
+                Some((Gives::To, _)) => longest_phrase(rest, &["to"]),
+                Some((Gives::Have, _)) => longest_phrase(rest, &["have", "get", "own"]),
+                None => longest_phrase(rest, LACKS),
+            }?;
+            let mut reader = *self;
+            let wish = reader.lacked((from, cut), cut + count, end, gives.is_some());
+            wish.or_else(|| self.each_lacks((from, cut), cut + count, end))
+        });
+        self.at = if found.is_some() { end } else { start };
+        found
+    }
+
+    /// What is asked for something, whose name stands between two places, from a place on.
+    fn lacked(&mut self, (from, cut): (usize, usize), at: usize, end: usize, gives: bool) -> Option<Wish> {
+        self.at = from;
+        let both = longest_phrase(
+            &self.lexemes[from..cut],
+            &["both sides of", "each side of", "either side of", "the two sides of"],
+        );
+        self.at = from + both.unwrap_or(0);
+        let street = self.street(cut).filter(|_| self.at == cut);
+        let anchor = match street {
+            Some(street) => street,
+            None => Anchor::Thing(self.one_named(from, cut)?),
+        };
+        self.at = at;
+        if let Anchor::Thing(whose) = &anchor
+            && let Some(wish) = self.made_so(whose, at, end, gives)
+        {
+            return Some(wish);
+        }
+        if self.is_definite(at) {
+            return None;
+        }
+        let thing = self.new_thing(end).ok()?;
+        if let Some(at) = self.one_there(end, &anchor).or_else(|| self.aside_place(end, &anchor)) {
+            return Some(Wish::Add { things: vec![thing], at });
+        }
+        // "Give him a dog right beside him".
+        if gives
+            && let Some(mut at) = self.places_to(self.at, self.before_politeness(self.at, end))
+            && at.iter().all(|place| place.anchor().is_some_and(|anchor| anchor.is_it()))
+        {
+            at.iter_mut().for_each(|place| place.means(&mut Some(anchor.clone())));
+            return Some(Wish::Add { things: vec![thing], at });
+        }
+        let relation = longest(self.rest(end), ABOUT_IT);
+        let stop = self.at + relation.map_or(0, |(_, words)| words);
+        if self.before_politeness(stop.saturating_sub(1), end) > stop {
+            return None;
+        }
+        let place = match (relation, anchor) {
+            (None, street @ Anchor::Street(..)) if both.is_some() => Where::BothSides(street),
+            (None, street @ Anchor::Street(..)) => Where::Along(street),
+            (None, anchor) => Where::By(anchor),
+            (Some((relation, _)), anchor) => Where::To(relation, anchor),
+        };
+        Some(Wish::Add { things: vec![thing], at: vec![place] })
+    }
+
+    /// One thing that is named, or both of two.
+    fn one_named(&self, from: usize, cut: usize) -> Option<Reference> {
+        let one = self.one_of(from, cut).ok().filter(|one| one.target != Target::Here)?;
+        let mut one = super::spoken::group_at(&one).unwrap_or(one);
+        if self.word(from) == Some("both") && one.count == Count::Exactly(2) && self.how_many(&one) == 2 {
+            one.count = Count::All;
+        }
+        Some(one)
+    }
+
+    /// "Give the truck a quarter turn", "the table deserves a fresh coat of blue", "give Bo the chair".
+    fn made_so(&self, whose: &Reference, at: usize, end: usize, gives: bool) -> Option<Wish> {
+        let stop = self.before_politeness(at, end);
+        if let Some(paint) = self.paint_to(at, stop) {
+            return Some(Wish::Paint { what: vec![whose.clone()], paint });
+        }
+        if let Some(factor) = super::predicates::size_of(&self.lexemes[at..stop]) {
+            return Some(Wish::Scale { what: vec![whose.clone()], factor });
+        }
+        if let Some(angle) = super::turn::angle(&self.lexemes[at..stop]).filter(|_| gives) {
+            return Some(Wish::Rotate { what: vec![whose.clone()], angle });
+        }
+        let brings = gives && self.is_definite(at) && self.is_certain(at) && !super::says::is_it(whose);
+        let what = if brings { self.things(at, stop).ok()? } else { return None };
+        Some(Wish::Move { what, at: vec![Where::By(Anchor::Thing(whose.clone()))] })
+    }
+
+    /// "Ada and Bo each need a stool": one for each of several.
+    fn each_lacks(&self, (from, cut): (usize, usize), at: usize, end: usize) -> Option<Wish> {
+        let stop = if matches!(self.word(cut - 1), Some("each" | "both" | "all")) { cut - 1 } else { cut };
+        if stop <= from || self.is_definite(at) {
+            return None;
+        }
+        let several = self.things(from, stop).ok().filter(|things| things.len() > 1)?;
+        let mut end = self.before_politeness(at, end);
+        end -= usize::from(self.word(end - 1) == Some("each"));
+        let reader = self.up_to(end);
+        let wishes: Option<Vec<Wish>> =
+            several.into_iter().map(|one| reader.given_to(&Anchor::Thing(one), at, end)).collect();
+        wishes.map(Wish::All)
     }
 
     /// "Give the robot a name: 'Willow'".
@@ -171,4 +250,9 @@ impl Reader<'_> {
         });
         many || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    GIVES.iter().flat_map(|(words, _)| *words).copied()
 }

@@ -41,6 +41,15 @@ const POSTURES: &[&str] = &["standing", "sitting", "waiting", "parked", "placed"
     "that goes", "to be placed", "to put", "growing", "built", "set", "to be put", "to be parked", "to park", "to place", "mounted", "stood", "right", "directly", "somewhere", "just",
     "exactly", "only", "who stands", "who waits", "perched", "balanced", "going", "ready", "and place it", "and put it", "and park it", "and set it", "and stick it", "and put them",
     "and place them", "and park them", "and leave it", "and plant it", "and stand it", "and drop it", "and put that", "and have it", "and get it"];
+/// What something new is for, which tells it from nothing else.
+#[rustfmt::skip]
+const PURPOSES: &[&str] = &["for company", "for fun", "for shade", "for decoration", "for safety", "for comfort", "for light", "for show", "for rest", "for good luck", "for luck", "for emergencies", "for lunch", "for dinner", "for breakfast",
+    "for the night", "for the day", "for the evening", "for the kids", "for the children", "for the visitors", "for visitors", "for guests", "for the guests", "for tourists", "for the tourists", "for customers", "for the customers", "for patients",
+    "for the patients", "for students", "for the students", "for people", "for staff", "for the staff", "for everyone", "for everybody", "for pedestrians", "for cyclists", "for commuters", "for the commuters", "for the neighbours", "for the residents",
+    "for reading", "for sitting", "for resting", "for parking", "for eating", "for waiting", "to sit on", "to sit down on", "to rest on", "to eat at", "to play with", "to play on", "to lean on", "to look at", "to admire", "to read", "to drink",
+    "for the weekend", "for the party", "for the parade", "for the festival", "for the fair", "for the market", "for the wedding", "for the show", "for the concert", "for the photo", "for the picture", "for christmas", "for the summer", "for the winter",
+    "for him", "for her", "for them", "for his birthday", "for her birthday", "for deliveries", "for the rubbish", "for rubbish", "for litter", "for bikes", "for bicycles", "for mail", "for letters", "for tonight", "for tomorrow", "or something",
+    "or something like that", "or so", "of some sort", "of some kind", "of sorts", "or whatever", "if possible", "please", "as well", "too", "delivered", "put up", "set up", "installed", "standing", "put"];
 /// Words that are in the name of no thing.
 #[rustfmt::skip]
 const NO_NOUNS: &[&str] = &["is", "are", "was", "were", "has", "have", "needs", "need", "wants", "want", "loves", "should", "must", "would", "could", "i", "you", "he", "she",
@@ -63,7 +72,7 @@ impl Reader<'_> {
             let things = self.listed(last.as_ref(), end)?;
             let whose = self.for_whom(end);
             let from = self.at;
-            if joint(self.rest(end)).is_some() {
+            if joint(self.rest(end)).is_some() && !self.is_place(self.at) {
                 self.skip_joints_to(end);
                 // "A tent and a bench, both by the tree".
                 let all =
@@ -100,7 +109,12 @@ impl Reader<'_> {
                 self.at = from;
                 there.clone().unwrap_or_default()
             };
-            if at.iter().any(|place| matches!(place, Where::Shift(..) | Where::ShiftOwn(..))) {
+            // "Three barrels next to the kiosk in red, white and blue".
+            let things = match &things[..] {
+                [only] if self.at < end => self.in_colours(only, end).unwrap_or(things),
+                _ => things,
+            };
+            if at.iter().any(Where::is_step) {
                 return Err(self.not_understood("say from what it is so far"));
             }
             last = things.last().cloned();
@@ -135,9 +149,21 @@ impl Reader<'_> {
 
     /// New things that share a place: "two benches, a bin and a lamp", "a table a lamp and a bin".
     pub(super) fn listed(&mut self, last: Option<&NewThing>, end: usize) -> Result<Vec<NewThing>, PlanError> {
-        let mut things = vec![self.another(end, last).map_or_else(|| self.new_thing(end), Ok)?];
+        let mut things = match self.coloured_each(end) {
+            Some(things) => things,
+            None => vec![self.another(end, last).map_or_else(|| self.new_thing(end), Ok)?],
+        };
+        if let [only] = &things[..]
+            && let Some(each) = self.in_colours(&only.clone(), end)
+        {
+            things = each;
+        }
         while let Some(count) = joint(self.rest(end)).or_else(|| begins_another(self.rest(end)).then_some(0))
         {
+            // "With a gap of ten metres" is where.
+            if self.is_place(self.at) {
+                break;
+            }
             let start = self.at;
             self.at += count;
             self.skip_joints_to(end);
@@ -249,6 +275,7 @@ impl Reader<'_> {
             many: false,
             paint: None,
             scale: 1.0,
+            height: None,
             name: None,
             text: String::new(),
         };
@@ -256,7 +283,9 @@ impl Reader<'_> {
             let rest = self.rest(end);
             // "A three-legged stool" is one.
             let is_part = |words: usize| self.words[rest[words - 1].end..].starts_with('-');
-            if let Some((count, words)) =
+            if let Some((metres, words)) = self.new_height(end) {
+                (thing.height, self.at) = (Some(metres), self.at + words);
+            } else if let Some((count, words)) =
                 numbers::count(rest).filter(|(_, words)| thing.words.is_empty() && !is_part(*words))
             {
                 (thing.count, self.at) = (count, self.at + words);
@@ -267,6 +296,12 @@ impl Reader<'_> {
                 (thing.count, self.at) = (count, self.at + words);
             } else if let Some(words) = longest_phrase(rest, FEW).filter(|_| thing.words.is_empty()) {
                 (thing.count, self.at) = (super::ground::ROW, self.at + words);
+            } else if self.at > start
+                && matches!(self.word(self.at), Some("in" | "around"))
+                && self.is_place(self.at)
+            {
+                // "One in front".
+                break;
             } else if let Some(words) = longest_phrase(rest, ARTICLES).filter(|_| thing.words.is_empty()) {
                 self.at += words;
             } else if let Some(words) =
@@ -275,6 +310,13 @@ impl Reader<'_> {
                 self.at += words;
                 thing.name = Some(self.new_name(end));
                 break;
+            } else if let Some(words) = longest_phrase(rest, PURPOSES).filter(|words| {
+                !thing.words.is_empty()
+                    && (self.at + words >= end
+                        || self.is_place(self.at + words)
+                        || joint(&rest[*words..]).is_some())
+            }) {
+                self.at += words;
             } else if self.ends_thing(&thing, start, end) {
                 break;
             } else if let Some(words) = longest_phrase(rest, POSTURES)
@@ -289,6 +331,8 @@ impl Reader<'_> {
                 (thing.scale, self.at) = (factor, self.at + words);
             } else if let Some((factor, words)) = longest(rest, SIZES).filter(|_| thing.words.is_empty()) {
                 (thing.scale, self.at) = (factor, self.at + words);
+            } else if self.word(self.at) == Some("more") && !thing.words.is_empty() {
+                self.at += 1;
             } else if let Token::Word(word) = &rest[0].token {
                 thing.words.push(word.clone());
                 self.at += 1;
@@ -300,6 +344,7 @@ impl Reader<'_> {
         thing.many = thing.count == 1 && self.is_of_many(start, &thing);
         if is_mass(&thing) && !self.says_one(start)
             || thing.words.is_empty()
+            || matches!(&thing.words[..], [only] if ["place", "spot", "thing", "town", "city", "scene", "way", "one"].contains(&only.as_str()))
             || thing.words.iter().any(|word| NO_NOUNS.contains(&word.as_str()))
         {
             self.at = start;
@@ -366,6 +411,29 @@ fn is_mass(thing: &NewThing) -> bool {
         "decoration",
         "shelter",
         "privacy",
+        "snow",
+        "rain",
+        "fog",
+        "mist",
+        "sunshine",
+        "sun",
+        "sunlight",
+        "wind",
+        "rainfall",
+        "snowfall",
+        "darkness",
+        "weather",
+        "colour",
+        "charm",
+        "atmosphere",
+        "green",
+        "entertainment",
+        "company",
+        "attention",
+        "protection",
+        "security",
+        "storage",
+        "help",
     ];
     let mut words = thing.words.iter().filter(|word| {
         !["more", "some", "better", "extra", "of", "for", "less", "fewer"].contains(&word.as_str())

@@ -5,9 +5,10 @@ use simworld_core::id::RoadId;
 use simworld_core::passage::Passage;
 use simworld_core::scene::Relation;
 
-use super::super::clause::{Reference, Target};
+use super::super::clause::{Count, Reference, Target};
 use super::super::compass::Compass;
 use super::super::paint::Paint;
+use super::measures::Size;
 use super::words::Sky;
 use crate::editing::Spacing;
 
@@ -55,6 +56,11 @@ pub(super) enum Wish {
         what: Vec<Reference>,
         factor: f64,
     },
+    /// Makes things of a size that is told by measure, or by another thing.
+    Resize {
+        what: Vec<Reference>,
+        size: Size,
+    },
     Copy {
         what: Reference,
         count: u32,
@@ -100,6 +106,11 @@ pub(super) enum Wish {
     Nothing {
         why: String,
     },
+    /// Gives each of several things a colour of its own.
+    PaintEach {
+        what: Vec<Reference>,
+        paints: Vec<Paint>,
+    },
     /// Gives things the colour of another.
     PaintLike {
         what: Vec<Reference>,
@@ -121,6 +132,14 @@ pub(super) enum Wish {
     WhenPassage {
         which: Vec<StreetRef>,
         closed: bool,
+        then: Box<Self>,
+    },
+    /// Only if something is larger in some way than another or, with `false`, if it is not.
+    WhenLarger {
+        one: Reference,
+        other: Reference,
+        extent: super::measures::Extent,
+        larger: bool,
         then: Box<Self>,
     },
     /// Several at once, in the scene as it is before the first.
@@ -167,6 +186,8 @@ pub(super) struct NewThing {
     pub(super) many: bool,
     pub(super) paint: Option<Paint>,
     pub(super) scale: f64,
+    /// How tall it is to be, m, if that was said.
+    pub(super) height: Option<f64>,
     pub(super) name: Option<String>,
     /// The words themselves, for answers.
     pub(super) text: String,
@@ -203,10 +224,28 @@ pub(super) enum Where {
     ShiftOwn(f64, f64),
     /// So far from where it is now, m east and north.
     Shift(f64, f64),
+    /// So far from where it is now to a thing or, below zero, away from it, m.
+    Nearer(f64, Anchor),
+    /// Half of the way to a thing.
+    Halfway(Anchor),
+    /// At an end of a street, the one in a direction if one is named.
+    End(Option<Compass>, Vec<RoadId>, String),
+    /// At both ends of a street.
+    Ends(Vec<RoadId>, String),
+    /// In the corner, or the half, of a thing that lies in a direction.
+    Part(Compass, Part, Anchor),
     Here,
     /// Where what was spoken of last stands, or stood.
     There,
     Anywhere,
+}
+
+/// What of a thing lies in a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Corner,
+    /// Of an area.
+    Half,
 }
 
 /// A direction from a thing.
@@ -247,7 +286,7 @@ impl Wish {
         }
         for one in self.objects_mut() {
             if matches!(one.target, Target::It | Target::Them) {
-                *one = first.clone();
+                *one = as_said(one, first);
                 taken = true;
             }
         }
@@ -255,7 +294,11 @@ impl Wish {
             return;
         }
         for anchor in self.places_mut().iter_mut().filter_map(Where::anchor_mut) {
-            if anchor.is_it() {
+            if let Anchor::Thing(it) = anchor
+                && matches!(it.target, Target::It | Target::Them)
+            {
+                *anchor = Anchor::Thing(as_said(it, last));
+            } else if anchor.is_it() {
                 *anchor = Anchor::Thing(last.clone());
             }
         }
@@ -270,6 +313,7 @@ impl Wish {
             | Self::FaceCompass { what, .. }
             | Self::Face { what, .. }
             | Self::Paint { what, .. }
+            | Self::Resize { what, .. }
             | Self::Scale { what, .. } => what.first().filter(|_| what.len() == 1),
             _ => None,
         }
@@ -293,6 +337,8 @@ impl Wish {
             | Self::Rotate { what, .. }
             | Self::FaceCompass { what, .. }
             | Self::Paint { what, .. }
+            | Self::PaintEach { what, .. }
+            | Self::Resize { what, .. }
             | Self::Scale { what, .. } => what.iter_mut().collect(),
             Self::Face { what, towards } => what.iter_mut().chain([towards]).collect(),
             Self::Replace { what, .. }
@@ -324,6 +370,13 @@ impl Wish {
     }
 }
 
+/// What was spoken of, all of it where "each of them" is said.
+fn as_said(it: &Reference, of: &Reference) -> Reference {
+    let each = ["each of", "all of", "every one of", "both of"].iter().any(|each| it.text.contains(each));
+    let count = if each || it.count == Count::All { Count::All } else { of.count };
+    Reference { count, ..of.clone() }
+}
+
 impl Anchor {
     /// Whether it says nothing but what was spoken of.
     pub(super) const fn is_it(&self) -> bool {
@@ -332,6 +385,15 @@ impl Anchor {
             Self::Thing(reference) => matches!(reference.target, Target::It | Target::Them),
             _ => false,
         }
+    }
+}
+
+impl Anchor {
+    /// Whether it says no more than "the building", behind one that was named.
+    pub(super) fn is_the_building(&self) -> bool {
+        matches!(self, Self::Thing(own) if ["building", "house", "place"].contains(&own.text.as_str())
+            && *own == Reference::to(own.target.clone(), own.text.clone()))
+            && matches!(self, Self::Thing(own) if matches!(own.target, Target::Any(_)))
     }
 }
 
@@ -364,8 +426,13 @@ impl Where {
             | Self::Block(anchor)
             | Self::Middle(anchor)
             | Self::Edge(anchor)
+            | Self::Nearer(_, anchor)
+            | Self::Halfway(anchor)
+            | Self::Part(_, _, anchor)
             | Self::Compass(_, anchor) => Some(anchor),
             Self::At(_)
+            | Self::End(..)
+            | Self::Ends(..)
             | Self::Shift(..)
             | Self::ShiftOwn(..)
             | Self::Junction(..)

@@ -17,7 +17,7 @@ use crate::city::City;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-pub(crate) const SETS: [&str; 8] = [
+pub(crate) const SETS: [&str; 9] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -26,6 +26,7 @@ pub(crate) const SETS: [&str; 8] = [
     "sixth.edits",
     "seventh.edits",
     "eighth.edits",
+    "ninth.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
