@@ -257,7 +257,7 @@ pub(super) struct Reference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum First {
     /// By its place in the row, from 1.
-    Nth(u32),
+    Nth(u8),
     /// The one farthest in a direction.
     Compass(Compass),
 }

@@ -6,6 +6,7 @@
 mod city;
 mod edits_are_composed;
 mod edits_are_judged;
+mod edits_are_measured;
 mod edits_are_taken_back;
 mod edits_common;
 #[path = "../shared/model_server/mod.rs"]

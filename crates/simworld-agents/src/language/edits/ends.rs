@@ -77,7 +77,8 @@ impl Reader<'_> {
                 .scene
                 .roads()
                 .map_or_else(Vec::new, |network| super::ground::half_of(network, &roads, compass));
-            return Ok((!half.is_empty()).then(|| Where::Along(Anchor::Street(name, half))));
+            let is_some = !half.is_empty();
+            return Ok(is_some.then_some(Where::Along(Anchor::Street(name, half))));
         }
         let anchor = self.anchor(end)?;
         let is_area = matches!(&anchor, Anchor::Thing(thing) if self.is_ground_named(thing));

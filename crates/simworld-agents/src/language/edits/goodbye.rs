@@ -314,10 +314,10 @@ impl Reader<'_> {
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    let around = AROUND.iter().flat_map(|(before, behind)| before.iter().chain(*behind));
     const MORE: [&str; 13] = [
         "reunite", "unite", "pair", "team", "vice", "versa", "suits", "flatter", "wonders", "funnier",
         "merrier", "lovelier", "cuter",
     ];
+    let around = AROUND.iter().flat_map(|(before, behind)| before.iter().chain(*behind));
     around.chain(GONE).chain(FAREWELL).chain(TAKES_PLACE).chain(&MORE).flat_map(|phrase| phrase.split(' '))
 }

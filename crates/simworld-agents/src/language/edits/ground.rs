@@ -150,7 +150,7 @@ impl Finder<'_> {
     /// Every second, third ... of all that fit, in the order in which they stand.
     pub(super) fn every_nth(&self, reference: &Reference, nth: u32) -> Result<Vec<EntityId>, EditError> {
         let all = self.in_a_row(&Reference { choice: Choice::Open, ..reference.clone() })?;
-        let chosen = self.from_first(all, nth, reference.first);
+        let chosen = self.every_from(all, nth, reference.first);
         if chosen.is_empty() {
             let near = format!("there are fewer than {nth}");
             return Err(EditError::NotFound { wanted: reference.text.clone(), near });

@@ -7,6 +7,7 @@ mod answers;
 mod apart;
 mod ask;
 mod asked;
+mod bounds;
 mod change;
 mod complaints;
 mod conditions;
@@ -39,6 +40,7 @@ mod plain;
 mod polite;
 mod portions;
 mod predicates;
+mod remarks;
 mod repairs;
 mod resolve;
 mod respelt;
@@ -289,6 +291,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(frames::words())
         .chain(follow::words())
         .chain(parts::words())
+        .chain(remarks::words())
         .chain(apart::words())
         .chain(predicates::words())
         .chain(complaints::words())

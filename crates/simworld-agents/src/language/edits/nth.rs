@@ -59,7 +59,7 @@ fn is_and(lexeme: &Lexeme) -> bool {
 /// "First", "southernmost", "south".
 fn named_first(lexemes: &[Lexeme]) -> Option<(First, usize)> {
     if let Some(nth) = numbers::ordinal(lexemes) {
-        return Some((First::Nth(nth), 1));
+        return Some((First::Nth(u8::try_from(nth).unwrap_or(u8::MAX)), 1));
     }
     longest(lexemes, super::super::compass::MOST)
         .or_else(|| longest(lexemes, super::super::compass::DIRECTIONS))
@@ -84,10 +84,10 @@ fn is_every_nth(reference: &Reference) -> bool {
 
 impl Finder<'_> {
     /// Things in a row, without those before the one with which every nth of them begins.
-    pub(super) fn from_first(&self, mut all: Vec<EntityId>, nth: u32, first: Option<First>) -> Vec<EntityId> {
+    pub(super) fn every_from(&self, mut all: Vec<EntityId>, nth: u32, first: Option<First>) -> Vec<EntityId> {
         let skipped = match first {
             None => nth.max(1) as usize - 1,
-            Some(First::Nth(rank)) => rank.max(1) as usize - 1,
+            Some(First::Nth(rank)) => usize::from(rank.max(1)) - 1,
             Some(First::Compass(compass)) => {
                 let far = |id: &EntityId| {
                     let at = self.scene.entity(*id).map_or(Point2::origin(), |entity| entity.planar());

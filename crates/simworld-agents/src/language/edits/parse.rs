@@ -458,64 +458,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where the wish that begins here ends: before a joint with a verb behind it, or at the end of the words.
-    fn boundary(&self) -> usize {
-        let mut at = self.at + 1;
-        let conditional = self.begins_condition();
-        while at < self.lexemes.len() {
-            if let Some(count) = joint(&self.lexemes[at..]) {
-                let mut next = at + count;
-                while next < self.lexemes.len() {
-                    let more = joint(&self.lexemes[next..]).unwrap_or(0).max(self.polite_at(next));
-                    if more == 0 {
-                        break;
-                    }
-                    next += more;
-                }
-                let goes_on =
-                    longest_phrase(&self.lexemes[next..], &["put one", "place one", "stick one", "set one"]);
-                let begins = next < self.lexemes.len()
-                    && goes_on.is_none()
-                    && longest(&self.lexemes[next..], VERBS)
-                        .is_some_and(|(verb, _)| !matches!(verb, Verb::Put | Verb::Take) || !self.is_copy());
-                let speaks = self.lexemes[at].token == Token::Break
-                    && next < self.lexemes.len()
-                    && self.has_verb(self.at, at);
-                // What is joined on a condition stands on it too, up to the end of the sentence.
-                let belongs =
-                    conditional && (self.lexemes[at].token != Token::Break || self.goes_on_otherwise(next));
-                let cuts = begins && (self.has_verb_or_sky(self.at, at) || self.says_how_it_should_be(at));
-                if (cuts || speaks) && !belongs {
-                    return at;
-                }
-                at = next.max(at + 1);
-            } else {
-                at += 1;
-            }
-        }
-        self.lexemes.len()
-    }
-
-    /// "Copy the fountain and put the copy ..." is one wish.
-    fn is_copy(&self) -> bool {
-        longest(&self.lexemes[self.at..], VERBS).is_some_and(|(verb, _)| verb == Verb::Copy)
-    }
-
-    fn says_how_it_should_be(&self, end: usize) -> bool {
-        let ought: &[&str] =
-            &["should", "must", "would look better", "has to", "needs to", "ought to", "is missing", "lacks"];
-        (self.at..end).any(|at| longest_phrase(&self.lexemes[at..end], ought).is_some())
-    }
-
-    pub(super) fn has_verb(&self, start: usize, end: usize) -> bool {
-        (start..end).any(|at| longest(&self.lexemes[at..end], VERBS).is_some() && !self.is_in_noun(start, at))
-    }
-
-    fn has_verb_or_sky(&self, start: usize, end: usize) -> bool {
-        self.has_verb(start, end)
-            || (start..end).any(|at| longest(&self.lexemes[at..end], super::words::SKIES).is_some())
-    }
-
     /// The answer when the words from here on make no sense.
     pub(super) fn not_understood(&self, hint: &str) -> PlanError {
         self.parser(self.at.min(self.lexemes.len()), self.lexemes.len()).not_understood(hint)

@@ -230,7 +230,7 @@ impl Reader<'_> {
             Way::At => Where::By(self.anchor(end)?),
             Way::Around => Where::Around(self.anchor(end)?),
             Way::Both => {
-                let ends = (self.at - count..self.at).any(|at| self.word(at) == Some("ends"));
+                let ends = (self.at - count..self.at).any(|at| matches!(self.word(at), Some("ends" | "end")));
                 match self.anchor(end)? {
                     Anchor::Street(name, roads) if ends => Where::Ends(roads, name),
                     anchor => Where::BothSides(anchor),

@@ -303,11 +303,17 @@ fn needed_one(lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
     const I_NEED: &[&str] = &["i need", "we need", "i want", "we want", "i ordered", "we ordered", "i asked for", "we asked for", "that i need", "that we need", "that i want", "that we want", "that i ordered", "that we ordered", "i was promised",
         "we were promised", "i have in mind", "we have in mind", "im thinking of", "i am thinking of", "i was thinking of", "we are planning", "we planned"];
+    const GOES: &[&str] = &[
+        "goes", "go", "should", "must", "belongs", "belong", "has to", "have to", "is to", "comes", "shall",
+        "can", "could", "will", "needs to", "ought", "would", "is for", "stands",
+    ];
     let the = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "the");
     let found = (0..lexemes.len()).filter(|at| the(&lexemes[*at])).find_map(|at| {
         (at + 2..lexemes.len().min(at + 5)).find_map(|need| {
             let plain = lexemes[at + 1..need].iter().all(|lexeme| matches!(lexeme.token, Token::Word(_)));
             let words = longest_phrase(&lexemes[need..], I_NEED).filter(|_| plain)?;
+            // "By the kiosk I want a table" is about a kiosk that is there.
+            longest_phrase(&lexemes[need + words..], GOES)?;
             Some((at, need, words))
         })
     });

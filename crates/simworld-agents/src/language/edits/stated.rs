@@ -98,7 +98,9 @@ impl Reader<'_> {
             && let Some(mut at) = self.places_to(self.at, self.before_politeness(self.at, end))
             && at.iter().all(|place| place.anchor().is_some_and(|anchor| anchor.is_it()))
         {
-            at.iter_mut().for_each(|place| place.means(&mut Some(anchor.clone())));
+            for place in &mut at {
+                place.means(&mut Some(anchor.clone()));
+            }
             return Some(Wish::Add { things: vec![thing], at });
         }
         let relation = longest(self.rest(end), ABOUT_IT);

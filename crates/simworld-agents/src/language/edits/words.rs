@@ -52,7 +52,7 @@ pub(super) const VERBS: &[(&[&str], Verb)] = &[
         "find a spot for", "find a place for", "find room for", "find space for", "make room for", "make space for", "make some room for", "somebody ordered", "someone ordered", "we ordered", "i ordered",
         "in desperate need of", "in need of", "in dire need of", "in urgent need of", "i am in need of", "im in need of", "we are in need of", "there is room for", "theres room for", "there is still room for", "theres still room for", "there is space for", "theres space for", "any chance of", "is there any chance of",
         "any chance for", "chance of", "i am thinking of", "im thinking of", "i am thinking about", "im thinking about", "i was thinking of", "i was thinking about", "im picturing", "i am picturing",
-        "lets go for", "lets get", "let us get", "lets put up", "lets do", "lets try", "lets see", "how about we add", "how about adding", "what about adding", "what do you say to", "i would go for", "id go for",
+        "lets go for", "lets put up", "how about we add", "how about adding", "what about adding", "what do you say to", "i would go for", "id go for",
         "i could go for", "we could go for", "i could use", "can you do", "could you do", "sort out", "lay on", "roll out", "crack on with", "bang in", "bung in", "whack in", "whack up", "pop up", "stick in",
         "drop in", "plonk down", "plop down", "plunk down", "set out", "throw up", "throw down", "slap down", "slap up", "whip out", "knock together", "chuck in", "fetch out", "bring out", "plant out",
         "i wouldnt mind", "i would not mind", "we wouldnt mind", "we would not mind", "i wouldnt say no to", "i would not say no to", "we wouldnt say no to", "this place needs", "this place could use",
