@@ -78,7 +78,7 @@ impl Parser<'_> {
         let begin = self.at;
         let mut clauses = self.names_within(end);
         self.at = end;
-        self.absent |= self.speaks_of_absent(begin, end, &clauses);
+        self.beside.absent |= self.speaks_of_absent(begin, end, &clauses);
         let goods = self.goods_within(begin, end);
         if let Some(goods) = goods.clone() {
             self.wish_for(goods); // "I forgot my newspaper, could you buy me one"

@@ -117,7 +117,7 @@ pub(super) enum Test {
     /// Two others are near one another.
     Together {
         one: Reference,
-        other: Reference,
+        other: Box<Reference>,
         within: f64,
     },
     Seated,

@@ -88,8 +88,9 @@ impl Parser<'_> {
         if self.eat_any(INSTEAD) {
             self.eat_any(&["to", "at", "on", "in", "from", "with", "into"]);
             let at = self.at;
-            let named =
-                longest_verb(self.rest()).is_none() && self.reference(0).is_ok() && self.ends_clause();
+            let named = longest_verb(self.rest()).is_none()
+                && (self.goods().is_some() || self.reference(0).is_ok())
+                && self.ends_clause();
             if named {
                 return true;
             }

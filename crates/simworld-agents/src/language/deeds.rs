@@ -53,7 +53,10 @@ impl Draft<'_> {
                 format!("a {} stays where it is: follow people, animals, robots or vehicles", target.kind);
             return Err(PlanError::NotFound { wanted: format!("{:?} to follow", whom.text), near });
         }
-        self.get_up()?;
+        // Who sits in a car follows in it.
+        if self.posture != super::draft::Posture::Aboard {
+            self.get_up()?;
+        }
         self.beside = None;
         self.push(PlanStep::Follow { whom: target.id, gap: FOLLOWING, speed: speed_of(pace) });
         Ok(())

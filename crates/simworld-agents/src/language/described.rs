@@ -108,19 +108,6 @@ const EXCEPT: &Phrases = &Phrases::of(&[
     "besides",
 ]);
 
-impl Reference {
-    /// The door that one closes behind oneself is behind nobody yet.
-    pub(super) fn but_behind(mut self) -> Self {
-        let behind = |stands: &Stands| matches!(stands, Stands::Side(Side::Behind));
-        match &mut self.relation {
-            Some(Stands::All(all)) => all.retain(|stands| !behind(stands)),
-            Some(stands) if behind(stands) => self.relation = None,
-            _ => {}
-        }
-        self
-    }
-}
-
 impl Parser<'_> {
     /// Reads on for as long as something is said of the thing.
     pub(super) fn described(&mut self, reference: &mut Reference, depth: u32) -> Result<(), PlanError> {

@@ -63,9 +63,9 @@ pub(super) struct Draft<'a> {
     pub(super) carried: Option<EntityId>,
     /// What one will stand beside, and where one went last.
     pub(super) beside: Option<EntityId>,
-    there: Option<(Goal, f64)>,
+    pub(super) there: Option<(Goal, f64)>,
     /// Whether that is a house that was only spoken of so far.
-    spoken_of_place: bool,
+    pub(super) spoken_of_place: bool,
     /// What was let go of last, and to whom it was given: "carry it there and leave it" says one thing twice.
     pub(super) delivered: Option<(Load, Option<EntityId>)>,
     /// What one is in or on.
@@ -336,21 +336,6 @@ impl<'a> Draft<'a> {
         Ok(found)
     }
 
-    /// Later words stand for it: "there" leads to it.
-    fn speak_of(&mut self, what: &Reference) -> Result<(), PlanError> {
-        if what.count != super::clause::Count::One {
-            return self.view.find_all(what, Purpose::Any).map(|_| ());
-        }
-        let found = self.find(what, Purpose::Any)?;
-        // "The bookshop is waiting for the letter, bring it there": the place is where it is brought.
-        let leads = found.kind == EntityKind::Building || !self.spoken_of_place;
-        if leads {
-            self.spoken_of_place = found.kind == EntityKind::Building;
-            self.there = Some((Goal::Entity(found.id), reach_of(&found)));
-        }
-        Ok(())
-    }
-
     /// Remembers what was spoken of.
     pub(super) fn mention(&mut self, entity: &EntityRef<'_>) {
         if is_animate(entity.kind) {
@@ -362,28 +347,6 @@ impl<'a> Draft<'a> {
         }
         if is_item(entity.kind) {
             self.view.item = Some(entity.id);
-        }
-    }
-
-    /// "There" stands for it from now on.
-    pub(super) fn lead_to(&mut self, id: EntityId) {
-        self.there = self.view.scene.entity(id).map(|entity| (Goal::Entity(id), reach_of(&entity)));
-    }
-
-    pub(super) const fn there_now(&self) -> Option<(Goal, f64)> {
-        self.there
-    }
-
-    /// "There" leads where it did before something was gone to by the way.
-    pub(super) fn leads_there(&mut self, there: Option<(Goal, f64)>) {
-        self.there = there.or(self.there);
-    }
-
-    /// The thing that "there" stands for.
-    pub(super) fn gone_to(&self) -> Option<EntityId> {
-        match self.there {
-            Some((Goal::Entity(id), _)) => Some(id),
-            _ => None,
         }
     }
 
@@ -400,11 +363,6 @@ impl<'a> Draft<'a> {
         pace: Pace,
         within: Option<f64>,
     ) -> Result<(), PlanError> {
-        if to.target == Target::There
-            && matches!((self.last_step(), self.there), (Some(PlanStep::Navigate { to, .. }), Some((there, _))) if *to == there)
-        {
-            return Ok(()); // "I want to go to the museum, take the shortest way there"
-        }
         let (goal, usual) = match (&to.target, side) {
             (Target::There, _) => self.there.ok_or_else(|| PlanError::NotFound {
                 wanted: "place that \"there\" could stand for".to_owned(),
@@ -499,7 +457,7 @@ impl<'a> Draft<'a> {
     }
 }
 
-fn reach_of(entity: &EntityRef<'_>) -> f64 {
+pub(super) fn reach_of(entity: &EntityRef<'_>) -> f64 {
     if entity.kind == EntityKind::Person { AT_PERSON } else { AT_THING }
 }
 

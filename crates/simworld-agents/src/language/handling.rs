@@ -42,6 +42,17 @@ impl Parser<'_> {
         let taken = self.lexemes[start..self.at].iter().map(|lexeme| &lexeme.token);
         let grip = if taken.eq([&Token::Word("take".to_owned())]) { Grip::LiftOrRide } else { Grip::Lift };
         self.eat_any(&["me", "us", "yourself"]);
+        if let Some((number, words)) = numbers::number(self.rest()).filter(|(number, words)| {
+            self.length_before()
+                && (1.0..=10.0).contains(number)
+                && longest_phrase(&self.rest()[*words..], &["more"]).is_some()
+        }) {
+            self.at += words + 1; // "take ten steps, turn right, take five more"
+            return Ok(vec![Clause::Step {
+                direction: simworld_core::action::StepDirection::Forward,
+                distance: number,
+            }]);
+        }
         if self.counts_steps() {
             if let Some(clauses) = self.by_the_compass(Pace::Usual)? {
                 return Ok(clauses);
@@ -59,7 +70,9 @@ impl Parser<'_> {
         if let Some(goods) = self.wished_goods() {
             return self.purchase(goods, None);
         }
-        if self.shots && self.eat_any(&["it", "them", "those", "one", "some", "these"]) && self.ends_clause()
+        if self.beside.shots
+            && self.eat_any(&["it", "them", "those", "one", "some", "these"])
+            && self.ends_clause()
         {
             return Ok(Vec::new());
         }
@@ -318,7 +331,7 @@ impl Parser<'_> {
             }
             what
         });
-        if at.is_none() && manner == Manner::Deliver {
+        if at.is_none() {
             at = self.there_behind();
         }
         if at.is_none() && self.eat_any(&["here", "back", "back here"]) {

@@ -324,15 +324,13 @@ pub(super) fn fits_noun(lexemes: &[Lexeme], phrase: &str) -> Option<usize> {
 }
 
 pub(super) fn is_plural(said: &str, noun: &str) -> bool {
-    match said.strip_prefix(noun) {
-        Some(ending) => matches!(ending, "s" | "es"),
-        None => {
-            let of = |ending: &str, plural: &str| {
-                noun.strip_suffix(ending).is_some_and(|stem| said.strip_prefix(stem) == Some(plural))
-            };
-            of("y", "ies") || of("f", "ves") || of("fe", "ves")
-        }
+    if let Some(ending) = said.strip_prefix(noun) {
+        return matches!(ending, "s" | "es");
     }
+    let of = |ending: &str, plural: &str| {
+        noun.strip_suffix(ending).is_some_and(|stem| said.strip_prefix(stem) == Some(plural))
+    };
+    of("y", "ies") || of("f", "ves") || of("fe", "ves")
 }
 
 /// The entry whose phrase is the longest at the start of `lexemes`, with the number of its words.

@@ -115,6 +115,9 @@ impl Parser<'_> {
             || longest_phrase(self.rest(), &["next"]).is_some_and(|words| self.noun_follows(words))
                 && self.eat_any(&["next"])
         {
+            // "The first stall is closed, try the next one".
+            reference.traits.other |=
+                self.word_before() == "next" && longest_phrase(self.rest(), &["one"]).is_some();
             reference.choose(Choice::Nearest);
         } else if let Some((place, words)) = longest(self.rest(), FROM_BEHIND) {
             reference.choose(Choice::Farthest);

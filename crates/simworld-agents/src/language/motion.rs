@@ -17,7 +17,7 @@ use super::phrases::Phrases;
 /// The longest single step, m.
 const LONGEST_STEP: f64 = 10.0;
 /// How far one looks up or down where no angle is said, radians.
-const GLANCE: f64 = 0.35;
+pub(super) const GLANCE: f64 = 0.35;
 /// Units of length; a step is taken for a metre.
 pub(super) const LENGTHS: &Phrases = &Phrases::of(&[
     "metres", "metre", "meters", "meter", "m", "steps", "step", "paces", "pace", "a metre", "a meter",
@@ -56,13 +56,13 @@ const TO_AND_FRO: &Phrases = &Phrases::of(&[
 ]);
 
 #[derive(Clone, Copy)]
-enum Sense {
+pub(super) enum Sense {
     Left,
     Right,
     Around,
 }
 
-const SENSES: &[(&[&str], Sense)] = &[
+pub(super) const SENSES: &[(&[&str], Sense)] = &[
     (&["left", "to the left", "to your left", "leftwards", "anticlockwise", "counterclockwise"], Sense::Left),
     (&["right", "to the right", "to your right", "rightwards", "clockwise"], Sense::Right),
     (&["around", "round", "back", "about", "u turn"], Sense::Around),
@@ -72,6 +72,10 @@ impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
         self.eat_any(&["first", "then", "next", "finally"]);
         let pace = self.pace(pace)?;
+        self.eat_any(&["on foot", "by foot"]);
+        if let Some(goods) = self.goods_gone_for() {
+            return self.purchase(goods, None); // "go for a tea"
+        }
         let apart = self.apart();
         if apart.is_none()
             && let Some(clauses) = self.way(pace, start)?
@@ -465,38 +469,6 @@ impl Parser<'_> {
         if self.eat_any(&["away from"]) {
             return Ok(Clause::TurnFrom { what: self.reference(0)? });
         }
-        Ok(Clause::Face { what: self.reference(0)? })
-    }
-
-    pub(super) fn look(&mut self) -> Result<Clause, PlanError> {
-        for (way, sign) in [("up", 1.0), ("down", -1.0)] {
-            if self.peeks(way) {
-                self.at += 1;
-                self.eat_any(&["by"]);
-                let angle = numbers::angle(self.rest());
-                self.at += angle.map_or(0, |(_, count)| count);
-                let angle = angle.map_or(GLANCE, |(angle, _)| angle);
-                if !(angle > 0.0 && angle <= FRAC_PI_2) {
-                    return Err(self.not_understood("look up or down by more than 0 and at most 90 degrees"));
-                }
-                return Ok(Clause::LookUp { angle: sign * angle });
-            }
-        }
-        if self.eat_any(&["behind you", "behind yourself", "over your shoulder", "back over your shoulder"]) {
-            return Ok(Clause::Turn { angle: PI });
-        }
-        if let Some(speaker) =
-            self.view.speaker.filter(|_| self.eat_any(&["here", "over here", "up here", "this way"]))
-        {
-            return Ok(Clause::Face { what: Reference::to(Target::Id(speaker), "here".to_owned()) });
-        }
-        if longest(self.rest(), SENSES).is_some() {
-            return self.turn();
-        }
-        if let Some(compass) = self.compass() {
-            return Ok(Clause::FaceCompass(compass));
-        }
-        self.eat_any(&["over", "at", "to", "towards", "over at", "over to", "back at"]);
         Ok(Clause::Face { what: self.reference(0)? })
     }
 }

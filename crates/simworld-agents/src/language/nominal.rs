@@ -6,6 +6,7 @@ use simworld_core::seam::PlanError;
 use super::clause::{Clause, Lights, Pace, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
+use super::motion::LENGTHS;
 use super::numbers;
 use super::orders::PHOTOS;
 use super::parser::Parser;
@@ -129,7 +130,7 @@ impl Parser<'_> {
             }]));
         }
         if photos || again && self.verb == Some(Verb::Photo) {
-            (self.verb, self.shots) = (Some(Verb::Photo), true);
+            (self.verb, self.beside.shots) = (Some(Verb::Photo), true);
             let of = if self.eat_any(&["of", "more of"]) { Some(self.reference(0)?) } else { None };
             return Ok(Some(vec![Clause::Photo { of, times }]));
         }
@@ -427,5 +428,28 @@ impl Parser<'_> {
         let named =
             matches!(to.target, Target::Named(_) | Target::Any(_) | Target::Id(_) | Target::Point { .. });
         (named && (sorted || !self.is_somebody(&to))).then(|| go(to))
+    }
+
+    /// "1. ... 2. ...": the number of an item of a list.
+    pub(super) fn item_mark(&self) -> usize {
+        let step = usize::from(longest_phrase(self.rest(), &["step", "number", "task", "item"]).is_some());
+        match &self.rest()[step..] {
+            [
+                Lexeme { token: Token::Number(number), .. },
+                Lexeme { token: Token::Break | Token::Close, .. },
+                ..,
+            ] if number.fract() == 0.0 && (1.0..20.0).contains(number) => step + 2,
+            _ => 0,
+        }
+    }
+
+    /// "Step two metres to the left" is no second step of a list.
+    pub(super) fn counts_a_step(&self) -> bool {
+        let number = self.rest().get(1..).filter(|_| self.peeks("step")).and_then(numbers::number);
+        number.is_some_and(|(_, count)| {
+            let after = &self.rest()[1 + count..];
+            longest_phrase(after, LENGTHS).is_some()
+                || longest_phrase(after, &["to the", "forward", "back"]).is_some()
+        })
     }
 }

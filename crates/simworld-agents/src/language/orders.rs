@@ -2,7 +2,7 @@
 
 use simworld_core::seam::PlanError;
 
-use super::clause::{Clause, Count, Manner, Pace, Reference, Target, Vehicle};
+use super::clause::{Clause, Count, Manner, Pace, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{category, fits, longest_phrase, longest_relation};
 use super::numbers;
@@ -64,7 +64,7 @@ impl Parser<'_> {
             return self.order();
         }
         self.at += count;
-        self.shots &= verb == Verb::Take;
+        self.beside.shots &= verb == Verb::Take;
         self.previous = self.verb.replace(verb);
         // "Wave twice at Carol"; at the end of an order it may be about more than this one.
         let mut times = numbers::times(self.rest());
@@ -126,13 +126,16 @@ impl Parser<'_> {
                     | Verb::Alight
             )
         };
+        let here = self.at;
         if let Some(clauses) = self.counted_deeds()? {
             return Ok(clauses);
         }
+        let counted = std::mem::replace(&mut self.at, here);
         let goes = matches!(self.verb, Some(Verb::Go | Verb::Run | Verb::Stroll));
         if goes && let Some(clauses) = self.by_the_compass(Pace::Usual).ok().flatten() {
             return Ok(clauses);
         }
+        self.at = counted;
         // "... and then on to the taxi" goes on going, whatever was done in between.
         let moves = longest_phrase(
             self.rest(),
@@ -278,7 +281,7 @@ impl Parser<'_> {
             Verb::Wait => self.wait(),
             Verb::Board => self.board(),
             Verb::Drive => self.drive(),
-            Verb::Alight => one(self.alight()),
+            Verb::Alight => Ok(self.alight_at()),
             Verb::Step => self.step().map(|step| vec![step]),
             Verb::Reverse => self.reverse().map(|step| vec![step]),
             Verb::Turn => self.turn().map(|turn| vec![turn]),
@@ -439,52 +442,6 @@ impl Parser<'_> {
             }
             None => Ok(None),
         }
-    }
-
-    fn board(&mut self) -> Result<Vec<Clause>, PlanError> {
-        let what = if self.ends_clause() {
-            Reference::to(Target::It, "it".to_owned())
-        } else if self.eat_any(&["to"]) {
-            // "Ride to the school": on what one is on.
-            return Ok(vec![Clause::Go {
-                to: self.reference(0)?,
-                side: None,
-                pace: Pace::Usual,
-                within: None,
-            }]);
-        } else {
-            self.reference(0)?
-        };
-        self.eat_any(&["over", "up", "down", "across", "back"]);
-        Ok(vec![Clause::Board { what, to: self.tail_place(BRINGS)? }])
-    }
-
-    fn alight(&mut self) -> Clause {
-        self.eat_any(&["the", "of the", "of"]);
-        self.eat_any(&["white", "black", "red", "blue", "green", "yellow", "orange"]);
-        let cars = [
-            "bicycle",
-            "bike",
-            "motorcycle",
-            "car",
-            "bus",
-            "truck",
-            "taxi",
-            "van",
-            "vehicle",
-            "cab",
-            "lorry",
-        ];
-        let from = if self.peeks("scooter") {
-            Vehicle::Scooter
-        } else if longest_phrase(self.rest(), &cars).is_some() {
-            Vehicle::Car
-        } else {
-            Vehicle::Any
-        };
-        self.at += usize::from(from != Vehicle::Any);
-        self.eat_any(&["it", "again"]);
-        Clause::Alight { from }
     }
 
     /// Whether a number of metres or steps follows: "take two steps".

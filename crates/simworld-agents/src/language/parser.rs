@@ -18,7 +18,6 @@ use super::blocks::{GOES_ON, IF, UNLESS, UNTIL, WHEN_SO, WHILE};
 use super::clause::{Clause, Reference};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{Category, fits, longest_phrase};
-use super::motion::LENGTHS;
 use super::names::Names;
 use super::numbers;
 use super::phrases::{PhraseList, Phrases};
@@ -68,12 +67,8 @@ pub(super) struct Parser<'a> {
     /// Whether they were only wished for so far, and by whom if somebody here is to have them.
     pub(super) wished: bool,
     pub(super) wished_by: Option<Reference>,
-    /// Whether photos were asked for as things: "I need two photos of the well, please take them".
-    pub(super) shots: bool,
-    /// Whether somebody was spoken of who is no part of the scene: "my sister loves apples, buy her one".
-    pub(super) absent: bool,
-    /// Whether a driver was told of passengers who are no part of the scene.
-    pub(super) rides: bool,
+    /// What was spoken of that is no thing of the scene.
+    pub(super) beside: Beside,
     /// To which side one turned last: 1 is left.
     pub(super) turned: Option<f64>,
     /// What was asked last: "until it is".
@@ -91,6 +86,17 @@ pub(super) struct Parser<'a> {
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
     pub(super) in_test: bool,
     depth: u32,
+}
+
+/// What a sentence spoke of that is no thing of the scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Beside {
+    /// Photos were asked for as things: "I need two photos of the well, please take them".
+    pub(super) shots: bool,
+    /// Somebody who is not here: "my sister loves apples, buy her one".
+    pub(super) absent: bool,
+    /// A driver's passengers.
+    pub(super) rides: bool,
 }
 
 /// How the orders of a list hang together.
@@ -123,9 +129,7 @@ impl<'a> Parser<'a> {
             wanted: None,
             wished: false,
             wished_by: None,
-            rides: false,
-            shots: false,
-            absent: false,
+            beside: Beside::default(),
             said: None,
             turned: None,
             tested: None,
@@ -445,29 +449,6 @@ impl<'a> Parser<'a> {
                 return self.at > start;
             }
         }
-    }
-
-    /// "1. ... 2. ...": the number of an item of a list.
-    fn item_mark(&self) -> usize {
-        let step = usize::from(longest_phrase(self.rest(), &["step", "number", "task", "item"]).is_some());
-        match &self.rest()[step..] {
-            [
-                Lexeme { token: Token::Number(number), .. },
-                Lexeme { token: Token::Break | Token::Close, .. },
-                ..,
-            ] if number.fract() == 0.0 && (1.0..20.0).contains(number) => step + 2,
-            _ => 0,
-        }
-    }
-
-    /// "Step two metres to the left" is no second step of a list.
-    fn counts_a_step(&self) -> bool {
-        let number = self.rest().get(1..).filter(|_| self.peeks("step")).and_then(numbers::number);
-        number.is_some_and(|(_, count)| {
-            let after = &self.rest()[1 + count..];
-            longest_phrase(after, LENGTHS).is_some()
-                || longest_phrase(after, &["to the", "forward", "back"]).is_some()
-        })
     }
 
     fn eat_joint(&mut self) -> bool {

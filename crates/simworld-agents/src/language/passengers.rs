@@ -1,8 +1,12 @@
-//! Who is driven and is no part of a scene: "drop my son off at the school", "pick up my wife at the museum".
+//! Rides: who is driven and is no part of a scene ("drop my son off at the school"), in what one goes ("to the museum in the red
+//! car"), and where one gets off.
 
-use super::clause::{Clause, Pace};
+use simworld_core::seam::PlanError;
+
+use super::clause::{Clause, Pace, Reference, Target, Vehicle};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
+use super::orders::BRINGS;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::verbs::Verb;
@@ -49,6 +53,45 @@ impl Parser<'_> {
             })
     }
 
+    /// "To the hospital in the red car": a vehicle behind where one goes.
+    pub(super) fn in_vehicle(&mut self) -> Option<Clause> {
+        let start = self.at;
+        let what = if self.eat_any(&["in", "with", "using", "on"]) { self.reference(0).ok() } else { None };
+        let what = what.filter(|what| {
+            self.view.find(what, super::resolve::Purpose::Any).is_ok_and(|found| found.kind.is_vehicle())
+        });
+        if what.is_none() {
+            self.at = start;
+        }
+        what.map(|what| Clause::Board { what, to: None })
+    }
+
+    /// "Get off at the museum": one rides there first.
+    pub(super) fn alight_at(&mut self) -> Vec<Clause> {
+        let off = self.alight();
+        let start = self.at;
+        let to = if self.eat_any(&[
+            "at",
+            "in front of",
+            "outside",
+            "by",
+            "near",
+            "next to",
+            "when you get to",
+            "when you reach",
+            "when you are at",
+        ]) {
+            self.reference(0).ok()
+        } else {
+            None
+        };
+        let Some(to) = to else {
+            self.at = start;
+            return vec![off];
+        };
+        vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }, off]
+    }
+
     /// Where a vehicle goes to let somebody in or out; of who is in the scene nothing is said here.
     pub(super) fn passenger(&mut self, verb: Verb) -> Option<Vec<Clause>> {
         let drives = || self.view.scene.entity(self.view.who).is_some_and(|me| me.kind.is_vehicle());
@@ -59,7 +102,7 @@ impl Parser<'_> {
         }
         let start = self.at;
         let named = self.eat_any(WHOSE) && self.eat_any(RIDERS);
-        let aboard = !named && self.rides && self.eat_any(THEM);
+        let aboard = !named && self.beside.rides && self.eat_any(THEM);
         self.eat_any(&["and me", "and myself", "and their friends", "and his friend", "and her friend"]);
         while self.eat_any(&["off", "out", "down", "over", "up", "back", "home", "on time", "safely"]) {}
         let placed = (named || aboard)
@@ -86,8 +129,54 @@ impl Parser<'_> {
             self.at = start;
             return None;
         };
-        self.rides = true;
+        self.beside.rides = true;
         let ends = self.rest().first().is_none_or(|next: &Lexeme| !matches!(next.token, Token::Number(_)));
         ends.then(|| vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }])
+    }
+
+    pub(super) fn board(&mut self) -> Result<Vec<Clause>, PlanError> {
+        let what = if self.ends_clause() {
+            Reference::to(Target::It, "it".to_owned())
+        } else if self.eat_any(&["to"]) {
+            // "Ride to the school": on what one is on.
+            return Ok(vec![Clause::Go {
+                to: self.reference(0)?,
+                side: None,
+                pace: Pace::Usual,
+                within: None,
+            }]);
+        } else {
+            self.reference(0)?
+        };
+        self.eat_any(&["over", "up", "down", "across", "back"]);
+        Ok(vec![Clause::Board { what, to: self.tail_place(BRINGS)? }])
+    }
+
+    fn alight(&mut self) -> Clause {
+        self.eat_any(&["the", "of the", "of"]);
+        self.eat_any(&["white", "black", "red", "blue", "green", "yellow", "orange"]);
+        let cars = [
+            "bicycle",
+            "bike",
+            "motorcycle",
+            "car",
+            "bus",
+            "truck",
+            "taxi",
+            "van",
+            "vehicle",
+            "cab",
+            "lorry",
+        ];
+        let from = if self.peeks("scooter") {
+            Vehicle::Scooter
+        } else if longest_phrase(self.rest(), &cars).is_some() {
+            Vehicle::Car
+        } else {
+            Vehicle::Any
+        };
+        self.at += usize::from(from != Vehicle::Any);
+        self.eat_any(&["it", "again"]);
+        Clause::Alight { from }
     }
 }

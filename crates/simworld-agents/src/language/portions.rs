@@ -2,7 +2,7 @@
 
 use super::clause::Clause;
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{category, longest_phrase};
+use super::lexicon::{DETERMINERS, category, longest_phrase};
 use super::parser::Parser;
 use super::phrases::Phrases;
 
@@ -80,6 +80,7 @@ impl Parser<'_> {
         let Some(Clause::Buy { whom: whom @ None, .. }) = clauses.last_mut() else { return false };
         let start = self.at;
         if self.eat_any(&[
+            "for",
             "its for",
             "it is for",
             "theyre for",
@@ -87,7 +88,8 @@ impl Parser<'_> {
             "thats for",
             "that is for",
             "its meant for",
-        ]) && let Some(somebody) = self.somebody_here()
+        ]) && !self.names_others()
+            && let Some(somebody) = self.somebody_here()
             && self.ends_clause()
         {
             *whom = Some(somebody);
@@ -95,6 +97,12 @@ impl Parser<'_> {
         }
         self.at = start;
         false
+    }
+
+    /// "My kids": children who stand about are not meant.
+    fn names_others(&self) -> bool {
+        let words = longest_phrase(self.rest(), DETERMINERS).unwrap_or(0);
+        words > 0 && longest_phrase(&self.rest()[words..], super::shopping::OTHERS).is_some()
     }
 
     fn portion(&mut self) -> bool {

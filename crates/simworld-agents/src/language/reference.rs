@@ -3,7 +3,7 @@
 use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
-use super::clause::{Choice, Reference, Stands, Target, Traits};
+use super::clause::{Choice, Reference, Side, Stands, Target, Traits};
 use super::lexer::{Lexeme, Token, written};
 use super::lexicon::{DETERMINERS, category, fits, fits_noun, longest_phrase};
 use super::names::Guess;
@@ -62,7 +62,7 @@ impl Parser<'_> {
         let bare = self.spoken_of(&reference);
         reference.target = match bare {
             Some(target) => target,
-            None => self.noun()?,
+            None => self.noun(reference.choice != Choice::Open)?,
         };
         self.compound(&mut reference, text_at);
         self.by_name(&mut reference)?;
@@ -230,7 +230,7 @@ impl Parser<'_> {
     }
 
     /// A name or a class of things; of two that fit, the longer.
-    fn noun(&mut self) -> Result<Target, PlanError> {
+    fn noun(&mut self, chosen: bool) -> Result<Target, PlanError> {
         if let Some(sellers) = self.sellers() {
             return Ok(Target::Named(sellers));
         }
@@ -264,7 +264,8 @@ impl Parser<'_> {
                 let said = &self.rest()[..count];
                 self.at += count;
                 // "The clinic" is the one that is called so, rather than the nearest hospital.
-                let is_synonym = category.is_place() && fits(said, category.words[0]).is_none();
+                // Of shops the nearest is chosen, and not the one that has the word in its name.
+                let is_synonym = category.is_place() && !chosen && fits(said, category.words[0]).is_none();
                 match if is_synonym { self.names.part(said) } else { None } {
                     Some(Guess::Named(ids)) => Ok(Target::Named(ids)),
                     _ => Ok(Target::Any(category)),
@@ -295,5 +296,18 @@ impl Parser<'_> {
 
     pub(super) fn text_from(&self, start: usize) -> String {
         shortened(written(self.words, self.lexemes.get(start..self.at).unwrap_or_default()))
+    }
+}
+
+impl Reference {
+    /// The door that one closes behind oneself is behind nobody yet.
+    pub(super) fn but_behind(mut self) -> Self {
+        let behind = |stands: &Stands| matches!(stands, Stands::Side(Side::Behind));
+        match &mut self.relation {
+            Some(Stands::All(all)) => all.retain(|stands| !behind(stands)),
+            Some(stands) if behind(stands) => self.relation = None,
+            _ => {}
+        }
+        self
     }
 }

@@ -41,6 +41,11 @@ impl Parser<'_> {
         if let Some(clauses) = self.lets_know().or_else(|| self.kind_words()) {
             return Some(clauses);
         }
+        let start = self.at;
+        if self.eat_any(&["make", "do"]) && super::numbers::walked(self.rest()).is_some() {
+            return self.in_so_many_steps(); // "make three steps to the right"
+        }
+        self.at = start;
         if self.eat_any(&["let", "set", "help"])
             && let Some(clauses) = self.passenger(super::verbs::Verb::Drop)
         {
@@ -91,7 +96,8 @@ impl Parser<'_> {
         if let Some((words, count)) = super::lexicon::longest(self.rest(), WORDS) {
             self.at += count;
             if let Some(to) = self.somebody_here() {
-                if self.eat_any(&["for", "on", "to"]) && longest_phrase(self.rest(), &["me", "us"]).is_none()
+                if longest_phrase(self.rest(), &["for me", "for us"]).is_none()
+                    && self.eat_any(&["for", "on", "to"])
                 {
                     self.at = self.mark_from(self.at);
                 }
@@ -126,6 +132,8 @@ impl Parser<'_> {
 
     /// "Slowly walk over to Anna": how fast, where it was said before the verb.
     pub(super) fn at_pace_before(&self, begin: usize, start: usize, mut clauses: Vec<Clause>) -> Vec<Clause> {
+        // "Please, slowly walk": what stands right before the verb was passed over as politeness.
+        let begin = begin.min(start.saturating_sub(1));
         let said = |words: &[&str]| {
             self.lexemes[begin..start]
                 .iter()

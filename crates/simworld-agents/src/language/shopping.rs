@@ -150,6 +150,20 @@ impl Parser<'_> {
         }
     }
 
+    /// "For a tea", behind going.
+    pub(super) fn goods_gone_for(&mut self) -> Option<Goods> {
+        let start = self.at;
+        let goods = if self.eat_any(&["for", "out for", "off for", "and have", "out to get"]) {
+            self.goods()
+        } else {
+            None
+        };
+        if goods.is_none() {
+            self.at = start;
+        }
+        goods
+    }
+
     /// Goods that are named somewhere before a place, with how many.
     pub(super) fn goods_within(&mut self, from: usize, end: usize) -> Option<Goods> {
         let whole = self.lexemes;
@@ -305,7 +319,7 @@ impl Parser<'_> {
 
     /// Whoever gets it, before what he gets: "fetch Gus a newspaper".
     pub(super) fn receiver(&mut self) -> Option<Reference> {
-        if self.absent && self.eat_any(&["him", "her", "them"]) {
+        if self.beside.absent && self.eat_any(&["him", "her", "them"]) {
             return None;
         }
         if self.eat_any(&["me", "yourself", "us", "myself", "ourselves"]) {
@@ -359,7 +373,9 @@ impl Parser<'_> {
     /// "... for Hana", "... to Hana".
     pub(super) fn for_whom(&mut self) -> Option<Reference> {
         self.for_others();
-        if self.absent && self.eat_any(&["for him", "for her", "for them", "to him", "to her", "to them"]) {
+        if self.beside.absent
+            && self.eat_any(&["for him", "for her", "for them", "to him", "to her", "to them"])
+        {
             return None;
         }
         let start = self.at;

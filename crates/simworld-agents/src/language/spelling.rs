@@ -10,6 +10,7 @@ use super::paint::PAINTS;
 use super::phrases::Index;
 use super::politeness::{FILLERS, JOINTS};
 use super::requests;
+use super::slips;
 use super::verbs::{self, base_form};
 
 /// Words that people mean though a known word is near: none of them is a misspelling.
@@ -23,7 +24,7 @@ pub(super) fn correct(lexemes: &mut Vec<Lexeme>, names: &Names<'_>) {
 
 /// As [`correct`], where other words are known too.
 pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &dyn Fn(&str) -> bool) {
-    sound_words(lexemes);
+    slips::sound_words(lexemes);
     let mut at = 0;
     while at < lexemes.len() {
         let here = at;
@@ -41,7 +42,7 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
                 lexeme.lemma = base_form(&word);
                 lexeme.token = Token::Word(word);
             }
-        } else if let Some(words) = run_together(word) {
+        } else if let Some(words) = slips::run_together(word) {
             let lexeme = lexemes[here].clone();
             let both = words.map(|word| Lexeme {
                 lemma: base_form(&word),
@@ -64,43 +65,6 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
     }
 }
 
-/// "Go bye one": a word that sounds like a verb where an order begins and a quantity follows.
-fn sound_words(lexemes: &mut [Lexeme]) {
-    const SAME: &[(&str, &str)] = &[
-        ("bye", "buy"),
-        ("by", "buy"),
-        ("git", "get"),
-        ("wright", "write"),
-        ("weight", "wait"),
-        ("rite", "right"),
-        ("waite", "wait"),
-    ];
-    const BEFORE: &[&str] = &["go", "and", "then", "to", "please", "first", "you"];
-    const BEHIND: &[&str] =
-        &["a", "an", "one", "some", "two", "three", "on", "in", "for", "the", "me", "off", "out", "up"];
-    for at in 0..lexemes.len() {
-        let begins = at == 0
-            || match &lexemes[at - 1].token {
-                Token::Comma | Token::Break => true,
-                Token::Word(word) => BEFORE.contains(&word.as_str()),
-                _ => false,
-            };
-        let goes_on = matches!(lexemes.get(at + 1).map(|next| &next.token), Some(Token::Word(word)) if BEHIND.contains(&word.as_str()));
-        let Token::Word(word) = &lexemes[at].token else { continue };
-        let Some((_, right)) = SAME.iter().find(|(said, _)| said == word).filter(|_| begins && goes_on)
-        else {
-            continue;
-        };
-        // "By the museum" is a place.
-        let is_place = word == "by"
-            && matches!(&lexemes[at + 1].token, Token::Word(next) if next == "the" || next == "two");
-        if !is_place {
-            lexemes[at] =
-                Lexeme { token: Token::Word((*right).to_owned()), lemma: None, ..lexemes[at].clone() };
-        }
-    }
-}
-
 /// What is meant rather than a rarer word as near.
 const FREQUENT: &[&str] = &[
     "the", "then", "and", "to", "it", "at", "on", "with", "from", "for", "turn", "take", "get", "there",
@@ -113,14 +77,6 @@ const SHIFTED: &[&str] = &[
     "to", "the", "at", "on", "in", "and", "of", "for", "by", "go", "with", "then", "it", "up", "a", "into",
     "from",
 ];
-
-/// "Siton the bench", "runto the bin": a verb and a small word that are written as one.
-fn run_together(word: &str) -> Option<[String; 2]> {
-    ["into", "onto", "to", "on", "at", "the", "it", "up"].iter().find_map(|small| {
-        let verb = word.strip_suffix(small).filter(|verb| verb.len() > 2 && verbs::is_verb(verb))?;
-        Some([verb.to_owned(), (*small).to_owned()])
-    })
-}
 
 /// "Tot he" for "to the": a letter on the wrong side of the blank between two words.
 fn shifted(word: &str, next: Option<&Lexeme>) -> Option<[String; 2]> {

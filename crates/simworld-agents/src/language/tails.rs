@@ -51,8 +51,10 @@ impl Parser<'_> {
             self.at += requests::coda(self.rest());
             let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
             let goes_on = comma && self.tail_follows();
-            if self.done_again(clauses, whole, group) || self.done_to_another(clauses, group) {
-            } else if self.but_first(clauses, comma)? {
+            if self.done_again(clauses, whole, group)
+                || self.done_to_another(clauses, group)
+                || self.but_first(clauses, comma)?
+            {
             } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, if comma { whole } else { group }, times, comma);
@@ -69,7 +71,7 @@ impl Parser<'_> {
         const AFTER_COMMA: &Phrases = &Phrases::of(&[
             "until", "till", "unless", "but if", "but first", "but before that", "but only if", "only if",
             "if and only if", "but not if", "but not before", "or if", "or in case", "provided",
-            "provided that", "its for", "it is for", "theyre for", "they are for", "thats for", "that is for", "with", "run", "sprint", "at", "but slowly", "but quickly", "but fast", "and quickly", "and slowly", "but at", "nice and slowly", "but run", "and fast", "but only when", "only when", "forever", "for ever",
+            "provided that", "for", "its for", "it is for", "theyre for", "they are for", "thats for", "that is for", "with", "run", "sprint", "at", "but slowly", "but quickly", "but fast", "and quickly", "and slowly", "but at", "nice and slowly", "but run", "and fast", "but only when", "only when", "forever", "for ever",
             "for ever and ever", "but go via", "stopping at", "with a stop at", "but before you do", "but via",
             "going via", "running", "slowly", "quickly", "fast", "as fast as you can", "at full speed",
             "in a hurry", "but only after", "stopping off at", "stopping by", "but go by way of",

@@ -66,7 +66,7 @@ const ARRIVES: &Phrases = &Phrases::of(&[
     "walks up", "comes up to you", "gets to you", "reach you", "comes over", "is back again", "gets back",
     "has come back", "has returned", "has shown up", "has turned up", "approaches", "walks over", "draws near",
     "gets close", "gets near you", "gets close to you", "comes close to you", "walks up to you", "comes by",
-    "drops by", "passes by", "has reached you", "has joined you", "has come", "joins you",
+    "drops by", "passes by", "comes closer", "gets closer", "comes nearer", "is closer", "is close enough", "has reached you", "has joined you", "has come", "joins you",
 ]);
 const APPEARS: &Phrases = &Phrases::of(&[
     "comes into view",

@@ -63,7 +63,7 @@ impl Parser<'_> {
             && let Some(other) = self.another_there()
         {
             let within = if leaves { NEAR_ME } else { NEXT_TO_ME };
-            let test = Test::Together { one: one.clone(), other, within };
+            let test = Test::Together { one: one.clone(), other: Box::new(other), within };
             return Some(if leaves { Test::Not(Box::new(test)) } else { test });
         }
         self.at = start;
@@ -80,7 +80,7 @@ impl Parser<'_> {
             && let Some(other) = self.another_there()
         {
             let within = if near { NEAR_ME } else { NEXT_TO_ME };
-            let test = Test::Together { one: one.clone(), other, within };
+            let test = Test::Together { one: one.clone(), other: Box::new(other), within };
             return Some(if not { Test::Not(Box::new(test)) } else { test });
         }
         self.at = start;
@@ -94,7 +94,7 @@ impl Parser<'_> {
         };
         let within = if *relation == Relation::Near { NEAR_ME } else { NEXT_TO_ME };
         let alone = Reference { relation: None, ..one.clone() };
-        self.ends_clause().then(|| Test::Together { one: alone, other: (**other).clone(), within })
+        self.ends_clause().then(|| Test::Together { one: alone, other: other.clone(), within })
     }
 
     /// A thing or somebody that is named, and not who is told.

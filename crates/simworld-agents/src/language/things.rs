@@ -2,15 +2,14 @@
 
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, EntityRef, OPEN, SELLS};
-use simworld_core::seam::{Condition, PlanError, PlanStep, Which};
+use simworld_core::scene::{EntityKind, EntityRef, SELLS};
+use simworld_core::seam::{PlanError, PlanStep};
 
-use super::clause::{Choice, Grip, Manner, Pace, Reference, Target, Test, Vehicle};
+use super::clause::{Grip, Manner, Pace, Reference, Target, Vehicle};
 use super::draft::{Draft, Load, Posture};
 use super::lexicon::{Category, class, is_animate};
 use super::relate::PART;
 use super::resolve::{Purpose, sells};
-use super::tests_of::NEARBY;
 
 impl<'a> Draft<'a> {
     pub(super) fn take_to(
@@ -128,6 +127,9 @@ impl<'a> Draft<'a> {
         at: Option<&Reference>,
         manner: Manner,
     ) -> Result<(), PlanError> {
+        // "Go to the bin and drop it there": one is there.
+        let in_hand = self.held.is_some() || self.carried.is_some();
+        let at = at.filter(|at| !(at.target == Target::There && in_hand && self.stands_there()));
         let is_there = at.is_none_or(|at| matches!(at.target, Target::There | Target::Here));
         if is_there && self.is_done(what, None) {
             return Ok(());
@@ -394,7 +396,7 @@ impl<'a> Draft<'a> {
             EntityKind::Door => {
                 self.view.scene.nearest(there.planar(), PART, &|at| at.kind == EntityKind::Building)
             }
-            _ => Some(there).filter(|there| there.info.attributes.get(SELLS).is_some()),
+            _ => Some(there).filter(|there| there.info.attributes.contains_key(SELLS)),
         }
     }
 
@@ -424,83 +426,6 @@ impl<'a> Draft<'a> {
         self.held = Some(Load::Bought);
         self.view.it = None;
         self.act(Action::Buy { goods: goods.to_owned(), from: place.id })
-    }
-
-    // ---- conditions ----
-
-    pub(super) fn condition(&mut self, test: &Test) -> Result<Condition, PlanError> {
-        Ok(match test {
-            Test::Light { light, shows } => {
-                let nearest = Reference { indefinite: true, ..Reference::nearest(class("traffic light")) };
-                let light = self.view.find(light.as_ref().unwrap_or(&nearest), Purpose::Any)?.id;
-                Condition::Signal { light, shows: *shows }
-            }
-            Test::Sees(what) => Condition::Sees(self.which(what)?),
-            Test::Near { what, within } => Condition::Near { what: self.which(what)?, within: *within },
-            Test::There { what, .. } => {
-                let which = self.which(what)?;
-                Condition::FreeNear { what: which, within: NEARBY }
-            }
-            Test::InUse(what) => Condition::InUse(self.find(what, Purpose::Any)?.id),
-            Test::Open(what) => {
-                let mut door = self.find(what, Purpose::Any)?;
-                // A house is open if its door is.
-                if door.kind == EntityKind::Building && !door.info.attributes.contains_key(OPEN) {
-                    let of_house = |at: &EntityRef<'_>| at.kind == EntityKind::Door;
-                    let near = door.access().xy();
-                    door = self.view.scene.nearest(near, PART, &of_house).unwrap_or(door);
-                }
-                if door.kind != EntityKind::Door && !door.info.attributes.contains_key(OPEN) {
-                    let near = format!("a {} neither opens nor closes", door.kind);
-                    return Err(PlanError::NotFound {
-                        wanted: format!("{:?} that is open", what.text),
-                        near,
-                    });
-                }
-                Condition::Open(door.id)
-            }
-            Test::Holds(what) => match what {
-                Some(what) => Condition::Holds(Some(self.find(what, Purpose::Any)?.id)),
-                None => Condition::Holds(None),
-            },
-            Test::Together { one, other, within } => {
-                let one = self.find(one, Purpose::Any)?.id;
-                // "If Anna is near the bin, wave at her": the place is not what is spoken of.
-                let (it, them) = (self.view.it, self.view.them);
-                let other = self.find(other, Purpose::Any)?.id;
-                if one != other && them.is_some() {
-                    self.view.them = them;
-                }
-                self.view.it = it.or(self.view.it);
-                self.lead_to(other);
-                Condition::Together { one, other, within: *within }
-            }
-            Test::Seated => Condition::Seated,
-            Test::Raining => Condition::Raining,
-            Test::Snowing => Condition::Snowing,
-            Test::Dark => Condition::Dark,
-            Test::Never => Condition::Any(Vec::new()),
-            Test::Elapsed(seconds) => Condition::Elapsed(*seconds),
-            #[cfg(feature = "thought")]
-            Test::Stated(condition) => condition.clone(),
-            Test::Not(test) => Condition::Not(Box::new(self.condition(test)?)),
-            Test::Both(one, other) => Condition::All(vec![self.condition(one)?, self.condition(other)?]),
-            Test::Either(one, other) => Condition::Any(vec![self.condition(one)?, self.condition(other)?]),
-        })
-    }
-
-    /// This thing, or any of its class if any will do; what is nearest by now is spoken of.
-    fn which(&mut self, what: &Reference) -> Result<Which, PlanError> {
-        let open = what.choice == Choice::Open && what.relation.is_none();
-        match &what.target {
-            Target::Any(category) if what.indefinite && open && what.traits.paint.is_none() => {
-                if let Ok(found) = self.view.find(what, Purpose::Any) {
-                    self.mention(&found);
-                }
-                Ok(category.to_which())
-            }
-            _ => Ok(Which::Entity(self.find(what, Purpose::Any)?.id)),
-        }
     }
 }
 

@@ -414,6 +414,10 @@ impl Parser<'_> {
         let whole = self.lexemes;
         let class = (self.class, self.bearers.clone());
         self.lexemes = &whole[..mark];
+        // "Her yellow parcel" is no person.
+        self.at += longest_phrase(self.rest(), &["her", "his", "their"])
+            .filter(|_| self.rest().len() > 1)
+            .unwrap_or(0);
         let what = self.reference(0).ok();
         self.lexemes = whole;
         let found = what.as_ref().and_then(|what| self.view.find(what, super::resolve::Purpose::Any).ok());

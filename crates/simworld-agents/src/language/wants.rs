@@ -123,7 +123,7 @@ impl Parser<'_> {
     /// Who gets what, or what goes where.
     pub(super) fn somebody_gets(&mut self) -> Option<Vec<Clause>> {
         let start = self.at;
-        for rule in [Self::lets_have, Self::gets, Self::goes] {
+        for rule in [Self::lets_have, Self::gets, Self::goes, Self::needed_at] {
             if let Some(clauses) = rule(self).filter(|_| self.ends_clause()) {
                 return Some(clauses);
             }
@@ -167,6 +167,47 @@ impl Parser<'_> {
         }
         let what = self.reference(0).ok()?;
         Some(vec![Clause::Give { what: Some(what), to }])
+    }
+
+    /// "I need the basket at the tearoom".
+    fn needed_at(&mut self) -> Option<Vec<Clause>> {
+        if !self.eat_any(&[
+            "i need",
+            "we need",
+            "i want",
+            "we want",
+            "id like",
+            "i would like",
+            "they need",
+            "they want",
+            "i need to have",
+            "i want to have",
+        ]) {
+            return None;
+        }
+        let what = self.reference(0).ok()?;
+        let item = self
+            .view
+            .find(&what, super::resolve::Purpose::Any)
+            .is_ok_and(|found| super::resolve::is_item(found.kind));
+        let placed = item
+            && self.eat_any(&[
+                "at",
+                "in",
+                "by",
+                "over at",
+                "next to",
+                "on",
+                "to be at",
+                "to be in",
+                "delivered to",
+                "brought to",
+                "taken to",
+                "moved to",
+                "outside",
+            ]);
+        let at = if placed { Some(self.reference(0).ok()?) } else { return None };
+        Some(vec![Clause::Drop { what: Some(what), at, manner: Manner::Deliver }])
     }
 
     fn goes(&mut self) -> Option<Vec<Clause>> {

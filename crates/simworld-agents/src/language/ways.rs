@@ -112,7 +112,7 @@ impl Parser<'_> {
     }
 
     /// Whether a unit of length was said earlier, which a bare number goes on with.
-    fn length_before(&self) -> bool {
+    pub(super) fn length_before(&self) -> bool {
         self.lexemes[..self.at].iter().any(|lexeme| {
             matches!(&lexeme.token, Token::Word(word) if ["metres", "metre", "meters", "meter", "m", "steps", "paces"].contains(&word.as_str()))
         })
@@ -355,7 +355,7 @@ impl Parser<'_> {
             return Ok(vec![go, Clause::Go { to, side: None, pace, within: None }]);
         }
         self.eat_any(&["on foot", "by foot"]);
-        if let Some(board) = self.by_vehicle() {
+        if let Some(board) = self.by_vehicle().or_else(|| self.in_vehicle()) {
             return Ok(vec![board, go]);
         }
         if self.eat_any(&["past", "going past", "passing"]) {

@@ -104,6 +104,27 @@ fn one_waits_for_a_condition() {
 }
 
 #[test]
+fn how_two_others_stand_is_a_condition() {
+    // The edge of the bin is a quarter of a metre from its middle.
+    for (x, expected) in [(12.0, 1), (16.0, 0)] {
+        let mut world = World::new();
+        let me = person(&mut world, 0.0, 0.0);
+        let one = person(&mut world, x, 0.0);
+        let other = thing(&mut world, EntityKind::TrashBin, 10.0, 0.0, Shape::cuboid(0.5, 0.5, 0.9));
+        let condition = Condition::Together { one, other, within: 5.0 };
+        let photo = vec![PlanStep::Act(Action::TakePhoto)];
+        let steps = vec![
+            PlanStep::If { condition, then: photo, otherwise: Vec::new() },
+            PlanStep::Wait { seconds: 0.2 },
+        ];
+        let mut walk = walk(world, me, steps);
+        let mut taken = 0;
+        assert_eq!(walk.finish(50, |walk| taken += photos(&walk.told)), Progress::Done);
+        assert_eq!(taken, expected, "at {x} m");
+    }
+}
+
+#[test]
 fn one_follows_somebody_who_walks_away() {
     let mut world = World::new();
     let me = person(&mut world, 0.0, 0.0);

@@ -1,4 +1,4 @@
-//! The three cities and the town of `tests/sentences`, the notation of plans, and the score of what people say in them.
+//! The cities and the town of `tests/sentences`, the notation of plans, and the score of what people say in them.
 
 pub(crate) mod city;
 pub(crate) mod notation;
