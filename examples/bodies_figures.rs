@@ -11,13 +11,16 @@ use clap::{Parser, ValueEnum};
 use comfy_table::Table;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use simworld_core::geometry::Point3;
+use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_examples::bodies::{
     BUILDINGS, Crowd, PlainWalkers, Quarter, SOLIDS, Threads, our_boxes, our_step, our_walkers, plain_boxes,
 };
 use simworld_examples::exit_code;
 use simworld_examples::timing::timed;
+use simworld_physics::PhysicsDynamics;
 use simworld_physics::proving::{Fleet, Pack, ProvingError};
+use simworld_physics::rapier::prelude::PhysicsWorld;
 
 /// Measures what bodies cost and prints each figure beside its bar.
 #[derive(Parser)]
@@ -91,50 +94,94 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// The least mean time of a step in several runs of some steps, ms: what the machine does when it does nothing else.
+/// What all threads have taken of the processors so far, s; Linux only. It does not count what others do on the same machine.
+fn processor_time() -> Option<f64> {
+    let tasks = std::fs::read_dir("/proc/self/task").ok()?;
+    let taken = tasks.flatten().filter_map(|task| {
+        let line = std::fs::read_to_string(task.path().join("schedstat")).ok()?;
+        line.split_whitespace().next()?.parse::<f64>().ok()
+    });
+    Some(taken.sum::<f64>() * 1e-9)
+}
+
+/// What a step takes, ms.
+#[derive(Clone, Copy, Debug)]
+struct Cost {
+    /// By the clock.
+    clock: f64,
+    /// Of the processors; by the clock where that is not known.
+    processor: f64,
+}
+
+impl Cost {
+    const NONE: Self = Self { clock: f64::INFINITY, processor: f64::INFINITY };
+
+    fn least(self, other: Self) -> Self {
+        Self { clock: self.clock.min(other.clock), processor: self.processor.min(other.processor) }
+    }
+}
+
+/// What some work takes in the mean of so many steps.
+fn cost(steps: usize, work: impl FnOnce() -> Result<(), ProvingError>) -> Result<Cost, ProvingError> {
+    let before = processor_time();
+    let (done, time) = timed(work);
+    done?;
+    let taken = before.zip(processor_time()).map(|(before, after)| (after - before) * 1e3);
+    let clock = ms(time);
+    Ok(Cost { clock: clock / steps as f64, processor: taken.unwrap_or(clock) / steps as f64 })
+}
+
+/// The least mean cost of a step in several runs of some steps: what the machine does when it does nothing else.
 fn per_step(
     runs: usize,
     steps: usize,
     mut step: impl FnMut() -> Result<(), ProvingError>,
-) -> Result<f64, ProvingError> {
-    let mut best = f64::INFINITY;
-    for _ in 0..runs {
-        let (done, time) = timed(|| (0..steps).try_for_each(|_| step()));
-        done?;
-        best = best.min(ms(time) / steps as f64);
-    }
-    Ok(best)
+) -> Result<Cost, ProvingError> {
+    (0..runs)
+        .try_fold(Cost::NONE, |best, _| Ok(best.least(cost(steps, || (0..steps).try_for_each(|_| step()))?)))
 }
 
-/// The least mean times of two things that are done in turns, ms.
-fn in_turns(
-    mut ours: impl FnMut() -> Result<(), ProvingError>,
-    mut plain: impl FnMut(),
+/// The least processor times of a step of two things that are made anew and done in turns, over their first steps, ms.
+fn in_turns<A, B>(
+    steps: usize,
+    ours: (impl Fn() -> Result<A, ProvingError>, impl Fn(&mut A) -> Result<(), ProvingError>),
+    plain: (impl Fn() -> B, impl Fn(&mut B)),
 ) -> Result<[f64; 2], ProvingError> {
-    let mut best = [f64::INFINITY; 2];
-    for _ in 0..6 {
-        best[0] = best[0].min(per_step(1, 20, &mut ours)?);
-        best[1] = best[1].min(per_step(1, 20, || {
-            plain();
+    let mut best = [Cost::NONE; 2];
+    for _ in 0..4 {
+        let mut one = ours.0()?;
+        best[0] = best[0].least(cost(steps, || (0..steps).try_for_each(|_| ours.1(&mut one)))?);
+        let mut other = plain.0();
+        best[1] = best[1].least(cost(steps, || {
+            (0..steps).for_each(|_| plain.1(&mut other));
             Ok(())
         })?);
     }
-    Ok(best)
+    Ok(best.map(|cost| cost.processor))
 }
 
 fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     let count = some(1000, share);
-    let (mut world, mut physics) = our_boxes(count)?;
-    let mut plain = plain_boxes(count);
-    let [ours, theirs] = in_turns(|| our_step(&mut world, &mut physics), || plain.step())?;
+    let boxes = || our_boxes(count);
+    let step = |(world, physics): &mut (World, PhysicsDynamics)| our_step(world, physics);
+    let [ours, theirs] = in_turns(60, (boxes, step), (|| plain_boxes(count), PhysicsWorld::step))?;
     rows.push([
-        format!("a step of {count} boxes that fall in piles, over the engine alone"),
+        format!("a step of {count} boxes that fall into piles for a second, over the engine alone"),
         format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
         "1.15".into(),
     ]);
-    let (mut world, mut physics) = our_walkers(count)?;
-    let mut plain = PlainWalkers::new(count);
-    let [ours, theirs] = in_turns(|| our_step(&mut world, &mut physics), || plain.step())?;
+    let (mut world, mut physics) = our_boxes(count)?;
+    for _ in 0..some(600, share) {
+        our_step(&mut world, &mut physics)?;
+    }
+    let resting = per_step(5, 20, || our_step(&mut world, &mut physics))?;
+    rows.push([
+        format!("a step of {count} boxes that have come to rest"),
+        format!("{:.3} ms", resting.processor),
+        "next to nothing".into(),
+    ]);
+    let walkers = || our_walkers(count);
+    let [ours, theirs] = in_turns(60, (walkers, step), (|| PlainWalkers::new(count), PlainWalkers::step))?;
     rows.push([
         format!("a step of {count} walkers past posts, over the engine's character controller alone"),
         format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
@@ -159,21 +206,18 @@ fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     let world = Quarter::world(blocks)?;
     let solids = blocks * blocks * SOLIDS;
     let before = memory();
-    let ((quarter, first), time) = timed(|| {
-        let mut quarter = Quarter::new(world, 2, ACTIVE, Threads::One);
-        let first = quarter.as_mut().map(Quarter::step);
-        (quarter, matches!(first, Ok(Ok(()))))
-    });
-    let mut quarter = quarter?;
-    if !first {
-        return Err("the first step of the city failed".into());
-    }
+    let mut made = None;
+    let building = cost(1, || {
+        let quarter = made.insert(Quarter::new(world, 2, ACTIVE, Threads::One)?);
+        quarter.step()
+    })?;
+    let Some(mut quarter) = made else { return Ok(()) };
     let grown = before.zip(memory()).map(|(before, after)| (after - before) / 1e6);
     rows.push([
         format!("{solids} fixed solids: to make bodies of them"),
         format!(
-            "{:.2} s, {}",
-            time.as_secs_f64(),
+            "{:.2} s of a core, {}",
+            building.processor * 1e-3,
             grown.map_or("?".into(), |grown| format!("{grown:.0} MB"))
         ),
         "5 s, 1000 MB".into(),
@@ -182,7 +226,7 @@ fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     let count = ACTIVE.people + ACTIVE.crates;
     rows.push([
         format!("a step among them with {count} bodies that move"),
-        format!("{step:.2} ms"),
+        format!("{:.2} ms", step.processor),
         "1 ms".into(),
     ]);
     drop(quarter);
@@ -192,7 +236,7 @@ fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
         let mut quarter = Quarter::new(Quarter::world(blocks)?, 2, ACTIVE, Threads::One)?;
         quarter.step()?;
         let step = per_step(5, some(60, share), || quarter.step())?;
-        steps.push(format!("{step:.2}"));
+        steps.push(format!("{:.2}", step.processor));
     }
     rows.push([
         format!("a step with {count} bodies that move, among 1 k, 10 k, 100 k buildings and 8 times as many solids"),
@@ -211,9 +255,13 @@ fn warmed(blocks: usize, crowd: Crowd, threads: Threads, share: f64) -> Result<Q
     Ok(quarter)
 }
 
-fn real_time(what: String, ms: f64, bar: &str, rows: &mut Rows) {
-    let factor = 1000.0 / 60.0 / ms;
-    rows.push([what, format!("{ms:.2} ms a step, {factor:.2} times real time"), bar.into()]);
+fn real_time(what: String, cost: Cost, bar: &str, rows: &mut Rows) {
+    let Cost { clock, processor } = cost;
+    let [by_clock, by_processor] = [clock, processor].map(|ms| 1000.0 / 60.0 / ms);
+    let measured = format!(
+        "{clock:.1} ms a step by the clock, {by_clock:.2} times real time; {processor:.1} ms of a core, {by_processor:.2}"
+    );
+    rows.push([what, measured, bar.into()]);
 }
 
 fn people(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
@@ -292,7 +340,12 @@ fn dogs(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
         let form = if is_reduced { "in the reduced form" } else { "on twelve motors, 200 substeps a second" };
         rows.push([
             format!("{dogs} robot dogs {form}"),
-            format!("{step:.1} ms a tenth of a second, {:.2} times real time", 100.0 / step),
+            format!(
+                "{:.1} ms a tenth of a second by the clock, {:.2} times real time; {:.1} ms of a core",
+                step.clock,
+                100.0 / step.clock,
+                step.processor
+            ),
             bar.into(),
         ]);
     }
@@ -305,16 +358,15 @@ fn snapshots(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     for _ in 0..30 {
         our_step(&mut world, &mut physics)?;
     }
-    let (mut saving, mut restoring, mut size) = (f64::INFINITY, f64::INFINITY, 0);
+    let (mut saving, mut restoring, mut saved) = (Cost::NONE, Cost::NONE, Vec::new());
     for _ in 0..5 {
-        let (saved, time) = timed(|| physics.save());
-        let saved = saved?;
-        saving = saving.min(ms(time));
-        let (done, time) = timed(|| physics.restore(&world, &saved));
-        done?;
-        restoring = restoring.min(ms(time));
-        size = saved.len();
+        saving = saving.least(cost(1, || {
+            saved = physics.save()?;
+            Ok(())
+        })?);
+        restoring = restoring.least(cost(1, || Ok(physics.restore(&world, &saved)?))?);
     }
+    let (saving, restoring, size) = (saving.processor, restoring.processor, saved.len());
     rows.push([
         format!("{count} boxes in piles: to save, to take up"),
         format!("{saving:.0} ms, {restoring:.0} ms, {:.1} MB", size as f64 / 1e6),
