@@ -187,11 +187,8 @@ impl PhysicsDynamics {
         if hand == held || who == thing {
             return Err(refuse("nobody holds himself: give another thing"));
         }
-        let place =
-            match self.grasps.list.binary_search_by_key(&(who, thing), |grasp| (grasp.who, grasp.thing)) {
-                Ok(_) => return Err(refuse("it does so already: let go first")),
-                Err(place) => place,
-            };
+        let known = self.grasps.list.binary_search_by_key(&(who, thing), |grasp| (grasp.who, grasp.thing));
+        let Err(place) = known else { return Err(refuse("it does so already: let go first")) };
         let at = at.or_else(|| self.body_as::<Cart>(thing).map(Cart::handle));
         let at = at.unwrap_or_else(|| self.nearest_point(held, self.shoulder(hand)));
         if !at.coords.iter().all(|part| part.is_finite()) {
@@ -254,7 +251,7 @@ impl PhysicsDynamics {
     /// The rigid body of a thing that can be held.
     fn holdable(&self, world: &World, thing: EntityId) -> Result<RigidBodyHandle, PhysicsError> {
         let owned = self.owned(world, thing)?;
-        let can_move = self.physics.bodies.get(owned.rigid).is_some_and(|rigid| rigid.is_dynamic());
+        let can_move = self.physics.bodies.get(owned.rigid).is_some_and(RigidBody::is_dynamic);
         if !can_move
             || owned.bonds.carried.is_some()
             || world.entity(thing).is_some_and(|it| it.attachment.is_some())
