@@ -144,8 +144,8 @@ fn per_step(
 /// The least processor times of a step of two things that are made anew and done in turns, over their first steps, ms.
 fn in_turns<A, B>(
     steps: usize,
-    ours: (impl Fn() -> Result<A, ProvingError>, impl Fn(&mut A) -> Result<(), ProvingError>),
-    plain: (impl Fn() -> B, impl Fn(&mut B)),
+    ours: &(impl Fn() -> Result<A, ProvingError>, impl Fn(&mut A) -> Result<(), ProvingError>),
+    plain: &(impl Fn() -> B, impl Fn(&mut B)),
 ) -> Result<[f64; 2], ProvingError> {
     let mut best = [Cost::NONE; 2];
     for _ in 0..4 {
@@ -164,7 +164,7 @@ fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     let count = some(1000, share);
     let boxes = || our_boxes(count);
     let step = |(world, physics): &mut (World, PhysicsDynamics)| our_step(world, physics);
-    let [ours, theirs] = in_turns(60, (boxes, step), (|| plain_boxes(count), PhysicsWorld::step))?;
+    let [ours, theirs] = in_turns(60, &(boxes, step), &(|| plain_boxes(count), PhysicsWorld::step))?;
     rows.push([
         format!("a step of {count} boxes that fall into piles for a second, over the engine alone"),
         format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
@@ -181,7 +181,7 @@ fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
         "next to nothing".into(),
     ]);
     let walkers = || our_walkers(count);
-    let [ours, theirs] = in_turns(60, (walkers, step), (|| PlainWalkers::new(count), PlainWalkers::step))?;
+    let [ours, theirs] = in_turns(60, &(walkers, step), &(|| PlainWalkers::new(count), PlainWalkers::step))?;
     rows.push([
         format!("a step of {count} walkers past posts, over the engine's character controller alone"),
         format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
