@@ -3,9 +3,9 @@
 
 #[path = "../shared/car_common/mod.rs"]
 mod car_common;
+#[path = "../shared/remote_common/mod.rs"]
 mod remote_common;
 mod remote_keeps_its_limits;
 mod remote_sessions_replay;
 mod remote_speaks_its_types;
 mod remote_speaks_unrealcv;
-mod remote_withstands_clients;

@@ -1,4 +1,5 @@
 //! A served world for the tests of the remote interface: walkers and cars without physics, and an eye that casts rays.
+#![allow(dead_code, reason = "each group uses its part")]
 #![allow(unreachable_pub, reason = "a helper of tests")]
 
 use std::collections::BTreeSet;
