@@ -113,6 +113,7 @@ mod tests {
             let mut rng = Seed(seed).stream("test/others").rng();
             let (mut world, mut others) = (World::new(), Others::default());
             let mut own: BTreeMap<Who, EntityId> = BTreeMap::new();
+            let mut numbers = 0..;
             for step in 0..120 {
                 for _ in 0..rng.below(4) {
                     let ids: Vec<EntityId> = world.iter().map(|entity| entity.id).collect();
@@ -120,7 +121,8 @@ mod tests {
                         0 => drop(spawn(&mut world, EntityKind::Bench)),
                         1 => drop(spawn(&mut world, EntityKind::Person)),
                         2 => {
-                            let (id, who) = (spawn(&mut world, EntityKind::Car), Who::Vehicle(step));
+                            let id = spawn(&mut world, EntityKind::Car);
+                            let who = numbers.next().map(Who::Vehicle).expect("numbers do not end");
                             others.claim(id, who);
                             own.insert(who, id);
                         }
