@@ -10,6 +10,8 @@ use super::handed::Who;
 pub(super) struct Others {
     /// The traffic's own entities, by slot; one that is gone stays until its slot is another's.
     own: Vec<Option<(EntityId, Who)>>,
+    /// Those whose slot became another own one's before it was seen that they are gone.
+    replaced: Vec<(EntityId, Who)>,
     /// Whether something that moves and is another's is in a slot.
     is_other: Vec<bool>,
     /// The slots of those, ascending.
@@ -26,7 +28,7 @@ impl Others {
         if self.own.len() <= slot {
             self.own.resize(slot + 1, None);
         }
-        self.own[slot] = Some((id, who));
+        self.replaced.extend(self.own[slot].replace((id, who)).filter(|(before, _)| *before != id));
     }
 
     /// Everything is looked at anew: the traffic is another than it was.
@@ -53,9 +55,11 @@ impl Others {
             self.own.resize(world.slots().max(self.own.len()), None);
             self.is_other.resize(world.slots(), false);
             if let Some(touched) = self.mark.and_then(|mark| world.touched_since(mark)) {
+                gone.append(&mut self.replaced);
                 touched.for_each(|slot| self.look_at(slot, world, &mut gone));
             } else {
                 self.own.fill(None);
+                self.replaced.clear();
                 for (id, who) in own {
                     if world.entity(id).is_some() { self.claim(id, who) } else { gone.push((id, who)) }
                 }
