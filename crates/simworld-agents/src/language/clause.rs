@@ -393,6 +393,31 @@ impl Reference {
     }
 }
 
+/// The thing that an order is about, by whichever reference the order is given.
+macro_rules! about {
+    ($clause:expr) => {
+        match $clause {
+            Self::Go { to: what, .. }
+            | Self::Take { what, .. }
+            | Self::Wave { to: what }
+            | Self::Say { to: what, .. }
+            | Self::Face { what }
+            | Self::Point { at: what }
+            | Self::Argue { with: what }
+            | Self::Follow { whom: what, .. }
+            | Self::Board { what, .. }
+            | Self::Drive { to: what, .. }
+            | Self::Around { what, .. }
+            | Self::Past { what, .. }
+            | Self::Buy { at: Some(what), .. }
+            | Self::Door { what: Some(what), .. }
+            | Self::Sit { on: Some(what) }
+            | Self::Photo { of: Some(what), .. } => Some(what),
+            _ => None,
+        }
+    };
+}
+
 impl Clause {
     /// The phrase that says how many times the order is to be done: to both chairs, at two people.
     pub(super) fn plural(&mut self) -> Option<&mut Reference> {
@@ -417,25 +442,7 @@ impl Clause {
 
     /// The thing that an order is about, if it is about one.
     pub(super) const fn about(&self) -> Option<&Reference> {
-        match self {
-            Self::Go { to: what, .. }
-            | Self::Take { what, .. }
-            | Self::Wave { to: what }
-            | Self::Say { to: what, .. }
-            | Self::Face { what }
-            | Self::Point { at: what }
-            | Self::Argue { with: what }
-            | Self::Follow { whom: what, .. }
-            | Self::Board { what, .. }
-            | Self::Drive { to: what, .. }
-            | Self::Around { what, .. }
-            | Self::Past { what, .. }
-            | Self::Buy { at: Some(what), .. }
-            | Self::Door { what: Some(what), .. }
-            | Self::Sit { on: Some(what) }
-            | Self::Photo { of: Some(what), .. } => Some(what),
-            _ => None,
-        }
+        about!(self)
     }
 
     /// The thing that is handed over or put down.
@@ -448,25 +455,7 @@ impl Clause {
 
     /// As [`about`](Self::about), to be put in another's place.
     pub(super) const fn about_mut(&mut self) -> Option<&mut Reference> {
-        match self {
-            Self::Go { to: what, .. }
-            | Self::Take { what, .. }
-            | Self::Wave { to: what }
-            | Self::Say { to: what, .. }
-            | Self::Face { what }
-            | Self::Point { at: what }
-            | Self::Argue { with: what }
-            | Self::Follow { whom: what, .. }
-            | Self::Board { what, .. }
-            | Self::Drive { to: what, .. }
-            | Self::Around { what, .. }
-            | Self::Past { what, .. }
-            | Self::Buy { at: Some(what), .. }
-            | Self::Door { what: Some(what), .. }
-            | Self::Sit { on: Some(what) }
-            | Self::Photo { of: Some(what), .. } => Some(what),
-            _ => None,
-        }
+        about!(self)
     }
 
     /// How fast one goes, if the order is about going.
