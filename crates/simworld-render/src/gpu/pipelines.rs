@@ -11,7 +11,11 @@ const COMMON: &str = include_str!("../shaders/globals.wgsl");
 const NOISE: &str = include_str!("../shaders/noise.wgsl");
 const SKY: &str = include_str!("../shaders/sky.wgsl");
 const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
+const MATERIALS: &str = include_str!("../shaders/materials.wgsl");
+const HIT: &str = include_str!("../shaders/hit.wgsl");
 const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
+const SHADING: &str = include_str!("../shaders/shading.wgsl");
+const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
 const FORWARD: &str = include_str!("../shaders/forward.wgsl");
 const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
 
@@ -69,7 +73,7 @@ impl Pipelines {
         };
         let full = layout(&[Some(&globals_layout), Some(&shadow_layout)]);
         let plain = layout(&[Some(&globals_layout)]);
-        let forward = module("forward", &[COMMON, NOISE, SKY, PATTERNS, FORWARD]);
+        let forward = module("forward", &[COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD]);
         let sky = module("sky", &[COMMON, NOISE, SKY, SKY_PASS]);
         let shadow = module("shadow", &[COMMON, SHADOW]);
 

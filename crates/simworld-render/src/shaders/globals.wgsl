@@ -41,13 +41,13 @@ fn rotate(q: vec4f, v: vec3f) -> vec3f {
 }
 
 // Whether the vertex is one of an asset's model: its material is a colour.
-fn is_model(in: VertexIn) -> bool {
-    return (in.material & 0x80000000u) != 0u;
+fn is_model(material: u32) -> bool {
+    return (material & 0x80000000u) != 0u;
 }
 
 // Its normal in the body frame; models are stretched to the box of the instance, and their normals with them.
 fn body_normal(in: VertexIn) -> vec3f {
-    return select(in.normal, normalize(in.normal / in.scale.xyz), is_model(in));
+    return select(in.normal, normalize(in.normal / in.scale.xyz), is_model(in.material));
 }
 
 // The vertex in the body frame, m.

@@ -7,35 +7,35 @@ struct Surface {
     normal: vec3f,
 }
 
-fn facade(in: Varyings, base: Surface) -> Surface {
+fn facade(hit: Hit, base: Surface) -> Surface {
     var s = base;
-    let size = in.size.xyz;
-    let side = abs(in.body_normal);
+    let size = hit.size.xyz;
+    let side = abs(hit.body_normal);
     let along_y = side.x > side.y;
     let width = select(size.x, size.y, along_y);
-    let u = select(in.body.x, in.body.y, along_y);
-    let seed = in.size.w;
-    let house = in.extra.x > 1.5;
-    let shop = in.extra.x > 0.5 && !house;
+    let u = select(hit.body.x, hit.body.y, along_y);
+    let seed = hit.size.w;
+    let house = hit.extra.x > 1.5;
+    let shop = hit.extra.x > 0.5 && !house;
     let wall = size.z - select(0.9, 2.2, house);
-    let storeys = select(in.extra.y, max(1.0, round(wall / 3.1)), in.extra.y < 0.5);
+    let storeys = select(hit.extra.y, max(1.0, round(wall / 3.1)), hit.extra.y < 0.5);
     let storey = wall / storeys;
     let columns = max(1.0, round(width / mix(2.4, 3.4, fract(seed * 7.0))));
     let x = (u / width + 0.5) * columns;
-    let y = in.body.z / storey;
-    let dx = fwidth(x);
-    let dy = fwidth(y);
-    let du = fwidth(u);
-    let dz = fwidth(in.body.z);
-    if (side.z > 0.5 || in.paint > 0.5 || in.body.z > wall + 0.001) {
+    let y = hit.body.z / storey;
+    let du = select(hit.footprint.x, hit.footprint.y, along_y);
+    let dz = hit.footprint.z;
+    let dx = du / width * columns;
+    let dy = dz / storey;
+    if (side.z > 0.5 || hit.paint > 0.5 || hit.body.z > wall + 0.001) {
         return s;
     }
     let column = vec2i(vec2f(floor(x), floor(y)));
     let key = i32(seed * 8192.0);
     let chance = hash3(vec3i(column, key + i32(along_y) * 7));
     // Courses of brick or panels, and weather.
-    let course = bands(in.body.z * 3.0, 0.0, 0.12, dz * 3.0);
-    s.albedo *= 0.93 + 0.14 * noise2(vec2f(u, in.body.z) * 0.6 + seed * 91.0) - 0.10 * course;
+    let course = bands(hit.body.z * 3.0, 0.0, 0.12, dz * 3.0);
+    s.albedo *= 0.93 + 0.14 * noise2(vec2f(u, hit.body.z) * 0.6 + seed * 91.0) - 0.10 * course;
     let style = fract(seed * 13.0);
     let ribbon = style > 0.72 && storeys > 3.5;
     let half = select(mix(0.22, 0.32, fract(seed * 29.0)), 0.46, ribbon);
@@ -56,9 +56,9 @@ fn facade(in: Varyings, base: Surface) -> Surface {
     let below = f32(y < storeys);
     framed *= below;
     glass *= below;
-    let entrance = along_y && in.body_normal.x > 0.5 && ground_floor;
-    let door = band(abs(u), -1.0, 0.62, du) * band(in.body.z, -1.0, 2.25, dz) * f32(entrance);
-    let casing = band(abs(u), -1.0, 0.76, du) * band(in.body.z, -1.0, 2.4, dz) * f32(entrance);
+    let entrance = along_y && hit.body_normal.x > 0.5 && ground_floor;
+    let door = band(abs(u), -1.0, 0.62, du) * band(hit.body.z, -1.0, 2.25, dz) * f32(entrance);
+    let casing = band(abs(u), -1.0, 0.76, du) * band(hit.body.z, -1.0, 2.4, dz) * f32(entrance);
     let clear = 1.0 - band(abs(u), -1.0, 1.1, du) * f32(entrance && !shop);
     framed *= clear;
     glass *= clear;
@@ -68,8 +68,8 @@ fn facade(in: Varyings, base: Surface) -> Surface {
     // A cornice between storeys, a plinth at the foot, a sign over the shop.
     let cornice = bands(y + 0.02, 0.0, 0.05, dy) * f32(style < 0.5) * below;
     s.albedo = mix(s.albedo, light_trim, cornice * 0.8);
-    s.albedo *= mix(1.0, 0.62, band(in.body.z, -1.0, 0.45, dz) * f32(!shop));
-    let sign = band(in.body.z, storey * 0.74, storey * 0.95, dz) * f32(shop && ground_floor && along_y && in.body_normal.x > 0.0);
+    s.albedo *= mix(1.0, 0.62, band(hit.body.z, -1.0, 0.45, dz) * f32(!shop));
+    let sign = band(hit.body.z, storey * 0.74, storey * 0.95, dz) * f32(shop && ground_floor && along_y && hit.body_normal.x > 0.0);
     s.albedo = mix(s.albedo, accent, sign);
     let curtain = mix(vec3f(0.014, 0.02, 0.028), vec3f(0.2, 0.19, 0.17), step(0.72, chance) * 0.6);
     let reveal = 1.0 - 0.55 * smoothstep(high.y - 0.13, high.y, fract(y));
@@ -91,14 +91,14 @@ fn asphalt(p: vec2f, albedo: vec3f) -> vec3f {
     return albedo * (0.78 + 0.22 * near + 0.28 * patches);
 }
 
-fn road(in: Varyings, base: Surface) -> Surface {
+fn road(hit: Hit, base: Surface) -> Surface {
     var s = base;
-    let length = in.size.x;
-    let width = in.size.y;
-    let p = in.body.xy;
-    let dx = fwidth(p.x);
-    let dy = fwidth(p.y);
-    if (in.body_normal.z < 0.5) {
+    let length = hit.size.x;
+    let width = hit.size.y;
+    let p = hit.body.xy;
+    let dx = hit.footprint.x;
+    let dy = hit.footprint.y;
+    if (hit.body_normal.z < 0.5) {
         return s;
     }
     s.albedo = asphalt(p, s.albedo);
@@ -126,13 +126,13 @@ fn road(in: Varyings, base: Surface) -> Surface {
     return s;
 }
 
-fn crosswalk(in: Varyings, base: Surface) -> Surface {
+fn crosswalk(hit: Hit, base: Surface) -> Surface {
     var s = base;
-    let p = in.body.xy;
-    let period = in.size.x / max(1.0, round(in.size.x / 1.0));
-    let x = (p.x + in.size.x * 0.5) / period;
-    let stripes = bands(x, 0.25, 0.75, fwidth(x));
-    if (in.body_normal.z < 0.5) {
+    let p = hit.body.xy;
+    let period = hit.size.x / max(1.0, round(hit.size.x / 1.0));
+    let x = (p.x + hit.size.x * 0.5) / period;
+    let stripes = bands(x, 0.25, 0.75, hit.footprint.x / period);
+    if (hit.body_normal.z < 0.5) {
         return s;
     }
     s.albedo = asphalt(p, s.albedo);
@@ -140,39 +140,39 @@ fn crosswalk(in: Varyings, base: Surface) -> Surface {
     return s;
 }
 
-fn sidewalk(in: Varyings, base: Surface) -> Surface {
+fn sidewalk(hit: Hit, base: Surface) -> Surface {
     var s = base;
-    let p = in.body.xy;
+    let p = hit.body.xy;
     let slab = p / vec2f(1.2, 0.8) + vec2f(0.0, 0.5);
-    let step = fwidth(slab);
-    if (in.body_normal.z < 0.5) {
+    let step = hit.footprint.xy / vec2f(1.2, 0.8);
+    if (hit.body_normal.z < 0.5) {
         s.albedo *= 1.15;
         return s;
     }
     let joint = max(bands(slab.x, 0.0, 0.022, step.x), bands(slab.y, 0.0, 0.033, step.y));
     let tone = hash3(vec3i(vec2i(floor(slab)), 5));
     s.albedo *= 0.86 + 0.14 * mix(tone, 0.5, saturate(step.x * 1.5)) + 0.12 * noise2(p * 0.5) - 0.3 * joint;
-    let kerb = smoothstep(in.size.y * 0.5 - 0.2, in.size.y * 0.5 - 0.17, abs(p.y));
+    let kerb = smoothstep(hit.size.y * 0.5 - 0.2, hit.size.y * 0.5 - 0.17, abs(p.y));
     s.albedo = mix(s.albedo, vec3f(0.5, 0.49, 0.47), kerb * 0.8);
     return s;
 }
 
-fn ground(in: Varyings, base: Surface) -> Surface {
+fn ground(hit: Hit, base: Surface) -> Surface {
     var s = base;
-    let p = in.body.xy;
+    let p = hit.body.xy;
     let wide = noise2(p * 0.035) * 0.6 + noise2(p * 0.13) * 0.4;
     let fine = noise2(p * 2.3) * 0.5 + noise2(p * 9.0) * 0.5;
     s.albedo *= mix(vec3f(0.8, 0.85, 0.75), vec3f(1.3, 1.15, 0.9), wide) * (0.75 + 0.5 * fine);
     return s;
 }
 
-fn foliage(in: Varyings, base: Surface) -> Surface {
+fn foliage(hit: Hit, base: Surface) -> Surface {
     var s = base;
-    if (in.paint > 0.5) {
+    if (hit.paint > 0.5) {
         return s;
     }
-    let p = in.body * (9.0 / sqrt(max(in.size.z, 1.0)));
-    let coarse = noise3(p * 0.8 + in.size.w * 50.0);
+    let p = hit.body * (9.0 / sqrt(max(hit.size.z, 1.0)));
+    let coarse = noise3(p * 0.8 + hit.size.w * 50.0);
     let fine = noise3(p * 3.1);
     let leaf = vec3f(fine, noise3(p * 3.1 + 19.0), noise3(p * 3.1 + 41.0)) - 0.5;
     s.normal = normalize(s.normal + leaf * 1.1);

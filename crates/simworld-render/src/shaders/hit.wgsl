@@ -1,0 +1,35 @@
+// What a view ray meets: all that shading knows of it. Each backend fills one in, from varyings or from a ray cast.
+struct Hit {
+    // The point, relative to the eye, world axes, m.
+    relative: vec3f,
+    // The surface's normal for shading: unit length, world axes.
+    normal: vec3f,
+    // The point in the body frame, m.
+    body: vec3f,
+    // The normal of the triangle's corner, body frame.
+    body_normal: vec3f,
+    finish: Finish,
+    // The body's box, m, and its seed.
+    size: vec4f,
+    // State and parameter of the instance.
+    extra: vec2f,
+    // 0 on the surface that the pattern paints, 1 elsewhere.
+    paint: f32,
+    // A `Pattern` of mesh/mod.rs.
+    pattern: u32,
+    // How far each body coordinate goes from a pixel to the next: steps across and down together, m.
+    footprint: vec3f,
+}
+
+// The footprint of a pixel on the plane through a point, for backends without derivatives: as the view ray moves by a
+// pixel, depth * (axis - ray * (normal . axis) / (normal . ray)), ray and axis of planar depth one, turned into the body.
+fn footprint_of(relative: vec3f, normal: vec3f, rotation: vec4f) -> vec3f {
+    let depth = max(dot(relative, globals.forward.xyz), 1e-6);
+    let ray = relative / depth;
+    let slant = dot(normal, ray);
+    let steep = select(min(slant, -1e-4), max(slant, 1e-4), slant > 0.0);
+    let across = (globals.right.xyz - ray * (dot(normal, globals.right.xyz) / steep)) * (depth / globals.intrinsics.x);
+    let down = (globals.down.xyz - ray * (dot(normal, globals.down.xyz) / steep)) * (depth / globals.intrinsics.y);
+    let inverse = vec4f(-rotation.xyz, rotation.w);
+    return abs(rotate(inverse, across)) + abs(rotate(inverse, down));
+}
