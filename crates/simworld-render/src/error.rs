@@ -60,10 +60,35 @@ pub enum RenderError {
     /// Intrinsics that core refuses.
     #[error(transparent)]
     Intrinsics(#[from] simworld_core::camera::CameraError),
-    /// More to draw than the adapter's buffers hold.
+    /// A batch without views.
+    #[error("there is no view to draw: give at least one camera")]
+    NoViews,
+    /// A batch without channels.
+    #[error("no channel is asked for: give at least one of `Channels`")]
+    NoChannels,
+    /// A batch with more pixels than the adapter's buffers hold.
     #[error(
-        "{count} things to draw exceed the {limit} that this adapter holds: lower `far` or raise `min_pixels`"
+        "the views have {pixels} pixels, with rows padded to 64, and this adapter holds {limit}: draw them in several batches"
     )]
+    Batch {
+        /// Pixels of all views.
+        pixels: usize,
+        /// The most.
+        limit: usize,
+    },
+    /// A ticket whose views were taken already, or that is another renderer's.
+    #[error("no views wait for this ticket: they were taken, or another renderer draws them")]
+    Ticket,
+    /// The device went away, and what was under way with it.
+    #[error(
+        "the graphics device was lost ({reason}), and the renderer has a new one from the next call on: draw again"
+    )]
+    Lost {
+        /// What the graphics interface said.
+        reason: String,
+    },
+    /// More to draw than the adapter's buffers hold.
+    #[error("{count} things to draw exceed the {limit} that this adapter holds: draw a part of the scene")]
     TooMany {
         /// How many.
         count: usize,
@@ -85,7 +110,7 @@ pub enum RenderError {
     /// The adapter ran out of memory.
     #[error("the adapter ran out of memory: draw a smaller picture or a smaller shadow map")]
     OutOfMemory,
-    /// The graphics interface refused a call or lost its device; make a new renderer.
+    /// The graphics interface refused a call.
     #[error("the graphics device failed: {0}")]
     Device(String),
     /// The frame has not been drawn, or its buffers were resized by hand.

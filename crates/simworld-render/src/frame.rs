@@ -30,7 +30,7 @@ pub struct Frame {
     pub ids: Vec<u32>,
     /// Class: a Cityscapes label id, see [`classes`](crate::classes); 23 (sky) where there is nothing.
     pub classes: Vec<u8>,
-    /// What was drawn, ascending; entities hidden behind others are among them.
+    /// Who is on the picture, ascending; who is wholly hidden behind others is not.
     pub drawn: Vec<EntityId>,
 }
 

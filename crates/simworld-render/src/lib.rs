@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod batch;
 pub mod classes;
 mod config;
 mod draw_list;
@@ -12,14 +13,19 @@ mod light;
 mod look;
 mod mesh;
 mod models;
+mod raster;
 mod renderer;
+mod resident;
 mod sensor;
 mod shadow;
 mod view;
+mod works;
 
+pub use batch::{Channels, PixelFormat, Span, ViewOptions, ViewRequest, Views};
 pub use config::{AdapterChoice, AntiAliasing, Backends, RenderConfig};
 pub use error::RenderError;
 pub use export::PNG_DEPTH_LIMIT;
 pub use frame::{Frame, SKY_DEPTH};
-pub use renderer::Renderer;
+pub use renderer::{DeviceViews, Renderer, Ticket};
 pub use sensor::CameraSensor;
+pub use wgpu;

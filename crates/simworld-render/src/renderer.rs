@@ -1,45 +1,80 @@
-//! The renderer: a scene and a camera in, a frame out.
+//! The renderer: a scene and cameras in, frames out.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use simworld_core::camera::Camera;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 
-use crate::draw_list::{Batch, DrawList, Instance};
-use crate::gpu::{Globals, Gpu, Pipelines, Targets};
-use crate::light::Light;
-use crate::mesh::{Drawn, MeshLibrary, Pattern};
-use crate::models::Models;
-use crate::shadow::ShadowView;
-use crate::view::View;
-use crate::{Frame, RenderConfig, RenderError};
+use crate::batch::{Channels, Layout, Span, ViewOptions, ViewRequest};
+use crate::works::{Pending, Works};
+use crate::{Frame, RenderConfig, RenderError, Views};
 
 /// Draws scenes without a window.
 ///
-/// It keeps its buffers from picture to picture; a picture depends on scene, camera and configuration alone.
+/// It keeps its buffers from picture to picture, and what stands still of a scene on the device; a picture depends on scene, camera
+/// and configuration alone.
+///
+/// Many cameras of one scene are drawn in one call and one submission:
+///
+/// ```
+/// use simworld_core::camera::{Camera, Intrinsics};
+/// use simworld_core::geometry::{Point3, pose_facing};
+/// use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+/// use simworld_render::{RenderConfig, Renderer, ViewOptions, ViewRequest, Views};
+///
+/// let mut world = World::new();
+/// let pose = pose_facing(Point3::new(12.0, 0.0, 0.0), 0.0);
+/// let car = world.spawn(EntityDesc::new(EntityKind::Car, pose, Shape::cuboid(4.5, 1.8, 1.5)))?;
+/// let intrinsics = Intrinsics::from_fov(64, 64, 1.0)?;
+/// let eyes = [Point3::new(0.0, 0.0, 1.5), Point3::new(12.0, -9.0, 1.5)];
+/// let requests = eyes.map(|eye| ViewRequest::from(Camera::looking_at(eye, Point3::new(12.0, 0.0, 0.7), intrinsics)));
+/// if let Ok(mut renderer) = Renderer::new(&RenderConfig::default()) {
+///     let mut views = Views::new();
+///     renderer.render_views(&world, &requests, &ViewOptions::default(), &mut views)?;
+///     for view in 0..views.len() {
+///         assert!(views.ids[views.pixels(view)].iter().any(|id| views.entity(*id) == Some(car)));
+///     }
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Renderer {
     config: RenderConfig,
-    gpu: Gpu,
-    pipelines: Pipelines,
-    meshes: Meshes,
-    models: Models,
-    instances: wgpu::Buffer,
-    targets: Option<Targets>,
-    list: DrawList,
+    works: Works,
+    /// What is under way, by ticket.
+    pending: BTreeMap<u64, Pending>,
+    /// Of [`render`](Self::render).
+    one: Views,
 }
 
-/// The meshes on the device.
-struct Meshes {
-    vertices: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    ranges: Vec<std::ops::Range<u32>>,
+/// Tickets of all renderers of this process, so that none passes for another's.
+static TICKETS: AtomicU64 = AtomicU64::new(0);
+
+/// Stands for a batch that was handed in; see [`Renderer::submit`].
+#[derive(Debug, PartialEq, Eq)]
+pub struct Ticket(u64);
+
+/// A batch on the device, until the renderer draws again; see [`Renderer::draw_on_device`].
+#[derive(Debug)]
+pub struct DeviceViews<'a> {
+    works: &'a Works,
+    layout: Layout,
+    options: ViewOptions,
 }
 
 impl std::fmt::Debug for Renderer {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Renderer")
-            .field("adapter", &self.gpu.info.name)
+            .field("works", &self.works)
             .field("config", &self.config)
             .finish_non_exhaustive()
+    }
+}
+
+impl std::fmt::Debug for Works {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Works").field("adapter", &self.gpu.info.name).finish_non_exhaustive()
     }
 }
 
@@ -50,16 +85,9 @@ impl Renderer {
     /// A setting out of range, no adapter (the message says what to install), or an adapter that fails.
     pub fn new(config: &RenderConfig) -> Result<Self, RenderError> {
         config.validate()?;
-        let gpu = Gpu::new(config)?;
-        let side = config.shadow_resolution.min(gpu.largest_picture());
-        let globals_size = size_of::<Globals>() as u64;
-        let pipelines = Pipelines::new(&gpu, globals_size, side, config.anti_aliasing);
-        let meshes = Meshes::upload(&gpu, MeshLibrary::build());
-        let instances = instance_buffer(&gpu, 1024);
-        gpu.check()?;
-        let config = RenderConfig { shadow_resolution: side, ..config.clone() };
-        let (models, list) = (Models::default(), DrawList::default());
-        Ok(Self { config, gpu, pipelines, meshes, models, instances, targets: None, list })
+        let works = Works::new(config)?;
+        let config = RenderConfig { shadow_resolution: works.shadow_resolution, ..config.clone() };
+        Ok(Self { config, works, pending: BTreeMap::new(), one: Views::new() })
     }
 
     /// Its settings.
@@ -69,14 +97,24 @@ impl Renderer {
 
     /// The name of the adapter and the interface through which it is used, such as "llvmpipe (Vulkan)".
     pub fn adapter(&self) -> String {
-        format!("{} ({:?})", self.gpu.info.name, self.gpu.info.backend)
+        format!("{} ({:?})", self.works.gpu.info.name, self.works.gpu.info.backend)
+    }
+
+    /// Its device, for those who go on with [`DeviceViews`].
+    pub fn device(&self) -> &wgpu::Device {
+        &self.works.gpu.device
+    }
+
+    /// The queue of its device.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.works.gpu.queue
     }
 
     /// Draws what the camera sees of the scene into the frame.
     ///
     /// # Errors
     /// A camera that cannot exist or is too large, more entities than the adapter holds, or a failing adapter. The
-    /// frame is then unspecified.
+    /// frame is then unspecified. After the loss of the device the next call has a new one.
     pub fn render(
         &mut self,
         scene: &dyn Scene,
@@ -98,190 +136,130 @@ impl Renderer {
         hidden: Option<EntityId>,
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
-        let view = View::new(camera, self.config.near, self.config.far, self.gpu.largest_picture())?;
-        let light = Light::of(scene.environment(), self.config.exposure_compensation);
-        let shadow = ShadowView::new(
-            &view,
-            &light.sun_direction,
-            self.config.shadow_distance,
-            self.config.shadow_resolution,
-        );
-        self.list.gather(scene, &view, shadow.as_ref(), self.config.min_pixels, hidden);
-        self.models.hold(&self.gpu, scene, &[&self.list.visible, &self.list.casters])?;
-        self.upload(&Globals::new(&view, &light, shadow.as_ref()))?;
-
-        let (width, height) = (camera.intrinsics.width, camera.intrinsics.height);
-        if self.targets.as_ref().is_none_or(|targets| (targets.width, targets.height) != (width, height)) {
-            self.targets = None;
-            let targets = Targets::new(&self.gpu, width, height, self.config.anti_aliasing);
-            self.gpu.check()?;
-            self.targets = Some(targets);
+        let mut one = std::mem::take(&mut self.one);
+        let request = ViewRequest { camera: *camera, hidden };
+        let outcome = self.render_views(scene, &[request], &ViewOptions::default(), &mut one);
+        if outcome.is_ok() {
+            one.give(frame);
         }
-        let Some(targets) = &self.targets else {
-            return Err(RenderError::OutOfMemory);
-        };
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if shadow.is_some() {
-            self.draw_shadows(&mut encoder);
-        }
-        self.draw_picture(&mut encoder, targets);
-        targets.copy_back(&mut encoder);
-        self.gpu.queue.submit([encoder.finish()]);
-        let outcome = self.gpu.check().and_then(|()| targets.unpack(&self.gpu, &self.list.entities, frame));
-        if outcome.is_err() {
-            // A buffer may still be mapped; the next picture starts afresh.
-            self.targets = None;
-        }
+        self.one = one;
         outcome
     }
 
-    /// Sends the uniforms and the instances to the device.
-    fn upload(&mut self, globals: &Globals) -> Result<(), RenderError> {
-        let count = self.list.instances.len();
-        let limit = (self.gpu.device.limits().max_buffer_size / size_of::<Instance>() as u64) as usize;
-        if count > limit {
-            return Err(RenderError::TooMany { count, limit });
+    /// Draws a batch and waits for it: [`submit`](Self::submit) and [`take`](Self::take).
+    ///
+    /// # Errors
+    /// As both.
+    pub fn render_views(
+        &mut self,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: &ViewOptions,
+        views: &mut Views,
+    ) -> Result<(), RenderError> {
+        let ticket = self.submit(scene, requests, options)?;
+        self.take(ticket, views)
+    }
+
+    /// Hands in a batch, all views in one submission, and goes on without it: the ticket [takes](Self::take) it later. So the
+    /// device draws one step while the host simulates the next. Every ticket holds memory until it is taken.
+    ///
+    /// # Errors
+    /// As [`render`](Self::render); no views, no channels, or more pixels than the adapter holds.
+    pub fn submit(
+        &mut self,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: &ViewOptions,
+    ) -> Result<Ticket, RenderError> {
+        let (encoder, layout) = self.draw(scene, requests, options)?;
+        let outcome = self.works.submit(encoder, layout, options);
+        let pending = self.mended(outcome)?;
+        let number = TICKETS.fetch_add(1, Ordering::Relaxed);
+        self.pending.insert(number, pending);
+        Ok(Ticket(number))
+    }
+
+    /// Waits for a batch that was handed in.
+    ///
+    /// # Errors
+    /// A ticket of another renderer or of a lost device, or a failing adapter. The views are then unspecified.
+    pub fn take(&mut self, ticket: Ticket, views: &mut Views) -> Result<(), RenderError> {
+        let pending = self.pending.remove(&ticket.0).ok_or(RenderError::Ticket)?;
+        let outcome = self.works.take(pending, views);
+        self.mended(outcome)
+    }
+
+    /// Draws a batch, and leaves it on the device.
+    ///
+    /// # Errors
+    /// As [`submit`](Self::submit).
+    pub fn draw_on_device(
+        &mut self,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: &ViewOptions,
+    ) -> Result<DeviceViews<'_>, RenderError> {
+        let (encoder, layout) = self.draw(scene, requests, options)?;
+        self.works.gpu.queue.submit([encoder.finish()]);
+        let outcome = self.works.gpu.check();
+        self.mended(outcome)?;
+        Ok(DeviceViews { works: &self.works, layout, options: *options })
+    }
+
+    fn draw(
+        &mut self,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: &ViewOptions,
+    ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
+        if requests.is_empty() {
+            return Err(RenderError::NoViews);
         }
-        if (count * size_of::<Instance>()) as u64 > self.instances.size() {
-            self.instances = instance_buffer(&self.gpu, count.next_power_of_two().min(limit));
-            self.gpu.check()?;
+        if options.channels.is_empty() {
+            return Err(RenderError::NoChannels);
         }
-        let queue = &self.gpu.queue;
-        queue.write_buffer(&self.pipelines.globals_buffer, 0, bytemuck::bytes_of(globals));
-        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&self.list.instances));
-        Ok(())
+        let outcome = match self.works.gpu.lost() {
+            Some(reason) => Err(RenderError::Lost { reason }),
+            None => self.works.draw(&self.config, scene, requests, options),
+        };
+        self.mended(outcome)
     }
 
-    fn draw_shadows(&self, encoder: &mut wgpu::CommandEncoder) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("shadow"),
-            depth_stencil_attachment: Some(depth_attachment(&self.pipelines.shadow_map, 1.0)),
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.pipelines.shadow);
-        pass.set_bind_group(0, &self.pipelines.globals, &[]);
-        self.draw_batches(&mut pass, &self.list.casters, |_, _| {});
-    }
-
-    fn draw_picture(&self, encoder: &mut wgpu::CommandEncoder, targets: &Targets) {
-        let color = &targets.color_view;
-        let measures = [attachment(&targets.depth_view, None), attachment(&targets.id_view, None)];
-        if let (Some([color_samples, z_samples]), Some(pipeline)) =
-            (&targets.smooth, &self.pipelines.measures)
-        {
-            let mut pass = begin(encoder, &[attachment(color_samples, Some(color))], z_samples);
-            self.draw_entities(&mut pass, None);
-            self.draw_sky(&mut pass);
-            drop(pass);
-            let mut pass = begin(encoder, &measures, &targets.z);
-            self.draw_entities(&mut pass, Some(pipeline));
-        } else {
-            let [depth, id] = measures;
-            let mut pass = begin(encoder, &[attachment(color, None), depth, id], &targets.z);
-            self.draw_entities(&mut pass, None);
-            self.draw_sky(&mut pass);
-        }
-    }
-
-    /// Draws every batch, with the pipeline of its pattern or with one pipeline for all.
-    fn draw_entities(&self, pass: &mut wgpu::RenderPass<'_>, one: Option<&wgpu::RenderPipeline>) {
-        pass.set_bind_group(0, &self.pipelines.globals, &[]);
-        pass.set_bind_group(1, &self.pipelines.shadow_inputs, &[]);
-        self.draw_batches(pass, &self.list.visible, |pass, pattern| {
-            pass.set_pipeline(one.unwrap_or(&self.pipelines.picture[pattern as usize]));
-        });
-    }
-
-    fn draw_sky(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipelines.sky);
-        pass.set_bind_group(0, &self.pipelines.globals, &[]);
-        pass.draw(0..3, 0..1);
-    }
-
-    /// Draws batches in their order; before each pattern, what is to be done for it.
-    fn draw_batches(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        batches: &[Batch],
-        mut begin: impl FnMut(&mut wgpu::RenderPass<'_>, Pattern),
-    ) {
-        pass.set_vertex_buffer(1, self.instances.slice(..));
-        let (mut is_own, mut pattern) = (false, None);
-        for batch in batches {
-            if pattern != Some(batch.mesh.pattern()) {
-                begin(pass, batch.mesh.pattern());
-                pattern = Some(batch.mesh.pattern());
+    /// The outcome; where it is an error of the device that follows from its loss, that, and a new device for the next call.
+    fn mended<T>(&mut self, outcome: Result<T, RenderError>) -> Result<T, RenderError> {
+        if let Err(RenderError::Device(_) | RenderError::OutOfMemory | RenderError::Lost { .. }) = &outcome {
+            // The loss is told when nothing is under way any more; an error of waiting is that of the outcome.
+            let _ = self.works.gpu.wait();
+            if let Some(reason) = self.works.gpu.lost() {
+                self.pending.clear();
+                self.works = Works::new(&self.config)?;
+                return Err(RenderError::Lost { reason });
             }
-            match batch.mesh {
-                Drawn::Model(id) => {
-                    self.models.draw(pass, id, batch.instances.clone());
-                    is_own = false;
-                }
-                Drawn::Own(mesh) => {
-                    if !is_own {
-                        pass.set_vertex_buffer(0, self.meshes.vertices.slice(..));
-                        pass.set_index_buffer(self.meshes.indices.slice(..), wgpu::IndexFormat::Uint32);
-                        is_own = true;
-                    }
-                    pass.draw_indexed(self.meshes.ranges[mesh as usize].clone(), 0, batch.instances.clone());
-                }
-            }
         }
+        outcome
     }
 }
 
-impl Meshes {
-    fn upload(gpu: &Gpu, library: MeshLibrary) -> Self {
-        let buffer = |usage, bytes: &[u8]| gpu.upload("meshes", usage, bytes);
-        Self {
-            vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&library.vertices)),
-            indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&library.indices)),
-            ranges: library.ranges,
-        }
+impl DeviceViews<'_> {
+    /// The buffer of a channel, in the form of the [`PixelFormat`](crate::PixelFormat) that was asked for: colour in three bytes a
+    /// pixel, the others in one, two or four, each pixel where [`spans`](Self::spans) says. `None` if it was not asked for. It may be
+    /// longer than the batch. What is handed in to the [queue](Renderer::queue) next finds the batch in it.
+    pub fn buffer(&self, channel: Channels) -> Option<&wgpu::Buffer> {
+        let is_one = channel.bits().is_power_of_two() && self.options.channels.contains(channel);
+        is_one.then(|| self.works.planes.packed(channel))
     }
-}
 
-fn instance_buffer(gpu: &Gpu, count: usize) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("instances"),
-        size: (count * size_of::<Instance>()) as u64,
-        usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-type Attachment<'a> = Option<wgpu::RenderPassColorAttachment<'a>>;
-
-/// A target that starts at zero: the number of no instance.
-#[expect(clippy::unnecessary_wraps, reason = "wgpu takes every attachment as an option")]
-fn attachment<'a>(view: &'a wgpu::TextureView, resolve: Option<&'a wgpu::TextureView>) -> Attachment<'a> {
-    let store = if resolve.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
-    Some(wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: resolve,
-        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store },
-    })
-}
-
-fn depth_attachment(view: &wgpu::TextureView, start: f32) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(start), store: wgpu::StoreOp::Store }),
-        stencil_ops: None,
+    /// Where each view lies in every buffer.
+    pub fn spans(&self) -> &[Span] {
+        &self.layout.spans
     }
-}
 
-/// A pass over the entities; z starts at infinity, which is 0 in reverse z.
-fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    colors: &[Attachment<'_>],
-    z: &wgpu::TextureView,
-) -> wgpu::RenderPass<'a> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("picture"),
-        color_attachments: colors,
-        depth_stencil_attachment: Some(depth_attachment(z, 0.0)),
-        ..Default::default()
-    })
+    /// Waits until the device has drawn it.
+    ///
+    /// # Errors
+    /// A failing adapter.
+    pub fn wait(&self) -> Result<(), RenderError> {
+        self.works.gpu.wait()
+    }
 }

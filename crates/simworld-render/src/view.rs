@@ -90,6 +90,13 @@ impl View {
         optical.z + radius >= self.near && self.sides.iter().all(|side| side.dot(&optical) >= -radius)
     }
 
+    /// Whether a ball may hold balls of at most that radius that are on the picture; its centre is camera-relative.
+    pub(crate) fn sees_some(&self, center: &Vector3, radius: f64, largest: f64, min_pixels: f64) -> bool {
+        let nearest = (center.norm() - radius - largest).max(largest).max(1e-9);
+        let pixels = 2.0 * largest * self.intrinsics.fx.max(self.intrinsics.fy) / nearest;
+        pixels >= min_pixels && self.sees(center, radius, 0.0)
+    }
+
     /// A box around everything on the picture as far as `far`.
     pub(crate) fn region(&self) -> Aabb {
         let k = &self.intrinsics;

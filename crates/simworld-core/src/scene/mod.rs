@@ -156,6 +156,17 @@ pub trait Scene {
         None
     }
 
+    /// Now, for a later [`visit_changes`](Self::visit_changes), if the scene keeps account of what changes; the world does.
+    fn mark(&self) -> Option<Mark> {
+        None
+    }
+
+    /// Visits every slot (the [index](EntityId::index) of ids) in which anything may have changed since a mark, with who is there now;
+    /// some may come twice. False if the scene cannot say: then look at everything.
+    fn visit_changes(&self, _since: Mark, _visitor: &mut dyn FnMut(usize, Option<EntityRef<'_>>)) -> bool {
+        false
+    }
+
     /// The entity nearest to a point in the plane, by distance to its footprint, that passes the filter and lies
     /// within `max_distance` m. Of two at the same distance the lower id is taken.
     fn nearest(
@@ -250,6 +261,12 @@ macro_rules! forward_scene {
             }
             fn classes(&self) -> Option<&ClassIndex> {
                 (**self).classes()
+            }
+            fn mark(&self) -> Option<Mark> {
+                (**self).mark()
+            }
+            fn visit_changes(&self, since: Mark, visitor: &mut dyn FnMut(usize, Option<EntityRef<'_>>)) -> bool {
+                (**self).visit_changes(since, visitor)
             }
             fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {
                 (**self).visit_attached(parent, visitor);

@@ -251,6 +251,7 @@ impl World {
     pub fn set_joints(&mut self, id: EntityId, joints: JointAngles) -> Result<(), WorldError> {
         self.check_alive(id)?;
         self.joints.insert(id, joints);
+        self.touch(id.index());
         Ok(())
     }
 

@@ -5,12 +5,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::config::{AdapterChoice, Backends};
 use crate::{RenderConfig, RenderError};
 
+/// Storage buffers that a stage may use: what the web offers.
+const STORAGE_BUFFERS: u32 = 8;
+
 /// A device, its queue, and the first error that wgpu reported since it was last asked.
 pub(crate) struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub info: wgpu::AdapterInfo,
     fault: Arc<Mutex<Option<RenderError>>>,
+    /// Why the device is gone, if it is.
+    lost: Arc<Mutex<Option<String>>>,
 }
 
 impl Gpu {
@@ -29,6 +34,10 @@ impl Gpu {
         let offered = adapter.limits();
         let limits = wgpu::Limits {
             max_buffer_size: offered.max_buffer_size,
+            max_storage_buffer_binding_size: offered.max_storage_buffer_binding_size,
+            max_storage_buffers_per_shader_stage: offered
+                .max_storage_buffers_per_shader_stage
+                .min(STORAGE_BUFFERS),
             ..wgpu::Limits::downlevel_defaults().using_resolution(offered)
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -43,11 +52,32 @@ impl Gpu {
         device.on_uncaptured_error(Arc::new(move |error| {
             slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(typed(&error));
         }));
-        Ok(Self { device, queue, info, fault })
+        let lost = Arc::new(Mutex::new(None));
+        let slot = Arc::clone(&lost);
+        device.set_device_lost_callback(move |reason, text| {
+            let why = format!("{reason:?}: {text}");
+            slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(why);
+        });
+        Ok(Self { device, queue, info, fault, lost })
     }
 
-    /// The first error since the last call.
+    /// Why the device is gone, if it is.
+    pub(crate) fn lost(&self) -> Option<String> {
+        // Callbacks run when somebody polls; what polling says is said again by what follows.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.lost.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// The first error since the last call, or that the device is gone, or this one.
+    pub(crate) fn fault_or(&self, other: RenderError) -> RenderError {
+        self.check().err().unwrap_or(other)
+    }
+
+    /// The first error since the last call; that the device is gone comes before all others.
     pub(crate) fn check(&self) -> Result<(), RenderError> {
+        if let Some(reason) = self.lost.lock().unwrap_or_else(PoisonError::into_inner).clone() {
+            return Err(RenderError::Lost { reason });
+        }
         match self.fault.lock().unwrap_or_else(PoisonError::into_inner).take() {
             Some(error) => Err(error),
             None => Ok(()),
@@ -58,7 +88,7 @@ impl Gpu {
     pub(crate) fn wait(&self) -> Result<(), RenderError> {
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| RenderError::Device(error.to_string()))?;
+            .map_err(|error| self.fault_or(RenderError::Device(error.to_string())))?;
         self.check()
     }
 

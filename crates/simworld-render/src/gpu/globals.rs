@@ -4,6 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use nalgebra::Vector3;
 
 use crate::light::Light;
+use crate::resident::split;
 use crate::shadow::ShadowView;
 use crate::view::{View, columns, vec4};
 
@@ -22,12 +23,16 @@ pub(crate) struct Globals {
     bounce: [f32; 4],
     zenith: [f32; 4],
     horizon: [f32; 4],
+    eye: [f32; 4],
+    eye_rest: [f32; 4],
 }
 
 impl Globals {
     pub(crate) fn new(view: &View, light: &Light, shadow: Option<&ShadowView>) -> Self {
         let axis = |row: usize| -> Vector3<f64> { view.optical_from_world.row(row).transpose() };
         let k = &view.intrinsics;
+        let (eye, eye_rest) = split(&view.eye.coords);
+        let with_zero = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
         let shadow_from_relative =
             shadow.map_or_else(nalgebra::Matrix4::identity, ShadowView::clip_from_relative);
         Self {
@@ -43,6 +48,8 @@ impl Globals {
             bounce: vec4(&light.bounce, shadow.map_or(0.0, |shadow| shadow.texel)),
             zenith: vec4(&light.zenith, 0.0),
             horizon: vec4(&light.horizon, 0.0),
+            eye: with_zero(eye),
+            eye_rest: with_zero(eye_rest),
         }
     }
 }

@@ -3,10 +3,15 @@
 mod device;
 mod globals;
 mod pipelines;
+mod planes;
 mod readback;
+mod scenery;
 mod targets;
 
 pub(crate) use device::Gpu;
 pub(crate) use globals::Globals;
 pub(crate) use pipelines::Pipelines;
+pub(crate) use planes::Planes;
+pub(crate) use readback::{Readback, Readbacks, place};
+pub(crate) use scenery::Scenery;
 pub(crate) use targets::Targets;

@@ -4,7 +4,6 @@
 use super::device::Gpu;
 use super::targets::{COLOR, DEPTH, ID, SAMPLES, Z};
 use crate::config::AntiAliasing;
-use crate::draw_list::Instance;
 use crate::mesh::{Pattern, Vertex};
 
 const COMMON: &str = include_str!("../shaders/globals.wgsl");
@@ -23,12 +22,12 @@ const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
 pub(crate) struct Pipelines {
     /// RGB with the measures, or RGB alone where it is smoothed; by [`Pattern`].
     pub picture: Vec<wgpu::RenderPipeline>,
-    /// Depth and ids alone, where RGB is smoothed.
-    pub measures: Option<wgpu::RenderPipeline>,
+    /// Depth and ids alone, where RGB is smoothed or not asked for.
+    pub measures: wgpu::RenderPipeline,
     pub sky: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
-    pub globals: wgpu::BindGroup,
-    pub globals_buffer: wgpu::Buffer,
+    /// The layout of [`Scenery`](super::Scenery): globals of a view, and the instances.
+    pub scenery: wgpu::BindGroupLayout,
     pub shadow_inputs: wgpu::BindGroup,
     /// The shadow map as a target.
     pub shadow_map: wgpu::TextureView,
@@ -54,9 +53,9 @@ struct Variant<'a> {
 }
 
 impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu, globals_size: u64, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
+    pub(crate) fn new(gpu: &Gpu, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
         let device = &gpu.device;
-        let (globals_layout, globals_buffer, globals) = bind_globals(device, globals_size);
+        let scenery = scenery_layout(device);
         let (shadow_layout, shadow_inputs, shadow_map) = bind_shadow(device, shadow_resolution.max(1));
         let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -71,9 +70,10 @@ impl Pipelines {
                 source: wgpu::ShaderSource::Wgsl(sources.concat().into()),
             })
         };
-        let full = layout(&[Some(&globals_layout), Some(&shadow_layout)]);
-        let plain = layout(&[Some(&globals_layout)]);
-        let forward = module("forward", &[COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD]);
+        let full = layout(&[Some(&scenery), Some(&shadow_layout)]);
+        let plain = layout(&[Some(&scenery)]);
+        let forward =
+            module("forward", &[COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD]);
         let sky = module("sky", &[COMMON, NOISE, SKY, SKY_PASS]);
         let shadow = module("shadow", &[COMMON, SHADOW]);
 
@@ -81,11 +81,10 @@ impl Pipelines {
         let forward = Recipe { gpu, module: &forward, layout: &full };
         Self {
             picture: Pattern::ALL.map(|pattern| forward.picture(pattern, smooth)).into(),
-            measures: smooth.then(|| forward.measures()),
+            measures: forward.measures(),
             sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
             shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow(),
-            globals,
-            globals_buffer,
+            scenery,
             shadow_inputs,
             shadow_map,
         }
@@ -171,7 +170,7 @@ impl Recipe<'_> {
         let constants: Vec<(&str, f64)> =
             variant.pattern.iter().map(|pattern| ("PATTERN", f64::from(*pattern as u32))).collect();
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-        let buffers = [Some(vertex_layout()), Some(instance_layout())];
+        let buffers = [Some(vertex_layout()), Some(pick_layout())];
         self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(variant.label),
             layout: Some(self.layout),
@@ -209,43 +208,32 @@ fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
-fn instance_layout() -> wgpu::VertexBufferLayout<'static> {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![
-        4 => Float32x4, 5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4
-    ];
+/// The numbers of instances, one an instance drawn.
+fn pick_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![4 => Uint32];
     wgpu::VertexBufferLayout {
-        array_stride: size_of::<Instance>() as u64,
+        array_stride: size_of::<u32>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
         attributes: &ATTRIBUTES,
     }
 }
 
-fn bind_globals(device: &wgpu::Device, size: u64) -> (wgpu::BindGroupLayout, wgpu::Buffer, wgpu::BindGroup) {
-    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("globals"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        }],
-    });
-    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("globals"),
-        size,
-        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("globals"),
-        layout: &layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
-    });
-    (layout, buffer, group)
+fn scenery_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entry = |binding, visibility, ty, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
+        count: None,
+    };
+    let stages = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
+    let data = wgpu::BufferBindingType::Storage { read_only: true };
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("scenery"),
+        entries: &[
+            entry(0, stages, wgpu::BufferBindingType::Uniform, true),
+            entry(1, wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE, data, false),
+        ],
+    })
 }
 
 fn bind_shadow(

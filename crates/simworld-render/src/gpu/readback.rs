@@ -1,84 +1,110 @@
-//! From textures to the caller's frame.
+//! From the device to the host: each batch that is under way has a buffer of its own.
 
-use std::sync::mpsc;
-
-use simworld_core::id::EntityId;
+use std::ops::Range;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use super::device::Gpu;
-use super::targets::Targets;
-use crate::{Frame, RenderError};
+use super::planes::Planes;
+use crate::RenderError;
+use crate::batch::{Channels, Layout, ViewOptions};
 
-impl Targets {
-    /// Records the copies of all three textures into the readback buffer.
-    pub(crate) fn copy_back(&self, encoder: &mut wgpu::CommandEncoder) {
-        let plane = u64::from(self.row_bytes) * u64::from(self.height);
-        for (offset, texture) in [(0, &self.color), (plane, &self.depth), (2 * plane, &self.id)] {
-            encoder.copy_texture_to_buffer(
-                texture.as_image_copy(),
-                wgpu::TexelCopyBufferInfo {
-                    buffer: &self.readback,
-                    layout: wgpu::TexelCopyBufferLayout {
-                        offset,
-                        bytes_per_row: Some(self.row_bytes),
-                        rows_per_image: Some(self.height),
-                    },
-                },
-                wgpu::Extent3d { width: self.width, height: self.height, depth_or_array_layers: 1 },
-            );
-        }
-    }
+/// Buffers that wait for a next batch; more are given back to the device.
+const MOST_IDLE: usize = 4;
 
-    /// Waits for the copies and unpacks them; `entities` are the instances in the order they were drawn.
-    pub(crate) fn unpack(
-        &self,
+/// A batch on its way to the host.
+pub(crate) struct Readback {
+    buffer: wgpu::Buffer,
+    outcome: Receiver<Result<(), wgpu::BufferAsyncError>>,
+    submission: wgpu::SubmissionIndex,
+}
+
+/// Buffers to read back through.
+#[derive(Default)]
+pub(crate) struct Readbacks {
+    idle: Vec<wgpu::Buffer>,
+}
+
+impl Readbacks {
+    /// Records the copies of what was asked for into a buffer of its own.
+    pub(crate) fn copy(
+        &mut self,
         gpu: &Gpu,
-        entities: &[(EntityId, u8)],
-        frame: &mut Frame,
-    ) -> Result<(), RenderError> {
-        let (sender, receiver) = mpsc::channel();
-        self.readback.map_async(wgpu::MapMode::Read, .., move |outcome| {
-            // The receiver waits below; if it gave up, nobody needs the outcome.
-            let _ = sender.send(outcome);
-        });
-        gpu.wait()?;
-        let failed = |reason: String| RenderError::Device(reason);
-        receiver
-            .try_recv()
-            .map_err(|error| failed(error.to_string()))?
-            .map_err(|error| failed(error.to_string()))?;
-        let view = self.readback.get_mapped_range(..).map_err(|error| failed(error.to_string()))?;
-        self.unpack_planes(&view, entities, frame);
-        drop(view);
-        self.readback.unmap();
-        Ok(())
+        encoder: &mut wgpu::CommandEncoder,
+        planes: &Planes,
+        layout: &Layout,
+        options: &ViewOptions,
+    ) -> Result<wgpu::Buffer, RenderError> {
+        let size = place(layout, options, Channels::empty()).end as u64;
+        let fits = |buffer: &wgpu::Buffer| (size..=4 * size).contains(&buffer.size());
+        let buffer = match self.idle.iter().position(fits) {
+            Some(index) => self.idle.swap_remove(index),
+            None => gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
+        };
+        gpu.check()?;
+        for channel in options.channels.iter() {
+            let Range { start, end } = place(layout, options, channel);
+            let length = (end - start) as u64;
+            encoder.copy_buffer_to_buffer(planes.packed(channel), 0, &buffer, start as u64, length);
+        }
+        Ok(buffer)
     }
 
-    fn unpack_planes(&self, bytes: &[u8], entities: &[(EntityId, u8)], frame: &mut Frame) {
-        frame.resize(self.width, self.height);
-        frame.drawn.extend(entities.iter().map(|(id, _)| *id));
-        frame.drawn.sort_unstable();
-        let plane = self.row_bytes as usize * self.height as usize;
-        let (color, rest) = bytes.split_at(plane);
-        let (depth, id) = rest.split_at(plane);
-        let width = self.width as usize;
-        for y in 0..self.height as usize {
-            let source = y * self.row_bytes as usize..y * self.row_bytes as usize + 4 * width;
-            let first = y * width;
-            let rgb = &mut frame.rgb[3 * first..3 * (first + width)];
-            for (pixel, rgba) in rgb.chunks_exact_mut(3).zip(color[source.clone()].chunks_exact(4)) {
-                pixel.copy_from_slice(&rgba[..3]);
-            }
-            let words = depth[source.clone()].chunks_exact(4).zip(id[source].chunks_exact(4));
-            for (index, (depth, number)) in (first..).zip(words) {
-                let number = u32::from_le_bytes([number[0], number[1], number[2], number[3]]);
-                let Some((entity, class)) = (number as usize).checked_sub(1).and_then(|n| entities.get(n))
-                else {
-                    continue;
-                };
-                frame.depth[index] = f32::from_le_bytes([depth[0], depth[1], depth[2], depth[3]]);
-                frame.ids[index] = entity.index() as u32 + 1;
-                frame.classes[index] = *class;
-            }
+    /// Takes a buffer back whose contents were read.
+    pub(crate) fn give_back(&mut self, buffer: wgpu::Buffer) {
+        if self.idle.len() < MOST_IDLE {
+            self.idle.push(buffer);
         }
     }
+}
+
+impl Readback {
+    /// Asks for the contents of a buffer as soon as a submission is done.
+    pub(crate) fn begin(buffer: wgpu::Buffer, submission: wgpu::SubmissionIndex) -> Self {
+        let (sender, outcome) = channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {
+            // If nobody waits any more, nobody needs the outcome.
+            let _ = sender.send(mapped);
+        });
+        Self { buffer, outcome, submission }
+    }
+
+    /// Waits until it is there, lets somebody read it, and gives the buffer back.
+    pub(crate) fn read(self, gpu: &Gpu, reader: impl FnOnce(&[u8])) -> Result<wgpu::Buffer, RenderError> {
+        let failed = |reason: String| RenderError::Device(reason);
+        let submission_index = Some(self.submission);
+        gpu.device
+            .poll(wgpu::PollType::Wait { submission_index, timeout: None })
+            .map_err(|error| gpu.fault_or(failed(error.to_string())))?;
+        gpu.check()?;
+        match self.outcome.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(gpu.fault_or(failed(error.to_string()))),
+            Err(TryRecvError::Empty | TryRecvError::Disconnected) => {
+                return Err(gpu.fault_or(failed("a buffer was not mapped".to_owned())));
+            }
+        }
+        let view = self.buffer.get_mapped_range(..).map_err(|error| failed(error.to_string()))?;
+        reader(&view);
+        drop(view);
+        self.buffer.unmap();
+        Ok(self.buffer)
+    }
+}
+
+/// Where a channel lies in the buffer, bytes; no channel stands for the end.
+pub(crate) fn place(layout: &Layout, options: &ViewOptions, wanted: Channels) -> Range<usize> {
+    let mut start = 0;
+    for channel in options.channels.iter() {
+        let length = layout.pixels * options.bytes_of(channel);
+        if channel == wanted {
+            return start..start + length;
+        }
+        start += length;
+    }
+    start..start
 }

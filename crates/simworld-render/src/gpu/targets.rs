@@ -1,6 +1,8 @@
-//! The textures that a picture is drawn into, and the buffer through which it comes back.
+//! The textures that pictures are drawn into, one after the other.
 
 use super::device::Gpu;
+use super::planes::Planes;
+use crate::batch::{Channels, Span};
 use crate::config::AntiAliasing;
 
 pub(crate) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -11,7 +13,7 @@ pub(crate) const Z: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Samples a pixel of smoothed RGB.
 pub(crate) const SAMPLES: u32 = 4;
 
-/// The textures of one picture size.
+/// The textures of pictures up to one size; smaller ones lie in the upper left corner.
 pub(crate) struct Targets {
     pub width: u32,
     pub height: u32,
@@ -24,9 +26,6 @@ pub(crate) struct Targets {
     pub z: wgpu::TextureView,
     /// Colour and z with several samples a pixel, where RGB is smoothed.
     pub smooth: Option<[wgpu::TextureView; 2]>,
-    pub readback: wgpu::Buffer,
-    /// Bytes of a row in the readback buffer, padded as copies want it.
-    pub row_bytes: u32,
 }
 
 impl Targets {
@@ -48,13 +47,6 @@ impl Targets {
         let color = texture("color", COLOR, 1, copied);
         let depth = texture("depth", DEPTH, 1, copied);
         let id = texture("id", ID, 1, copied);
-        let row_bytes = (width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let readback = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size: 3 * u64::from(row_bytes) * u64::from(height),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
         Self {
             width,
             height,
@@ -70,8 +62,35 @@ impl Targets {
                 let z = texture("smooth z", Z, SAMPLES, drawn);
                 [view(&color), view(&z)]
             }),
-            readback,
-            row_bytes,
+        }
+    }
+}
+
+impl Targets {
+    /// Records the copies of what was drawn of a view into the planes.
+    pub(crate) fn copy(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        planes: &Planes,
+        span: &Span,
+        channels: Channels,
+    ) {
+        let measures = channels != Channels::RGB;
+        let wanted = [channels.contains(Channels::RGB), measures, measures];
+        let textures = [&self.color, &self.depth, &self.id];
+        for ((texture, buffer), _) in
+            textures.iter().zip(&planes.raw).zip(wanted).filter(|(_, wanted)| *wanted)
+        {
+            let layout = wgpu::TexelCopyBufferLayout {
+                offset: span.first as u64 * 4,
+                bytes_per_row: Some(span.pitch * 4),
+                rows_per_image: Some(span.height),
+            };
+            encoder.copy_texture_to_buffer(
+                texture.as_image_copy(),
+                wgpu::TexelCopyBufferInfo { buffer, layout },
+                wgpu::Extent3d { width: span.width, height: span.height, depth_or_array_layers: 1 },
+            );
         }
     }
 }

@@ -1,4 +1,4 @@
-// Entities: RGB, planar depth and instance numbers in one pass, or RGB and the measures apart.
+// Entities: RGB, planar depth, and who it is, in one pass, or RGB and the measures apart.
 
 // The painting of this pipeline, a `Pattern` of mesh/mod.rs.
 override PATTERN: u32 = 0u;
@@ -24,7 +24,8 @@ struct Varyings {
 }
 
 @vertex
-fn vertex_main(in: VertexIn) -> Varyings {
+fn vertex_main(corner: Corner) -> Varyings {
+    let in = vertex_of(corner);
     let finish = finish_of(in.material, in.color, in.second, in.scale.w);
     let relative = relative_point(in);
     var out: Varyings;
@@ -39,7 +40,7 @@ fn vertex_main(in: VertexIn) -> Varyings {
     out.size = in.scale;
     out.extra = vec2f(in.color.w, in.second.w);
     out.paint = f32(in.material != 0u);
-    out.id = in.index + 1u;
+    out.id = in.who;
     return out;
 }
 

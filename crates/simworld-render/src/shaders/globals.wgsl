@@ -18,21 +18,58 @@ struct Globals {
     bounce: vec4f,
     zenith: vec4f,
     horizon: vec4f,
+    // The eye in the world, and what that float leaves over.
+    eye: vec4f,
+    eye_rest: vec4f,
+}
+
+// One drawn thing; the twin of `Instance` in resident/instance.rs.
+struct Instance {
+    rotation: vec4f,
+    // Where it is in the world, and the unit of offsets.
+    place: vec4f,
+    // What the float of the place leaves over.
+    rest: vec3f,
+    // Slot of the entity plus one, and its class from bit 24 on.
+    who: u32,
+    scale: vec4f,
+    color: vec4f,
+    second: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> globals: Globals;
+@group(0) @binding(1) var<storage, read> instances: array<Instance>;
 
-struct VertexIn {
-    @builtin(instance_index) index: u32,
+struct Corner {
     @location(0) anchor: vec3f,
     @location(1) offset: vec3f,
     @location(2) normal: vec3f,
     @location(3) material: u32,
-    @location(4) rotation: vec4f,
-    @location(5) translation: vec4f,
-    @location(6) scale: vec4f,
-    @location(7) color: vec4f,
-    @location(8) second: vec4f,
+    // The number of the instance.
+    @location(4) number: u32,
+}
+
+// A corner of a mesh, with the instance that it belongs to.
+struct VertexIn {
+    anchor: vec3f,
+    offset: vec3f,
+    normal: vec3f,
+    material: u32,
+    rotation: vec4f,
+    // From the eye, and the unit of offsets.
+    translation: vec4f,
+    scale: vec4f,
+    color: vec4f,
+    second: vec4f,
+    who: u32,
+}
+
+fn vertex_of(corner: Corner) -> VertexIn {
+    let i = instances[corner.number];
+    // Part by part, so that nothing is lost far from the origin.
+    let from_eye = (i.place.xyz - globals.eye.xyz) + (i.rest - globals.eye_rest.xyz);
+    return VertexIn(corner.anchor, corner.offset, corner.normal, corner.material, i.rotation,
+        vec4f(from_eye, i.place.w), i.scale, i.color, i.second, i.who);
 }
 
 fn rotate(q: vec4f, v: vec3f) -> vec3f {

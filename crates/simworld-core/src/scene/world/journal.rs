@@ -30,25 +30,26 @@ pub struct Mark {
     step: u64,
 }
 
-/// The slots that changed in this step and in the one before.
+/// The slots that changed in this step and in the one before, and when each changed last.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Journal {
     identity: Identity,
     /// Steps that were finished.
     step: u64,
     touched: Vec<u32>,
-    is_touched: Vec<bool>,
+    /// By slot, the number of the step in which it changed last, counted from one.
+    stamps: Vec<u64>,
     before: Vec<u32>,
 }
 
 impl Journal {
     pub(super) fn add_slot(&mut self) {
-        self.is_touched.push(false);
+        self.stamps.push(0);
     }
 
     pub(super) fn touch(&mut self, slot: usize) {
-        if !self.is_touched[slot] {
-            self.is_touched[slot] = true;
+        if self.stamps[slot] != self.step + 1 {
+            self.stamps[slot] = self.step + 1;
             self.touched.push(slot as u32);
         }
     }
@@ -58,9 +59,6 @@ impl Journal {
         self.step += 1;
         std::mem::swap(&mut self.touched, &mut self.before);
         self.touched.clear();
-        for slot in &self.before {
-            self.is_touched[*slot as usize] = false;
-        }
     }
 
     /// What changed in the step that was finished last.
@@ -103,5 +101,34 @@ impl World {
         }
         let before = if mark.step < *step { before.as_slice() } else { &[] };
         Some(before.iter().chain(touched).map(|slot| *slot as usize))
+    }
+
+    /// As [`touched_since`](Self::touched_since), for marks of any age: an older one costs a look at the stamp of every slot.
+    /// `None` only if the mark is of another world.
+    ///
+    /// ```
+    /// use simworld_core::geometry::{Point3, pose_facing};
+    /// use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+    /// let mut world = World::new();
+    /// let pose = pose_facing(Point3::origin(), 0.0);
+    /// let bench = || EntityDesc::new(EntityKind::Bench, pose, Shape::cuboid(0.6, 1.8, 0.8));
+    /// world.spawn(bench())?;
+    /// world.finish_step();
+    /// let mark = world.mark();
+    /// let second = world.spawn(bench())?;
+    /// (0..5).for_each(|_| world.finish_step());
+    /// assert_eq!(world.changed_since(mark).unwrap().collect::<Vec<_>>(), [second.index()]);
+    /// assert!(World::new().changed_since(mark).is_none());
+    /// # Ok::<(), simworld_core::scene::WorldError>(())
+    /// ```
+    pub fn changed_since(&self, mark: Mark) -> Option<impl Iterator<Item = usize> + '_> {
+        let journal = &self.journal;
+        if mark.world != journal.identity.0 {
+            return None;
+        }
+        let recent = self.touched_since(mark);
+        let stamps: &[u64] = if recent.is_some() { &[] } else { &journal.stamps };
+        let older = stamps.iter().enumerate().filter(move |(_, stamp)| **stamp > mark.step);
+        Some(recent.into_iter().flatten().chain(older.map(|(slot, _)| slot)))
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::World;
+use super::{Mark, World};
 use crate::asset::Catalogue;
 use crate::clock::Clock;
 use crate::environment::Environment;
@@ -85,6 +85,16 @@ impl Scene for World {
 
     fn classes(&self) -> Option<&ClassIndex> {
         Some(&self.classes)
+    }
+
+    fn mark(&self) -> Option<Mark> {
+        Some(Self::mark(self))
+    }
+
+    fn visit_changes(&self, since: Mark, visitor: &mut dyn FnMut(usize, Option<EntityRef<'_>>)) -> bool {
+        let Some(changed) = self.changed_since(since) else { return false };
+        changed.for_each(|slot| visitor(slot, self.slot(slot)));
+        true
     }
 
     fn visit_attached(&self, parent: EntityId, visitor: &mut dyn FnMut(EntityRef<'_>)) {

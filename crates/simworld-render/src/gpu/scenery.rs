@@ -1,0 +1,173 @@
+//! What every view of a batch is drawn from: its globals, and the instances, which stay on the device.
+
+use super::device::Gpu;
+use super::globals::Globals;
+use crate::RenderError;
+use crate::resident::{Instance, Residents};
+
+/// Changes less than this many instances apart are sent together.
+const LEAST_GAP: u32 = 64;
+/// More pieces than this are sent as fewer, larger ones.
+const MOST_PIECES: usize = 64;
+
+/// The buffers of group 0.
+pub(crate) struct Scenery {
+    globals: wgpu::Buffer,
+    pub instances: wgpu::Buffer,
+    picks: wgpu::Buffer,
+    group: wgpu::BindGroup,
+    layout: wgpu::BindGroupLayout,
+    /// Bytes from the globals of one view to those of the next.
+    stride: u64,
+    epoch: u64,
+}
+
+impl Scenery {
+    pub(crate) fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> Self {
+        let alignment = u64::from(gpu.device.limits().min_uniform_buffer_offset_alignment);
+        let stride = (size_of::<Globals>() as u64).next_multiple_of(alignment);
+        let globals = buffer(gpu, "globals", wgpu::BufferUsages::UNIFORM, stride);
+        let instances =
+            buffer(gpu, "instances", wgpu::BufferUsages::STORAGE, 1024 * size_of::<Instance>() as u64);
+        let picks = buffer(gpu, "picks", wgpu::BufferUsages::VERTEX, 4096);
+        let group = bind(gpu, layout, &globals, &instances);
+        Self { globals, instances, picks, group, layout: layout.clone(), stride, epoch: 0 }
+    }
+
+    /// Sends the globals of the views, and what changed of the instances.
+    pub(crate) fn send(
+        &mut self,
+        gpu: &Gpu,
+        globals: &[Globals],
+        residents: &mut Residents,
+    ) -> Result<(), RenderError> {
+        let limits = gpu.device.limits();
+        let limit = (limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) as usize)
+            / size_of::<Instance>();
+        let count = residents.instances.len();
+        if count > limit {
+            return Err(RenderError::TooMany { count, limit });
+        }
+        let (wide, long) = (self.stride * globals.len() as u64, (count * size_of::<Instance>()) as u64);
+        let is_new = long > self.instances.size();
+        if wide > self.globals.size() || is_new {
+            if wide > self.globals.size() {
+                self.globals = buffer(gpu, "globals", wgpu::BufferUsages::UNIFORM, wide.next_power_of_two());
+            }
+            if is_new {
+                let roomy = (count.next_power_of_two().min(limit) * size_of::<Instance>()) as u64;
+                self.instances = buffer(gpu, "instances", wgpu::BufferUsages::STORAGE, roomy);
+            }
+            self.group = bind(gpu, &self.layout, &self.globals, &self.instances);
+            gpu.check()?;
+        }
+        let mut bytes = vec![0; wide as usize];
+        for (index, one) in globals.iter().enumerate() {
+            let start = index * self.stride as usize;
+            bytes[start..start + size_of::<Globals>()].copy_from_slice(bytemuck::bytes_of(one));
+        }
+        gpu.queue.write_buffer(&self.globals, 0, &bytes);
+        let everything = is_new || self.epoch != residents.epoch;
+        self.epoch = residents.epoch;
+        for piece in pieces(&mut residents.changed, everything.then_some(count as u32)) {
+            let offset = u64::from(piece.start) * size_of::<Instance>() as u64;
+            let instances = &residents.instances[piece.start as usize..piece.end as usize];
+            gpu.queue.write_buffer(&self.instances, offset, bytemuck::cast_slice(instances));
+        }
+        Ok(())
+    }
+
+    /// Sends the numbers of the instances that are drawn.
+    pub(crate) fn send_picks(&mut self, gpu: &Gpu, picks: &[u32]) -> Result<(), RenderError> {
+        let long = size_of_val(picks) as u64;
+        let limit = gpu.device.limits().max_buffer_size;
+        if long > limit {
+            return Err(RenderError::TooMany { count: picks.len(), limit: (limit / 4) as usize });
+        }
+        if long > self.picks.size() {
+            let roomy = long.next_power_of_two().min(limit);
+            self.picks = buffer(gpu, "picks", wgpu::BufferUsages::VERTEX, roomy);
+            gpu.check()?;
+        }
+        gpu.queue.write_buffer(&self.picks, 0, bytemuck::cast_slice(picks));
+        Ok(())
+    }
+
+    /// Binds what the view of that index is drawn from.
+    pub(crate) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, view: usize) {
+        pass.set_bind_group(0, &self.group, &[(view as u64 * self.stride) as u32]);
+        pass.set_vertex_buffer(1, self.picks.slice(..));
+    }
+}
+
+/// The changed numbers as few runs; empties the list.
+fn pieces(changed: &mut Vec<u32>, everything: Option<u32>) -> Vec<std::ops::Range<u32>> {
+    if let Some(count) = everything {
+        changed.clear();
+        return if count == 0 { Vec::new() } else { vec![0..count] };
+    }
+    changed.sort_unstable();
+    changed.dedup();
+    let mut gap = LEAST_GAP;
+    loop {
+        let mut runs: Vec<std::ops::Range<u32>> = Vec::new();
+        for number in changed.iter() {
+            match runs.last_mut() {
+                Some(run) if *number - run.end < gap => run.end = number + 1,
+                _ => runs.push(*number..number + 1),
+            }
+        }
+        if runs.len() <= MOST_PIECES {
+            changed.clear();
+            return runs;
+        }
+        gap *= 4;
+    }
+}
+
+fn buffer(gpu: &Gpu, label: &str, usage: wgpu::BufferUsages, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn bind(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    globals: &wgpu::Buffer,
+    instances: &wgpu::Buffer,
+) -> wgpu::BindGroup {
+    let window = wgpu::BufferBinding {
+        buffer: globals,
+        offset: 0,
+        size: std::num::NonZeroU64::new(size_of::<Globals>() as u64),
+    };
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("scenery"),
+        layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(window) },
+            wgpu::BindGroupEntry { binding: 1, resource: instances.as_entire_binding() },
+        ],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_are_sent_in_few_pieces_that_cover_them() {
+        let mut changed = vec![7, 900, 8, 7, 3];
+        assert_eq!(pieces(&mut changed, None), [3..9, 900..901]);
+        assert!(changed.is_empty());
+        let mut scattered: Vec<u32> = (0..5000).map(|k| k * 100).collect();
+        let runs = pieces(&mut scattered.clone(), None);
+        assert!(runs.len() <= MOST_PIECES);
+        assert!(scattered.iter().all(|number| runs.iter().any(|run| run.contains(number))));
+        assert_eq!(pieces(&mut scattered, Some(12)), vec![0..12]);
+    }
+}

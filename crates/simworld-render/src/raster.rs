@@ -1,0 +1,224 @@
+//! The raster backend: view after view through one set of textures, then into the planes of the batch.
+
+use crate::RenderError;
+use crate::batch::{Channels, Layout, Span};
+use crate::config::AntiAliasing;
+use crate::draw_list::{Batch, DrawList, ViewBatches};
+use crate::gpu::{Gpu, Pipelines, Planes, Scenery, Targets};
+use crate::mesh::{Drawn, MeshLibrary, Pattern};
+use crate::models::Models;
+
+/// Pipelines, meshes and textures of the raster backend.
+pub(crate) struct Raster {
+    pub pipelines: Pipelines,
+    meshes: Meshes,
+    pub models: Models,
+    targets: Option<Targets>,
+    smoothing: AntiAliasing,
+}
+
+/// The meshes on the device.
+struct Meshes {
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    ranges: Vec<std::ops::Range<u32>>,
+}
+
+/// What is drawn, and from what.
+pub(crate) struct Job<'a> {
+    pub scenery: &'a Scenery,
+    pub list: &'a DrawList,
+    pub layout: &'a Layout,
+    pub channels: Channels,
+    /// By view, whether the sun throws shadows.
+    pub shaded: &'a [bool],
+}
+
+impl Raster {
+    pub(crate) fn new(gpu: &Gpu, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
+        let pipelines = Pipelines::new(gpu, shadow_resolution, smoothing);
+        let meshes = Meshes::upload(gpu, MeshLibrary::build());
+        Self { pipelines, meshes, models: Models::default(), targets: None, smoothing }
+    }
+
+    /// Makes room for the largest view of a batch.
+    pub(crate) fn hold(&mut self, gpu: &Gpu, [width, height]: [u32; 2]) -> Result<(), RenderError> {
+        let held = self.targets.as_ref().map_or([0; 2], |targets| [targets.width, targets.height]);
+        // Small targets are cheaper to clear.
+        if held[0] < width || held[1] < height || held[0] > 2 * width || held[1] > 2 * height {
+            self.targets = None;
+            let targets = Targets::new(gpu, width, height, self.smoothing);
+            gpu.check()?;
+            self.targets = Some(targets);
+        }
+        Ok(())
+    }
+
+    /// Records every view of a batch.
+    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, planes: &Planes, job: &Job<'_>) {
+        let Some(targets) = &self.targets else { return };
+        for (view, (span, batches)) in job.layout.spans.iter().zip(&job.list.views).enumerate() {
+            if job.shaded[view] && job.channels.contains(Channels::RGB) {
+                self.draw_shadows(encoder, job.scenery, view, &batches.casters);
+            }
+            let one = View { scenery: job.scenery, view, span, batches };
+            self.draw_view(encoder, targets, &one, job.channels);
+            targets.copy(encoder, planes, span, job.channels);
+        }
+    }
+
+    fn draw_shadows(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        scenery: &Scenery,
+        view: usize,
+        casters: &[Batch],
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadow"),
+            depth_stencil_attachment: Some(depth_attachment(&self.pipelines.shadow_map, 1.0)),
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipelines.shadow);
+        scenery.bind(&mut pass, view);
+        self.draw_batches(&mut pass, casters, |_, _| {});
+    }
+
+    fn draw_view(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        one: &View<'_>,
+        channels: Channels,
+    ) {
+        let color = &targets.color_view;
+        let measures = [attachment(&targets.depth_view, None), attachment(&targets.id_view, None)];
+        let wants_rgb = channels.contains(Channels::RGB);
+        let (smooth, only_rgb) = (&targets.smooth, channels == Channels::RGB);
+        if let (Some([color_samples, z_samples]), true) = (smooth, wants_rgb) {
+            let mut pass = begin(encoder, &[attachment(color_samples, Some(color))], z_samples, one.span);
+            self.draw_entities(&mut pass, one, None);
+            self.draw_sky(&mut pass, one);
+        }
+        if smooth.is_some() || !wants_rgb {
+            if !only_rgb {
+                let mut pass = begin(encoder, &measures, &targets.z, one.span);
+                self.draw_entities(&mut pass, one, Some(&self.pipelines.measures));
+            }
+        } else {
+            let [depth, id] = measures;
+            let mut pass = begin(encoder, &[attachment(color, None), depth, id], &targets.z, one.span);
+            self.draw_entities(&mut pass, one, None);
+            self.draw_sky(&mut pass, one);
+        }
+    }
+
+    /// Draws every batch, with the pipeline of its pattern or with one pipeline for all.
+    fn draw_entities(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        one: &View<'_>,
+        only: Option<&wgpu::RenderPipeline>,
+    ) {
+        one.scenery.bind(pass, one.view);
+        pass.set_bind_group(1, &self.pipelines.shadow_inputs, &[]);
+        self.draw_batches(pass, &one.batches.visible, |pass, pattern| {
+            pass.set_pipeline(only.unwrap_or(&self.pipelines.picture[pattern as usize]));
+        });
+    }
+
+    fn draw_sky(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
+        pass.set_pipeline(&self.pipelines.sky);
+        one.scenery.bind(pass, one.view);
+        pass.draw(0..3, 0..1);
+    }
+
+    /// Draws batches in their order; before each pattern, what is to be done for it.
+    fn draw_batches(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        batches: &[Batch],
+        mut begin: impl FnMut(&mut wgpu::RenderPass<'_>, Pattern),
+    ) {
+        let (mut is_own, mut pattern) = (false, None);
+        for batch in batches {
+            if pattern != Some(batch.mesh.pattern()) {
+                begin(pass, batch.mesh.pattern());
+                pattern = Some(batch.mesh.pattern());
+            }
+            match batch.mesh {
+                Drawn::Model(id) => {
+                    self.models.draw(pass, id, batch.instances.clone());
+                    is_own = false;
+                }
+                Drawn::Own(mesh) => {
+                    if !is_own {
+                        pass.set_vertex_buffer(0, self.meshes.vertices.slice(..));
+                        pass.set_index_buffer(self.meshes.indices.slice(..), wgpu::IndexFormat::Uint32);
+                        is_own = true;
+                    }
+                    pass.draw_indexed(self.meshes.ranges[mesh as usize].clone(), 0, batch.instances.clone());
+                }
+            }
+        }
+    }
+}
+
+/// One view of a batch.
+struct View<'a> {
+    scenery: &'a Scenery,
+    view: usize,
+    span: &'a Span,
+    batches: &'a ViewBatches,
+}
+
+impl Meshes {
+    fn upload(gpu: &Gpu, library: MeshLibrary) -> Self {
+        let buffer = |usage, bytes: &[u8]| gpu.upload("meshes", usage, bytes);
+        Self {
+            vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&library.vertices)),
+            indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&library.indices)),
+            ranges: library.ranges,
+        }
+    }
+}
+
+type Attachment<'a> = Option<wgpu::RenderPassColorAttachment<'a>>;
+
+/// A target that starts at zero: nobody.
+#[expect(clippy::unnecessary_wraps, reason = "wgpu takes every attachment as an option")]
+fn attachment<'a>(view: &'a wgpu::TextureView, resolve: Option<&'a wgpu::TextureView>) -> Attachment<'a> {
+    let store = if resolve.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+    Some(wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: resolve,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store },
+    })
+}
+
+fn depth_attachment(view: &wgpu::TextureView, start: f32) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(start), store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
+    }
+}
+
+/// A pass over the entities of a view; z starts at infinity, which is 0 in reverse z.
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    colors: &[Attachment<'_>],
+    z: &wgpu::TextureView,
+    span: &Span,
+) -> wgpu::RenderPass<'a> {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("picture"),
+        color_attachments: colors,
+        depth_stencil_attachment: Some(depth_attachment(z, 0.0)),
+        ..Default::default()
+    });
+    pass.set_viewport(0.0, 0.0, span.width as f32, span.height as f32, 0.0, 1.0);
+    pass.set_scissor_rect(0, 0, span.width, span.height);
+    pass
+}

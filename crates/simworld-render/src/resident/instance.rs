@@ -1,0 +1,73 @@
+//! One drawn thing as the shaders read it.
+
+use bytemuck::{Pod, Zeroable};
+use simworld_core::geometry::{Pose, Vector3};
+use simworld_core::id::EntityId;
+
+use crate::look::Look;
+
+/// Slots that fit beside the class in [`Instance::who`].
+pub(crate) const MOST_SLOTS: usize = (1 << 24) - 1;
+
+/// A mesh at a place: vertex = anchor * scale + offset * unit, turned and moved; the twin of `Instance` in shaders/globals.wgsl.
+///
+/// The place is in the world, as a float and what that float leaves over, so that what stands still stays on the device wherever
+/// the eye goes: the difference to the eye, taken part by part, is exact to a float.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(crate) struct Instance {
+    /// World from body, quaternion (i, j, k, w).
+    rotation: [f32; 4],
+    /// The body's origin, m, and the unit of offsets.
+    place: [f32; 4],
+    /// What the float of the place leaves over, m.
+    rest: [f32; 3],
+    /// Slot of the entity plus one, and its class from bit 24 on.
+    who: u32,
+    /// The body's box and the seed of its variation.
+    scale: [f32; 4],
+    /// Colour and state.
+    color: [f32; 4],
+    /// Second colour and parameter.
+    second: [f32; 4],
+}
+
+impl Instance {
+    pub(crate) fn new(pose: &Pose, look: &Look, id: EntityId, class: u8) -> Self {
+        let with = |[x, y, z]: [f32; 3], w: f32| [x, y, z, w];
+        let (place, rest) = split(&pose.translation.vector);
+        Self {
+            rotation: pose.rotation.coords.map(|component| component as f32).into(),
+            place: with(place, look.unit),
+            rest,
+            who: (id.index() as u32 + 1) & 0x00ff_ffff | u32::from(class) << 24,
+            scale: with(look.scale, look.seed),
+            color: with(look.color, look.state),
+            second: with(look.second, look.param),
+        }
+    }
+}
+
+/// A place as a float and what that float leaves over.
+pub(crate) fn split(place: &Vector3) -> ([f32; 3], [f32; 3]) {
+    let high = [place.x, place.y, place.z].map(|coordinate| coordinate as f32);
+    let low = std::array::from_fn(|axis| (place[axis] - f64::from(high[axis])) as f32);
+    (high, low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The difference of two places is exact to a float, 13 000 km from the origin.
+    #[test]
+    fn nearby_places_differ_exactly() {
+        let eye = Vector3::new(1.2e7 + 0.123_456, -8.0e6 + 0.001, 1.7);
+        let shift = Vector3::new(3.000_07, -0.25, 12.125_01);
+        let ((eye_high, eye_low), (high, low)) = (split(&eye), split(&(eye + shift)));
+        for axis in 0..3 {
+            let apart = (high[axis] - eye_high[axis]) + (low[axis] - eye_low[axis]);
+            assert!((f64::from(apart) - shift[axis]).abs() < 4e-7 * shift[axis].abs().max(1.0), "{apart}");
+        }
+    }
+}

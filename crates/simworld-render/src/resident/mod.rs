@@ -1,0 +1,227 @@
+//! What of a scene lies ready for the device: dressed once, and anew only where the scene says that something changed.
+//!
+//! An entity may be several instances (a body and its limbs); each has a number, under which it lies in the buffer on the device
+//! and in the grid. Numbers depend on what came before; what reaches a picture is ordered by entity and part instead.
+
+mod grid;
+mod instance;
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+pub(crate) use grid::{Ball, Grid};
+pub(crate) use instance::{Instance, MOST_SLOTS, split};
+use simworld_core::geometry::{Aabb, Pose, Vector3};
+use simworld_core::id::EntityId;
+use simworld_core::net::Aspect;
+use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
+
+use crate::classes::class_of;
+use crate::look::{Look, Looks};
+use crate::mesh::Drawn;
+use crate::models::model_of;
+
+const NONE: u32 = u32::MAX;
+
+/// What is known of an instance beside what the shaders read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Card {
+    pub mesh: Drawn,
+    /// Slot of the entity.
+    pub slot: u32,
+    /// Which of the entity's instances it is.
+    pub part: u32,
+    /// Whether it throws a shadow that one would miss.
+    pub casts: bool,
+    /// The next instance of the entity, or of the free ones.
+    next: u32,
+}
+
+/// One instance of an entity before it has a number.
+pub(crate) struct Part {
+    pub mesh: Drawn,
+    /// World from part.
+    pub pose: Pose,
+    pub look: Look,
+}
+
+/// The instances of a scene.
+#[derive(Default)]
+pub(crate) struct Residents {
+    pub instances: Vec<Instance>,
+    pub cards: Vec<Card>,
+    pub grid: Grid,
+    /// Who is in each slot.
+    pub names: Arc<Vec<EntityId>>,
+    /// Numbers whose instances changed since the device had them; some may come twice.
+    pub changed: Vec<u32>,
+    /// Grows whenever everything was dressed anew.
+    pub epoch: u64,
+    /// By slot, the first instance of who is there.
+    heads: Vec<u32>,
+    free: u32,
+    mark: Option<Mark>,
+    signals: Vec<Aspect>,
+    /// Slots of those that show signals.
+    signalling: BTreeSet<u32>,
+    parts: Vec<Part>,
+}
+
+impl Residents {
+    /// Follows the scene; `region` is what is looked at of scenes that keep no account of what changes.
+    pub(crate) fn follow(&mut self, scene: &dyn Scene, region: &Aabb) {
+        let looks = Looks::new();
+        let mark = scene.mark();
+        let known = match self.mark {
+            Some(since) => {
+                scene.visit_changes(since, &mut |slot, entity| self.look_at(scene, &looks, slot, entity))
+            }
+            None => false,
+        };
+        if !known {
+            self.restart();
+            let everywhere = Aabb::around(simworld_core::geometry::Point3::origin(), Vector3::repeat(1e9));
+            let region = if mark.is_some() { &everywhere } else { region };
+            let _ = scene.visit(region, &mut |entity| {
+                self.look_at(scene, &looks, entity.id.index(), Some(entity));
+                ControlFlow::Continue(())
+            });
+        }
+        self.mark = mark;
+        if self.signals != scene.signals() {
+            self.signals = scene.signals().to_vec();
+            for slot in self.signalling.clone() {
+                let id = self.names[slot as usize];
+                self.look_at(scene, &looks, slot as usize, scene.entity(id));
+            }
+        }
+    }
+
+    /// Everything is dressed anew at the next look.
+    pub(crate) fn forget(&mut self) {
+        self.mark = None;
+    }
+
+    fn restart(&mut self) {
+        self.instances.clear();
+        self.cards.clear();
+        self.grid.clear();
+        self.heads.clear();
+        self.changed.clear();
+        self.signalling.clear();
+        self.names = Arc::default();
+        self.free = NONE;
+        self.epoch += 1;
+    }
+
+    /// Dresses who is in a slot now.
+    fn look_at(&mut self, scene: &dyn Scene, looks: &Looks, slot: usize, entity: Option<EntityRef<'_>>) {
+        if slot >= self.heads.len() {
+            self.heads.resize(slot + 1, NONE);
+        }
+        if slot >= self.names.len() {
+            Arc::make_mut(&mut self.names).resize(slot + 1, EntityId::default());
+        }
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        if let Some(entity) = entity.filter(EntityRef::is_visible) {
+            if self.names[slot] != entity.id {
+                Arc::make_mut(&mut self.names)[slot] = entity.id;
+            }
+            if entity.kind == EntityKind::TrafficSignal {
+                self.signalling.insert(slot as u32);
+            } else {
+                self.signalling.remove(&(slot as u32));
+            }
+            dress(scene, looks, &entity, &mut parts);
+            self.fill(slot, &entity, &parts);
+        } else {
+            self.signalling.remove(&(slot as u32));
+            self.cut(slot, NONE);
+        }
+        self.parts = parts;
+    }
+
+    /// Gives the parts the numbers that the slot has, and more or fewer if there are more or fewer of them.
+    fn fill(&mut self, slot: usize, entity: &EntityRef<'_>, parts: &[Part]) {
+        let mut last = NONE;
+        let mut number = self.heads[slot];
+        for (index, part) in (0..).zip(parts) {
+            if number == NONE {
+                number = self.take_number();
+                match self.cards.get_mut(last as usize) {
+                    Some(card) => card.next = number,
+                    None => self.heads[slot] = number,
+                }
+            }
+            let next = self.cards[number as usize].next;
+            let casts = casts(entity.kind);
+            let instance = Instance::new(&part.pose, &part.look, entity.id, class_of(entity.kind));
+            let card = &mut self.cards[number as usize];
+            let is_same =
+                self.instances[number as usize] == instance && card.mesh == part.mesh && card.casts == casts;
+            *card = Card { mesh: part.mesh, slot: slot as u32, part: index, casts, next };
+            if !is_same {
+                self.instances[number as usize] = instance;
+                self.changed.push(number);
+            }
+            self.grid.place(number, ball_of(entity, part));
+            (last, number) = (number, next);
+        }
+        self.cut(slot, last);
+    }
+
+    /// Frees the instances of a slot behind `last`, or all of them.
+    fn cut(&mut self, slot: usize, last: u32) {
+        let start = match self.cards.get_mut(last as usize) {
+            Some(card) => std::mem::replace(&mut card.next, NONE),
+            None => std::mem::replace(&mut self.heads[slot], NONE),
+        };
+        let mut number = start;
+        while number != NONE {
+            self.grid.remove(number);
+            self.changed.push(number);
+            let card = &mut self.cards[number as usize];
+            card.slot = NONE;
+            let next = std::mem::replace(&mut card.next, self.free);
+            self.free = number;
+            number = next;
+        }
+    }
+
+    fn take_number(&mut self) -> u32 {
+        if let Some(card) = self.cards.get_mut(self.free as usize) {
+            let number = self.free;
+            self.free = std::mem::replace(&mut card.next, NONE);
+            return number;
+        }
+        let mesh = Drawn::Own(crate::mesh::MeshId::Cuboid);
+        self.cards.push(Card { mesh, slot: NONE, part: 0, casts: false, next: NONE });
+        self.instances.push(bytemuck::Zeroable::zeroed());
+        self.cards.len() as u32 - 1
+    }
+}
+
+/// What an entity is drawn as.
+fn dress(scene: &dyn Scene, looks: &Looks, entity: &EntityRef<'_>, parts: &mut Vec<Part>) {
+    let (mesh, look) = match entity.info.asset {
+        Some(id) if model_of(scene, id).is_some() => (Drawn::Model(id), looks.of_model(entity)),
+        _ => {
+            let look = looks.of(entity, scene.signals());
+            (Drawn::Own(look.mesh), look)
+        }
+    };
+    parts.push(Part { mesh, pose: *entity.pose, look });
+}
+
+/// The ball around an instance: that around the bounds, and what overhangs them.
+fn ball_of(entity: &EntityRef<'_>, part: &Part) -> Ball {
+    let half = entity.bounds.half_extents().norm();
+    Ball { center: entity.bounds.center(), radius: half + part.look.reach }
+}
+
+/// Whether it throws a shadow that one would miss; surfaces lie flat.
+fn casts(kind: EntityKind) -> bool {
+    !matches!(kind, EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk)
+}

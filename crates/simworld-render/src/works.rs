@@ -1,0 +1,178 @@
+//! Everything that lives on a device: what goes when the device goes.
+
+use std::sync::Arc;
+
+use simworld_core::geometry::Aabb;
+use simworld_core::id::EntityId;
+use simworld_core::scene::Scene;
+
+use crate::batch::{Layout, ViewOptions, ViewRequest};
+use crate::draw_list::DrawList;
+use crate::gpu::{Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
+use crate::light::Light;
+use crate::raster::{Job, Raster};
+use crate::resident::{MOST_SLOTS, Residents};
+use crate::shadow::ShadowView;
+use crate::view::View;
+use crate::{RenderConfig, RenderError, Views};
+
+/// A device, and all that was made on it.
+pub(crate) struct Works {
+    pub gpu: Gpu,
+    /// Side of the shadow map, which an adapter may bound.
+    pub shadow_resolution: u32,
+    raster: Raster,
+    scenery: Scenery,
+    pub planes: Planes,
+    readbacks: Readbacks,
+    residents: Residents,
+    list: DrawList,
+}
+
+/// A batch on its way to the host.
+pub(crate) struct Pending {
+    readback: Readback,
+    layout: Layout,
+    options: ViewOptions,
+    names: Arc<Vec<EntityId>>,
+}
+
+/// The views of a batch, checked.
+struct Sight {
+    views: Vec<View>,
+    shadows: Vec<Option<ShadowView>>,
+    light: Light,
+    /// Around everything that any of them looks at.
+    region: Aabb,
+}
+
+impl Works {
+    pub(crate) fn new(config: &RenderConfig) -> Result<Self, RenderError> {
+        let gpu = Gpu::new(config)?;
+        let shadow_resolution = config.shadow_resolution.min(gpu.largest_picture());
+        let raster = Raster::new(&gpu, shadow_resolution, config.anti_aliasing);
+        let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
+        let planes = Planes::new(&gpu);
+        gpu.check()?;
+        let (readbacks, residents, list) = (Readbacks::default(), Residents::default(), DrawList::default());
+        Ok(Self { gpu, shadow_resolution, raster, scenery, planes, readbacks, residents, list })
+    }
+
+    /// Draws a batch into the planes; the commands are recorded, and not handed in yet.
+    pub(crate) fn draw(
+        &mut self,
+        config: &RenderConfig,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: &ViewOptions,
+    ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
+        let outcome = self.try_draw(config, scene, requests, options);
+        if outcome.is_err() {
+            // What of the scene came to the device is not known.
+            self.residents.forget();
+        }
+        outcome
+    }
+
+    fn try_draw(
+        &mut self,
+        config: &RenderConfig,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: &ViewOptions,
+    ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
+        let sight = self.look(config, scene, requests)?;
+        let layout = Layout::of(requests.iter().map(|request| &request.camera.intrinsics));
+        self.planes.hold(&self.gpu, &layout, options)?;
+        self.residents.follow(scene, &sight.region);
+        if self.residents.names.len() > MOST_SLOTS {
+            return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
+        }
+        self.send(config, scene, requests, &sight)?;
+        self.raster.hold(&self.gpu, layout.largest)?;
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let shaded: Vec<bool> = sight.shadows.iter().map(Option::is_some).collect();
+        let job = Job {
+            scenery: &self.scenery,
+            list: &self.list,
+            layout: &layout,
+            channels: options.channels,
+            shaded: &shaded,
+        };
+        self.raster.draw(&mut encoder, &self.planes, &job);
+        self.planes.pack(&mut encoder, &layout);
+        Ok((encoder, layout))
+    }
+
+    /// Checks the cameras, and finds out what they look at in which light.
+    fn look(
+        &self,
+        config: &RenderConfig,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+    ) -> Result<Sight, RenderError> {
+        let light = Light::of(scene.environment(), config.exposure_compensation);
+        let (mut views, mut shadows) = (Vec::new(), Vec::new());
+        let mut region: Option<Aabb> = None;
+        for request in requests {
+            let view = View::new(&request.camera, config.near, config.far, self.gpu.largest_picture())?;
+            let shadow =
+                ShadowView::new(&view, &light.sun_direction, config.shadow_distance, self.shadow_resolution);
+            let around = view.region();
+            let around = shadow.as_ref().map_or(around, |shadow| around.union(&shadow.region()));
+            region = Some(region.map_or(around, |region| region.union(&around)));
+            views.push(view);
+            shadows.push(shadow);
+        }
+        let region = region.ok_or(RenderError::NoViews)?.inflated(OVERHANG);
+        Ok(Sight { views, shadows, light, region })
+    }
+
+    /// Finds what is drawn, and sends it to the device.
+    fn send(
+        &mut self,
+        config: &RenderConfig,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        sight: &Sight,
+    ) -> Result<(), RenderError> {
+        let pairs = || sight.views.iter().zip(&sight.shadows);
+        let globals: Vec<Globals> =
+            pairs().map(|(view, shadow)| Globals::new(view, &sight.light, shadow.as_ref())).collect();
+        self.scenery.send(&self.gpu, &globals, &mut self.residents)?;
+        self.list.clear();
+        for ((view, shadow), request) in pairs().zip(requests) {
+            self.list.add(&self.residents, view, shadow.as_ref(), config.min_pixels, request.hidden);
+        }
+        self.scenery.send_picks(&self.gpu, &self.list.picks)?;
+        let batches: Vec<&[crate::draw_list::Batch]> =
+            self.list.views.iter().flat_map(|view| [&view.visible[..], &view.casters[..]]).collect();
+        self.raster.models.hold(&self.gpu, scene, &batches)
+    }
+
+    /// Hands the commands in, and asks for what they draw.
+    pub(crate) fn submit(
+        &mut self,
+        mut encoder: wgpu::CommandEncoder,
+        layout: Layout,
+        options: &ViewOptions,
+    ) -> Result<Pending, RenderError> {
+        let buffer = self.readbacks.copy(&self.gpu, &mut encoder, &self.planes, &layout, options)?;
+        let submission = self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.check()?;
+        let readback = Readback::begin(buffer, submission);
+        Ok(Pending { readback, layout, options: *options, names: Arc::clone(&self.residents.names) })
+    }
+
+    /// Waits for a batch.
+    pub(crate) fn take(&mut self, pending: Pending, views: &mut Views) -> Result<(), RenderError> {
+        let Pending { readback, layout, options, names } = pending;
+        let lies = |channel| place(&layout, &options, channel);
+        let buffer = readback.read(&self.gpu, |bytes| views.fill(&layout, &options, &names, lies, bytes))?;
+        self.readbacks.give_back(buffer);
+        Ok(())
+    }
+}
+
+/// The farthest that a silhouette reaches beyond the bounds of its entity, m.
+const OVERHANG: f64 = 8.0;
