@@ -149,11 +149,22 @@ impl Parser<'_> {
                 }
                 test => Clause::Until { test, body: Vec::new() },
             }];
-            clauses.extend(later);
+            // "Don't cross until it is green, then walk to the clinic": the way there is what crosses.
+            if !(matches!(later[..], [Clause::Cross]) && self.goes_next()) {
+                clauses.extend(later);
+            }
             return Ok(clauses);
         }
         self.at = start;
         Err(self.not_understood("that says what not to do: say what to do"))
+    }
+
+    /// Whether what follows sends somewhere; nothing is taken.
+    fn goes_next(&mut self) -> bool {
+        let start = self.at;
+        let goes = self.skip_joints() && matches!(self.order().as_deref(), Ok([Clause::Go { .. }, ..]));
+        self.at = start;
+        goes
     }
 
     /// What is done instead of what is not to be done.

@@ -44,6 +44,8 @@ pub(super) fn definitions(known: &Known) -> BTreeMap<String, Json> {
     plain.push(object([named("free_near"), which(), within()]));
     if has(Use::Any) {
         plain.push(object([named("in_use"), ("what", thing(Use::Any))]));
+        let two = [("one", thing(Use::Any)), ("other", thing(Use::Any))];
+        plain.push(object([named("together")].into_iter().chain(two).chain([within()])));
     }
     if has(Use::Item) {
         plain.push(object([named("holds"), ("what", thing(Use::Item))]));
@@ -68,7 +70,8 @@ pub(super) fn definitions(known: &Known) -> BTreeMap<String, Json> {
 /// The condition of an answer that conforms.
 pub(super) fn read(given: &Json, known: &Known) -> Result<Condition, String> {
     let tenths = |name: &str| whole(&given[name]).map(|tenths| tenths as f64 / 10.0).ok_or(unread(name));
-    let thing = || thing(&given["what"], known);
+    let named = |name: &'static str| thing(&given[name], known).ok_or(unread(name));
+    let thing = || named("what");
     let which = || which(&given["what"], known);
     let parts = || {
         let parts = given["parts"].as_array().ok_or(unread("parts"))?;
@@ -85,6 +88,9 @@ pub(super) fn read(given: &Json, known: &Known) -> Result<Condition, String> {
         "near" => Condition::Near { what: which()?, within: tenths("decimetres")? },
         "free_near" => Condition::FreeNear { what: which()?, within: tenths("decimetres")? },
         "in_use" => Condition::InUse(thing()?),
+        "together" => {
+            Condition::Together { one: named("one")?, other: named("other")?, within: tenths("decimetres")? }
+        }
         "holds" => Condition::Holds(Some(thing()?)),
         "open" => Condition::Open(thing()?),
         "light" => {
@@ -107,14 +113,15 @@ fn unread(name: &str) -> String {
     format!("{name} cannot be read")
 }
 
-fn thing(given: &Json, known: &Known) -> Result<EntityId, String> {
-    let found = given.as_str().and_then(|written| known.find(written));
-    found.map(|thing| thing.id).ok_or(unread("what"))
+fn thing(given: &Json, known: &Known) -> Option<EntityId> {
+    given.as_str().and_then(|written| known.find(written)).map(|thing| thing.id)
 }
 
 /// A thing, or any of some classes, of which one at most is a use.
 fn which(given: &Json, known: &Known) -> Result<Which, String> {
-    let Some(classes) = given.as_array() else { return thing(given, known).map(Which::Entity) };
+    let Some(classes) = given.as_array() else {
+        return thing(given, known).map(Which::Entity).ok_or(unread("what"));
+    };
     let (mut kinds, mut place) = (Vec::new(), None);
     for class in classes {
         let name = class.as_str().unwrap_or_default();

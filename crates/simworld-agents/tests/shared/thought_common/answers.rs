@@ -136,6 +136,10 @@ fn check(condition: &Condition) -> Option<Json> {
         Condition::FreeNear { what, within } => {
             json!({ "check": "free_near", "what": which(what)?, "decimetres": tenths(*within) })
         }
+        Condition::Together { one, other, within } => {
+            let (one, other) = (one.to_string(), other.to_string());
+            json!({ "check": "together", "one": one, "other": other, "decimetres": tenths(*within) })
+        }
         Condition::InUse(id) => json!({ "check": "in_use", "what": id.to_string() }),
         Condition::Open(id) => json!({ "check": "open", "what": id.to_string() }),
         Condition::Holds(Some(id)) => json!({ "check": "holds", "what": id.to_string() }),
