@@ -42,18 +42,18 @@ impl DrawList {
         self.views.clear();
     }
 
-    /// Adds what a view sees, and what throws shadows on it; `hidden` is left out of the picture.
+    /// Adds what a view sees, and what throws shadows on it; `hidden` is left out of the picture, and everybody but `only`.
     pub(crate) fn add(
         &mut self,
         residents: &Residents,
         view: &View,
         shadow: Option<&ShadowView>,
         min_pixels: f64,
-        hidden: Option<EntityId>,
+        [hidden, only]: [Option<EntityId>; 2],
     ) {
         self.seen.clear();
         self.shading.clear();
-        let hidden = hidden.map(|id| id.index() as u32);
+        let [hidden, only] = [hidden, only].map(|id| id.map(|id| id.index() as u32));
         let from_eye = |ball: &Ball| ball.center - view.eye;
         let sees =
             |cell: &Ball, largest: f64| view.sees_some(&from_eye(cell), cell.radius, largest, min_pixels);
@@ -64,7 +64,8 @@ impl DrawList {
         residents.grid.visit(sees, |number, ball| {
             let center = from_eye(ball);
             let card = &residents.cards[number as usize];
-            if hidden != Some(card.slot) && view.sees(&center, ball.radius, min_pixels) {
+            let wanted = hidden != Some(card.slot) && only.is_none_or(|slot| slot == card.slot);
+            if wanted && view.sees(&center, ball.radius, min_pixels) {
                 self.seen.push(entry(number, rank(card.mesh, &center)));
             }
         });

@@ -129,6 +129,38 @@ pub enum RenderError {
         /// Pixels down.
         height: u32,
     },
+    /// A frame is read with another camera than the one that took it.
+    #[error(
+        "a frame of {width} x {height} pixels was not taken by a camera of {camera_width} x {camera_height}: give that camera"
+    )]
+    OtherCamera {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Those of the camera.
+        camera_width: u32,
+        /// Those of the camera.
+        camera_height: u32,
+    },
+    /// An instance has no place in 24 bits.
+    #[error("instance {id} has no place beside a class in one number of 32 bits: take ids and classes apart")]
+    Label {
+        /// The instance.
+        id: u32,
+    },
+    /// A table of classes that contradicts itself.
+    #[error("the table of classes: {reason}")]
+    Classes {
+        /// What is wrong with it, and how to mend it.
+        reason: String,
+    },
+    /// A table of beams that no scanner has.
+    #[error("the table of beams: {reason}")]
+    Beams {
+        /// What is wrong with it, and how to mend it.
+        reason: String,
+    },
     /// The PNG encoder refused.
     #[error("the picture cannot be encoded as PNG: {0}")]
     Png(#[from] png::EncodingError),

@@ -5,7 +5,7 @@ use std::path::Path;
 use png::{BitDepth, ColorType};
 use simworld_core::seed::Seed;
 
-use crate::classes::class_by_id;
+use crate::classes::{ClassTable, class_by_id};
 use crate::{Frame, RenderError};
 
 /// The greatest depth that a depth PNG holds, m; what is farther reads the same.
@@ -19,6 +19,12 @@ impl Frame {
     pub fn rgb_png(&self) -> Result<Vec<u8>, RenderError> {
         self.check("rgb", self.rgb.len(), 3)?;
         self.encode(ColorType::Rgb, BitDepth::Eight, None, &self.rgb)
+    }
+
+    /// As [`rgb_png`](Self::rgb_png), with a text under the keyword `Description`.
+    pub(crate) fn rgb_png_described(&self, text: &str) -> Result<Vec<u8>, RenderError> {
+        self.check("rgb", self.rgb.len(), 3)?;
+        self.encode_described(ColorType::Rgb, BitDepth::Eight, None, &self.rgb, Some(text))
     }
 
     /// Depth as a 16-bit grey PNG in millimetres: 0 for the sky, 65535 for 65.535 m and beyond.
@@ -41,6 +47,15 @@ impl Frame {
         let palette: Vec<u8> =
             (0..=u8::MAX).flat_map(|id| class_by_id(id).map_or([0; 3], |class| class.color)).collect();
         self.encode(ColorType::Indexed, BitDepth::Eight, Some(&palette), &self.classes)
+    }
+
+    /// As [`classes_png`](Self::classes_png), with the palette of a table of one's own.
+    ///
+    /// # Errors
+    /// As [`rgb_png`](Self::rgb_png).
+    pub fn classes_png_by(&self, table: &ClassTable) -> Result<Vec<u8>, RenderError> {
+        self.check("classes", self.classes.len(), 1)?;
+        self.encode(ColorType::Indexed, BitDepth::Eight, Some(&table.palette()), &self.classes)
     }
 
     /// Instances as an RGB PNG, for people to look at: every entity has a colour of its own, the sky is black.
@@ -100,12 +115,26 @@ impl Frame {
         palette: Option<&[u8]>,
         bytes: &[u8],
     ) -> Result<Vec<u8>, RenderError> {
+        self.encode_described(color, depth, palette, bytes, None)
+    }
+
+    fn encode_described(
+        &self,
+        color: ColorType,
+        depth: BitDepth,
+        palette: Option<&[u8]>,
+        bytes: &[u8],
+        text: Option<&str>,
+    ) -> Result<Vec<u8>, RenderError> {
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, self.width, self.height);
         encoder.set_color(color);
         encoder.set_depth(depth);
         if let Some(palette) = palette {
             encoder.set_palette(palette);
+        }
+        if let Some(text) = text {
+            encoder.add_text_chunk("Description".into(), text.into())?;
         }
         let mut writer = encoder.write_header()?;
         writer.write_image_data(bytes)?;
@@ -114,6 +143,6 @@ impl Frame {
     }
 }
 
-fn write(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
     std::fs::write(path, bytes).map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }

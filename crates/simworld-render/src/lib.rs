@@ -13,6 +13,7 @@ mod light;
 mod look;
 mod mesh;
 mod models;
+mod npy;
 mod raster;
 mod renderer;
 mod resident;
@@ -21,11 +22,14 @@ mod shadow;
 mod view;
 mod works;
 
-pub use batch::{Channels, PixelFormat, Span, ViewOptions, ViewRequest, Views};
+pub use batch::{Channels, PixelFormat, Projection, Span, ViewOptions, ViewRequest, Views};
 pub use config::{AdapterChoice, AntiAliasing, Backends, RenderConfig};
 pub use error::RenderError;
 pub use export::PNG_DEPTH_LIMIT;
 pub use frame::{Frame, SKY_DEPTH};
 pub use renderer::{DeviceViews, Renderer, Ticket};
-pub use sensor::CameraSensor;
+pub use sensor::{
+    Beam, BeamTable, BoxSensor, CameraSensor, EntityBox, Lidar, LidarConfig, LidarPoint, LidarWeather,
+    MapSensor, MapView, OpticalFlow, Photo, PhotoRoll, PixelBox, PointCloud, boxes_of,
+};
 pub use wgpu;

@@ -64,6 +64,16 @@ impl Raster {
             let one = View { scenery: job.scenery, view, span, batches };
             self.draw_view(encoder, targets, &one, job.channels);
             targets.copy(encoder, planes, span, job.channels);
+            if job.channels.contains(Channels::NORMALS) {
+                // The texture of the ids was copied, and is free.
+                let mut pass = begin(encoder, &[attachment(&targets.id_view, None)], &targets.z, span);
+                one.scenery.bind(&mut pass, view);
+                self.draw_batches(&mut pass, &batches.visible, |pass, _| {
+                    pass.set_pipeline(&self.pipelines.normals);
+                });
+                drop(pass);
+                Targets::copy_one(encoder, &targets.id, &planes.normals, span);
+            }
         }
     }
 
@@ -94,7 +104,7 @@ impl Raster {
         let color = &targets.color_view;
         let measures = [attachment(&targets.depth_view, None), attachment(&targets.id_view, None)];
         let wants_rgb = channels.contains(Channels::RGB);
-        let (smooth, only_rgb) = (&targets.smooth, channels == Channels::RGB);
+        let (smooth, only_rgb) = (&targets.smooth, (channels - Channels::NORMALS) == Channels::RGB);
         if let (Some([color_samples, z_samples]), true) = (smooth, wants_rgb) {
             let mut pass = begin(encoder, &[attachment(color_samples, Some(color))], z_samples, one.span);
             self.draw_entities(&mut pass, one, None);

@@ -137,7 +137,7 @@ impl Renderer {
         frame: &mut Frame,
     ) -> Result<(), RenderError> {
         let mut one = std::mem::take(&mut self.one);
-        let request = ViewRequest { camera: *camera, hidden };
+        let request = ViewRequest { hidden, ..ViewRequest::from(*camera) };
         let outcome = self.render_views(scene, &[request], &ViewOptions::default(), &mut one);
         if outcome.is_ok() {
             one.give(frame);

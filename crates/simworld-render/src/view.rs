@@ -9,6 +9,7 @@ use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Aabb, Point2, Point3, Vector3};
 
 use crate::RenderError;
+use crate::batch::Projection;
 
 /// A checked camera, ready to cull and to project.
 #[derive(Clone, Debug)]
@@ -19,8 +20,9 @@ pub(crate) struct View {
     pub intrinsics: Intrinsics,
     pub near: f64,
     pub far: f64,
-    /// Inward normals of the four sides of the frustum, optical frame.
-    sides: [Vector3; 4],
+    pub projection: Projection,
+    /// Inward normals of the four sides of what is seen, optical frame, and how far inside of each the eye is, m.
+    sides: [(Vector3, f64); 4],
 }
 
 impl View {
@@ -41,14 +43,38 @@ impl View {
             intrinsics: k,
             near,
             far,
-            sides: sides.map(|side| side.normalize()),
+            projection: Projection::Pinhole,
+            sides: sides.map(|side| (side.normalize(), 0.0)),
         })
+    }
+
+    /// The same camera with another projection.
+    pub(crate) fn projected(mut self, projection: Projection) -> Self {
+        if projection == Projection::Parallel {
+            let k = &self.intrinsics;
+            let (width, height) = (f64::from(k.width), f64::from(k.height));
+            self.sides = [
+                (Vector3::x(), k.cx / k.fx),
+                (-Vector3::x(), (width - k.cx) / k.fx),
+                (Vector3::y(), k.cy / k.fy),
+                (-Vector3::y(), (height - k.cy) / k.fy),
+            ];
+        }
+        Self { projection, ..self }
     }
 
     /// Clip space from camera-relative world axes.
     pub(crate) fn clip_from_relative(&self) -> Matrix4<f64> {
         let k = &self.intrinsics;
         let (width, height) = (f64::from(k.width), f64::from(k.height));
+        if self.projection == Projection::Parallel {
+            // z is 1 at the near plane and 0 at the far one, as it is for the pinhole near and far.
+            let depth = self.far - self.near;
+            let scale = Vector3::new(2.0 * k.fx / width, -2.0 * k.fy / height, -1.0 / depth);
+            let shift = Vector3::new(2.0 * k.cx / width - 1.0, 1.0 - 2.0 * k.cy / height, self.far / depth);
+            let clip = Matrix4::new_translation(&shift) * Matrix4::new_nonuniform_scaling(&scale);
+            return clip * self.optical_from_world.to_homogeneous();
+        }
         let clip_from_optical = Matrix4::new(
             2.0 * k.fx / width,
             0.0,
@@ -81,20 +107,31 @@ impl View {
         if distance - radius > self.far {
             return false;
         }
-        let pixels =
-            2.0 * radius * self.intrinsics.fx.max(self.intrinsics.fy) / distance.max(radius).max(1e-9);
-        if pixels < min_pixels {
+        if self.pixels(radius, distance.max(radius)) < min_pixels {
             return false;
         }
         let optical = self.optical_from_world * center;
-        optical.z + radius >= self.near && self.sides.iter().all(|side| side.dot(&optical) >= -radius)
+        optical.z + radius >= self.near && self.is_between(&optical, radius)
     }
 
     /// Whether a ball may hold balls of at most that radius that are on the picture; its centre is camera-relative.
     pub(crate) fn sees_some(&self, center: &Vector3, radius: f64, largest: f64, min_pixels: f64) -> bool {
         let nearest = (center.norm() - radius - largest).max(largest).max(1e-9);
-        let pixels = 2.0 * largest * self.intrinsics.fx.max(self.intrinsics.fy) / nearest;
-        pixels >= min_pixels && self.sees(center, radius, 0.0)
+        self.pixels(largest, nearest) >= min_pixels && self.sees(center, radius, 0.0)
+    }
+
+    /// Pixels across a ball at that distance.
+    fn pixels(&self, radius: f64, distance: f64) -> f64 {
+        let focal = self.intrinsics.fx.max(self.intrinsics.fy);
+        match self.projection {
+            Projection::Pinhole => 2.0 * radius * focal / distance.max(1e-9),
+            Projection::Parallel => 2.0 * radius * focal,
+        }
+    }
+
+    /// Whether a ball of the optical frame touches what lies between the four sides.
+    fn is_between(&self, center: &Vector3, radius: f64) -> bool {
+        self.sides.iter().all(|(normal, inside)| normal.dot(center) + inside >= -radius)
     }
 
     /// A box around everything on the picture as far as `far`.
@@ -103,9 +140,19 @@ impl View {
         let (width, height) = (f64::from(k.width), f64::from(k.height));
         let mut region = Aabb::around(self.eye, Vector3::zeros());
         for (u, v) in [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)] {
-            let corner = k.unproject(&Point2::new(u, v), self.far);
-            let corner = self.eye + self.optical_from_world.transpose() * corner.coords;
-            region = region.union(&Aabb { min: corner, max: corner });
+            // Parallel rays do not spread: their corners at the eye and at the far end are all there is.
+            let depths = match self.projection {
+                Projection::Pinhole => [self.far; 2],
+                Projection::Parallel => [0.0, self.far],
+            };
+            for depth in depths {
+                let corner = match self.projection {
+                    Projection::Pinhole => k.unproject(&Point2::new(u, v), depth),
+                    Projection::Parallel => Point3::new((u - k.cx) / k.fx, (v - k.cy) / k.fy, depth),
+                };
+                let corner = self.eye + self.optical_from_world.transpose() * corner.coords;
+                region = region.union(&Aabb { min: corner, max: corner });
+            }
         }
         let reach = Aabb::around(self.eye, Vector3::repeat(self.far));
         Aabb { min: region.min.sup(&reach.min), max: region.max.inf(&reach.max) }

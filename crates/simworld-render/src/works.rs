@@ -6,7 +6,7 @@ use simworld_core::geometry::Aabb;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 
-use crate::batch::{Layout, ViewOptions, ViewRequest};
+use crate::batch::{Layout, Projection, ViewOptions, ViewRequest};
 use crate::draw_list::DrawList;
 use crate::gpu::{Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
 use crate::light::Light;
@@ -115,9 +115,16 @@ impl Works {
         let (mut views, mut shadows) = (Vec::new(), Vec::new());
         let mut region: Option<Aabb> = None;
         for request in requests {
-            let view = View::new(&request.camera, config.near, config.far, self.gpu.largest_picture())?;
-            let shadow =
-                ShadowView::new(&view, &light.sun_direction, config.shadow_distance, self.shadow_resolution);
+            let view = View::new(&request.camera, config.near, config.far, self.gpu.largest_picture())?
+                .projected(request.projection);
+            // Shadows are laid out around what a pinhole sees.
+            let lit = request.only.is_none() && request.projection == Projection::Pinhole;
+            let shadow = ShadowView::new(
+                &view,
+                &light.sun_direction,
+                config.shadow_distance,
+                if lit { self.shadow_resolution } else { 0 },
+            );
             let around = view.region();
             let around = shadow.as_ref().map_or(around, |shadow| around.union(&shadow.region()));
             region = Some(region.map_or(around, |region| region.union(&around)));
@@ -142,7 +149,8 @@ impl Works {
         self.scenery.send(&self.gpu, &globals, &mut self.residents)?;
         self.list.clear();
         for ((view, shadow), request) in pairs().zip(requests) {
-            self.list.add(&self.residents, view, shadow.as_ref(), config.min_pixels, request.hidden);
+            let left_out = [request.hidden, request.only];
+            self.list.add(&self.residents, view, shadow.as_ref(), config.min_pixels, left_out);
         }
         self.scenery.send_picks(&self.gpu, &self.list.picks)?;
         let batches: Vec<&[crate::draw_list::Batch]> =

@@ -22,7 +22,21 @@ bitflags! {
         const IDS = 4;
         /// Classes: Cityscapes label ids.
         const CLASSES = 8;
+        /// Normals of surfaces, outward, world frame. On the device, and before [`Views`] unpacks them: 0 for the sky, 0x80008000 straight up, else octahedral
+        /// coordinates (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014) as two 16-bit
+        /// snorm numbers, the first in the lower half.
+        const NORMALS = 16;
     }
+}
+
+/// How points come to pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projection {
+    /// As core's [`Camera`] says: rays meet in the eye, `fx` and `fy` are focal lengths in pixels.
+    #[default]
+    Pinhole,
+    /// Rays are parallel to the optical axis, and `fx` and `fy` are pixels per metre, wherever something is. There is no sun's shadow.
+    Parallel,
 }
 
 /// How the numbers of the channels are stored.
@@ -43,11 +57,15 @@ pub struct ViewRequest {
     pub camera: Camera,
     /// Whom it does not see: the one behind whose eyes it sits. It still throws its shadow.
     pub hidden: Option<EntityId>,
+    /// Whom alone it sees; everybody by default.
+    pub only: Option<EntityId>,
+    /// How points come to pixels.
+    pub projection: Projection,
 }
 
 impl From<Camera> for ViewRequest {
     fn from(camera: Camera) -> Self {
-        Self { camera, hidden: None }
+        Self { camera, hidden: None, only: None, projection: Projection::Pinhole }
     }
 }
 
@@ -61,7 +79,7 @@ impl From<Camera> for ViewRequest {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewOptions {
-    /// What is measured; all by default.
+    /// What is measured; colour, depth, ids and classes by default.
     pub channels: Channels,
     /// How it is stored.
     pub format: PixelFormat,
@@ -69,7 +87,8 @@ pub struct ViewOptions {
 
 impl Default for ViewOptions {
     fn default() -> Self {
-        Self { channels: Channels::all(), format: PixelFormat::Full }
+        let channels = Channels::all().difference(Channels::NORMALS);
+        Self { channels, format: PixelFormat::Full }
     }
 }
 

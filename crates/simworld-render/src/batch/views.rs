@@ -30,6 +30,8 @@ pub struct Views {
     pub classes: Vec<u8>,
     /// The same in 16 bits. Only in the compact format.
     pub wide_classes: Vec<u16>,
+    /// Outward normals, unit length to 1e-4, world frame; zero where there is nothing.
+    pub normals: Vec<[f32; 3]>,
     sizes: Vec<(u32, u32, usize)>,
     names: Arc<Vec<EntityId>>,
 }
@@ -75,6 +77,7 @@ impl Views {
         copy(&mut frame.depth, &self.depth, pixels.clone());
         copy(&mut frame.ids, &self.ids, pixels.clone());
         copy(&mut frame.classes, &self.classes, pixels.clone());
+        frame.normals.extend_from_slice(self.normals.get(pixels.clone()).unwrap_or_default());
         for (class, wide) in
             frame.classes.iter_mut().zip(self.wide_classes.get(pixels.clone()).unwrap_or_default())
         {
@@ -108,6 +111,8 @@ impl Views {
         std::mem::swap(&mut frame.depth, &mut self.depth);
         std::mem::swap(&mut frame.ids, &mut self.ids);
         std::mem::swap(&mut frame.classes, &mut self.classes);
+        frame.normals.clear();
+        frame.flow.clear();
         frame.drawn.clear();
         self.name(frame);
     }
@@ -141,6 +146,10 @@ impl Views {
         gather(&mut self.depth, layout, of(Channels::DEPTH, PixelFormat::Full), 1);
         gather(&mut self.depth_mm, layout, of(Channels::DEPTH, PixelFormat::Compact), 1);
         gather(&mut self.classes, layout, of(Channels::CLASSES, PixelFormat::Full), 1);
+        let mut packed: Vec<u32> = Vec::new();
+        gather(&mut packed, layout, any(Channels::NORMALS), 1);
+        self.normals.clear();
+        self.normals.extend(packed.into_iter().map(normal_of));
         gather(&mut self.wide_classes, layout, of(Channels::CLASSES, PixelFormat::Compact), 1);
     }
 }
@@ -149,6 +158,23 @@ fn copy<T: Copy>(out: &mut [T], from: &[T], range: Range<usize>) {
     if let Some(from) = from.get(range) {
         out.copy_from_slice(from);
     }
+}
+
+/// A normal from its octahedral coordinates, as normals.wgsl packs it; zero for the sky.
+fn normal_of(packed: u32) -> [f32; 3] {
+    match packed {
+        0 => return [0.0; 3],
+        0x8000_8000 => return [0.0, 0.0, 1.0],
+        _ => {}
+    }
+    let part = |bits: u32| (f32::from(bits as u16 as i16) / 32767.0).max(-1.0);
+    let (mut x, mut y) = (part(packed & 0xffff), part(packed >> 16));
+    let z = 1.0 - x.abs() - y.abs();
+    if z < 0.0 {
+        (x, y) = ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y));
+    }
+    let length = (x * x + y * y + z * z).sqrt();
+    [x / length, y / length, z / length]
 }
 
 /// Takes the padding out of rows of `each` entries a pixel.

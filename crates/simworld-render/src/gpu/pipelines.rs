@@ -16,6 +16,7 @@ const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
 const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
 const FORWARD: &str = include_str!("../shaders/forward.wgsl");
+const NORMALS: &str = include_str!("../shaders/normals.wgsl");
 const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
 
 /// Everything that is bound and run.
@@ -24,6 +25,8 @@ pub(crate) struct Pipelines {
     pub picture: Vec<wgpu::RenderPipeline>,
     /// Depth and ids alone, where RGB is smoothed or not asked for.
     pub measures: wgpu::RenderPipeline,
+    /// Normals alone.
+    pub normals: wgpu::RenderPipeline,
     pub sky: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
     /// The layout of [`Scenery`](super::Scenery): globals of a view, and the instances.
@@ -76,12 +79,14 @@ impl Pipelines {
             module("forward", &[COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD]);
         let sky = module("sky", &[COMMON, NOISE, SKY, SKY_PASS]);
         let shadow = module("shadow", &[COMMON, SHADOW]);
+        let normals = module("normals", &[COMMON, NORMALS]);
 
         let smooth = smoothing == AntiAliasing::Msaa4;
         let forward = Recipe { gpu, module: &forward, layout: &full };
         Self {
             picture: Pattern::ALL.map(|pattern| forward.picture(pattern, smooth)).into(),
             measures: forward.measures(),
+            normals: Recipe { gpu, module: &normals, layout: &plain }.normals(),
             sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
             shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow(),
             scenery,
@@ -130,6 +135,19 @@ impl Recipe<'_> {
             fragment: Some("fragment_measures"),
             pattern: None,
             targets: &[target(DEPTH, all), target(ID, all)],
+            depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
+            samples: 1,
+            meshes: true,
+        })
+    }
+
+    fn normals(&self) -> wgpu::RenderPipeline {
+        self.build(&Variant {
+            label: "normals",
+            vertex: "vertex_normals",
+            fragment: Some("fragment_normals"),
+            pattern: None,
+            targets: &[target(ID, wgpu::ColorWrites::ALL)],
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
             samples: 1,
             meshes: true,

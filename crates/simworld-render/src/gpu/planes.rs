@@ -26,6 +26,8 @@ pub(crate) struct Planes {
     pub raw: [wgpu::Buffer; 3],
     /// By bit of [`Channels`].
     packed: [wgpu::Buffer; 4],
+    /// Normals need no packing: they are drawn as they are asked for.
+    pub normals: wgpu::Buffer,
     packing: wgpu::Buffer,
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
@@ -47,10 +49,11 @@ impl Planes {
         });
         let raw = std::array::from_fn(|_| plane(gpu, 256));
         let packed = std::array::from_fn(|_| plane(gpu, 256));
+        let normals = plane(gpu, 256);
         let packing =
             gpu.upload("packing", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&Packing::zeroed()));
         let group = bind(gpu, &pipeline, &packing, &raw, &packed);
-        Self { raw, packed, packing, pipeline, group }
+        Self { raw, packed, normals, packing, pipeline, group }
     }
 
     /// Pixels that a batch may have on this device, padding and all.
@@ -81,6 +84,11 @@ impl Planes {
         for (channel, buffer) in Channels::all().iter().zip(&mut self.packed) {
             ensure(buffer, pixels * options.bytes_of(channel));
         }
+        let normals = (pixels * options.bytes_of(Channels::NORMALS)) as u64;
+        if normals > self.normals.size() {
+            self.normals = plane(gpu, normals);
+            gpu.check()?;
+        }
         if grown {
             self.group = bind(gpu, &self.pipeline, &self.packing, &self.raw, &self.packed);
             gpu.check()?;
@@ -108,6 +116,9 @@ impl Planes {
 
     /// The buffer of a channel as it was asked for.
     pub(crate) fn packed(&self, channel: Channels) -> &wgpu::Buffer {
+        if channel == Channels::NORMALS {
+            return &self.normals;
+        }
         &self.packed[channel.bits().trailing_zeros() as usize % 4]
     }
 }

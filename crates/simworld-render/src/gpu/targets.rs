@@ -75,22 +75,32 @@ impl Targets {
         span: &Span,
         channels: Channels,
     ) {
-        let measures = channels != Channels::RGB;
+        let measures = (channels - Channels::NORMALS) != Channels::RGB;
         let wanted = [channels.contains(Channels::RGB), measures, measures];
         let textures = [&self.color, &self.depth, &self.id];
         for ((texture, buffer), _) in
             textures.iter().zip(&planes.raw).zip(wanted).filter(|(_, wanted)| *wanted)
         {
-            let layout = wgpu::TexelCopyBufferLayout {
-                offset: span.first as u64 * 4,
-                bytes_per_row: Some(span.pitch * 4),
-                rows_per_image: Some(span.height),
-            };
-            encoder.copy_texture_to_buffer(
-                texture.as_image_copy(),
-                wgpu::TexelCopyBufferInfo { buffer, layout },
-                wgpu::Extent3d { width: span.width, height: span.height, depth_or_array_layers: 1 },
-            );
+            Self::copy_one(encoder, texture, buffer, span);
         }
+    }
+
+    /// Records the copy of a view from a texture into a plane of four bytes a pixel.
+    pub(crate) fn copy_one(
+        encoder: &mut wgpu::CommandEncoder,
+        texture: &wgpu::Texture,
+        buffer: &wgpu::Buffer,
+        span: &Span,
+    ) {
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: span.first as u64 * 4,
+            bytes_per_row: Some(span.pitch * 4),
+            rows_per_image: Some(span.height),
+        };
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer, layout },
+            wgpu::Extent3d { width: span.width, height: span.height, depth_or_array_layers: 1 },
+        );
     }
 }

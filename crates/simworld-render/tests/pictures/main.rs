@@ -1,16 +1,22 @@
 //! What is drawn: colour, depth, ids, files, and the same pixels every time.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
+mod arrays_and_photos_say_what_was_seen;
 mod bad_input_is_refused;
 mod batches_are_their_views;
+mod boxes_hold_what_is_seen;
 mod common;
 mod depth_is_exact;
 mod files_hold_the_frame;
+mod flow_is_the_motion_that_is_known;
 mod golden;
 mod ids_and_classes_name_what_is_there;
 mod light_and_weather;
+mod maps_have_one_scale;
 mod models_are_drawn;
+mod normals_are_those_of_the_solids;
 mod only_changes_are_sent;
 mod pictures_repeat;
 mod pixels_follow_the_camera;
+mod scans_meet_the_solids;
 mod sensors_conform;

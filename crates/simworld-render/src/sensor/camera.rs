@@ -9,7 +9,8 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, Scene};
 use simworld_core::seam::{ObserveError, Observer};
 
-use crate::{Frame, RenderConfig, RenderError, Renderer};
+use crate::classes::ClassTable;
+use crate::{Channels, Frame, RenderConfig, RenderError, Renderer, ViewOptions, ViewRequest, Views};
 
 /// Eye height of a person 1.75 m tall, m.
 const EYE_HEIGHT: f64 = 1.6;
@@ -39,6 +40,9 @@ pub struct CameraSensor {
     renderer: Arc<Mutex<Renderer>>,
     intrinsics: Intrinsics,
     mount: Option<Pose>,
+    classes: Option<Arc<ClassTable>>,
+    channels: Channels,
+    views: Views,
 }
 
 impl CameraSensor {
@@ -52,7 +56,8 @@ impl CameraSensor {
 
     /// A camera that shares a renderer with others.
     pub fn sharing(renderer: Arc<Mutex<Renderer>>, intrinsics: Intrinsics) -> Self {
-        Self { renderer, intrinsics, mount: None }
+        let channels = ViewOptions::default().channels;
+        Self { renderer, intrinsics, mount: None, classes: None, channels, views: Views::new() }
     }
 
     /// Mounted at a pose in the wearer's body frame (x forward, y left, z up), instead of at
@@ -60,6 +65,20 @@ impl CameraSensor {
     #[must_use]
     pub fn mounted_at(mut self, body_from_mount: Pose) -> Self {
         self.mount = Some(body_from_mount);
+        self
+    }
+
+    /// With classes by a table of one's own, in place of those of Cityscapes.
+    #[must_use]
+    pub fn classed_by(mut self, table: Arc<ClassTable>) -> Self {
+        self.classes = Some(table);
+        self
+    }
+
+    /// Measures these channels, in place of colour, depth, ids and classes; buffers of others are as [`Frame::resize`] leaves them.
+    #[must_use]
+    pub fn measuring(mut self, channels: Channels) -> Self {
+        self.channels = channels;
         self
     }
 
@@ -91,6 +110,11 @@ impl CameraSensor {
         Ok(Camera::looking_along(&(wearer.pose * body_from_mount * gaze), intrinsics))
     }
 
+    /// The renderer that it shares.
+    pub fn renderer(&self) -> Arc<Mutex<Renderer>> {
+        Arc::clone(&self.renderer)
+    }
+
     /// The point from which it sees in the body frame of that wearer, m.
     pub fn eye_in_body(&self, wearer: &EntityRef<'_>) -> Point3 {
         self.mount.unwrap_or_else(|| Self::default_mount(wearer)).translation.vector.into()
@@ -103,8 +127,16 @@ impl Observer for CameraSensor {
     fn observe(&mut self, scene: &dyn Scene, who: EntityId, out: &mut Frame) -> Result<(), ObserveError> {
         let camera = self.camera(scene, who)?;
         let mut renderer = self.renderer.lock().unwrap_or_else(PoisonError::into_inner);
+        let request = ViewRequest { hidden: Some(who), ..ViewRequest::from(camera) };
+        let options = ViewOptions { channels: self.channels, ..ViewOptions::default() };
         renderer
-            .render_hiding(scene, &camera, Some(who), out)
-            .map_err(|error| ObserveError::Sensor(error.to_string()))
+            .render_views(scene, &[request], &options, &mut self.views)
+            .map_err(|error| ObserveError::Sensor(error.to_string()))?;
+        drop(renderer);
+        self.views.copy_frame(0, out);
+        if let Some(table) = &self.classes {
+            table.relabel(scene, out);
+        }
+        Ok(())
     }
 }
