@@ -1,4 +1,4 @@
-//! Arrays as NPY files (format 1.0, NumPy Enhancement Proposal 1), which NumPy and every tool beside it reads.
+//! Arrays as NPY files (format 1.0, `NumPy` Enhancement Proposal 1), which `NumPy` and every tool beside it reads.
 
 use bytemuck::Pod;
 
@@ -6,7 +6,7 @@ use crate::{Frame, RenderError};
 
 /// Numbers that have a name in NPY.
 pub(crate) trait Number: Pod {
-    /// The type as NumPy writes it, little-endian.
+    /// The type as `NumPy` writes it, little-endian.
     const DESCR: &'static str;
 }
 
@@ -31,8 +31,9 @@ pub(crate) fn npy<T: Number>(shape: &[usize], values: &[T]) -> Vec<u8> {
 
 /// The lead of a file for entries of that type; what follows are the entries, little-endian.
 pub(crate) fn header(descr: &str, shape: &[usize]) -> Vec<u8> {
-    let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
-    let mut text = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({lengths}), }}");
+    let lengths: Vec<String> = shape.iter().map(ToString::to_string).collect();
+    let lengths = lengths.join(",");
+    let mut text = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({lengths},), }}");
     // Magic, version and length take 10 bytes; the data begins at a multiple of 64.
     let padded = (10 + text.len() + 1).next_multiple_of(64) - 11;
     text.push_str(&" ".repeat(padded - text.len()));

@@ -11,9 +11,9 @@ fn vertex_normals(corner: Corner) -> Facing {
 }
 
 fn octahedral(normal: vec3f) -> vec2f {
-    let flat = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
-    let folded = (1.0 - abs(flat.yx)) * select(vec2f(-1.0), vec2f(1.0), flat >= vec2f(0.0));
-    return select(flat, folded, normal.z < 0.0);
+    let plane = normal.xy / (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    let folded = (1.0 - abs(plane.yx)) * select(vec2f(-1.0), vec2f(1.0), plane >= vec2f(0.0));
+    return select(plane, folded, normal.z < 0.0);
 }
 
 @fragment

@@ -154,7 +154,7 @@ fn who_takes_a_photo_gets_what_it_looks_at() {
     let (wide, high) =
         (camera.camera(&world, plain).expect("there"), camera.camera(&world, upward).expect("there"));
     let ahead = high.world_from_optical * nalgebra::Vector3::z();
-    assert!((ahead.z - 0.7_f64.sin()).abs() < 1e-9, "it looks up: {ahead}");
+    assert!((ahead.z - simworld_core::ops::sin(0.7)).abs() < 1e-9, "it looks up: {ahead}");
     assert!(high.intrinsics.fx > 3.0 * wide.intrinsics.fx, "who focuses sees nearer");
 
     let folder = tempfile::tempdir().expect("a folder");

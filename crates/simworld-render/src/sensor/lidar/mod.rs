@@ -126,7 +126,8 @@ pub struct Lidar {
 /// A quarter turn, and the beams in it.
 #[derive(Clone, Debug)]
 struct Face {
-    sensor_from_face: Pose,
+    /// Sensor from the frame of the quarter.
+    turned: Pose,
     intrinsics: Intrinsics,
     /// Beams with the pixel that each goes through.
     beams: Vec<(u32, u32, u32)>,
@@ -171,7 +172,7 @@ impl Lidar {
             .map(|face| ViewRequest {
                 hidden: Some(who),
                 ..ViewRequest::from(Camera::looking_along(
-                    &(world_from_sensor * face.sensor_from_face),
+                    &(world_from_sensor * face.turned),
                     face.intrinsics,
                 ))
             })
@@ -198,8 +199,7 @@ impl Lidar {
         let middle = Point2::new(f64::from(pixel.0) + 0.5, f64::from(pixel.1) + 0.5);
         let in_optical = face.intrinsics.unproject(&middle, depth);
         // The face's frame is the body's of its camera: forward, left, up.
-        let in_sensor: Point3 =
-            face.sensor_from_face * Point3::new(in_optical.z, -in_optical.x, -in_optical.y);
+        let in_sensor: Point3 = face.turned * Point3::new(in_optical.z, -in_optical.x, -in_optical.y);
         let normal = Vector3::from(self.views.normals.get(index)?.map(f64::from));
         let normal = rotation.inverse() * normal;
         let direction = beam.direction();
@@ -252,7 +252,7 @@ impl Face {
         };
         let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
         Some(Self {
-            sensor_from_face: Pose::from_parts(nalgebra::Translation3::identity(), rotation),
+            turned: Pose::from_parts(nalgebra::Translation3::identity(), rotation),
             intrinsics,
             beams: found.into_iter().map(place).collect(),
         })
