@@ -34,6 +34,21 @@ pub enum AdapterChoice {
     Software,
 }
 
+/// How a picture is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Backend {
+    /// Rays for batches of many small views on a GPU, triangles for everything else.
+    #[default]
+    Auto,
+    /// Triangles, view by view: what CPUs and single large pictures are best at.
+    Raster,
+    /// Rays, all views at once; shadows by rays too, and edges are never smoothed. Batches with normals or parallel projections are
+    /// drawn by triangles all the same.
+    Raycast,
+}
+
 /// How edges in RGB are smoothed. Depth and ids never are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -54,6 +69,8 @@ pub struct RenderConfig {
     pub backends: Backends,
     /// Which adapter is taken where there are several.
     pub adapter: AdapterChoice,
+    /// How pictures are found; both ways agree on depth and ids but for a few pixels at edges.
+    pub backend: Backend,
     /// Distance of the nearest plane that is drawn, m, from 1e-3 to 100.
     pub near: f64,
     /// Entities whose bounds lie wholly beyond this distance are not drawn, m, from `near` to 1e6.
@@ -75,6 +92,7 @@ impl Default for RenderConfig {
         Self {
             backends: Backends::Any,
             adapter: AdapterChoice::Fastest,
+            backend: Backend::Auto,
             near: 0.05,
             far: 1000.0,
             min_pixels: 0.7,

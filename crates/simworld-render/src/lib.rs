@@ -15,6 +15,7 @@ mod mesh;
 mod models;
 mod npy;
 mod raster;
+mod raycast;
 mod renderer;
 mod resident;
 mod sensor;
@@ -23,7 +24,7 @@ mod view;
 mod works;
 
 pub use batch::{Channels, PixelFormat, Projection, Span, ViewOptions, ViewRequest, Views};
-pub use config::{AdapterChoice, AntiAliasing, Backends, RenderConfig};
+pub use config::{AdapterChoice, AntiAliasing, Backend, Backends, RenderConfig};
 pub use error::RenderError;
 pub use export::PNG_DEPTH_LIMIT;
 pub use frame::{Frame, SKY_DEPTH};

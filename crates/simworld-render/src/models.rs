@@ -89,7 +89,7 @@ impl Held {
 
 /// Points in shares of the collider's box, so that an entity of another size stretches the model; normals as they stand on
 /// the surface in that unit box.
-fn vertices_of(asset: &Asset, model: &Model) -> Vec<Vertex> {
+pub(crate) fn vertices_of(asset: &Asset, model: &Model) -> Vec<Vertex> {
     let size = asset.collider.size();
     let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
     let mut paints = vec![Paint::Own; model.vertices.len()];

@@ -61,7 +61,7 @@ impl Raster {
             if job.shaded[view] && job.channels.contains(Channels::RGB) {
                 self.draw_shadows(encoder, job.scenery, view, &batches.casters);
             }
-            let one = View { scenery: job.scenery, view, span, batches };
+            let one = View { scenery: job.scenery, index: view, span, batches };
             self.draw_view(encoder, targets, &one, job.channels);
             targets.copy(encoder, planes, span, job.channels);
             if job.channels.contains(Channels::NORMALS) {
@@ -130,7 +130,7 @@ impl Raster {
         one: &View<'_>,
         only: Option<&wgpu::RenderPipeline>,
     ) {
-        one.scenery.bind(pass, one.view);
+        one.scenery.bind(pass, one.index);
         pass.set_bind_group(1, &self.pipelines.shadow_inputs, &[]);
         self.draw_batches(pass, &one.batches.visible, |pass, pattern| {
             pass.set_pipeline(only.unwrap_or(&self.pipelines.picture[pattern as usize]));
@@ -139,7 +139,7 @@ impl Raster {
 
     fn draw_sky(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
         pass.set_pipeline(&self.pipelines.sky);
-        one.scenery.bind(pass, one.view);
+        one.scenery.bind(pass, one.index);
         pass.draw(0..3, 0..1);
     }
 
@@ -177,7 +177,7 @@ impl Raster {
 /// One view of a batch.
 struct View<'a> {
     scenery: &'a Scenery,
-    view: usize,
+    index: usize,
     span: &'a Span,
     batches: &'a ViewBatches,
 }

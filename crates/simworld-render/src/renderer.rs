@@ -172,8 +172,8 @@ impl Renderer {
         requests: &[ViewRequest],
         options: &ViewOptions,
     ) -> Result<Ticket, RenderError> {
-        let (encoder, layout) = self.draw(scene, requests, options)?;
-        let outcome = self.works.submit(encoder, layout, options);
+        let (encoder, layout) = self.draw(scene, requests, *options)?;
+        let outcome = self.works.submit(encoder, layout, *options);
         let pending = self.mended(outcome)?;
         let number = TICKETS.fetch_add(1, Ordering::Relaxed);
         self.pending.insert(number, pending);
@@ -184,6 +184,7 @@ impl Renderer {
     ///
     /// # Errors
     /// A ticket of another renderer or of a lost device, or a failing adapter. The views are then unspecified.
+    #[expect(clippy::needless_pass_by_value, reason = "a ticket is good for one batch")]
     pub fn take(&mut self, ticket: Ticket, views: &mut Views) -> Result<(), RenderError> {
         let pending = self.pending.remove(&ticket.0).ok_or(RenderError::Ticket)?;
         let outcome = self.works.take(pending, views);
@@ -200,7 +201,7 @@ impl Renderer {
         requests: &[ViewRequest],
         options: &ViewOptions,
     ) -> Result<DeviceViews<'_>, RenderError> {
-        let (encoder, layout) = self.draw(scene, requests, options)?;
+        let (encoder, layout) = self.draw(scene, requests, *options)?;
         self.works.gpu.queue.submit([encoder.finish()]);
         let outcome = self.works.gpu.check();
         self.mended(outcome)?;
@@ -211,7 +212,7 @@ impl Renderer {
         &mut self,
         scene: &dyn Scene,
         requests: &[ViewRequest],
-        options: &ViewOptions,
+        options: ViewOptions,
     ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
         if requests.is_empty() {
             return Err(RenderError::NoViews);

@@ -6,11 +6,13 @@ use simworld_core::geometry::Aabb;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 
-use crate::batch::{Layout, Projection, ViewOptions, ViewRequest};
+use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
+use crate::config::{AntiAliasing, Backend};
 use crate::draw_list::DrawList;
 use crate::gpu::{Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
 use crate::light::Light;
 use crate::raster::{Job, Raster};
+use crate::raycast::{Look, MOST_VIEWS, Raycast};
 use crate::resident::{MOST_SLOTS, Residents};
 use crate::shadow::ShadowView;
 use crate::view::View;
@@ -22,6 +24,8 @@ pub(crate) struct Works {
     /// Side of the shadow map, which an adapter may bound.
     pub shadow_resolution: u32,
     raster: Raster,
+    /// Made when it is first used.
+    raycast: Option<Raycast>,
     scenery: Scenery,
     pub planes: Planes,
     readbacks: Readbacks,
@@ -55,7 +59,17 @@ impl Works {
         let planes = Planes::new(&gpu);
         gpu.check()?;
         let (readbacks, residents, list) = (Readbacks::default(), Residents::default(), DrawList::default());
-        Ok(Self { gpu, shadow_resolution, raster, scenery, planes, readbacks, residents, list })
+        Ok(Self {
+            gpu,
+            shadow_resolution,
+            raster,
+            raycast: None,
+            scenery,
+            planes,
+            readbacks,
+            residents,
+            list,
+        })
     }
 
     /// Draws a batch into the planes; the commands are recorded, and not handed in yet.
@@ -64,7 +78,7 @@ impl Works {
         config: &RenderConfig,
         scene: &dyn Scene,
         requests: &[ViewRequest],
-        options: &ViewOptions,
+        options: ViewOptions,
     ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
         let outcome = self.try_draw(config, scene, requests, options);
         if outcome.is_err() {
@@ -79,7 +93,7 @@ impl Works {
         config: &RenderConfig,
         scene: &dyn Scene,
         requests: &[ViewRequest],
-        options: &ViewOptions,
+        options: ViewOptions,
     ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
         let sight = self.look(config, scene, requests)?;
         let layout = Layout::of(requests.iter().map(|request| &request.camera.intrinsics));
@@ -88,18 +102,27 @@ impl Works {
         if self.residents.names.len() > MOST_SLOTS {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
-        self.send(config, scene, requests, &sight)?;
-        self.raster.hold(&self.gpu, layout.largest)?;
+        let globals = self.send(&sight)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let shaded: Vec<bool> = sight.shadows.iter().map(Option::is_some).collect();
-        let job = Job {
-            scenery: &self.scenery,
-            list: &self.list,
-            layout: &layout,
-            channels: options.channels,
-            shaded: &shaded,
-        };
-        self.raster.draw(&mut encoder, &self.planes, &job);
+        if self.casts(config, options, requests, &layout) {
+            let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
+            let (views, min_pixels) = (&sight.views[..], config.min_pixels);
+            let look = Look { views, globals: &globals, requests, layout: &layout, min_pixels };
+            raycast.hold(&self.gpu, scene, &self.residents, &look)?;
+            raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout, options.channels);
+        } else {
+            self.list(config, scene, requests, &sight)?;
+            self.raster.hold(&self.gpu, layout.largest)?;
+            let shaded: Vec<bool> = sight.shadows.iter().map(Option::is_some).collect();
+            let job = Job {
+                scenery: &self.scenery,
+                list: &self.list,
+                layout: &layout,
+                channels: options.channels,
+                shaded: &shaded,
+            };
+            self.raster.draw(&mut encoder, &self.planes, &job);
+        }
         self.planes.pack(&mut encoder, &layout);
         Ok((encoder, layout))
     }
@@ -135,20 +158,57 @@ impl Works {
         Ok(Sight { views, shadows, light, region })
     }
 
-    /// Finds what is drawn, and sends it to the device.
-    fn send(
+    /// Whether a batch is cast, and not drawn.
+    fn casts(
+        &self,
+        config: &RenderConfig,
+        options: ViewOptions,
+        requests: &[ViewRequest],
+        layout: &Layout,
+    ) -> bool {
+        let is_parallel = requests.iter().any(|request| request.projection == Projection::Parallel);
+        if is_parallel || options.channels.contains(Channels::NORMALS) || requests.len() > MOST_VIEWS {
+            return false;
+        }
+        match config.backend {
+            Backend::Raster => false,
+            Backend::Raycast => true,
+            Backend::Auto => {
+                let is_gpu = matches!(
+                    self.gpu.info.device_type,
+                    wgpu::DeviceType::DiscreteGpu | wgpu::DeviceType::VirtualGpu
+                );
+                let is_smoothed =
+                    config.anti_aliasing != AntiAliasing::Off && options.channels.contains(Channels::RGB);
+                let is_small = layout.largest.iter().all(|side| *side <= SMALL);
+                is_gpu && !is_smoothed && is_small && layout.spans.len() >= MANY
+            }
+        }
+    }
+
+    /// Sends what every view is drawn from, and what changed of the instances; gives the globals.
+    fn send(&mut self, sight: &Sight) -> Result<Vec<Globals>, RenderError> {
+        let pairs = sight.views.iter().zip(&sight.shadows);
+        let globals: Vec<Globals> =
+            pairs.map(|(view, shadow)| Globals::new(view, &sight.light, shadow.as_ref())).collect();
+        if let Some(raycast) = &mut self.raycast {
+            raycast.note(&self.residents.changed);
+        }
+        self.scenery.send(&self.gpu, &globals, &mut self.residents)?;
+        Ok(globals)
+    }
+
+    /// Finds what the raster backend draws, and sends that to the device.
+    fn list(
         &mut self,
         config: &RenderConfig,
         scene: &dyn Scene,
         requests: &[ViewRequest],
         sight: &Sight,
     ) -> Result<(), RenderError> {
-        let pairs = || sight.views.iter().zip(&sight.shadows);
-        let globals: Vec<Globals> =
-            pairs().map(|(view, shadow)| Globals::new(view, &sight.light, shadow.as_ref())).collect();
-        self.scenery.send(&self.gpu, &globals, &mut self.residents)?;
+        let pairs = sight.views.iter().zip(&sight.shadows);
         self.list.clear();
-        for ((view, shadow), request) in pairs().zip(requests) {
+        for ((view, shadow), request) in pairs.zip(requests) {
             let left_out = [request.hidden, request.only];
             self.list.add(&self.residents, view, shadow.as_ref(), config.min_pixels, left_out);
         }
@@ -163,24 +223,27 @@ impl Works {
         &mut self,
         mut encoder: wgpu::CommandEncoder,
         layout: Layout,
-        options: &ViewOptions,
+        options: ViewOptions,
     ) -> Result<Pending, RenderError> {
         let buffer = self.readbacks.copy(&self.gpu, &mut encoder, &self.planes, &layout, options)?;
         let submission = self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()?;
         let readback = Readback::begin(buffer, submission);
-        Ok(Pending { readback, layout, options: *options, names: Arc::clone(&self.residents.names) })
+        Ok(Pending { readback, layout, options, names: Arc::clone(&self.residents.names) })
     }
 
     /// Waits for a batch.
     pub(crate) fn take(&mut self, pending: Pending, views: &mut Views) -> Result<(), RenderError> {
         let Pending { readback, layout, options, names } = pending;
-        let lies = |channel| place(&layout, &options, channel);
-        let buffer = readback.read(&self.gpu, |bytes| views.fill(&layout, &options, &names, lies, bytes))?;
+        let lies = |channel| place(&layout, options, channel);
+        let buffer = readback.read(&self.gpu, |bytes| views.fill(&layout, options, &names, lies, bytes))?;
         self.readbacks.give_back(buffer);
         Ok(())
     }
 }
 
+/// Batches of at least so many views, each at most so wide and high, are cast on GPUs unless something else is asked for.
+const MANY: usize = 16;
+const SMALL: u32 = 256;
 /// The farthest that a silhouette reaches beyond the bounds of its entity, m.
 const OVERHANG: f64 = 8.0;

@@ -105,7 +105,7 @@ impl ViewOptions {
     }
 
     /// Bytes that one pixel takes in one channel; 0 if it is not asked for.
-    pub(crate) fn bytes_of(&self, channel: Channels) -> usize {
+    pub(crate) fn bytes_of(self, channel: Channels) -> usize {
         if !self.channels.contains(channel) {
             return 0;
         }

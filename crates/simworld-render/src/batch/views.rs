@@ -121,7 +121,7 @@ impl Views {
     pub(crate) fn fill(
         &mut self,
         layout: &Layout,
-        options: &ViewOptions,
+        options: ViewOptions,
         names: &Arc<Vec<EntityId>>,
         bytes: impl Fn(Channels) -> Range<usize>,
         all: &[u8],
@@ -214,7 +214,7 @@ mod tests {
         let options = ViewOptions { channels: Channels::IDS, format: PixelFormat::Full };
         let mut views = Views::new();
         let names = Arc::new(vec![EntityId::new(0, 3), EntityId::new(1, 0)]);
-        views.fill(&layout, &options, &names, |_| 0..layout.pixels * 4, bytemuck::cast_slice(&words));
+        views.fill(&layout, options, &names, |_| 0..layout.pixels * 4, bytemuck::cast_slice(&words));
         assert_eq!(views.ids[views.pixels(0)], [0, 1, 2, 64, 65, 66]);
         assert_eq!(views.ids[views.pixels(1)][69], 128 + 69);
         assert!(views.pixels(2).is_empty() && views.size(2).is_none() && views.rgb.is_empty());

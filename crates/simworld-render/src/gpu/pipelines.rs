@@ -7,6 +7,8 @@ use crate::config::AntiAliasing;
 use crate::mesh::{Pattern, Vertex};
 
 const COMMON: &str = include_str!("../shaders/globals.wgsl");
+const BINDINGS: &str = include_str!("../shaders/bindings.wgsl");
+const RAYCAST: &str = include_str!("../shaders/raycast.wgsl");
 const NOISE: &str = include_str!("../shaders/noise.wgsl");
 const SKY: &str = include_str!("../shaders/sky.wgsl");
 const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
@@ -75,11 +77,13 @@ impl Pipelines {
         };
         let full = layout(&[Some(&scenery), Some(&shadow_layout)]);
         let plain = layout(&[Some(&scenery)]);
-        let forward =
-            module("forward", &[COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD]);
-        let sky = module("sky", &[COMMON, NOISE, SKY, SKY_PASS]);
-        let shadow = module("shadow", &[COMMON, SHADOW]);
-        let normals = module("normals", &[COMMON, NORMALS]);
+        let forward = module(
+            "forward",
+            &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD],
+        );
+        let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
+        let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
+        let normals = module("normals", &[COMMON, BINDINGS, NORMALS]);
 
         let smooth = smoothing == AntiAliasing::Msaa4;
         let forward = Recipe { gpu, module: &forward, layout: &full };
@@ -94,6 +98,11 @@ impl Pipelines {
             shadow_map,
         }
     }
+}
+
+/// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
+pub(crate) fn raycast_source() -> String {
+    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, RAYCAST].concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]

@@ -67,7 +67,7 @@ impl Planes {
         &mut self,
         gpu: &Gpu,
         layout: &Layout,
-        options: &ViewOptions,
+        options: ViewOptions,
     ) -> Result<(), RenderError> {
         let (pixels, limit) = (layout.pixels, Self::limit(gpu));
         if pixels > limit {

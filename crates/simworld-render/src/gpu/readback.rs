@@ -32,7 +32,7 @@ impl Readbacks {
         encoder: &mut wgpu::CommandEncoder,
         planes: &Planes,
         layout: &Layout,
-        options: &ViewOptions,
+        options: ViewOptions,
     ) -> Result<wgpu::Buffer, RenderError> {
         let size = place(layout, options, Channels::empty()).end as u64;
         let fits = |buffer: &wgpu::Buffer| (size..=4 * size).contains(&buffer.size());
@@ -97,7 +97,7 @@ impl Readback {
 }
 
 /// Where a channel lies in the buffer, bytes; no channel stands for the end.
-pub(crate) fn place(layout: &Layout, options: &ViewOptions, wanted: Channels) -> Range<usize> {
+pub(crate) fn place(layout: &Layout, options: ViewOptions, wanted: Channels) -> Range<usize> {
     let mut start = 0;
     for channel in options.channels.iter() {
         let length = layout.pixels * options.bytes_of(channel);

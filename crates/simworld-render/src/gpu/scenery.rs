@@ -104,7 +104,7 @@ impl Scenery {
 fn pieces(changed: &mut Vec<u32>, everything: Option<u32>) -> Vec<std::ops::Range<u32>> {
     if let Some(count) = everything {
         changed.clear();
-        return if count == 0 { Vec::new() } else { vec![0..count] };
+        return if count == 0 { Vec::new() } else { std::iter::once(0..count).collect() };
     }
     changed.sort_unstable();
     changed.dedup();
@@ -168,6 +168,6 @@ mod tests {
         let runs = pieces(&mut scattered.clone(), None);
         assert!(runs.len() <= MOST_PIECES);
         assert!(scattered.iter().all(|number| runs.iter().any(|run| run.contains(number))));
-        assert_eq!(pieces(&mut scattered, Some(12)), vec![0..12]);
+        assert_eq!(pieces(&mut scattered, Some(12)).first(), Some(&(0..12)));
     }
 }

@@ -51,6 +51,11 @@ impl Grid {
         *self = Self::default();
     }
 
+    /// The ball of that number.
+    pub(crate) fn ball(&self, number: u32) -> &Ball {
+        &self.balls[number as usize]
+    }
+
     /// Files a ball, or files it anew after it moved.
     pub(crate) fn place(&mut self, number: u32, ball: Ball) {
         let index = number as usize;

@@ -1,6 +1,7 @@
 //! One drawn thing as the shaders read it.
 
 use bytemuck::{Pod, Zeroable};
+use nalgebra::{Quaternion, UnitQuaternion};
 use simworld_core::geometry::{Pose, Vector3};
 use simworld_core::id::EntityId;
 
@@ -45,6 +46,23 @@ impl Instance {
             color: with(look.color, look.state),
             second: with(look.second, look.param),
         }
+    }
+
+    /// Where it is in the world.
+    pub(crate) fn place(&self) -> Vector3 {
+        Vector3::from_fn(|axis, _| f64::from(self.place[axis]) + f64::from(self.rest[axis]))
+    }
+
+    /// World from body.
+    pub(crate) fn turn(&self) -> UnitQuaternion<f64> {
+        let [i, j, k, w] = self.rotation.map(f64::from);
+        UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k))
+    }
+
+    /// The body's box, and the unit of offsets.
+    pub(crate) const fn measure(&self) -> ([f32; 3], f32) {
+        let [x, y, z, _] = self.scale;
+        ([x, y, z], self.place[3])
     }
 }
 

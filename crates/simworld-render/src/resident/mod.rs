@@ -34,6 +34,8 @@ pub(crate) struct Card {
     pub part: u32,
     /// Whether it throws a shadow that one would miss.
     pub casts: bool,
+    /// Whether its kind moves about.
+    pub mobile: bool,
     /// The next instance of the entity, or of the free ones.
     next: u32,
 }
@@ -161,7 +163,14 @@ impl Residents {
             let card = &mut self.cards[number as usize];
             let is_same =
                 self.instances[number as usize] == instance && card.mesh == part.mesh && card.casts == casts;
-            *card = Card { mesh: part.mesh, slot: slot as u32, part: index, casts, next };
+            *card = Card {
+                mesh: part.mesh,
+                slot: slot as u32,
+                part: index,
+                casts,
+                mobile: entity.kind.is_mobile(),
+                next,
+            };
             if !is_same {
                 self.instances[number as usize] = instance;
                 self.changed.push(number);
@@ -197,9 +206,16 @@ impl Residents {
             return number;
         }
         let mesh = Drawn::Own(crate::mesh::MeshId::Cuboid);
-        self.cards.push(Card { mesh, slot: NONE, part: 0, casts: false, next: NONE });
+        self.cards.push(Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, next: NONE });
         self.instances.push(bytemuck::Zeroable::zeroed());
         self.cards.len() as u32 - 1
+    }
+}
+
+impl Card {
+    /// Whether somebody has this number now.
+    pub(crate) const fn is_taken(&self) -> bool {
+        self.slot != NONE
     }
 }
 

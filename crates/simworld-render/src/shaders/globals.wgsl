@@ -37,9 +37,6 @@ struct Instance {
     second: vec4f,
 }
 
-@group(0) @binding(0) var<uniform> globals: Globals;
-@group(0) @binding(1) var<storage, read> instances: array<Instance>;
-
 struct Corner {
     @location(0) anchor: vec3f,
     @location(1) offset: vec3f,

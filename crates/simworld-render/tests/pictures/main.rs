@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
 mod arrays_and_photos_say_what_was_seen;
+mod backends_agree;
 mod bad_input_is_refused;
 mod batches_are_their_views;
 mod boxes_hold_what_is_seen;

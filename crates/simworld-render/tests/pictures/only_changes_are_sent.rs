@@ -78,8 +78,7 @@ fn worlds_do_not_mix() {
     let camera = square_camera(0.0, 64, 48);
     let (first, mut second) = (square(0.0), World::new());
     put(&mut second, EntityKind::Bus, [12.0, 0.0, 0.0], 1.0, Shape::cuboid(10.0, 2.5, 3.0));
-    let mut turn =
-        |renderer: &mut Renderer| [draw(renderer, &first, &camera), draw(renderer, &second, &camera)];
+    let turn = |renderer: &mut Renderer| [draw(renderer, &first, &camera), draw(renderer, &second, &camera)];
     let expected = turn(&mut renderer);
     assert!(turn(&mut renderer) == expected);
     assert_ne!(expected[0].ids, expected[1].ids);

@@ -1,0 +1,301 @@
+//! How fast the eyes are on this adapter: a table of views a second, drawn by triangles and cast by rays, on the device and on the host.
+//!
+//! ```sh
+//! cargo run --release -p simworld-render --example eyes_figures
+//! ```
+//!
+//! The binary needs no files. The city is procedural: streets with buildings, trees, lamps, cars and people, 10,000 things on a square
+//! kilometre; more things are a larger city.
+#![expect(clippy::disallowed_methods, reason = "it measures time")]
+
+use std::time::Instant;
+
+use simworld_core::camera::{Camera, Intrinsics};
+use simworld_core::geometry::{Point3, Twist, Vector3, pose_facing};
+use simworld_core::id::EntityId;
+use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+use simworld_core::seed::{Seed, StreamRng};
+use simworld_render::{Backend, RenderConfig, RenderError, Renderer, ViewOptions, ViewRequest, Views};
+
+const HELP: &str = "\
+Views a second on this adapter, by both backends.
+
+Usage: eyes_figures [--only TEXT] [--seconds S] [--things N] [--views N] [--agents N] [--bodies N]
+
+  --only TEXT   rows whose name holds this text
+  --seconds S   how long each row is measured, 0.05 to 600 [2]
+  --things N    things in the city; the larger city has ten times as many [10000]
+  --views N     views of 128 x 128 pixels in a batch [1024; 16 on a CPU]
+  --agents N    agents that see at once, among the moving bodies [1000; 20 on a CPU]
+  --bodies N    bodies that move in every step [10000; 1000 on a CPU]
+";
+
+type Failure = Box<dyn std::error::Error>;
+/// Measures a row: batches a second, and the views in each.
+type Row = Box<dyn FnOnce(&mut Renderer) -> Result<(f64, usize), Failure>>;
+
+/// What was asked for.
+struct Settings {
+    only: String,
+    seconds: f64,
+    things: u32,
+    views: Option<u32>,
+    agents: Option<u32>,
+    bodies: Option<u32>,
+}
+
+/// How a row gets its results.
+#[derive(Clone, Copy)]
+enum Results {
+    OnDevice,
+    /// The next batch is handed in before the last is taken.
+    OnHost(ViewOptions),
+}
+
+fn main() -> Result<(), Failure> {
+    let Some(settings) = settings()? else {
+        print!("{HELP}");
+        return Ok(());
+    };
+    let renderers: Result<Vec<(&str, Renderer)>, RenderError> =
+        [("raster", Backend::Raster), ("raycast", Backend::Raycast)]
+            .into_iter()
+            .map(|(name, backend)| {
+                Ok((name, Renderer::new(&RenderConfig { backend, ..RenderConfig::default() })?))
+            })
+            .collect();
+    let mut renderers = match renderers {
+        Ok(renderers) => renderers,
+        Err(error) => {
+            println!("nothing measured: {error}");
+            return Ok(());
+        }
+    };
+    let adapter = renderers[0].1.adapter();
+    let is_cpu =
+        adapter.contains("llvmpipe") || adapter.contains("lavapipe") || adapter.contains("SwiftShader");
+    let fits = |asked: Option<u32>, gpu: u32, cpu: u32| asked.unwrap_or(if is_cpu { cpu } else { gpu });
+    println!("adapter: {adapter}; full look, shadows, 7 to 12 bytes a pixel\n");
+    println!("{:58} {:>12} {:>14}", "what", "a second", "views a second");
+    let mut rows = 0;
+    for (name, renderer) in &mut renderers {
+        let mut row = |what: &str, result: Row| {
+            let what = format!("{name}: {what}");
+            if what.contains(&settings.only) {
+                rows += 1;
+                let (rate, views) = result(renderer)?;
+                println!("{what:58} {rate:>12.1} {:>14.0}", rate * views as f64);
+            }
+            Ok::<(), Failure>(())
+        };
+        let seconds = settings.seconds;
+        for (factor, size) in [(1, "a city"), (10, "a city ten times as large")] {
+            let things = settings.things * factor;
+            row(
+                &format!("640 x 480 of {size}, on host"),
+                Box::new(move |renderer| {
+                    let mut world = city(things)?.0;
+                    measure(
+                        renderer,
+                        &mut world,
+                        &[],
+                        &street_views(1, 640, 480)?,
+                        Results::OnHost(ViewOptions::default()),
+                        seconds,
+                    )
+                }),
+            )?;
+            let views = fits(settings.views, 1024, 16);
+            let kinds = [
+                ("on device", Results::OnDevice),
+                ("on host", Results::OnHost(ViewOptions::default())),
+                ("on host, compact", Results::OnHost(ViewOptions::compact())),
+            ];
+            for (place, results) in kinds {
+                row(
+                    &format!("{views} of 128 x 128 of {size}, {place}"),
+                    Box::new(move |renderer| {
+                        let mut world = city(things)?.0;
+                        measure(renderer, &mut world, &[], &street_views(views, 128, 128)?, results, seconds)
+                    }),
+                )?;
+            }
+        }
+        let (agents, bodies) = (fits(settings.agents, 1000, 20), fits(settings.bodies, 10_000, 1000));
+        let things = settings.things.max(bodies * 4);
+        row(
+            &format!("{agents} agents of 128 x 128 among {bodies} that move, on host"),
+            Box::new(move |renderer| {
+                let (mut world, mut movers) = city(things)?;
+                movers.truncate(bodies as usize);
+                let requests = street_views(agents, 128, 128)?;
+                measure(
+                    renderer,
+                    &mut world,
+                    &movers,
+                    &requests,
+                    Results::OnHost(ViewOptions::default()),
+                    seconds,
+                )
+            }),
+        )?;
+    }
+    if rows == 0 { Err(format!("no row holds the text {:?}", settings.only).into()) } else { Ok(()) }
+}
+
+fn settings() -> Result<Option<Settings>, Failure> {
+    let mut settings = Settings {
+        only: String::new(),
+        seconds: 2.0,
+        things: 10_000,
+        views: None,
+        agents: None,
+        bodies: None,
+    };
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        if argument == "--help" || argument == "-h" {
+            return Ok(None);
+        }
+        let value = arguments.next().ok_or_else(|| format!("{argument} wants a value; see --help"))?;
+        let count = |most: u32| -> Result<u32, Failure> {
+            let count: u32 = value.parse().map_err(|error| format!("{argument} {value}: {error}"))?;
+            if (1..=most).contains(&count) {
+                Ok(count)
+            } else {
+                Err(format!("{argument} takes 1 to {most}").into())
+            }
+        };
+        match argument.as_str() {
+            "--only" => settings.only = value,
+            "--seconds" => {
+                settings.seconds = value.parse().map_err(|error| format!("{argument} {value}: {error}"))?;
+                if !(0.05..=600.0).contains(&settings.seconds) {
+                    return Err("--seconds takes 0.05 to 600".into());
+                }
+            }
+            "--things" => settings.things = count(1_000_000)?,
+            "--views" => settings.views = Some(count(16_384)?),
+            "--agents" => settings.agents = Some(count(16_384)?),
+            "--bodies" => settings.bodies = Some(count(200_000)?),
+            other => return Err(format!("{other} is not known; see --help").into()),
+        }
+    }
+    Ok(Some(settings))
+}
+
+/// Draws again and again; gives batches a second and the views in each.
+fn measure(
+    renderer: &mut Renderer,
+    world: &mut World,
+    movers: &[EntityId],
+    requests: &[ViewRequest],
+    results: Results,
+    seconds: f64,
+) -> Result<(f64, usize), Failure> {
+    let mut views = Views::new();
+    let mut under_way = None;
+    let (mut start, mut batches) = (Instant::now(), 0_u32);
+    // The first two are not counted: pipelines and buffers are made in them.
+    for round in 0_u32.. {
+        if round == 2 {
+            (start, batches) = (Instant::now(), 0);
+        }
+        if round > 2 && start.elapsed().as_secs_f64() >= seconds {
+            break;
+        }
+        for (index, id) in movers.iter().enumerate() {
+            let Some(entity) = simworld_core::scene::Scene::entity(world, *id) else { continue };
+            let along = if (round + index as u32).is_multiple_of(2) { 0.1 } else { -0.1 };
+            let pose = entity.pose * nalgebra::Translation3::new(along, 0.0, 0.0);
+            world.set_motion(*id, pose, Twist::ZERO)?;
+        }
+        world.finish_step();
+        match results {
+            Results::OnDevice => renderer.draw_on_device(world, requests, &ViewOptions::compact())?.wait()?,
+            Results::OnHost(options) => {
+                let ticket = renderer.submit(world, requests, &options)?;
+                if let Some(last) = under_way.replace(ticket) {
+                    renderer.take(last, &mut views)?;
+                }
+            }
+        }
+        batches += 1;
+    }
+    if let Some(last) = under_way {
+        renderer.take(last, &mut views)?;
+    }
+    Ok((f64::from(batches) / start.elapsed().as_secs_f64(), requests.len()))
+}
+
+/// Streets every 100 m with what stands along them; what moves is given beside.
+fn city(things: u32) -> Result<(World, Vec<EntityId>), Failure> {
+    let side = (f64::from(things) * 100.0).sqrt().max(200.0);
+    let mut rng = Seed(7).stream("examples/eyes").rng();
+    let mut world = World::new();
+    let mut movers = Vec::new();
+    let mut put = |kind: EntityKind, at: [f64; 3], yaw: f64, shape: Shape| {
+        let pose = pose_facing(Point3::new(at[0], at[1], at[2]), yaw);
+        world.spawn(EntityDesc::new(kind, pose, shape))
+    };
+    put(EntityKind::Ground, [0.0, 0.0, -1.1], 0.0, Shape::cuboid(side + 400.0, side + 400.0, 1.0))?;
+    let streets = (side / 100.0) as i32;
+    for street in -streets / 2..=streets / 2 {
+        let y = f64::from(street) * 100.0;
+        put(EntityKind::Road, [0.0, y, -0.1], 0.0, Shape::cuboid(side, 8.0, 0.1))?;
+        for beside in [-6.0, 6.0] {
+            put(EntityKind::Sidewalk, [0.0, y + beside, -0.1], 0.0, Shape::cuboid(side, 4.0, 0.2))?;
+        }
+    }
+    for _ in 0..things {
+        let street = rng.uniform(f64::from(-streets / 2), f64::from(streets / 2)).round() * 100.0;
+        let (kind, beside, shape) = thing(&mut rng);
+        let side_of = if rng.uniform(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
+        let at =
+            [rng.uniform(-0.5, 0.5) * side, street + side_of * beside, if beside < 4.0 { 0.0 } else { 0.1 }];
+        let yaw = if side_of > 0.0 { std::f64::consts::PI } else { 0.0 };
+        let turned = if kind == EntityKind::Building { yaw + std::f64::consts::FRAC_PI_2 } else { yaw };
+        let id = put(kind, at, turned, shape)?;
+        if kind.is_mobile() {
+            movers.push(id);
+        }
+    }
+    world.finish_step();
+    Ok((world, movers))
+}
+
+/// What stands or goes along a street, and how far from its middle.
+fn thing(rng: &mut StreamRng) -> (EntityKind, f64, Shape) {
+    match rng.uniform(0.0, 100.0) as u32 {
+        0..15 => {
+            let (width, depth) = (rng.uniform(9.0, 22.0), rng.uniform(9.0, 14.0));
+            (EntityKind::Building, 9.5 + depth * 0.5, Shape::cuboid(depth, width, rng.uniform(6.0, 30.0)))
+        }
+        15..40 => {
+            let height = rng.uniform(4.0, 9.0);
+            (EntityKind::Tree, rng.uniform(7.2, 30.0), Shape::Cylinder { radius: 0.15, height })
+        }
+        40..50 => (EntityKind::StreetLamp, 4.6, Shape::Cylinder { radius: 0.09, height: 6.0 }),
+        50..56 => (EntityKind::Bench, 7.4, Shape::cuboid(0.6, 1.8, 0.85)),
+        56..60 => (EntityKind::TrashBin, 4.9, Shape::Cylinder { radius: 0.3, height: 1.0 }),
+        60..80 => (EntityKind::Car, 2.0, Shape::cuboid(4.4, 1.8, 1.5)),
+        _ => (EntityKind::Person, rng.uniform(4.8, 7.2), Shape::Capsule { radius: 0.25, height: 1.75 }),
+    }
+}
+
+/// Cameras at the height of eyes, on the sidewalks of the middle.
+fn street_views(count: u32, width: u32, height: u32) -> Result<Vec<ViewRequest>, Failure> {
+    let mut rng = Seed(8).stream("examples/eyes").rng();
+    let intrinsics = Intrinsics::from_fov(width, height, 1.4)?;
+    let one = |_| {
+        let eye =
+            Point3::new(rng.uniform(-90.0, 90.0), if rng.uniform(0.0, 1.0) < 0.5 { 5.5 } else { -5.5 }, 1.7);
+        let ahead = Vector3::new(
+            if rng.uniform(0.0, 1.0) < 0.5 { 30.0 } else { -30.0 },
+            rng.uniform(-12.0, 12.0),
+            0.0,
+        );
+        ViewRequest::from(Camera::looking_at(eye, eye + ahead, intrinsics))
+    };
+    Ok((0..count).map(one).collect())
+}

@@ -1,0 +1,243 @@
+//! The ray-cast backend: every view of a batch in one dispatch.
+//!
+//! Two levels: a tree of boxes over the triangles of each mesh, and two over the instances, one over what stands still and one over what
+//! moves. They are made on the CPU, always the same for the same scene; the device walks them.
+
+mod bodies;
+mod bvh;
+mod shape;
+
+use bodies::Bodies;
+use bytemuck::{Pod, Zeroable};
+use shape::Shapes;
+use simworld_core::scene::Scene;
+
+use crate::RenderError;
+use crate::batch::{Channels, Layout, ViewRequest};
+use crate::gpu::{Globals, Gpu, Planes, Scenery, raycast_source};
+use crate::resident::Residents;
+use crate::view::View;
+
+/// Pixels that one workgroup casts, each way, as in raycast.wgsl.
+const TILE: u32 = 8;
+/// Views that one dispatch takes.
+pub(crate) const MOST_VIEWS: usize = 65_535;
+
+/// The twin of `View` in raycast.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Eye {
+    globals: Globals,
+    place: [f32; 4],
+    limits: [f32; 4],
+    span: [u32; 4],
+    hidden: [u32; 4],
+}
+
+/// Trees and pipelines of the ray-cast backend.
+pub(crate) struct Raycast {
+    shapes: Shapes,
+    bodies: Bodies,
+    /// Numbers whose instances changed since the trees last followed.
+    noted: Vec<u32>,
+    layout: wgpu::BindGroupLayout,
+    /// With colour, and without.
+    pipelines: [wgpu::ComputePipeline; 2],
+    views: wgpu::Buffer,
+    nodes: wgpu::Buffer,
+    placed: wgpu::Buffer,
+    pieces: wgpu::Buffer,
+    /// Pieces of four words that are on the device.
+    sent: usize,
+}
+
+/// What is looked at, and how.
+pub(crate) struct Look<'a> {
+    pub views: &'a [View],
+    pub globals: &'a [Globals],
+    pub requests: &'a [ViewRequest],
+    pub layout: &'a Layout,
+    pub min_pixels: f64,
+}
+
+impl Raycast {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        let entry = |binding: u32| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: binding < 5 },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        let entries: Vec<_> = (0..8).map(entry).collect();
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("raycast"),
+            entries: &entries,
+        });
+        let buffer = |size| storage(gpu, size);
+        Self {
+            shapes: Shapes::new(),
+            bodies: Bodies::new(),
+            noted: Vec::new(),
+            pipelines: pipelines(gpu, &layout),
+            layout,
+            views: buffer(1024),
+            nodes: buffer(1024),
+            placed: buffer(1024),
+            pieces: buffer(1024),
+            sent: 0,
+        }
+    }
+
+    /// Notes what the trees have to follow when they are used next.
+    pub(crate) fn note(&mut self, changed: &[u32]) {
+        self.noted.extend_from_slice(changed);
+    }
+
+    /// Brings the trees up to date, and sends what changed of them, with the views.
+    pub(crate) fn hold(
+        &mut self,
+        gpu: &Gpu,
+        scene: &dyn Scene,
+        residents: &Residents,
+        look: &Look<'_>,
+    ) -> Result<(), RenderError> {
+        self.noted.sort_unstable();
+        self.noted.dedup();
+        let all = self.bodies.follow(scene, &mut self.shapes, residents, &self.noted);
+        let is_new = ensure(gpu, &mut self.placed, &self.bodies.placed)?;
+        if all || is_new {
+            gpu.queue.write_buffer(&self.placed, 0, bytemuck::cast_slice(&self.bodies.placed));
+        } else if let (Some(first), Some(last)) = (self.noted.first(), self.noted.last()) {
+            let range = *first as usize..=*last as usize;
+            let offset = u64::from(*first) * size_of::<bodies::Placed>() as u64;
+            gpu.queue.write_buffer(&self.placed, offset, bytemuck::cast_slice(&self.bodies.placed[range]));
+        }
+        self.noted.clear();
+        let is_new = ensure(gpu, &mut self.nodes, &self.bodies.nodes)?;
+        let first = if all || is_new { 0 } else { self.bodies.second as usize };
+        let offset = (first * size_of::<bodies::Node>()) as u64;
+        gpu.queue.write_buffer(&self.nodes, offset, bytemuck::cast_slice(&self.bodies.nodes[first..]));
+        if ensure(gpu, &mut self.pieces, &self.shapes.pieces)? {
+            self.sent = 0;
+        }
+        if self.sent < self.shapes.pieces.len() {
+            let offset = self.sent as u64 * 16;
+            gpu.queue.write_buffer(
+                &self.pieces,
+                offset,
+                bytemuck::cast_slice(&self.shapes.pieces[self.sent..]),
+            );
+            self.sent = self.shapes.pieces.len();
+        }
+        let eyes = self.eyes(look);
+        ensure(gpu, &mut self.views, &eyes)?;
+        gpu.queue.write_buffer(&self.views, 0, bytemuck::cast_slice(&eyes));
+        Ok(())
+    }
+
+    fn eyes(&self, look: &Look<'_>) -> Vec<Eye> {
+        let one = |index: usize| {
+            let (view, span) = (&look.views[index], &look.layout.spans[index]);
+            let eye = view.eye.coords - self.bodies.origin;
+            let focal = view.intrinsics.fx.max(view.intrinsics.fy);
+            let request = &look.requests[index];
+            let hidden = request.hidden.map_or(u32::MAX, |id| id.index() as u32 + 1);
+            let only = request.only.map_or(0, |id| id.index() as u32 + 1);
+            Eye {
+                globals: look.globals[index],
+                place: crate::view::vec4(&eye, view.near),
+                limits: [view.far as f32, look.min_pixels as f32, focal as f32, 0.0],
+                span: [span.first as u32, span.pitch, span.width, span.height],
+                hidden: [hidden, self.bodies.second, only, 0],
+            }
+        };
+        (0..look.views.len()).map(one).collect()
+    }
+
+    /// Records the dispatch of a batch.
+    pub(crate) fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        scenery: &Scenery,
+        planes: &Planes,
+        layout: &Layout,
+        channels: Channels,
+    ) {
+        let [color, depth, who] = &planes.raw;
+        let buffers =
+            [&self.views, &scenery.instances, &self.nodes, &self.placed, &self.pieces, color, depth, who];
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("raycast"),
+            layout: &self.layout,
+            entries: &entries,
+        });
+        let [width, height] = layout.largest;
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        pass.set_pipeline(&self.pipelines[usize::from(!channels.contains(Channels::RGB))]);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), layout.spans.len() as u32);
+    }
+}
+
+fn pipelines(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> [wgpu::ComputePipeline; 2] {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("raycast"),
+        source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
+    });
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("raycast"),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    [1.0, 0.0].map(|shaded| {
+        let constants = [("SHADED", shaded)];
+        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("raycast"),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("cast_views"),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: None,
+        })
+    })
+}
+
+fn storage(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("trees"),
+        size,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Makes room for these; true if the buffer is a new one.
+fn ensure<T: Pod>(gpu: &Gpu, buffer: &mut wgpu::Buffer, wanted: &[T]) -> Result<bool, RenderError> {
+    let size = size_of_val(wanted) as u64;
+    if size <= buffer.size() {
+        return Ok(false);
+    }
+    let limits = gpu.device.limits();
+    let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    if size > limit {
+        return Err(RenderError::TooMany {
+            count: wanted.len(),
+            limit: (limit / size_of::<T>() as u64) as usize,
+        });
+    }
+    *buffer = storage(gpu, size.next_power_of_two().min(limit));
+    gpu.check()?;
+    Ok(true)
+}
