@@ -115,12 +115,7 @@ impl Stand {
             Self::Along { anchor: side } => {
                 anchor(side).is_some_and(|side| is_along(&Solid::of(&side), solid))
             }
-            Self::AlongRoad { roads } => streets.is_some_and(|streets| {
-                let beyond = |road| beyond_kerb(streets.road(road), at);
-                roads
-                    .iter()
-                    .any(|road| beyond(*road).is_some_and(|beyond| (0.0..=ROADSIDE).contains(&beyond)))
-            }),
+            Self::AlongRoad { roads } => streets.is_some_and(|streets| is_beside(streets, roads, at)),
             Self::OnSide { roads, heading } => {
                 streets.is_some_and(|streets| is_on_side(streets, roads, *heading, at))
             }
@@ -232,6 +227,12 @@ fn is_across(streets: Option<&Streets>, anchor: &Solid, solid: &Solid) -> bool {
             gap >= OPPOSITE && local.x > 0.0 && local.x * half.y >= local.y.abs() * half.x
         }
     }
+}
+
+/// Whether a point lies beside one of some roads, off its carriageway.
+fn is_beside(streets: &Streets, roads: &[RoadId], at: Point2) -> bool {
+    let beyond = |road: &RoadId| beyond_kerb(streets.road(*road), at);
+    roads.iter().any(|road| beyond(road).is_some_and(|beyond| (0.0..=ROADSIDE).contains(&beyond)))
 }
 
 /// Whether a point lies to a side of the nearest of some roads.

@@ -333,30 +333,53 @@ pub(super) fn is_plural(said: &str, noun: &str) -> bool {
     of("y", "ies") || of("f", "ves") || of("fe", "ves")
 }
 
+/// Phrases with what they stand for, as a table or filed.
+pub(super) trait PhraseTable<T> {
+    /// The entry whose phrase is the longest at the start of `lexemes`, with the number of its words.
+    fn longest_at(&self, lexemes: &[Lexeme]) -> Option<(T, usize)>;
+}
+
+impl<T: Copy> PhraseTable<T> for [(&[&str], T)] {
+    fn longest_at(&self, lexemes: &[Lexeme]) -> Option<(T, usize)> {
+        let first = initial(lexemes)?;
+        let hits = self.iter().flat_map(|(phrases, entry)| {
+            let begin = phrases.iter().filter(|phrase| begins(phrase, first));
+            begin.filter_map(|phrase| fits(lexemes, phrase).map(|count| (*entry, count)))
+        });
+        longer(hits)
+    }
+}
+
+impl<T: Copy, const N: usize> PhraseTable<T> for [(&[&str], T); N] {
+    fn longest_at(&self, lexemes: &[Lexeme]) -> Option<(T, usize)> {
+        self[..].longest_at(lexemes)
+    }
+}
+
+impl<T: Copy> PhraseTable<T> for LazyLock<Index<T>> {
+    fn longest_at(&self, lexemes: &[Lexeme]) -> Option<(T, usize)> {
+        self.longest(lexemes)
+    }
+}
+
 /// The entry whose phrase is the longest at the start of `lexemes`, with the number of its words.
-pub(super) fn longest<T: Copy>(lexemes: &[Lexeme], table: &[(&[&str], T)]) -> Option<(T, usize)> {
-    let first = initial(lexemes)?;
-    let hits = table.iter().flat_map(|(phrases, entry)| {
-        let begin = phrases.iter().filter(|phrase| begins(phrase, first));
-        begin.filter_map(|phrase| fits(lexemes, phrase).map(|count| (*entry, count)))
-    });
-    longer(hits)
+pub(super) fn longest<T: Copy, L: PhraseTable<T> + ?Sized>(
+    lexemes: &[Lexeme],
+    table: &L,
+) -> Option<(T, usize)> {
+    table.longest_at(lexemes)
 }
 
 /// How something stands to another, by the longest phrase at the start.
 pub(super) fn longest_relation(lexemes: &[Lexeme]) -> Option<(Relation, usize)> {
-    static INDEX: LazyLock<Index<Relation>> = LazyLock::new(|| filed(RELATIONS));
+    static INDEX: LazyLock<Index<Relation>> = LazyLock::new(|| Index::of(RELATIONS));
     INDEX.longest(lexemes)
 }
 
 /// A side of the agent, by the longest phrase at the start.
 pub(super) fn longest_side(lexemes: &[Lexeme]) -> Option<(Side, usize)> {
-    static INDEX: LazyLock<Index<Side>> = LazyLock::new(|| filed(SIDES));
+    static INDEX: LazyLock<Index<Side>> = LazyLock::new(|| Index::of(SIDES));
     INDEX.longest(lexemes)
-}
-
-fn filed<T: Copy>(table: &'static [(&[&str], T)]) -> Index<T> {
-    Index::new(table.iter().flat_map(|(phrases, entry)| phrases.iter().map(|phrase| (*phrase, *entry))))
 }
 
 /// The number of words of the longest of the phrases at the start of `lexemes`.

@@ -32,13 +32,13 @@ const fn first_word(phrase: &str) -> &[u8] {
 #[derive(Debug)]
 pub(super) struct Phrases {
     list: &'static [&'static str],
-    firsts: [u64; 4],
+    firsts: [u64; 16],
 }
 
 impl Phrases {
     /// The list, with a bit set for each first word.
     pub(super) const fn of(list: &'static [&'static str]) -> Self {
-        let mut firsts = [0; 4];
+        let mut firsts = [0; 16];
         let mut at = 0;
         while at < list.len() {
             let (which, bit) = place(figure(first_word(list[at])));
@@ -51,6 +51,11 @@ impl Phrases {
     pub(super) fn iter(&self) -> std::slice::Iter<'static, &'static str> {
         self.list.iter()
     }
+
+    /// Whether one of them is this.
+    pub(super) fn contains(&self, phrase: &str) -> bool {
+        self.may_begin(phrase.split(' ').next().unwrap_or_default()) && self.list.contains(&phrase)
+    }
 }
 
 impl IntoIterator for &Phrases {
@@ -62,9 +67,9 @@ impl IntoIterator for &Phrases {
     }
 }
 
-/// Which of 256 bits stands for a figure.
+/// Which of 1024 bits stands for a figure.
 const fn place(figure: u64) -> (usize, u64) {
-    ((figure >> 62) as usize, 1 << ((figure >> 56) & 63))
+    ((figure >> 60) as usize, 1 << ((figure >> 54) & 63))
 }
 
 /// What phrases may be kept in.
@@ -136,6 +141,11 @@ impl<T: Copy> Index<T> {
             let (first, rest) = phrase.split_once(' ').unwrap_or((phrase, ""));
             (Cow::Borrowed(first), rest, value)
         }))
+    }
+
+    /// Files the phrases of a table.
+    pub(super) fn of(table: &'static [(&[&str], T)]) -> Self {
+        Self::new(table.iter().flat_map(|(phrases, entry)| phrases.iter().map(|phrase| (*phrase, *entry))))
     }
 
     /// Files phrases under first words of any form.

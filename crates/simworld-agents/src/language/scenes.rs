@@ -4,7 +4,7 @@ use simworld_core::scene::Place;
 use simworld_core::spec::{Amount, Height, Pattern, SceneKind, SceneSpec, Water, Width};
 
 use super::edits::sky::{changed, hour};
-use super::edits::words::{SKIES, Sky};
+use super::edits::words::{SKIES, SKY_ROWS, Sky};
 use super::hearing;
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{CATEGORIES, category, longest, longest_phrase};
@@ -176,7 +176,7 @@ impl Scene<'_> {
             return;
         }
         let fact = longest(rest, FACTS);
-        let sky = longest(rest, SKIES).filter(|(_, words)| fact.is_none_or(|(_, own)| *words > own));
+        let sky = longest(rest, &SKIES).filter(|(_, words)| fact.is_none_or(|(_, own)| *words > own));
         let place = category(rest).and_then(|(class, words)| Some((class.place()?, words)));
         let place = place.filter(|(place, words)| {
             *place != Place::Home
@@ -422,7 +422,7 @@ fn named(names: &mut Vec<String>, name: &str, number: Option<u32>, amount: Optio
 fn correct(lexemes: &mut [Lexeme]) {
     let own = || {
         let facts = FACTS.iter().flat_map(|(words, _)| *words);
-        let skies = SKIES.iter().flat_map(|(words, _)| *words);
+        let skies = SKY_ROWS.iter().flat_map(|(words, _)| *words);
         let amounts = AMOUNTS.iter().flat_map(|(words, _)| *words);
         let places = CATEGORIES.iter().filter(|class| class.is_place()).flat_map(|class| class.words);
         facts.chain(skies).chain(amounts).chain(places).chain(NOISE).flat_map(|phrase| phrase.split(' '))

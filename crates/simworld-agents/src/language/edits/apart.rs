@@ -4,6 +4,7 @@
 use super::super::clause::{Count, Reference, Target};
 use super::super::lexer::Lexeme;
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::parts::is_mark;
 use super::says::{DEEPEST, is_it};
@@ -12,54 +13,54 @@ use super::words::{VERBS, Verb};
 
 /// Verbs that mean to remove something with a particle behind it.
 #[rustfmt::skip]
-const TAKES: &[&str] = &["throw", "take", "chuck", "get", "tear", "knock", "pull", "cut", "chop", "toss", "kick", "haul", "cart", "clear", "sweep",
+const TAKES: &Phrases = &Phrases::of(&["throw", "take", "chuck", "get", "tear", "knock", "pull", "cut", "chop", "toss", "kick", "haul", "cart", "clear", "sweep",
     "carry", "send", "bring", "drag", "push", "rip", "strip", "wipe", "lift", "put", "clean", "dig", "move", "pluck", "have", "want", "make", "let",
-    "see", "strike", "cross", "rub", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast"];
+    "see", "strike", "cross", "rub", "drive", "pack", "hack", "saw", "blow", "burn", "wash", "shove", "fling", "sling", "hurl", "bin", "roll", "wheel", "ship", "cast"]);
 /// The particles.
 #[rustfmt::skip]
-const AWAY: &[&str] = &["away", "out", "off", "out of here", "out of there", "out of the way", "out of the scene", "from the scene", "from here", "off the map",
+const AWAY: &Phrases = &Phrases::of(&["away", "out", "off", "out of here", "out of there", "out of the way", "out of the scene", "from the scene", "from here", "off the map",
     "out of sight", "to the dump", "to the scrapyard", "out of my sight", "from the map", "from my sight", "out of the picture", "off the scene",
     "into the trash", "in the trash", "go away", "go", "disappear", "vanish", "gone", "removed", "deleted", "out of town", "out of existence",
     "off the face of the earth", "away from here", "go byebye", "byebye", "bye bye", "off the street", "away for good", "out for good", "leave",
-    "towed away", "towed", "hauled away", "carted off", "carted away", "collected", "scrapped", "cleared away", "cleared", "taken off", "dug out", "cut down", "felled", "out of the city", "out of the campus", "from the city", "off campus", "off site", "taken away", "taken out", "thrown out", "thrown away", "to the tip"];
+    "towed away", "towed", "hauled away", "carted off", "carted away", "collected", "scrapped", "cleared away", "cleared", "taken off", "dug out", "cut down", "felled", "out of the city", "out of the campus", "from the city", "off campus", "off site", "taken away", "taken out", "thrown out", "thrown away", "to the tip"]);
 /// As [`AWAY`], behind verbs of cutting and pulling.
 const DOWN: &[&str] = &["down"];
-const CUTS: &[&str] = &[
+const CUTS: &Phrases = &Phrases::of(&[
     "cut", "tear", "knock", "pull", "chop", "take", "bring", "saw", "hack", "burn", "blow", "rip", "strip",
     "strike",
-];
+]);
 /// Before a thing and the paint that it gets.
 #[rustfmt::skip]
-const COATS: &[&str] = &["give", "do", "have", "get", "dress", "wrap", "dip", "drench", "coat", "cover", "finish", "make", "turn", "change", "switch", "set",
+const COATS: &Phrases = &Phrases::of(&["give", "do", "have", "get", "dress", "wrap", "dip", "drench", "coat", "cover", "finish", "make", "turn", "change", "switch", "set",
     "redo", "style", "put", "slather", "decorate", "render", "want", "let", "hand", "colour", "color", "brush", "lacquer", "varnish", "spray", "bathe", "id like", "i would like",
-    "recoat", "keep", "leave", "see", "show", "convert", "transform", "i want", "we want", "id prefer", "id love", "wed like", "id rather have"];
+    "recoat", "keep", "leave", "see", "show", "convert", "transform", "i want", "we want", "id prefer", "id love", "wed like", "id rather have"]);
 /// Before paint that something gets.
 #[rustfmt::skip]
-const SPLASH: &[&str] = &["put", "splash", "slap", "brush", "throw", "spread", "apply", "use", "add", "pour", "spray", "paint", "dab", "smear", "slosh"];
+const SPLASH: &Phrases = &Phrases::of(&["put", "splash", "slap", "brush", "throw", "spread", "apply", "use", "add", "pour", "spray", "paint", "dab", "smear", "slosh"]);
 /// What the paint is a coat of.
-const COAT: &[&str] = &[
+const COAT: &Phrases = &Phrases::of(&[
     "a", "some", "fresh", "new", "coat", "coats", "lick", "layer", "of", "splash", "dash", "touch", "bit",
     "little", "nice", "bright", "the", "two", "good", "lovely", "quick", "can", "bucket", "pot", "colour",
     "color", "light", "dark", "deep",
-];
+]);
 /// That one thing is to stand in the place of another, before the other.
 #[rustfmt::skip]
-const INSTEAD_OF: &[&str] = &["instead of", "in place of", "in the place of", "in lieu of", "rather than", "in exchange for", "as a replacement for",
-    "to replace", "replacing", "for replacing", "in the stead of", "in the spot of"];
+const INSTEAD_OF: &Phrases = &Phrases::of(&["instead of", "in place of", "in the place of", "in lieu of", "rather than", "in exchange for", "as a replacement for",
+    "to replace", "replacing", "for replacing", "in the stead of", "in the spot of"]);
 /// What becomes of a thing that is another from then on.
 #[rustfmt::skip]
-const BECOMES: &[&str] = &["into", "to", "become", "becomes", "be", "should be", "should become", "for", "with", "in favour of", "in favor of", "by", "turn into",
+const BECOMES: &Phrases = &Phrases::of(&["into", "to", "become", "becomes", "be", "should be", "should become", "for", "with", "in favour of", "in favor of", "by", "turn into",
     "turns into", "should turn into", "could be", "could become", "ought to be", "must be", "must become", "has to become", "has to be", "would be better as",
     "would look better as", "should be replaced by", "should be replaced with", "as", "were", "was", "would be nicer as", "to become", "to be", "should rather be",
-    "should make way for", "has to make way for", "makes way for", "make way for", "must make way for", "gives way to", "should give way to"];
+    "should make way for", "has to make way for", "makes way for", "make way for", "must make way for", "gives way to", "should give way to"]);
 /// Before the thing that becomes another.
 #[rustfmt::skip]
-const CHANGES: &[&str] = &["turn", "change", "make", "convert", "transform", "exchange", "trade", "swap", "let", "switch", "have", "morph", "trade in", "replace", "upgrade",
-    "substitute", "swap out", "switch out", "change out", "i want", "id like", "i would like", "id rather have", "we want", "redo", "rebuild", "remodel", "drop", "ditch", "remove"];
+const CHANGES: &Phrases = &Phrases::of(&["turn", "change", "make", "convert", "transform", "exchange", "trade", "swap", "let", "switch", "have", "morph", "trade in", "replace", "upgrade",
+    "substitute", "swap out", "switch out", "change out", "i want", "id like", "i would like", "id rather have", "we want", "redo", "rebuild", "remodel", "drop", "ditch", "remove"]);
 /// That all but something is to go.
 #[rustfmt::skip]
-const KEEPS: &[&str] = &["only keep", "keep only", "just keep", "keep just", "keep nothing but", "leave only", "only leave", "leave nothing but", "leave just", "just leave",
-    "spare only", "only spare", "keep none but", "nothing but", "retain only", "only retain"];
+const KEEPS: &Phrases = &Phrases::of(&["only keep", "keep only", "just keep", "keep just", "keep nothing but", "leave only", "only leave", "leave nothing but", "leave just", "just leave",
+    "spare only", "only spare", "keep none but", "nothing but", "retain only", "only retain"]);
 
 impl Reader<'_> {
     /// Verbs of several words that stand apart.
@@ -90,7 +91,7 @@ impl Reader<'_> {
     pub(super) fn coated(&self, at: usize, end: usize) -> Option<Wish> {
         if let Some(words) = longest_phrase(&self.lexemes[at..end], SPLASH) {
             let small = (at + words..end)
-                .take_while(|at| self.word(*at).is_some_and(|word| COAT.contains(&word)))
+                .take_while(|at| self.word(*at).is_some_and(|word| COAT.contains(word)))
                 .count();
             let from = at + words + small;
             if let Some((paint, words)) = longest(&self.lexemes[from..end], super::super::paint::PAINTS) {
@@ -114,9 +115,7 @@ impl Reader<'_> {
                 )
                 .unwrap_or(0);
             let from = from
-                + (from..end)
-                    .take_while(|at| self.word(*at).is_some_and(|word| COAT.contains(&word)))
-                    .count();
+                + (from..end).take_while(|at| self.word(*at).is_some_and(|word| COAT.contains(word))).count();
             let paint = self.colour_to(from, end)?;
             let what = self.things(at + words, cut).ok()?;
             self.is_definite(at + words).then_some(Wish::Paint { what, paint })
@@ -210,8 +209,8 @@ impl Reader<'_> {
     /// One new thing and small words, and nothing else.
     fn only_new(&self, end: usize) -> Option<NewThing> {
         #[rustfmt::skip]
-        const TAILS: &[&str] = &["should be", "should stand", "instead", "should go", "goes", "must be", "would be better", "would be nicer", "there", "now",
-            "has to be", "could be", "comes", "is needed", "would be nice", "would be great", "ought to be", "belongs", "must stand", "please", "should come"];
+        const TAILS: &Phrases = &Phrases::of(&["should be", "should stand", "instead", "should go", "goes", "must be", "would be better", "would be nicer", "there", "now",
+            "has to be", "could be", "comes", "is needed", "would be nice", "would be great", "ought to be", "belongs", "must stand", "please", "should come"]);
         let mut stop = self.before_politeness(0, end);
         loop {
             let cut = (1..stop).find(|at| {
@@ -226,7 +225,7 @@ impl Reader<'_> {
         self.beginnings(0, stop).into_iter().find_map(|begins| {
             let mut at = begins.at;
             at += self.lexemes[at..stop].iter().take_while(|lexeme| is_mark(lexeme)).count();
-            let verb = longest(&self.lexemes[at..stop], VERBS)
+            let verb = longest(&self.lexemes[at..stop], &VERBS)
                 .filter(|(verb, _)| matches!(verb, Verb::Add | Verb::Put | Verb::Take));
             at += verb.map_or(0, |(_, words)| words);
             if at >= stop || self.is_definite(at) {
@@ -239,7 +238,7 @@ impl Reader<'_> {
 
     /// "Only keep the white car": all others of its class go.
     fn kept(&self, at: usize, end: usize) -> Option<Wish> {
-        const STAYS: &[&str] = &[
+        const STAYS: &Phrases = &Phrases::of(&[
             "may stay",
             "can stay",
             "should stay",
@@ -254,7 +253,7 @@ impl Reader<'_> {
             "gets to stay",
             "shall remain",
             "is to remain",
-        ];
+        ]);
         // "Only the tallest tree may stay".
         let stays =
             (at + 1..end).find(|cut| longest_phrase(&self.lexemes[*cut..end], STAYS) == Some(end - cut));

@@ -6,12 +6,13 @@ use super::super::clause::{Count, Reference};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::Wish;
 
 /// That something is there, anywhere.
 #[rustfmt::skip]
-const EXISTENCE: &[&str] = &["are there", "is there", "do we have", "are here", "have we got", "exist",
+const EXISTENCE: &Phrases = &Phrases::of(&["are there", "is there", "do we have", "are here", "have we got", "exist",
     "do you see", "can you see", "there are", "we have", "do you have", "in the city", "in this city",
     "in the scene", "on this campus", "on the campus", "in this place", "on campus", "in town", "in this town",
     "in the town", "do i have", "are around", "around here", "in the world", "in the harbour",
@@ -20,7 +21,7 @@ const EXISTENCE: &[&str] = &["are there", "is there", "do we have", "are here", 
     "can i see", "does this place have", "does the campus have", "does the city have", "does the harbour have",
     "does the town have", "this town has", "this city has", "the campus has", "the city has", "the town has",
     "the harbour has", "this campus has", "this harbour has", "this place has", "we have got", "have we",
-    "there is", "in this scene", "in my city", "in our city", "do you count", "can you count", "do you find", "are around here", "around", "do we count", "there are in total", "there are altogether", "do you make it", "are about"];
+    "there is", "in this scene", "in my city", "in our city", "do you count", "can you count", "do you find", "are around here", "around", "do we count", "there are in total", "there are altogether", "do you make it", "are about"]);
 
 impl Reader<'_> {
     pub(super) fn count(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
@@ -68,8 +69,8 @@ impl Reader<'_> {
     /// What a question is about: all of its words count, also those behind "are there" and "are".
     pub(super) fn asked_about(&self, start: usize, end: usize) -> Result<Reference, PlanError> {
         #[rustfmt::skip]
-        const COPULA: &[&str] = &["are there", "are", "is there", "is", "stand", "sit", "do we have", "are standing", "there are",
-            "exist", "there is", "lie", "are parked", "can be found", "are located", "have we got", "are to be found"];
+        const COPULA: &Phrases = &Phrases::of(&["are there", "are", "is there", "is", "stand", "sit", "do we have", "are standing", "there are",
+            "exist", "there is", "lie", "are parked", "can be found", "are located", "have we got", "are to be found"]);
         let end = self.before_politeness(start, end);
         let cut = (start + 1..end).find(|at| longest_phrase(&self.lexemes[*at..end], COPULA).is_some());
         if let Some(cut) = cut
@@ -91,7 +92,7 @@ impl Reader<'_> {
         start: usize,
         cut: usize,
         end: usize,
-        copulas: &[&str],
+        copulas: &Phrases,
     ) -> Result<Reference, PlanError> {
         let mut what = self.one_of(start, cut)?;
         let mut at = cut + longest_phrase(&self.lexemes[cut..end], copulas).unwrap_or(0);

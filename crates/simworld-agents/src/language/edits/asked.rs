@@ -4,38 +4,39 @@
 use simworld_core::seam::PlanError;
 
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::Wish;
 use super::words::VERBS;
 
 /// Asks whether there is something.
 #[rustfmt::skip]
-const EXISTS: &[&str] = &["is there", "are there", "is there any", "are there any", "do we have", "do we have any", "have we got", "have we got any", "have you got", "do you have", "do you have any", "is there already",
-    "do you see", "do you see any", "does the city have", "does this place have", "does the campus have", "does the town have", "does the harbour have", "is there still", "are there still", "do we already have"];
+const EXISTS: &Phrases = &Phrases::of(&["is there", "are there", "is there any", "are there any", "do we have", "do we have any", "have we got", "have we got any", "have you got", "do you have", "do you have any", "is there already",
+    "do you see", "do you see any", "does the city have", "does this place have", "does the campus have", "does the town have", "does the harbour have", "is there still", "are there still", "do we already have"]);
 /// Asks how a thing is.
 #[rustfmt::skip]
-const HOW: &[&str] = &["how tall is", "how big is", "how high is", "how wide is", "how long is", "how large is", "how heavy is", "how small is", "how far is", "how far away is", "what colour is", "what color is", "what colour does",
-    "which colour is", "which color is", "what size is", "how tall are", "what colour has", "whats the colour of", "whats the color of", "what is the height of", "whats the height of", "whats the size of", "what kind of thing is"];
+const HOW: &Phrases = &Phrases::of(&["how tall is", "how big is", "how high is", "how wide is", "how long is", "how large is", "how heavy is", "how small is", "how far is", "how far away is", "what colour is", "what color is", "what colour does",
+    "which colour is", "which color is", "what size is", "how tall are", "what colour has", "whats the colour of", "whats the color of", "what is the height of", "whats the height of", "whats the size of", "what kind of thing is"]);
 /// Asks what the sky is like.
 #[rustfmt::skip]
-const SKY: &[&str] = &["what time is it", "whats the time", "what is the time", "what time of day is it", "whats the weather", "what is the weather", "hows the weather", "how is the weather", "whats the weather like",
-    "what is the weather like", "what is the weather like now", "tell me the time", "tell me the weather", "what hour is it"];
+const SKY: &Phrases = &Phrases::of(&["what time is it", "whats the time", "what is the time", "what time of day is it", "whats the weather", "what is the weather", "hows the weather", "how is the weather", "whats the weather like",
+    "what is the weather like", "what is the weather like now", "tell me the time", "tell me the weather", "what hour is it"]);
 /// What is said of a thing that is asked about.
 #[rustfmt::skip]
-const STATES: &[&str] = &["open", "closed", "locked", "unlocked", "empty", "free", "there", "still there", "here", "big", "small", "tall", "short", "taken", "parked", "broken", "full"];
+const STATES: &Phrases = &Phrases::of(&["open", "closed", "locked", "unlocked", "empty", "free", "there", "still there", "here", "big", "small", "tall", "short", "taken", "parked", "broken", "full"]);
 /// Of streets.
 #[rustfmt::skip]
-const PASSABLE: &[&str] = &["open", "closed", "shut", "blocked", "passable", "open to traffic", "closed to traffic", "closed now", "open now", "open for traffic", "closed for traffic", "currently closed", "currently open",
-    "closed at the moment", "open at the moment", "still closed", "still open", "open for cars", "open to cars", "closed to cars", "closed off", "blocked off", "open again"];
+const PASSABLE: &Phrases = &Phrases::of(&["open", "closed", "shut", "blocked", "passable", "open to traffic", "closed to traffic", "closed now", "open now", "open for traffic", "closed for traffic", "currently closed", "currently open",
+    "closed at the moment", "open at the moment", "still closed", "still open", "open for cars", "open to cars", "closed to cars", "closed off", "blocked off", "open again"]);
 /// Orders to let a thing be, before it.
 #[rustfmt::skip]
-const KEEPS: &[&str] = &["leave", "keep", "let", "and leave", "but leave", "but keep"];
+const KEEPS: &Phrases = &Phrases::of(&["leave", "keep", "let", "and leave", "but leave", "but keep"]);
 /// Behind it.
 #[rustfmt::skip]
-const AS_IT_IS: &[&str] = &["alone", "as it is", "as they are", "where it is", "where they are", "be", "in peace", "untouched", "as is", "where it stands", "where they stand", "unchanged", "in place", "in its place", "the way it is",
-    "where she is", "where he is", "as it was", "as they were", "standing", "stay", "stay where it is", "stay where they are", "stay there", "exactly where it is", "just as it is", "the way they are"];
+const AS_IT_IS: &Phrases = &Phrases::of(&["alone", "as it is", "as they are", "where it is", "where they are", "be", "in peace", "untouched", "as is", "where it stands", "where they stand", "unchanged", "in place", "in its place", "the way it is",
+    "where she is", "where he is", "as it was", "as they were", "standing", "stay", "stay where it is", "stay where they are", "stay there", "exactly where it is", "just as it is", "the way they are"]);
 /// Denies an order.
-const DENIES: &[&str] = &[
+const DENIES: &Phrases = &Phrases::of(&[
     "dont",
     "do not",
     "never",
@@ -44,10 +45,10 @@ const DENIES: &[&str] = &[
     "you must not",
     "you mustnt",
     "nobody should",
-];
+]);
 /// Behind them these are turns of politeness, or deny none.
 #[rustfmt::skip]
-const NO_DENIAL: &[&str] = &["hesitate", "forget", "you", "worry", "mind", "be", "want", "need", "like", "care", "think", "we", "let", "keep", "leave", "stop", "have", "fail", "know"];
+const NO_DENIAL: &Phrases = &Phrases::of(&["hesitate", "forget", "you", "worry", "mind", "be", "want", "need", "like", "care", "think", "we", "let", "keep", "leave", "stop", "have", "fail", "know"]);
 
 impl Reader<'_> {
     /// A question, or an order to do nothing.
@@ -72,7 +73,7 @@ impl Reader<'_> {
 
     /// "Is it raining?"
     fn asks_sky(&self, start: usize, end: usize) -> bool {
-        const ASKS: &[&str] = &[
+        const ASKS: &Phrases = &Phrases::of(&[
             "is it",
             "isnt it",
             "is it still",
@@ -87,7 +88,7 @@ impl Reader<'_> {
             "did it",
             "do you think it is going to",
             "do you think its going to",
-        ];
+        ]);
         const WISHES: &[&str] =
             &["time", "possible", "make", "let", "can", "could", "please", "too", "ok", "okay"];
         let Some(words) = longest_phrase(&self.lexemes[start..end], ASKS) else { return false };
@@ -99,9 +100,9 @@ impl Reader<'_> {
     /// "Is Mill Lane closed?", "which streets are closed?"
     fn asks_passage(&self, start: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const WHICH: &[&str] = &["which streets are", "which roads are", "what streets are", "what roads are", "are any streets", "are any roads", "is any street", "is any road", "which street is", "which road is",
+        const WHICH: &Phrases = &Phrases::of(&["which streets are", "which roads are", "what streets are", "what roads are", "are any streets", "are any roads", "is any street", "is any road", "which street is", "which road is",
             "how many streets are", "how many roads are", "are there any streets", "are there any closed streets", "are there closed streets", "which of the streets are", "are some streets", "list the closed streets",
-            "show me the closed streets", "which streets", "what is", "whats", "list all"];
+            "show me the closed streets", "which streets", "what is", "whats", "list all"]);
         let whole = |at: usize| longest_phrase(&self.lexemes[at.min(end)..end], PASSABLE) == Some(end - at);
         if let Some(words) = longest_phrase(&self.lexemes[start..end], WHICH)
             && (start + words == end || whole(start + words) || self.word(start + words) == Some("closed"))
@@ -160,10 +161,10 @@ impl Reader<'_> {
     /// "Is there a cinema?"
     fn asks_existence(&self, start: usize, end: usize) -> Result<Option<Wish>, PlanError> {
         #[rustfmt::skip]
-        const NONE: &[&str] = &["any chance", "a chance", "any way", "a way", "a possibility", "any possibility", "room", "space", "any room", "enough room", "time", "any reason", "a reason", "any hope", "nothing", "something"];
-        let asks = self
-            .lexemes
-            .get(end - 1)
+        const NONE: &Phrases = &Phrases::of(&["any chance", "a chance", "any way", "a way", "a possibility", "any possibility", "room", "space", "any room", "enough room", "time", "any reason", "a reason", "any hope", "nothing", "something"]);
+        let asks = end
+            .checked_sub(1)
+            .and_then(|last| self.lexemes.get(last))
             .is_some_and(|last| self.words[last.end..].trim_start().starts_with('?'));
         let any = longest_phrase(&self.lexemes[start..end], &["any", "any more", "no"])
             .filter(|_| asks && self.word(start) == Some("any"));
@@ -191,12 +192,18 @@ impl Reader<'_> {
         }
     }
 
-    /// "Leave the red bench alone", "do not move the statue".
+    /// "Leave the red bench alone", "do not move the statue", "hands off the fountain".
     fn left_alone(&self, start: usize, end: usize) -> Option<Wish> {
+        const UNTOUCHED: &[&str] =
+            &["dont touch", "do not touch", "please dont touch", "hands off", "never touch", "nobody touch"];
         let nothing = |start: usize| {
             let why = format!("nothing was changed: {}", self.written(start, end));
             Wish::Nothing { why }
         };
+        if let Some(words) = longest_phrase(&self.lexemes[start..end], UNTOUCHED) {
+            let what = self.things(start + words, end).ok().filter(|_| self.is_certain(start + words))?;
+            return (!what.is_empty()).then(|| nothing(start));
+        }
         if let Some(words) = longest_phrase(&self.lexemes[start..end], KEEPS) {
             let from = start + words;
             return (from + 1..end).find_map(|cut| {
@@ -210,7 +217,7 @@ impl Reader<'_> {
         let from = start + words;
         let is_last = self.lexemes[end..].iter().all(super::parts::is_mark);
         let denies = longest_phrase(&self.lexemes[from..end], NO_DENIAL).is_none()
-            && longest(&self.lexemes[from..end], VERBS).is_some()
+            && longest(&self.lexemes[from..end], &VERBS).is_some()
             && is_last;
         (denies && self.read_plainly(&self.lexemes[from..end]).is_some()).then(|| nothing(start))
     }

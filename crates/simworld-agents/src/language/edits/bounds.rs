@@ -3,7 +3,7 @@
 use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::parse::{Reader, joint};
-use super::words::{VERBS, Verb};
+use super::words::{VERBS, Verb, WAYS};
 
 impl Reader<'_> {
     /// Where the wish that begins here ends: before a joint with a verb behind it, or at the end of the words.
@@ -24,7 +24,8 @@ impl Reader<'_> {
                     longest_phrase(&self.lexemes[next..], &["put one", "place one", "stick one", "set one"]);
                 let begins = next < self.lexemes.len()
                     && goes_on.is_none()
-                    && longest(&self.lexemes[next..], VERBS)
+                    && self
+                        .order_at(next, self.lexemes.len())
                         .is_some_and(|(verb, _)| !matches!(verb, Verb::Put | Verb::Take) || !self.is_copy());
                 let speaks = self.lexemes[at].token == Token::Break
                     && next < self.lexemes.len()
@@ -44,9 +45,16 @@ impl Reader<'_> {
         self.lexemes.len()
     }
 
+    /// The verb of an order that stands here: "close to the school" is where, and no order to close it.
+    pub(super) fn order_at(&self, at: usize, end: usize) -> Option<(Verb, usize)> {
+        let rest = &self.lexemes[at..end];
+        let way = longest(rest, &WAYS).map_or(0, |(_, words)| words);
+        longest(rest, &VERBS).filter(|(_, words)| way <= *words)
+    }
+
     /// "Copy the fountain and put the copy ..." is one wish.
     fn is_copy(&self) -> bool {
-        longest(&self.lexemes[self.at..], VERBS).is_some_and(|(verb, _)| verb == Verb::Copy)
+        longest(&self.lexemes[self.at..], &VERBS).is_some_and(|(verb, _)| verb == Verb::Copy)
     }
 
     fn says_how_it_should_be(&self, end: usize) -> bool {
@@ -56,11 +64,11 @@ impl Reader<'_> {
     }
 
     pub(super) fn has_verb(&self, start: usize, end: usize) -> bool {
-        (start..end).any(|at| longest(&self.lexemes[at..end], VERBS).is_some() && !self.is_in_noun(start, at))
+        (start..end).any(|at| self.order_at(at, end).is_some() && !self.is_in_noun(start, at))
     }
 
     fn has_verb_or_sky(&self, start: usize, end: usize) -> bool {
         self.has_verb(start, end)
-            || (start..end).any(|at| longest(&self.lexemes[at..end], super::words::SKIES).is_some())
+            || (start..end).any(|at| longest(&self.lexemes[at..end], &super::words::SKIES).is_some())
     }
 }

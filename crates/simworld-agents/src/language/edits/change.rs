@@ -2,23 +2,24 @@
 
 use simworld_core::seam::PlanError;
 
-use super::super::clause::{Count, Reference};
+use super::super::clause::{Count, Reference, Target};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::{PAINTS, Paint};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::Wish;
 
 /// Between a thing and where it is to go.
 #[rustfmt::skip]
-const POSED: &[&str] = &["to stand", "to sit", "to wait", "to be", "to go", "to stay", "so that it stands", "so it stands", "so that it is", "so it is", "over to stand", "and put it",
+const POSED: &Phrases = &Phrases::of(&["to stand", "to sit", "to wait", "to be", "to go", "to stay", "so that it stands", "so it stands", "so that it is", "so it is", "over to stand", "and put it",
     "and place it", "and park it", "and set it down", "and set it", "and leave it", "and stick it", "and drop it", "and stand it", "to be placed", "to rest", "to live", "and put them",
-    "and place them", "and park them", "so that they stand", "so they stand", "so that she stands", "so that he stands", "so she stands", "so he stands"];
+    "and place them", "and park them", "so that they stand", "so they stand", "so that she stands", "so that he stands", "so she stands", "so he stands"]);
 
 /// What may stand behind a colour.
 #[rustfmt::skip]
-const BEHIND_PAINT: &[&str] =
-    &["instead", "please", "now", "in colour", "in color", "too", "colour", "color", "paint", "again"];
+const BEHIND_PAINT: &Phrases =
+    &Phrases::of(&["instead", "please", "now", "in colour", "in color", "too", "colour", "color", "paint", "again"]);
 
 impl Reader<'_> {
     // ---- the verbs ----
@@ -105,7 +106,7 @@ impl Reader<'_> {
 
     /// "Get Bo to look at Ada".
     fn made_to(&mut self, end: usize) -> Option<Wish> {
-        const LOOK: &[&str] = &[
+        const LOOK: &Phrases = &Phrases::of(&[
             "to look at",
             "to look towards",
             "to look toward",
@@ -117,7 +118,7 @@ impl Reader<'_> {
             "to look over to",
             "facing",
             "looking at",
-        ];
+        ]);
         let start = self.at;
         (start + 1..end).find_map(|cut| {
             let words = longest_phrase(&self.lexemes[cut..end], LOOK)?;
@@ -198,7 +199,7 @@ impl Reader<'_> {
             }
         }
         let both = self.one_of(start, stop)?;
-        if both.count == Count::One {
+        if both.count == Count::One && both.target != Target::Them {
             return Err(self.not_understood("say which two are to change places"));
         }
         self.at = end;
@@ -252,9 +253,10 @@ impl Reader<'_> {
                 && let [only] = &mut what[..]
             {
                 // "Paint every car white except the blue one".
-                let mut parser = self.parser(next, self.before_politeness(start, end));
+                let comma = usize::from(self.lexemes.get(next).is_some_and(super::parts::is_mark));
+                let mut parser = self.parser(next + comma, self.before_politeness(start, end));
                 self.except(&mut parser, only);
-                if parser.at > next && only.except.is_some() {
+                if parser.at > next + comma && only.except.is_some() {
                     return Some((what, paint, parser.at));
                 }
             }
@@ -418,9 +420,9 @@ impl Reader<'_> {
     /// "Another postbox just like the red one next to the school".
     fn just_like(&mut self, end: usize) -> Option<Vec<Vec<Wish>>> {
         #[rustfmt::skip]
-        const LIKE: &[&str] = &["just like", "exactly like", "identical to", "the same as", "like", "similar to", "that looks like", "that looks just like", "the spitting image of", "matching", "of the same kind as", "same as"];
+        const LIKE: &Phrases = &Phrases::of(&["just like", "exactly like", "identical to", "the same as", "like", "similar to", "that looks like", "that looks just like", "the spitting image of", "matching", "of the same kind as", "same as"]);
         #[rustfmt::skip]
-        const MORE: &[&str] = &["another", "one more", "a second", "a third", "yet another", "an identical", "another one", "a", "an", "one", "a copy"];
+        const MORE: &Phrases = &Phrases::of(&["another", "one more", "a second", "a third", "yet another", "an identical", "another one", "a", "an", "one", "a copy"]);
         let start = self.at;
         let more = longest_phrase(self.rest(end), MORE)?;
         let is_more = more > 1 || matches!(self.word(start), Some("another"));
@@ -447,8 +449,8 @@ impl Reader<'_> {
     /// "Have Ben stand beside the mailbox".
     pub(super) fn posed(&mut self, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-    const POSES: &[&str] =
-            &["stand", "be", "sit", "wait", "go", "walk", "move", "stay", "be standing", "be placed"];
+    const POSES: &Phrases =
+            &Phrases::of(&["stand", "be", "sit", "wait", "go", "walk", "move", "stay", "be standing", "be placed"]);
         let start = self.at;
         for cut in start + 1..end {
             let Some(count) = longest_phrase(&self.lexemes[cut..end], POSES) else { continue };

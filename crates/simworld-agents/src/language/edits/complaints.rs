@@ -5,6 +5,7 @@ use simworld_core::scene::Relation;
 
 use super::super::clause::Reference;
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::{Where, Wish};
 
@@ -35,18 +36,18 @@ const IS: &[&str] = &["is", "are", "looks", "look", "seems", "seem", "stands", "
     "simply", "somewhat", "quite", "feels", "tad", "appears", "lot", "i", "think", "find", "clearly", "standing", "parked", "placed"];
 /// That there is none.
 #[rustfmt::skip]
-const NONE: &[&str] = &["there is no", "theres no", "there are no", "there isnt a", "there isnt any", "there arent any", "why is there no", "why are there no", "there is not a",
+const NONE: &Phrases = &Phrases::of(&["there is no", "theres no", "there are no", "there isnt a", "there isnt any", "there arent any", "why is there no", "why are there no", "there is not a",
     "there is not a single", "there isnt a single", "how come there is no", "how come theres no", "how come there are no", "why cant i see a", "there isnt", "why isnt there a", "why is not there a", "why is there not a", "why are there not any", "there is not any", "there are not any", "there is not enough", "why arent there any", "i see no", "where is the", "i miss a",
     "i cant see a", "i cannot find a", "i cant find a", "what is missing is a", "whats missing is a", "all thats missing is a", "all that is missing is a", "missing", "i am missing a",
-    "im missing a", "we are missing a", "were missing a", "we lack a", "we are lacking a", "we are short of a", "we have no", "we are short a", "no"];
+    "im missing a", "we are missing a", "were missing a", "we lack a", "we are lacking a", "we are short of a", "we have no", "we are short a", "no"]);
 
 impl Reader<'_> {
     /// A sentence that is a complaint, with remarks before it or without.
     pub(super) fn complaint(&self) -> Option<Vec<Vec<Wish>>> {
         #[rustfmt::skip]
-        const MEND: &[&str] = &["fix that", "fix it", "fix this", "change that", "please fix that", "do something about it", "do something about that", "sort it out", "sort that out",
+        const MEND: &Phrases = &Phrases::of(&["fix that", "fix it", "fix this", "change that", "please fix that", "do something about it", "do something about that", "sort it out", "sort that out",
             "can you fix that", "could you fix that", "please change that", "lets fix that", "lets change that", "make it so", "that should change", "mend that", "remedy that",
-            "can we fix that", "help", "that needs fixing", "that must change", "can you help", "can you do something about it", "do something", "correct that", "put that right"];
+            "can we fix that", "turn it", "turn him", "turn her", "turn them", "rotate it", "turn it please", "turn it around", "help", "that needs fixing", "that must change", "can you help", "can you do something about it", "do something", "correct that", "put that right"]);
         let all = self.before_politeness(0, self.lexemes.len());
         let mend = (1..all).find(|at| longest_phrase(&self.lexemes[*at..all], MEND) == Some(all - at));
         let end = self.before_politeness(0, mend.unwrap_or(all));
@@ -55,7 +56,10 @@ impl Reader<'_> {
             if from > 0 && !self.is_remark(0, from - 1) {
                 return None;
             }
-            let wish = self.wrong(from, end).or_else(|| self.none_there(from, end))?;
+            let wish = self
+                .wrong(from, end)
+                .or_else(|| self.none_there(from, end))
+                .or_else(|| self.has_none(from, end))?;
             Some(vec![vec![wish]])
         })
     }
@@ -88,6 +92,31 @@ impl Reader<'_> {
         let thing = reader.new_thing(end).ok()?;
         let at = self.places_to(reader.at, end)?;
         Some(Wish::Add { things: vec![thing], at })
+    }
+}
+
+impl Reader<'_> {
+    /// "The bus stop has no bin": it lacks one.
+    fn has_none(&self, from: usize, end: usize) -> Option<Wish> {
+        const HAS_NO: &[&str] = &[
+            "has no",
+            "have no",
+            "has got no",
+            "doesnt have a",
+            "doesnt have any",
+            "does not have a",
+            "has not got a",
+            "hasnt got a",
+        ];
+        let (cut, words) = (from + 1..end)
+            .find_map(|cut| longest_phrase(&self.lexemes[cut..end], HAS_NO).map(|words| (cut, words)))?;
+        let thing = self
+            .one_of(from, cut)
+            .ok()
+            .filter(|thing| self.is_certain(from) && !super::says::is_it(thing))?;
+        let mut reader = Reader { at: cut + words, ..self.up_to(end) };
+        let new = reader.new_thing(end).ok().filter(|_| reader.at >= end)?;
+        Some(Wish::Add { things: vec![new], at: vec![Where::By(super::wish::Anchor::Thing(thing))] })
     }
 }
 

@@ -5,6 +5,7 @@ use simworld_core::seam::PlanError;
 
 use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::parts::is_mark;
 use super::wish::Wish;
@@ -12,13 +13,13 @@ use super::words::VERBS;
 
 /// What begins a condition.
 #[rustfmt::skip]
-const IF: &[&str] = &["if", "unless", "only if", "but only if", "in case", "provided", "provided that", "as long as", "assuming", "assuming that", "so long as", "should"];
+const IF: &Phrases = &Phrases::of(&["if", "unless", "only if", "but only if", "in case", "provided", "provided that", "as long as", "assuming", "assuming that", "so long as", "should"]);
 /// Of a condition on room, which is one of everything that is placed.
 #[rustfmt::skip]
-const ROOM: &[&str] = &["if there is room", "if there is space", "if there is enough room", "if there is enough space", "if theres room", "if theres space", "if theres enough room", "if theres enough space", "if there is any room",
+const ROOM: &Phrases = &Phrases::of(&["if there is room", "if there is space", "if there is enough room", "if there is enough space", "if theres room", "if theres space", "if theres enough room", "if theres enough space", "if there is any room",
     "if theres any room", "if you find room", "if you find space", "if there is still room", "if theres still room", "if there is a free spot", "if theres a free spot", "if it fits", "if they fit", "if room allows",
     "if space allows", "if there is room for it", "if theres room for it", "if there is room there", "if theres room there", "if there is place", "if it fits there", "provided it fits", "as long as it fits", "if you can find room",
-    "if theres any space", "if there is any space", "as long as there is room", "provided there is room", "space permitting", "room permitting", "provided theres room", "as long as theres room"];
+    "if theres any space", "if there is any space", "as long as there is room", "provided there is room", "space permitting", "room permitting", "provided theres room", "as long as theres room"]);
 
 impl Reader<'_> {
     /// Whether the wish that begins here stands on a condition that is told first.
@@ -67,7 +68,7 @@ impl Reader<'_> {
             let ends = |cut: &usize| {
                 is_mark(&self.lexemes[*cut])
                     || longest_phrase(&self.lexemes[*cut..end], &["then"]).is_some()
-                    || at == start && longest(&self.lexemes[*cut..end], VERBS).is_some()
+                    || at == start && longest(&self.lexemes[*cut..end], &VERBS).is_some()
             };
             let cut = (from + 1..end).find(ends).unwrap_or(end);
             let sky = Reader { at: from, ..self.up_to(cut) }.sky(cut)?;

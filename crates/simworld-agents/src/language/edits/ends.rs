@@ -8,6 +8,7 @@ use simworld_core::seam::PlanError;
 
 use super::super::compass::Compass;
 use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::{Anchor, NewThing, Part, Where};
@@ -15,8 +16,8 @@ use crate::editing::{Edit, EditError, Stand};
 
 /// What stands before a part of something.
 #[rustfmt::skip]
-const BEFORE: &[&str] = &["at the", "on the", "in the", "near the", "by the", "to the", "into the", "inside the", "over to the", "over in the", "along the", "right at the", "right in the", "at its", "at", "in", "on",
-    "within the", "somewhere in the", "somewhere at the", "down at the", "up at the", "towards the", "next to the", "over the"];
+const BEFORE: &Phrases = &Phrases::of(&["at the", "on the", "in the", "near the", "by the", "to the", "into the", "inside the", "over to the", "over in the", "along the", "right at the", "right in the", "at its", "at", "in", "on",
+    "within the", "somewhere in the", "somewhere at the", "down at the", "up at the", "towards the", "next to the", "over the"]);
 /// An end of a street.
 const ENDS: &[&str] = &["end of", "tip of", "edge of", "end on"];
 /// Half of an area, or a part of it that is as good.

@@ -4,13 +4,14 @@
 use super::super::clause::{Reference, Target};
 use super::super::lexer::Lexeme;
 use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
 use super::parts::is_mark;
 use super::wish::{Anchor, Where, Wish};
 
 /// Before what is looked at, behind a place.
 #[rustfmt::skip]
-const LOOKS: &[&str] = &["facing", "facing towards", "facing to", "looking at", "looking towards", "looking toward", "looking to", "looking over to", "turned towards", "turned to", "turned to face",
+const LOOKS: &Phrases = &Phrases::of(&["facing", "facing towards", "facing to", "looking at", "looking towards", "looking toward", "looking to", "looking over to", "turned towards", "turned to", "turned to face",
     "turned toward", "pointing at", "pointing towards", "pointing to", "pointed at", "pointed towards", "and face", "and faces", "that faces", "that face", "which faces", "who faces",
     "that looks at", "that looks towards", "that looks toward", "that looks to", "which looks at", "who looks at", "and look at", "and looks at", "and look towards", "and looking at", "to look at",
     "and have it face", "and have him face", "and have her face", "and make it face", "and make him face", "and make her face", "and turn it towards", "and turn him towards", "and turn her towards",
@@ -19,7 +20,7 @@ const LOOKS: &[&str] = &["facing", "facing towards", "facing to", "looking at", 
     "with its front to", "with its front towards", "and he should look at", "and she should look at", "and it should look at", "and they should look at", "and both look at", "both looking at",
     "both facing", "all facing", "oriented towards", "oriented to", "aimed at", "aiming at", "staring at", "and looks to", "and looks towards", "and should face", "and should look at", "to face",
     "so that it faces", "so it faces", "so that he faces", "so that she faces", "so that they face", "and both turned towards", "both turned towards", "and let him look at", "and let her look at",
-    "and let it look at", "and let it face", "and let him face", "and let her face", "that looks over to", "both turned to", "facing at", "and towards"];
+    "and let it look at", "and let it face", "and let him face", "and let her face", "that looks over to", "both turned to", "facing at", "and towards"]);
 /// That things look at one another.
 const MUTUAL: &[&str] = &["each other", "one another", "eachother", "each the other"];
 

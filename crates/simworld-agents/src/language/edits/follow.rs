@@ -5,6 +5,7 @@ use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
 use super::parse::Reader;
 use super::wish::{Anchor, NewThing, Where, Wish};
@@ -12,14 +13,14 @@ use super::words::WAYS;
 
 /// What stands for a new thing as the one before.
 #[rustfmt::skip]
-const ONE_MORE: &[&str] = &["one", "another one", "one more", "another", "a second one", "a third one", "the other one", "the other", "the same",
+const ONE_MORE: &Phrases = &Phrases::of(&["one", "another one", "one more", "another", "a second one", "a third one", "the other one", "the other", "the same",
     "the same thing", "the same again", "a second", "a third", "a fourth", "a fifth", "and another", "one of those", "one of them", "the next one",
     "the next", "the last one", "the last", "the second", "the third", "the second one", "the third one", "a fourth one", "a last one", "yet another",
     "same", "ditto", "same again", "a further one", "a further", "one as well", "one also", "another of those", "one of these", "just one more",
     "a new one", "the same one", "one like it", "another like it", "one just like it", "the first", "the first one", "a final one", "the final one",
-    "it again", "likewise one", "one too", "an identical one", "its twin", "a twin"];
+    "it again", "likewise one", "one too", "an identical one", "its twin", "a twin"]);
 /// Before several such: "two more", "three of them".
-const MORE: &[&str] = &[
+const MORE: &Phrases = &Phrases::of(&[
     "more",
     "more of them",
     "more of those",
@@ -28,25 +29,25 @@ const MORE: &[&str] = &[
     "others",
     "more like it",
     "of the same",
-];
+]);
 /// What says that the same is to be done to something else.
 #[rustfmt::skip]
-const SAME_FOR: &[&str] = &["the same for", "the same with", "the same to", "same for", "same with", "same to", "do the same to", "do the same for",
+const SAME_FOR: &Phrases = &Phrases::of(&["the same for", "the same with", "the same to", "same for", "same with", "same to", "do the same to", "do the same for",
     "do the same with", "ditto for", "the same goes for", "same goes for", "likewise for", "likewise", "do that to", "do that for", "do that with",
     "do it to", "do so with", "do so to", "repeat that for", "repeat this for", "repeat for", "repeat with", "repeat that with", "that goes for",
     "the same applies to", "same thing for", "same thing with", "same thing to", "do likewise with", "do likewise to", "do the same thing to",
     "do the same thing for", "do the same thing with", "so should", "so must", "and so should", "as for", "the same treatment for", "ditto",
-    "similarly for", "same treatment for", "and for", "and to", "same deal with", "same deal for", "and with"];
+    "similarly for", "same treatment for", "and for", "and to", "same deal with", "same deal for", "and with"]);
 /// Behind it, that it is so too.
 #[rustfmt::skip]
-const TOO: &[&str] = &["too", "as well", "also", "likewise", "the same", "do too", "does too", "should too", "please", "too please", "as well please",
+const TOO: &Phrases = &Phrases::of(&["too", "as well", "also", "likewise", "the same", "do too", "does too", "should too", "please", "too please", "as well please",
     "the same way", "should be too", "should as well", "is too", "gets the same", "get the same", "gets the same treatment", "gets one too",
-    "in the same way", "similarly"];
+    "in the same way", "similarly"]);
 /// That somebody gets one too.
 #[rustfmt::skip]
-const GETS_ONE: &[&str] = &["gets one", "gets another", "gets one too", "gets one as well", "needs one", "needs one too", "wants one", "wants one too",
+const GETS_ONE: &Phrases = &Phrases::of(&["gets one", "gets another", "gets one too", "gets one as well", "needs one", "needs one too", "wants one", "wants one too",
     "could use one", "should have one", "should get one", "gets the same", "has to have one", "deserves one", "does too", "get one", "need one",
-    "want one", "get one too", "needs one as well", "also gets one", "also needs one", "also wants one", "should get one too", "could do with one"];
+    "want one", "get one too", "needs one as well", "also gets one", "also needs one", "also wants one", "should get one too", "could do with one"]);
 
 /// What was said before a part of a sentence.
 #[derive(Clone, Default)]
@@ -117,6 +118,20 @@ impl Reader<'_> {
         let mut changed = false;
         for at in from..end {
             let lexeme = &self.lexemes[at];
+            // "Could you add two?"
+            if at > from && self.is_count_of_those(at, end) {
+                let Token::Word(word) = &noun.last()?.token else { return None };
+                words.push(lexeme.clone());
+                words.extend(noun[..noun.len() - 1].iter().map(|word| Lexeme {
+                    start: lexeme.start,
+                    end: lexeme.end,
+                    ..word.clone()
+                }));
+                let plural = if word.ends_with('s') { word.clone() } else { plural_of(word) };
+                words.push(word_at(lexeme, &plural));
+                changed = true;
+                continue;
+            }
             let stands_for = match self.word(at) {
                 Some("one") => {
                     // "One of them" is a number, and so is "one bench".
@@ -134,7 +149,7 @@ impl Reader<'_> {
                 // "Put one in front" is one that is not there yet.
                 let is_new = at > from
                     && self.word(at) == Some("one")
-                    && longest(&self.lexemes[at - 1..at], super::words::VERBS).is_some_and(|(verb, _)| {
+                    && longest(&self.lexemes[at - 1..at], &super::words::VERBS).is_some_and(|(verb, _)| {
                         matches!(
                             verb,
                             super::words::Verb::Add | super::words::Verb::Put | super::words::Verb::Take
@@ -157,11 +172,19 @@ impl Reader<'_> {
         changed.then_some(words)
     }
 
+    /// "Add two" and no more: so many of what was named before.
+    fn is_count_of_those(&self, at: usize, end: usize) -> bool {
+        let adds = longest(&self.lexemes[at - 1..at], &super::words::VERBS)
+            .is_some_and(|(verb, _)| matches!(verb, super::words::Verb::Add | super::words::Verb::Put));
+        let count = numbers::count(&self.lexemes[at..end]).filter(|(_, words)| *words == 1);
+        adds && count.is_some() && (at + 1 == end || self.is_place(at + 1))
+    }
+
     /// "Next to the red bench and a lamp next to the blue one": what stands behind the same word of place before.
     fn noun_of_a_place(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
         let one =
             (from + 2..end).find(|at| self.word(*at) == Some("one") && self.word(at + 1) != Some("of"))?;
-        let way = |at: usize| longest(&self.lexemes[at..end], WAYS);
+        let way = |at: usize| longest(&self.lexemes[at..end], &WAYS);
         let (own, at) = (from..one)
             .rev()
             .find_map(|at| way(at).filter(|(_, words)| at + words + 1 < one).map(|(own, _)| (own, at)))?;
@@ -180,7 +203,13 @@ impl Reader<'_> {
             Wish::Scale { .. } | Wish::Resize { .. } => &["make"],
             Wish::Rotate { .. } | Wish::Face { .. } | Wish::FaceCompass { .. } => &["turn", "make"],
             Wish::Swap { .. } => &["swap"],
-            Wish::Name { .. } => &["call"],
+            // "It deserves a nice name" names nothing once more.
+            Wish::Name { .. }
+                if longest_phrase(&self.lexemes[from..end], &["it", "he", "she", "they", "its"])
+                    .is_none() =>
+            {
+                &["call"]
+            }
             Wish::Copy { .. } => &["copy"],
             Wish::Replace { .. } => &["replace"],
             _ => return None,
@@ -337,6 +366,12 @@ impl Reader<'_> {
                 return Some(vec![word_at(&self.lexemes[at], species)]);
             }
             let (class, words) = category(&self.lexemes[at..end])?;
+            // "Paint it green" names no green.
+            if longest(&self.lexemes[at..end], super::super::paint::PAINTS)
+                .is_some_and(|(_, paint)| paint >= words)
+            {
+                return None;
+            }
             let said = &self.lexemes[at..at + words];
             let Token::Word(last) = &said[words - 1].token else { return None };
             let singular = class

@@ -1,7 +1,6 @@
 //! Verbs in other forms: "painted", "moving", "thrown out" are of the orders "paint", "move" and "throw out".
 
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::longest;
 use super::words::{VERBS, Verb};
 
 /// Forms that no rule makes.
@@ -42,22 +41,15 @@ pub(super) fn as_order(lexemes: &[Lexeme]) -> Option<(Verb, usize, Lexeme)> {
     let first = lexemes.first()?;
     let Token::Word(word) = &first.token else { return None };
     base_of(word).into_iter().find_map(|base| {
-        let plain = Lexeme { token: Token::Word(base), lemma: None, ..first.clone() };
-        let rest = lexemes[1..].iter().take(LONGEST).cloned();
-        let words: Vec<Lexeme> = std::iter::once(plain.clone()).chain(rest).collect();
-        longest(&words, VERBS).map(|(verb, count)| (verb, count, plain))
+        let (verb, count) = VERBS.longest_behind(&base, &lexemes[1..])?;
+        Some((verb, count, Lexeme { token: Token::Word(base), lemma: None, ..first.clone() }))
     })
 }
 
 /// Whether a word is a form of a verb.
 pub(super) fn is_form(word: &str) -> bool {
-    base_of(word).iter().any(|base| {
-        VERBS.iter().flat_map(|(words, _)| *words).any(|phrase| phrase.split(' ').next() == Some(base))
-    })
+    base_of(word).iter().any(|base| VERBS.begins(base))
 }
-
-/// No phrase of a verb goes on longer behind its first word.
-const LONGEST: usize = 7;
 
 /// A word that is not in the sentence, in the place of one that is.
 pub(super) fn word_at(place: &Lexeme, word: &str) -> Lexeme {

@@ -9,6 +9,7 @@ use std::sync::LazyLock;
 
 use super::super::lexer::Token;
 use super::super::lexicon::{category, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 
 /// The longest preamble, in words.
@@ -31,7 +32,7 @@ const SMALL: &str = "a able about necessary essential important vital crucial de
      wise sensible useful handy worth whole point being theyd they he she hed shed wants needs likes loves would must";
 /// Turns of politeness and of wishing that hold words which else deny or ask on a condition.
 #[rustfmt::skip]
-const TURNS: &[&str] = &["if you dont mind", "if you do not mind", "why dont you", "why dont we", "why not", "wouldnt it be",
+const TURNS: &Phrases = &Phrases::of(&["would it be a lot of work to", "would it be much work to", "is it a lot of work to", "would it be a lot of trouble to", "would it be much trouble to", "would it be too much trouble to", "how hard would it be to", "would it be hard to", "if you dont mind", "if you do not mind", "why dont you", "why dont we", "why not", "wouldnt it be",
     "couldnt you", "couldnt we", "cant you", "cant we", "wont you", "dont you think", "do you not think", "dont forget to",
     "dont hesitate to", "shouldnt we", "shouldnt", "wouldnt", "couldnt", "isnt it time", "is it not time", "no rush but",
     "no worries but", "i wouldnt mind if", "i wouldnt mind", "we wouldnt mind", "i wouldnt say no to", "i dont suppose you could",
@@ -40,7 +41,7 @@ const TURNS: &[&str] = &["if you dont mind", "if you do not mind", "why dont you
     "from now on", "by the way", "on second thought", "on second thoughts", "come to think of it", "for starters",
     "to start with", "to begin with", "for a start", "here is what i want", "heres what i want", "in that case",
     "would it kill you to", "the least you could do is", "do me a solid and", "id be over the moon if", "up next",
-    "do the needful and", "do me a favour", "do us a favour", "at this point", "the other thing", "there is one more thing", "theres one more thing"];
+    "do the needful and", "do me a favour", "do us a favour", "at this point", "the other thing", "there is one more thing", "theres one more thing"]);
 /// Of those, and of small words, the ones that make a wish of a statement behind them.
 #[rustfmt::skip]
 const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "need", "needs", "wish", "wishes", "prefer", "fancy",
@@ -51,9 +52,9 @@ const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "
     "get", "shall", "not", "rather", "arrange", "care", "requested", "pleasing", "declare", "idea", "plan", "going", "gonna", "lets", "id", "wed", "theyd", "hed", "shed", "loves", "likes"];
 /// What asks what is or was so: no request.
 #[rustfmt::skip]
-const QUESTIONS: &[&str] = &["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
+const QUESTIONS: &Phrases = &Phrases::of(&["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
-    "what was", "what are", "is the", "are the", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"];
+    "what was", "what are", "is the", "are the", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
 
 static WORDS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| SMALL.split_whitespace().collect());
 
@@ -70,6 +71,10 @@ impl Reader<'_> {
     pub(super) fn beginnings(&self, start: usize, end: usize) -> Vec<Beginning> {
         let mut found = vec![Beginning { at: start, wished: false }];
         if longest_phrase(&self.lexemes[start..end], QUESTIONS).is_some() {
+            return found;
+        }
+        // "It is so hot" asks for no weather.
+        if longest_phrase(&self.lexemes[start..end], super::sky::COMPLAINS).is_some() {
             return found;
         }
         // "For more light, ..." says what for.

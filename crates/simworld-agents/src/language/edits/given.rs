@@ -7,27 +7,28 @@ use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
 use super::super::parser::Parser;
+use super::super::phrases::Phrases;
 use super::conditions::at_once;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
 
 /// If there is something.
 #[rustfmt::skip]
-const IF: &[&str] = &["if there is", "if there are", "if you find", "if you see", "in case there is", "if we have",
+const IF: &Phrases = &Phrases::of(&["if there is", "if there are", "if you find", "if you see", "in case there is", "if we have",
     "provided there is", "when there is", "should there be", "if there exists", "as long as there is", "in the event that there is", "in case of", "if we find", "if i see", "if we see", "if you come across",
     "should you see", "should you find", "if theres", "provided that there is", "if there should be", "if there happens to be", "in the event of", "if there stands", "assuming there is", "only if there is",
     "only if there are", "only if theres", "in case theres", "provided theres", "as long as theres", "but only if there is", "as long as there are", "provided there are", "in case there are", "assuming theres", "if there exist",
-    "when theres", "if we had", "were there"];
+    "when theres", "if we had", "were there"]);
 /// If there is nothing of the kind.
 #[rustfmt::skip]
-const UNLESS: &[&str] = &["unless there is", "unless there are", "unless you find", "unless we have", "if there isnt",
+const UNLESS: &Phrases = &Phrases::of(&["unless there is", "unless there are", "unless you find", "unless we have", "if there isnt",
     "if there is not", "if there arent", "if there are not", "if we dont have", "unless you see", "if you find no", "unless theres", "unless there already is",
-    "unless there are already", "unless theres already", "if there isnt already", "unless we already have"];
+    "unless there are already", "unless theres already", "if there isnt already", "unless we already have"]);
 /// What is not meant.
 #[rustfmt::skip]
-pub(super) const EXCEPT: &[&str] = &["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
+pub(super) const EXCEPT: &Phrases = &Phrases::of(&["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
     "with the exception of", "not counting", "not", "without", "but leave", "but keep", "but spare", "leaving", "keeping", "sparing",
-    "but leave out", "but not for", "leaving out", "only not", "and leave", "and keep"];
+    "but leave out", "but not for", "leaving out", "only not", "and leave", "and keep"]);
 
 /// What is not so of those that are meant.
 #[rustfmt::skip]
@@ -137,7 +138,7 @@ impl Reader<'_> {
         };
         // "If there is a fountain put a dog next to it": without a comma the verb begins the wish.
         let orders = |at: &usize| {
-            longest(&self.lexemes[*at..end], super::words::VERBS).is_some()
+            longest(&self.lexemes[*at..end], &super::words::VERBS).is_some()
                 && !self.is_in_noun(from, *at)
                 && !self.words[self.lexemes[*at].start..].starts_with(char::is_uppercase)
                 && self.one_of(from, self.without_there(from, *at)).is_ok()
@@ -194,7 +195,7 @@ impl Reader<'_> {
 
     /// Where the words end without "somewhere", "around" and the like.
     fn without_there(&self, from: usize, end: usize) -> usize {
-        const THERE: &[&str] = &[
+        const THERE: &Phrases = &Phrases::of(&[
             "somewhere",
             "around",
             "anywhere",
@@ -208,7 +209,7 @@ impl Reader<'_> {
             "nearby",
             "left",
             "in sight",
-        ];
+        ]);
         (from + 1..end)
             .find(|at| longest_phrase(&self.lexemes[*at..end], THERE) == Some(end - at))
             .unwrap_or(end)
@@ -290,7 +291,8 @@ impl Reader<'_> {
 
     /// "The truck is orange": the truck that is; with `false`, that it is not.
     fn coloured(&self, from: usize, end: usize) -> Option<(Reference, bool)> {
-        const IS: &[&str] = &["is", "are", "is not", "are not", "isnt", "arent", "is already", "are already"];
+        const IS: &Phrases =
+            &Phrases::of(&["is", "are", "is not", "are not", "isnt", "arent", "is already", "are already"]);
         let end = self.before_politeness(from, end);
         let is = |at: usize| longest_phrase(&self.lexemes[at..end], IS);
         let (cut, said) = if self.contracted(from) {

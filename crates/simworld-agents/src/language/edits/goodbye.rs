@@ -6,6 +6,7 @@ use simworld_core::scene::Relation;
 use super::super::clause::Reference;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
+use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
 use super::wish::{Anchor, Where, Wish};
 
@@ -21,18 +22,19 @@ const AROUND: &[(&[&str], &[&str])] = &[
 ];
 /// Behind what is to go.
 #[rustfmt::skip]
-const GONE: &[&str] = &["has had its day", "have had their day", "is history", "are history", "is toast", "is so last year", "is yesterdays news", "has run its course", "has overstayed its welcome", "has outstayed its welcome", "gets the chop", "gets the boot",
+const GONE: &Phrases = &Phrases::of(&["has had its day", "have had their day", "is history", "are history", "is toast", "is so last year", "is yesterdays news", "has run its course", "has overstayed its welcome", "has outstayed its welcome", "gets the chop", "gets the boot",
     "gets the axe", "has to get out", "must get out", "needs to get out", "has to leave", "must leave", "is out", "has to be off", "is no more", "will not be missed", "wont be missed", "can be taken away", "may be taken away", "can be removed", "may be removed",
     "can be thrown away", "can be binned", "can be scrapped", "can be cleared away", "can be got rid of", "can leave", "can disappear", "may go", "may leave", "may disappear", "begone", "be gone", "out", "away", "off you go", "go away", "must away",
     "is one thing too many", "is surplus", "is past its best", "is beyond repair", "has seen better days and must go", "has no place in this picture", "has no place in the scene", "is in the wrong city", "is so over", "has got to leave", "has got to disappear",
     "is to be removed", "is for the scrapyard", "is for the dump", "is for the bin", "belongs in the bin", "belongs on the scrapyard", "belongs in a museum and not here", "belongs on the tip", "belongs in the skip", "belongs in the past", "belongs on the scrap heap",
-    "is going", "are going", "has to vanish", "should get lost", "can get lost", "needs to vanish", "needs to disappear", "needs to leave", "wants removing", "needs removing", "needs taking away", "needs getting rid of", "could do with removing"];
+    "is going", "are going", "has to vanish", "should get lost", "can get lost", "needs to vanish", "needs to disappear", "needs to leave", "wants removing", "needs removing", "needs taking away", "needs getting rid of", "could do with removing"]);
 /// Before what is to go, and a mark.
-const FAREWELL: &[&str] =
-    &["farewell", "goodbye", "bye bye", "bye", "adieu", "so long", "begone", "out", "away", "shoo"];
+const FAREWELL: &Phrases = &Phrases::of(&[
+    "farewell", "goodbye", "bye bye", "bye", "adieu", "so long", "begone", "out", "away", "shoo",
+]);
 /// That another takes a place.
 #[rustfmt::skip]
-const TAKES_PLACE: &[&str] = &["take the place of", "takes the place of", "take over from", "replace", "replaces", "stand in for", "take the spot of", "go where", "in place of", "taking the place of", "be put in place of", "succeed"];
+const TAKES_PLACE: &Phrases = &Phrases::of(&["take the place of", "takes the place of", "take over from", "replace", "replaces", "stand in for", "take the spot of", "go where", "in place of", "taking the place of", "be put in place of", "succeed"]);
 
 impl Reader<'_> {
     /// What one of these ways says, with all the words up to the end.
@@ -224,15 +226,15 @@ impl Reader<'_> {
     /// "Red suits the taxi better", "go purple on the postbox", "a pink taxi would be funnier".
     fn suits(&self, start: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const SUITS: &[&str] = &["suits", "would suit", "fits", "would fit", "would look better on", "would look good on", "would look great on", "would look nice on", "would look nicer on", "looks better on", "looks good on", "would be better on",
+        const SUITS: &Phrases = &Phrases::of(&["suits", "would suit", "fits", "would fit", "would look better on", "would look good on", "would look great on", "would look nice on", "would look nicer on", "looks better on", "looks good on", "would be better on",
             "would be nicer on", "would be good on", "would be great on", "would be a better colour for", "is the colour for", "is the right colour for", "would work better on", "would work on", "would go well with", "is what i want for", "on",
-            "would be a good colour for", "would be a nice colour for", "should be the colour of", "is to be the colour of", "would do wonders for", "would flatter"];
+            "would be a good colour for", "would be a nice colour for", "should be the colour of", "is to be the colour of", "would do wonders for", "would flatter"]);
         #[rustfmt::skip]
-        const BETTER: &[&str] = &["better", "best", "more", "much better", "well", "a lot better", "way better", "far better", "instead", "nicely", "down to the ground"];
+        const BETTER: &Phrases = &Phrases::of(&["better", "best", "more", "much better", "well", "a lot better", "way better", "far better", "instead", "nicely", "down to the ground"]);
         #[rustfmt::skip]
-        const RATHER: &[&str] = &["would be funnier", "would be nicer", "would be prettier", "would be better", "would be cooler", "would look better", "would look nicer", "would look cooler", "would look prettier", "would suit us better",
+        const RATHER: &Phrases = &Phrases::of(&["would be funnier", "would be nicer", "would be prettier", "would be better", "would be cooler", "would look better", "would look nicer", "would look cooler", "would look prettier", "would suit us better",
             "would be more fun", "would be more cheerful", "would be merrier", "would be cuter", "would fit better", "would be less boring", "would be less dull", "would be brighter", "would be more to my taste", "would please me more", "would be lovelier",
-            "would be more like it", "would stand out more", "would be safer", "would be easier to see", "would be so much nicer", "would be so much better", "would be much nicer", "would be much better", "would be far nicer", "would be way cooler"];
+            "would be more like it", "would stand out more", "would be safer", "would be easier to see", "would be so much nicer", "would be so much better", "would be much nicer", "would be much better", "would be far nicer", "would be way cooler"]);
         let go = longest_phrase(
             &self.lexemes[start..end],
             &["go", "go for", "use", "try", "how about", "what about", "i say", "maybe"],

@@ -38,59 +38,67 @@ impl NewThing {
         {
             *last = "lamp";
         }
-        // "A small cone" is one of those that are called so.
-        let sized = |size: &&&str| self.words_of_size().any(|word| word == ***size);
-        if let Some(asset) = ["small", "big", "large", "tiny", "mini", "giant", "huge", "little"]
-            .iter()
-            .filter(sized)
-            .find_map(|size| {
-                stock.catalogue.get(stock.catalogue.find(&format!("{size}_{}", words.join("_")))?)
-            })
-        {
+        if let Some(asset) = self.called_by_size(&words, stock) {
             return Ok(self.made_from(asset, self.scale_of(&asset.name, 1.0, stock), season));
         }
-        let mut left_over = None;
-        for from in 0..words.len() {
-            let (said, noun) = words.split_at(from);
-            let mut fitting = assets_called(stock, noun);
-            if fitting.is_empty() {
-                continue;
+        match self.by_noun(&words, stock) {
+            Ok((asset, scale)) => Ok(self.made_from(asset, self.scale_of(&asset.name, scale, stock), season)),
+            Err(left_over) => {
+                let asset = self.by_search(&words, left_over, stock)?;
+                Ok(self.made_from(asset, self.scale_of(&asset.name, self.scale, stock), season))
             }
-            let modifiers: Vec<&str> = said.iter().copied().filter(|word| !HARMLESS.contains(word)).collect();
-            fitting.retain(|asset| asset.answers(&modifiers) == modifiers.len());
-            // "A big lorry" is one of the large ones, and no larger than that.
-            let is_large = |asset: &&&Asset| self.scale > 1.0 && asset.tags.iter().any(|tag| tag == "large");
-            if let Some(asset) = fitting.iter().find(is_large).or(fitting.first()) {
-                let scale = if is_large(&asset) { 1.0 } else { self.scale };
-                return Ok(self.made_from(asset, self.scale_of(&asset.name, scale, stock), season));
-            }
-            left_over = Some(modifiers.join(" "));
-            break;
         }
+    }
+
+    /// "A small cone" is one of those that are called so.
+    fn called_by_size<'a>(&self, words: &[&str], stock: &'a Stock) -> Option<&'a Asset> {
+        let sized = |size: &&&str| self.words_of_size().any(|word| word == ***size);
+        ["small", "big", "large", "tiny", "mini", "giant", "huge", "little"].iter().filter(sized).find_map(
+            |size| stock.catalogue.get(stock.catalogue.find(&format!("{size}_{}", words.join("_")))?),
+        )
+    }
+
+    /// The asset whose name or kind is the noun and which answers to all other words, and its scale; else the words to which none of
+    /// those that are called so answers.
+    fn by_noun<'a>(&self, words: &[&str], stock: &'a Stock) -> Result<(&'a Asset, f64), Option<String>> {
+        let found = (0..words.len()).find_map(|from| {
+            let (said, noun) = words.split_at(from);
+            let fitting = assets_called(stock, noun);
+            (!fitting.is_empty()).then_some((said, fitting))
+        });
+        let Some((said, mut fitting)) = found else { return Err(None) };
+        let modifiers: Vec<&str> = said.iter().copied().filter(|word| !HARMLESS.contains(word)).collect();
+        fitting.retain(|asset| asset.answers(&modifiers) == modifiers.len());
+        // "A big lorry" is one of the large ones, and no larger than that.
+        let is_large = |asset: &&&Asset| self.scale > 1.0 && asset.tags.iter().any(|tag| tag == "large");
+        let asset = fitting.iter().find(is_large).or(fitting.first());
+        let asset = asset.ok_or_else(|| Some(modifiers.join(" ")))?;
+        Ok((asset, if is_large(&asset) { 1.0 } else { self.scale }))
+    }
+
+    /// The asset that a search is sure of.
+    fn by_search<'a>(
+        &self,
+        words: &[&str],
+        left_over: Option<String>,
+        stock: &'a Stock,
+    ) -> Result<&'a Asset, EditError> {
         let said: Vec<&str> = words.iter().copied().filter(|word| !HARMLESS.contains(word)).collect();
         match (stock.index.choose(&said.join(" ")), left_over) {
             // "A hat" is nobody who wears one.
-            (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(&words, near(&[]))),
-            (Choice::Sure(hit), _) => match stock.catalogue.get(hit.asset) {
-                Some(asset) => {
-                    Ok(self.made_from(asset, self.scale_of(&asset.name, self.scale, stock), season))
-                }
-                None => Err(unknown(&words, near(&[]))),
-            },
+            (Choice::Sure(hit), _) if is_worn(&hit, stock) => Err(unknown(words, near(&[]))),
+            (Choice::Sure(hit), _) => stock.catalogue.get(hit.asset).ok_or_else(|| unknown(words, near(&[]))),
             (Choice::Unsure(_), Some(modifiers)) => {
                 let near =
                     format!("nothing here is {modifiers}; say it without, or name it by colour and size");
                 Err(EditError::UnknownThing { wanted: self.text.clone(), near })
             }
             // "A soda" is any of those that are told apart by a number alone.
-            (Choice::Unsure(hits), None) => {
-                match hits.first().filter(|_| are_one(&hits)).and_then(|hit| stock.catalogue.get(hit.asset)) {
-                    Some(asset) => {
-                        Ok(self.made_from(asset, self.scale_of(&asset.name, self.scale, stock), season))
-                    }
-                    None => Err(unknown(&words, near(&hits))),
-                }
-            }
+            (Choice::Unsure(hits), None) => hits
+                .first()
+                .filter(|_| are_one(&hits))
+                .and_then(|hit| stock.catalogue.get(hit.asset))
+                .ok_or_else(|| unknown(words, near(&hits))),
         }
     }
 

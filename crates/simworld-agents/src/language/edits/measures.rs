@@ -6,6 +6,7 @@ use simworld_core::id::EntityId;
 use super::super::clause::Reference;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
@@ -75,8 +76,8 @@ const TIMES: &[(&[&str], f64)] = &[
 ];
 /// What says nothing before a size.
 #[rustfmt::skip]
-const SMALL: &[&str] = &["to", "to be", "be", "exactly", "about", "roughly", "just", "up to", "down to", "until it is", "so that it is", "so it is", "nearly", "almost", "to become", "become", "at", "of",
-    "to have", "have", "to reach", "reach", "measure", "to measure", "measuring", "with", "only", "no more than", "it should be", "to its", "to a", "a", "to the"];
+const SMALL: &Phrases = &Phrases::of(&["to", "to be", "be", "exactly", "about", "roughly", "just", "up to", "down to", "until it is", "so that it is", "so it is", "nearly", "almost", "to become", "become", "at", "of",
+    "to have", "have", "to reach", "reach", "measure", "to measure", "measuring", "with", "only", "no more than", "it should be", "to its", "to a", "a", "to the"]);
 
 impl Reader<'_> {
     /// A size by measure or by another thing, if all words up to the end say so.
@@ -134,7 +135,7 @@ impl Reader<'_> {
     /// "Set the height of the statue to six metres".
     pub(super) fn measured(&self, start: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const SETS: &[&str] = &["set", "change", "adjust", "make", "bring", "put", "fix", "scale", "increase", "raise", "lower", "reduce", "let"];
+        const SETS: &Phrases = &Phrases::of(&["set", "change", "adjust", "make", "bring", "put", "fix", "scale", "increase", "raise", "lower", "reduce", "let"]);
         let end = self.before_politeness(start, end);
         let at = start + longest_phrase(&self.lexemes[start..end], SETS)?;
         let (extent, words) = longest(&self.lexemes[at..end], LIKE)

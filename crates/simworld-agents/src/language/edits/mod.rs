@@ -3,6 +3,7 @@
 //! The same words, names and noun phrases as in orders to a body; other verbs. A sentence is read whole first; each wish is
 //! then worked out in the scene as the wishes before it leave it, so that "it" may be what was just made.
 
+mod afterthoughts;
 mod answers;
 mod apart;
 mod ask;
@@ -26,6 +27,7 @@ mod measures;
 mod memo;
 mod naming;
 mod nearer;
+mod noun;
 mod nth;
 mod offsets;
 mod ordered;
@@ -307,6 +309,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(others::words())
         .chain(shared::words())
         .chain(conditions::words())
+        .chain(afterthoughts::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

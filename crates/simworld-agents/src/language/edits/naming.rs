@@ -2,11 +2,36 @@
 
 use simworld_core::seam::PlanError;
 
-use super::super::clause::Target;
+use super::super::clause::{Reference, Target};
 use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
 use super::parse::Reader;
 use super::wish::Wish;
+
+/// Between a thing and the name that it has from then on.
+const IS_NOW: &[&str] = &[
+    "he is",
+    "she is",
+    "it is",
+    "hes",
+    "shes",
+    "its",
+    "he is now",
+    "she is now",
+    "it is now",
+    "he will be",
+    "she will be",
+    "it will be",
+    "he should be",
+    "she should be",
+    "it should be",
+    "he should be called",
+    "she should be called",
+    "it should be called",
+    "he is called",
+    "she is called",
+    "it is called",
+];
 
 impl Reader<'_> {
     pub(super) fn name(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
@@ -21,13 +46,19 @@ impl Reader<'_> {
                 return Err(self.not_understood("say what to name, and how"));
             }
             let mut from = cut;
+            // "Rename the dog, he is Rex from now on".
+            if super::parts::is_mark(&self.lexemes[cut - 1])
+                && let Some(words) = longest_phrase(&self.lexemes[cut..end], IS_NOW)
+            {
+                from += words;
+            }
             from += longest_phrase(&self.lexemes[cut..end], &["to", "as", "into", "it"]).unwrap_or(0);
             let is_later = self.quoted(from.min(end - 1)).is_none()
                 && (from + 1..end).any(|at| self.quoted(at).is_some());
             if from >= end
                 || super::parts::is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
                 || is_later
-                || longest(&self.lexemes[from..end], super::words::WAYS).is_some()
+                || longest(&self.lexemes[from..end], &super::words::WAYS).is_some()
             {
                 continue;
             }
@@ -35,28 +66,72 @@ impl Reader<'_> {
                 what.target,
                 Target::Any(_) | Target::Named(_) | Target::It | Target::Them | Target::Id(_)
             ) {
-                // Behind a name in quotes goes on what else is asked for.
-                let quoted = self.quoted(from);
-                let closes = quoted.as_ref().map(|name| self.lexemes[from].start + name.len());
-                let after = |close: usize| (from..end).find(|at| self.lexemes[*at].start >= close);
-                self.at = closes.and_then(after).filter(|at| self.is_joint(*at)).unwrap_or(end);
-                // "Name the statue Bob and the fountain Alice".
-                let other = (from + 1..end).filter(|_| quoted.is_none()).find_map(|at| {
-                    let words = longest_phrase(&self.lexemes[at..end], &["and"])
-                        .filter(|words| self.is_certain(at + words))?;
-                    let mut reader = Reader { at: at + words, ..*self };
-                    Some((at, reader.name(end).ok()?))
-                });
-                let mut stop = other.as_ref().map_or(end, |(at, _)| *at);
-                while stop > from + 1 && super::parts::is_mark(&self.lexemes[stop - 1]) {
-                    stop -= 1;
-                }
-                let name = quoted.unwrap_or_else(|| self.written(from, stop));
-                let wishes = std::iter::once(vec![Wish::Name { what, name }]);
-                return Ok(wishes.chain(other.into_iter().flat_map(|(_, more)| more)).collect());
+                return self.given_name(what, from, end);
             }
         }
         Err(self.not_understood("say what to name, and how"))
+    }
+
+    /// The name that stands from a place on, and what else is named behind it.
+    fn given_name(&mut self, what: Reference, from: usize, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        // Behind a name in quotes goes on what else is asked for.
+        let quoted = self.quoted(from);
+        let closes = quoted.as_ref().map(|name| self.lexemes[from].start + name.len());
+        let after = |close: usize| (from..end).find(|at| self.lexemes[*at].start >= close);
+        let goes_on = closes.and_then(after).filter(|at| self.is_joint(*at)).unwrap_or(end);
+        // "Name the statue Bob and the fountain Alice".
+        let other = (from + 1..end).filter(|_| quoted.is_none()).find_map(|at| {
+            let words = longest_phrase(&self.lexemes[at..end], &["and"])
+                .filter(|words| self.is_certain(at + words))?;
+            let mut reader = Reader { at: at + words, ..*self };
+            Some((at, reader.name(end).ok()?))
+        });
+        let mut stop = other.as_ref().map_or(end, |(at, _)| *at);
+        if quoted.is_none() {
+            // "Call him Tinker, he deserves a nice name": the name ends before the remark.
+            if (from + 1..stop).any(|at| self.begins_remark(at, stop)) {
+                return Err(self.not_understood("say what to name, and how"));
+            }
+            stop = self.without_thanks(from, stop);
+        }
+        while stop > from + 1 && super::parts::is_mark(&self.lexemes[stop - 1]) {
+            stop -= 1;
+        }
+        self.at = goes_on;
+        let name = quoted.unwrap_or_else(|| self.written(from, stop));
+        let wishes = std::iter::once(vec![Wish::Name { what, name }]);
+        Ok(wishes.chain(other.into_iter().flat_map(|(_, more)| more)).collect())
+    }
+
+    /// Whether a mark stands here and behind it what somebody says of a thing.
+    fn begins_remark(&self, at: usize, end: usize) -> bool {
+        super::parts::is_mark(&self.lexemes[at])
+            && longest_phrase(
+                &self.lexemes[at + 1..end],
+                &[
+                    "he", "she", "it", "its", "they", "hes", "shes", "theyre", "that", "this", "because",
+                    "since", "i", "we",
+                ],
+            )
+            .is_some()
+    }
+
+    /// Where a name ends without thanks behind it.
+    fn without_thanks(&self, from: usize, end: usize) -> usize {
+        const THANKS: &[&str] = &[
+            "please",
+            "pls",
+            "thanks",
+            "thank you",
+            "from now on",
+            "ok",
+            "okay",
+            "will you",
+            "would you",
+            "instead",
+        ];
+        let is_last = |at: &usize| longest_phrase(&self.lexemes[*at..end], THANKS) == Some(end - at);
+        (from + 1..end).find(is_last).unwrap_or(end)
     }
 
     /// What stands between quotation marks from here on.

@@ -6,6 +6,7 @@ use simworld_core::seam::PlanError;
 
 use super::super::lexicon::longest_phrase;
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::resolve::Finder;
 use super::wish::Where;
@@ -13,14 +14,14 @@ use crate::editing::{Edit, EditError, Stand};
 
 /// Behind a distance, that it leads to what follows.
 #[rustfmt::skip]
-const TOWARDS: &[&str] = &["closer to", "nearer to", "nearer", "closer", "towards", "toward", "in the direction of", "in direction of", "in the direction to", "over towards", "up towards", "on towards",
-    "further towards", "farther towards", "further toward", "more towards"];
+const TOWARDS: &Phrases = &Phrases::of(&["closer to", "nearer to", "nearer", "closer", "towards", "toward", "in the direction of", "in direction of", "in the direction to", "over towards", "up towards", "on towards",
+    "further towards", "farther towards", "further toward", "more towards"]);
 /// That it leads away from it.
 #[rustfmt::skip]
-const AWAY: &[&str] = &["further away from", "farther away from", "further from", "farther from", "back from", "more away from", "further off from", "further off", "farther off"];
+const AWAY: &Phrases = &Phrases::of(&["further away from", "farther away from", "further from", "farther from", "back from", "more away from", "further off from", "further off", "farther off"]);
 /// Half of the way.
 #[rustfmt::skip]
-const HALFWAY: &[&str] = &["halfway to", "half way to", "half the way to", "halfway towards", "half way towards", "halfway over to", "midway to", "half of the way to", "halfway toward"];
+const HALFWAY: &Phrases = &Phrases::of(&["halfway to", "half way to", "half the way to", "halfway towards", "half way towards", "halfway over to", "midway to", "half of the way to", "halfway toward"]);
 
 impl Reader<'_> {
     /// Whether a step to or from a thing begins at a token.

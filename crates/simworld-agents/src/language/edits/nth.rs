@@ -7,19 +7,20 @@ use super::super::clause::{Choice, Count, First, Reference};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::parts::is_mark;
 use super::resolve::Finder;
 use super::wish::Wish;
 
 /// Before the first of them.
 #[rustfmt::skip]
-const STARTS: &[&str] = &["starting with", "starting from", "starting at", "starting in", "beginning with", "beginning from", "beginning at", "beginning in", "start with", "start from", "start at",
-    "start in", "begin with", "begin from", "begin at", "begin in", "counting from", "counted from", "starting on", "beginning on", "with", "starting off with", "starting off in", "as from", "from"];
+const STARTS: &Phrases = &Phrases::of(&["starting with", "starting from", "starting at", "starting in", "beginning with", "beginning from", "beginning at", "beginning in", "start with", "start from", "start at",
+    "start in", "begin with", "begin from", "begin at", "begin in", "counting from", "counted from", "starting on", "beginning on", "with", "starting off with", "starting off in", "as from", "from"]);
 /// Of those, the words that say so only behind "every second".
 const WEAK: &[&str] = &["with", "from"];
 /// Behind it.
 #[rustfmt::skip]
-const BEHIND: &[&str] = &["one", "end", "side", "of them", "of all", "one first", "of the row", "one of them", "end of the row"];
+const BEHIND: &Phrases = &Phrases::of(&["one", "end", "side", "of them", "of all", "one first", "of the row", "one of them", "end of the row"]);
 
 /// Takes the words out that say which of every second one is the first.
 pub(super) fn first_of(lexemes: &mut Vec<Lexeme>) -> Option<First> {

@@ -6,6 +6,7 @@ use simworld_core::seam::PlanError;
 
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::{Bearing, Where};
 use super::words::{WAYS, Way};
@@ -27,14 +28,14 @@ const OF: &[&str] = &["of", "from", "away from", "around", "off", "to"];
 const REACH: f64 = 60.0;
 /// Where streets meet.
 #[rustfmt::skip]
-const JUNCTIONS: &[&str] = &["at the corner of", "on the corner of", "at the intersection of", "at the junction of",
+const JUNCTIONS: &Phrases = &Phrases::of(&["at the corner of", "on the corner of", "at the intersection of", "at the junction of",
     "at the crossing of", "at the crossroads of", "on the intersection of", "near the corner of",
     "near the intersection of", "by the corner of", "at the corner between", "at the corner where", "where",
     "at the point where", "by the intersection of", "by the junction of", "at the place where", "on the corner where",
-    "next to the intersection of", "near the junction of", "at the spot where", "at corner of"];
+    "next to the intersection of", "near the junction of", "at the spot where", "at corner of"]);
 /// Between the names of two streets that meet.
 #[rustfmt::skip]
-const AND: &[&str] = &["and", "meets", "crosses", "joins", "and the", "runs into", "intersects", "with", "hits", "meets with"];
+const AND: &Phrases = &Phrases::of(&["and", "meets", "crosses", "joins", "and the", "runs into", "intersects", "with", "hits", "meets with"]);
 /// Behind them.
 const MEET: &[&str] = &["meet", "cross", "join", "intersect", "come together", "meet each other"];
 /// As a thing itself is turned.
@@ -73,7 +74,7 @@ impl Reader<'_> {
                 .eat_any(&["of", "from"])
                 .then_some((Some(Bearing::Compass(compass)), parser.at - at));
         }
-        match longest(rest, WAYS) {
+        match longest(rest, &WAYS) {
             Some((Way::To(relation), words)) if side(relation) => {
                 Some((Some(Bearing::Side(relation)), words))
             }

@@ -1,19 +1,75 @@
 //! Orders whose verb says one thing of what is there and another of what is not: "put a bench", "put the bench", "show me the
 //! shops", "bring me the cone".
 
+use simworld_core::passage::Passage;
 use simworld_core::seam::PlanError;
 
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
-use super::wish::Wish;
-use super::words::VERBS;
+use super::wish::{StreetRef, Where, Wish};
+use super::words::{VERBS, Verb};
 
 /// Behind what somebody does not like as it is.
 #[rustfmt::skip]
-pub(super) const WHERE_IT_IS: &[&str] = &["where it is", "where it stands", "where it is now", "where he is", "where she is", "where they are", "where they stand", "the way it is", "the way it looks", "the way it stands", "as it is", "like that", "like this", "in this place",
-    "in that place", "in that spot", "in this spot", "over there", "in that colour", "in this colour"];
+pub(super) const WHERE_IT_IS: &Phrases = &Phrases::of(&["where it is", "where it stands", "where it is now", "where he is", "where she is", "where they are", "where they stand", "the way it is", "the way it looks", "the way it stands", "as it is", "like that", "like this", "in this place",
+    "in that place", "in that spot", "in this spot", "over there", "in that colour", "in this colour"]);
 
 impl Reader<'_> {
+    /// "I want a bench", and what else is asked for in such words: a list, what is to come here, a copy, how a thing should be.
+    pub(super) fn adds(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        // "Show me the shops" asks for a list.
+        if self.is_shown() {
+            return self.list(end);
+        }
+        if self.is_brought(end) {
+            let what = self.things(self.at, end)?;
+            self.at = end;
+            return Ok(vec![vec![Wish::Move { what, at: vec![Where::Here] }]]);
+        }
+        if let Some(wish) = self.copies(end) {
+            return Ok(wish);
+        }
+        if self.is_wanted()
+            && let Some(wish) = self.small_clause(self.at, end)
+        {
+            self.at = end;
+            return Ok(wish);
+        }
+        match self.posed(end).filter(|_| self.is_definite(self.at)) {
+            Some(wish) => Ok(vec![vec![wish]]),
+            None => self.additions(end),
+        }
+    }
+
+    /// "Put a bench ...", "put the bench ...", "scatter some benches ...".
+    pub(super) fn put(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        if self.is_for_me(end) || self.is_bare_plural(self.at, end) {
+            return self.additions(end);
+        }
+        if self.is_definite(self.at) {
+            return self.puts(end);
+        }
+        let spreads = (self.at.saturating_sub(2)..self.at).any(|at| {
+            matches!(self.word(at), Some("dot" | "scatter" | "sprinkle" | "strew" | "spread" | "distribute"))
+        });
+        let mut wishes = self.additions(end)?;
+        if spreads {
+            wishes.iter_mut().flatten().for_each(|wish| self.spread(wish));
+        }
+        Ok(wishes)
+    }
+
+    /// "Close the door": a thing, which is no street.
+    pub(super) fn closes(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        if self.one_of(self.at, end).is_err() {
+            return Err(self.not_understood("say which street: by its name, or in front of what"));
+        }
+        let which = vec![StreetRef::Thing(self.one_to(end)?)];
+        let passage = if verb == Verb::Open { Passage::Open } else { Passage::Closed };
+        Ok(vec![vec![Wish::Passage { which, passage }]])
+    }
+
     pub(super) fn is_shown(&self) -> bool {
         self.at > 1
             && self.word(self.at - 2) == Some("show")
@@ -88,7 +144,7 @@ impl Reader<'_> {
     pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
         // "Cherry trees": up to three words say of what kind they are.
         let ends = |at: usize| {
-            self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], VERBS).is_some()
+            self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], &VERBS).is_some()
         };
         let noun = (at..end.min(at + 4)).take_while(|next| *next == at || !ends(*next)).find_map(|next| {
             super::super::lexicon::category(&self.lexemes[next..end]).map(|(_, words)| (next, words))
@@ -96,7 +152,7 @@ impl Reader<'_> {
         // "Throw the bins out" holds an order, and certain things.
         let is_new = |next: usize| {
             (at..next).all(|at| !self.is_certain(at))
-                && (next == at || longest(&self.lexemes[at..end], VERBS).is_none())
+                && (next == at || longest(&self.lexemes[at..end], &VERBS).is_none())
         };
         noun.is_some_and(|(next, words)| is_new(next) && self.is_plural(next, next + words))
             && !self.is_certain(at)

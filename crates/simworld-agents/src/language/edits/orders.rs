@@ -2,6 +2,7 @@
 
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::forms::as_order;
 use super::parse::Reader;
 use super::says::Mood;
@@ -15,6 +16,7 @@ impl Reader<'_> {
             return None;
         }
         self.with_topic(start, end)
+            .or_else(|| self.addressed(start, end))
             .or_else(|| self.shared_out(start, end))
             .or_else(|| self.looking(start, end))
             .or_else(|| self.behind_preamble(start, end))
@@ -28,6 +30,39 @@ impl Reader<'_> {
             .or_else(|| self.without_aside(start, end))
     }
 
+    /// "Hana, face the statue", "robot, go to the school": somebody is told what to do.
+    fn addressed(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
+        #[rustfmt::skip]
+        const DOES: &[&str] = &["face", "look", "look at", "turn to", "go to", "go", "stand", "sit", "wait", "move", "walk", "stay", "come", "turn"];
+        let comma = (start + 1..end.min(start + 5)).find(|at| self.lexemes[*at].token == Token::Comma)?;
+        longest_phrase(&self.lexemes[comma + 1..end], DOES)?;
+        self.one_of(start, comma).ok().filter(|one| self.is_somebody(one))?;
+        // "Turn around" is told with its verb first.
+        let is_turn = self.word(comma + 1) == Some("turn");
+        let verb = super::forms::word_at(&self.lexemes[comma], if is_turn { "turn" } else { "make" });
+        let rest = comma + 1 + usize::from(is_turn);
+        let order: Vec<Lexeme> = std::iter::once(verb)
+            .chain(self.lexemes[start..comma].iter().cloned())
+            .chain(self.lexemes[rest..end].iter().cloned())
+            .collect();
+        self.read_anew(&order)
+    }
+
+    /// Whether it is a person, a dog or a robot that is named.
+    fn is_somebody(&self, one: &super::super::clause::Reference) -> bool {
+        use super::super::clause::Target;
+        use super::super::lexicon::is_animate;
+        match &one.target {
+            Target::Any(class) => {
+                !class.kinds().is_empty() && class.kinds().iter().all(|kind| is_animate(*kind))
+            }
+            Target::Named(ids) => {
+                ids.iter().all(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
+            }
+            _ => false,
+        }
+    }
+
     /// "The moped, being unlicensed, is to go": what stands between two commas and says nothing of what is asked.
     fn without_aside(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
         let commas: Vec<usize> =
@@ -36,7 +71,7 @@ impl Reader<'_> {
             let (from, to) = (pair[0] + 1, pair[1]);
             let says_more = |at: usize| {
                 self.is_place(at)
-                    || longest(&self.lexemes[at..to], VERBS).is_some()
+                    || longest(&self.lexemes[at..to], &VERBS).is_some()
                     || longest(&self.lexemes[at..to], super::super::paint::PAINTS).is_some()
                     || super::super::numbers::number(&self.lexemes[at..to]).is_some()
                         && self.word(at) != Some("a")
@@ -71,17 +106,15 @@ impl Reader<'_> {
                     return one(wish);
                 }
                 return self.beginnings(from, end).into_iter().find_map(|begins| {
-                    let verb = longest(&self.lexemes[begins.at..end], VERBS)
+                    let verb = longest(&self.lexemes[begins.at..end], &VERBS)
                         .filter(|(verb, _)| matches!(verb, Verb::Add | Verb::Put));
                     let at = begins.at + verb.map_or(0, |(_, words)| words);
                     let is_new = at < end
                         && (!self.is_definite(at)
                             || self.is_bare_plural(at, end)
                             || verb.is_none() && self.is_bare_noun(at, end));
-                    let mut made = Reader { at, ..self.up_to(end) };
-                    let thing = if is_new { made.new_thing(end).ok() } else { None };
-                    let thing = thing.filter(|_| made.at >= end)?;
-                    Some(vec![vec![Wish::Add { things: vec![thing], at: places.clone() }]])
+                    let made = if is_new { self.all_added(at, end) } else { None };
+                    made?.into_iter().map(|readings| all_at(readings, &places)).collect()
                 });
             }
             let what = self.things(from, end).ok().filter(|_| self.is_certain(from))?;
@@ -206,12 +239,12 @@ impl Reader<'_> {
     /// "... is where the statue should be", "... would be a good spot for a bench".
     fn is_where(&self, at: usize, end: usize, places: &[super::wish::Where]) -> Option<Wish> {
         #[rustfmt::skip]
-        const IS: &[&str] = &["is where", "is the place where", "is the right place for", "is the place for", "is a good place for", "would be a good place for",
+        const IS: &Phrases = &Phrases::of(&["is where", "is the place where", "is the right place for", "is the place for", "is a good place for", "would be a good place for",
             "would be the right place for", "is the spot for", "is a good spot for", "would be a good spot for", "would be perfect for", "is perfect for",
             "would be ideal for", "is ideal for", "would be the perfect place for", "is the perfect place for", "would be a nice place for", "is a nice place for",
             "would be a nice spot for", "would be the perfect spot for", "is the perfect spot for", "is just right for", "could hold", "could take", "has room for",
-            "there is room for", "is room for", "is where i want", "is where we want", "is where we need", "is where i need", "is where id like", "would be great for"];
-        const TAILS: &[&str] = &[
+            "there is room for", "is room for", "is where i want", "is where we want", "is where we need", "is where i need", "is where id like", "would be great for"]);
+        const TAILS: &Phrases = &Phrases::of(&[
             "should be",
             "should go",
             "should stand",
@@ -233,7 +266,7 @@ impl Reader<'_> {
             "must stand",
             "would look good",
             "should sit",
-        ];
+        ]);
         let from = at + longest_phrase(&self.lexemes[at..end], IS)?;
         let stop = (from + 1..end)
             .find(|at| longest_phrase(&self.lexemes[*at..end], TAILS) == Some(end - at))
@@ -383,7 +416,7 @@ impl Reader<'_> {
 
     /// The verb at a place, in its base form if it is inflected, and its words.
     fn verb_at(&self, at: usize, end: usize) -> Option<(Verb, Vec<Lexeme>)> {
-        if let Some((verb, words)) = longest(&self.lexemes[at..end], VERBS) {
+        if let Some((verb, words)) = longest(&self.lexemes[at..end], &VERBS) {
             return Some((verb, self.lexemes[at..at + words].to_vec()));
         }
         let (verb, words, base) = as_order(&self.lexemes[at..end])?;
@@ -414,6 +447,16 @@ impl Reader<'_> {
         let last = reader.before_politeness(start, stop);
         reader.wish(stop).ok().filter(|_| reader.at >= last)
     }
+}
+
+/// New things at places that were told before them, if they have none of their own.
+fn all_at(readings: Vec<Wish>, places: &[super::wish::Where]) -> Option<Vec<Wish>> {
+    let placed = |wish| match wish {
+        Wish::Add { things, at } if at.is_empty() => Some(Wish::Add { things, at: places.to_vec() }),
+        Wish::Add { things, at } if places == at => Some(Wish::Add { things, at }),
+        _ => None,
+    };
+    readings.into_iter().map(placed).collect()
 }
 
 /// So many commas are looked at, and an aside has no more words.

@@ -9,6 +9,7 @@ use super::super::lexicon::{
     ALL_THINGS, Category, FURNITURE, PLANTS, category, class, longest, longest_phrase,
 };
 use super::super::paint::PAINTS;
+use super::super::phrases::Phrases;
 use super::forms::word_at;
 use super::parse::Reader;
 use super::words::{VERBS, Verb};
@@ -22,7 +23,7 @@ const NOUNS: &[(&[&str], &Category)] = &[
 ];
 /// What may stand before such a noun.
 #[rustfmt::skip]
-const BEFORE: &[&str] = &["the", "all", "all the", "all of the", "every", "every single", "any", "these", "those", "my", "our", "of"];
+const BEFORE: &Phrases = &Phrases::of(&["the", "all", "all the", "all of the", "every", "every single", "any", "these", "those", "my", "our", "of"]);
 
 impl Reader<'_> {
     /// Things of several classes, if the words name such.
@@ -102,10 +103,10 @@ impl Reader<'_> {
     /// Whether a word that may be a verb belongs to a noun: "the trash bin", "a tow truck".
     pub(super) fn is_in_noun(&self, start: usize, at: usize) -> bool {
         #[rustfmt::skip]
-        const BEFORE: &[&str] = &["the", "a", "an", "my", "your", "our", "his", "its", "their", "this", "that", "these", "those", "no", "any", "every", "each"];
+        const BEFORE: &Phrases = &Phrases::of(&["the", "a", "an", "my", "your", "our", "his", "its", "their", "this", "that", "these", "those", "no", "any", "every", "each"]);
         let spans = |from: usize| category(&self.lexemes[from..]).is_some_and(|(_, words)| from + words > at);
         at > start
-            && (self.word(at - 1).is_some_and(|word| BEFORE.contains(&word))
+            && (self.word(at - 1).is_some_and(|word| BEFORE.contains(word))
                 || (start.max(at.saturating_sub(2))..at).any(spans))
     }
 
@@ -116,7 +117,7 @@ impl Reader<'_> {
             let mut reader = Reader { at: start, ..self.up_to(end) };
             return reader.place(end).err().and_then(missing);
         }
-        let (verb, words) = longest(&self.lexemes[start..end], VERBS)?;
+        let (verb, words) = longest(&self.lexemes[start..end], &VERBS)?;
         let at = start + words;
         let is_change = matches!(
             verb,

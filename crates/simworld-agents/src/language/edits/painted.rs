@@ -6,6 +6,7 @@ use simworld_core::id::EntityId;
 use super::super::clause::{Count, Reference};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::{PAINTS, Paint};
+use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
 use super::resolve::Finder;
 use super::wish::{NewThing, Wish};
@@ -13,7 +14,7 @@ use crate::editing::{Edit, EditError};
 
 /// Behind several colours.
 #[rustfmt::skip]
-const IN_TURN: &[&str] = &["respectively", "in that order", "in this order", "in turn", "from left to right", "in order", "one each", "each in its own colour", "one of each"];
+const IN_TURN: &Phrases = &Phrases::of(&["respectively", "in that order", "in this order", "in turn", "from left to right", "in order", "one each", "each in its own colour", "one of each"]);
 
 impl Reader<'_> {
     /// Several colours from a place on, and where they end.

@@ -11,7 +11,6 @@
 //! Where the words can be cut in several ways ("move the bench near the fountain next to the library"), all readings are
 //! kept in their order: the first whose things are there is meant.
 
-use simworld_core::passage::Passage;
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Reference, Target};
@@ -19,11 +18,12 @@ use super::super::lexer::{Lexeme, Token, written};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::names::Names;
 use super::super::parser::Parser;
+use super::super::phrases::{PhraseList, Phrases};
 use super::super::resolve::View;
 use super::memo::{Memo, said};
 use super::polite::{CODA, JOINTS, POLITE};
 use super::says::Mood;
-use super::wish::{StreetRef, Wish};
+use super::wish::Wish;
 use super::words::{VERBS, Verb};
 
 /// What is understood, in one line, for answers.
@@ -31,7 +31,7 @@ pub(super) const UNDERSTOOD: &str = "say add, put, move, remove, replace, rotate
      count, list, describe, or what the weather and the time are to be";
 
 /// Before what is to be listed, behind a verb of giving.
-const LISTS: &[&str] = &[
+const LISTS: &Phrases = &Phrases::of(&[
     "a list of",
     "the list of",
     "list of",
@@ -41,7 +41,7 @@ const LISTS: &[&str] = &[
     "a short list of",
     "a full list of",
     "a complete list of",
-];
+]);
 
 /// Reads one sentence.
 #[derive(Clone, Copy)]
@@ -78,11 +78,22 @@ impl<'a> Reader<'a> {
 
     /// One wish up to a boundary, or several that share a verb.
     pub(super) fn wish(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        let start = self.at;
+        let key = (said(self.lexemes), self.at, end, self.depth);
+        if let Some((read, at)) = self.memo.wish(&key) {
+            self.at = at;
+            return read;
+        }
         if self.memo.is_spent() {
             return Err(self.not_understood(UNDERSTOOD));
         }
         self.memo.step();
+        let read = self.read_wish(end);
+        self.memo.keep_wish(key, &read, self.at);
+        read
+    }
+
+    fn read_wish(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
+        let start = self.at;
         if let Some(made) = self.asked_or_given(end)? {
             return Ok(made);
         }
@@ -90,23 +101,7 @@ impl<'a> Reader<'a> {
             self.at = self.lexemes.len();
             return Ok(vec![vec![wish]]);
         }
-        if let Some(wish) = self.passage(end) {
-            self.at = end;
-            return Ok(vec![vec![wish]]);
-        }
-        if let Some(made) = self.rows(end)? {
-            self.at = end;
-            return Ok(made);
-        }
-        if let Some(wish) = self.dressed(end).or_else(|| self.cleared(end)) {
-            self.at = end;
-            return Ok(vec![vec![wish]]);
-        }
-        if let Some(sky) = self.sky(end) {
-            self.at = end;
-            return Ok(vec![vec![Wish::Sky(sky)]]);
-        }
-        if let Some(made) = self.stated(start, end) {
+        if let Some(made) = self.of_its_own_kind(start, end)? {
             self.at = end;
             return Ok(made);
         }
@@ -129,18 +124,41 @@ impl<'a> Reader<'a> {
             return Ok(made);
         }
         self.at = start;
-        let refused = match refused {
+        Err(self.refusal(refused, bare.err(), end))
+    }
+
+    /// Wishes that verbs alone do not tell: of streets, rows, what is on things, the sky, and those told as statements.
+    fn of_its_own_kind(&mut self, start: usize, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
+        let one = |wish| Ok(Some(vec![vec![wish]]));
+        if let Some(wish) = self.passage(end) {
+            return one(wish);
+        }
+        if let Some(made) = self.rows(end)? {
+            return Ok(Some(made));
+        }
+        if let Some(wish) = self.dressed(end).or_else(|| self.cleared(end)) {
+            return one(wish);
+        }
+        if let Some(sky) = self.sky(end) {
+            return one(Wish::Sky(sky));
+        }
+        Ok(self.stated(start, end))
+    }
+
+    /// The answer to what was not understood as an order, nor as new things: the one that says most.
+    fn refusal(&self, ordered: Option<PlanError>, bare: Option<PlanError>, end: usize) -> PlanError {
+        let start = self.at;
+        let refused = match ordered {
             Some(refused @ PlanError::NotFound { .. }) => Some(refused),
             refused => self.not_there(start, end).or(refused),
         };
         // What is not there is a better answer than that nothing is understood.
         if let Some(error @ PlanError::NotFound { .. }) = refused {
-            return Err(error);
+            return error;
         }
         let missing =
             || self.beginnings(start, end).into_iter().find_map(|begins| self.missing(begins.at, end));
-        let refused = missing().or(refused).or(bare.err());
-        Err(refused.unwrap_or_else(|| self.not_understood(UNDERSTOOD)))
+        missing().or(refused).or(bare).unwrap_or_else(|| self.not_understood(UNDERSTOOD))
     }
 
     /// What is told as a statement: what somebody lacks, and how something should be.
@@ -164,7 +182,7 @@ impl<'a> Reader<'a> {
     fn ordered(&mut self, start: usize, end: usize) -> Result<Option<Vec<Vec<Wish>>>, PlanError> {
         let mut refused = None;
         for begin in start..end {
-            let Some((verb, count)) = longest(&self.lexemes[begin..end], VERBS) else { continue };
+            let Some((verb, count)) = self.order_at(begin, end) else { continue };
             // "A tow truck" is no order to tow.
             let is_noun = |word: &str| ["a", "an", "the", "my", "your", "our", "his", "its"].contains(&word);
             if begin > start && self.word(begin - 1).is_some_and(is_noun) {
@@ -191,7 +209,7 @@ impl<'a> Reader<'a> {
     /// Whether a size is told up to the end.
     fn has_size(&self, from: usize, end: usize) -> bool {
         (from..end).any(|at| {
-            longest(&self.lexemes[at..end], super::words::FACTORS).is_some_and(|(_, words)| words > 1)
+            longest(&self.lexemes[at..end], &super::words::FACTORS).is_some_and(|(_, words)| words > 1)
                 || longest_phrase(&self.lexemes[at..end], &["by"]).is_some()
                     && super::super::numbers::number(&self.lexemes[at + 1..end]).is_some()
         })
@@ -210,69 +228,18 @@ impl<'a> Reader<'a> {
         usize::from(matches!(verb, Verb::Add | Verb::Put) && is_particle && is_new)
     }
 
+    /// What a verb asks for, with what stands behind it.
     fn after(&mut self, verb: Verb, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
-        if matches!(verb, Verb::Add | Verb::Put | Verb::Move)
-            && let Some(wishes) = self.place_then_thing(end)
-        {
-            return Ok(wishes);
-        }
-        if verb == Verb::Add
-            && let Some(sky) = self.sky(end)
-        {
-            self.at = end;
-            return Ok(vec![vec![Wish::Sky(sky)]]);
-        }
-        if verb == Verb::Add && self.eat_any(LISTS) {
-            return self.list(end);
-        }
-        if matches!(verb, Verb::Paint | Verb::Make)
-            && let Some(wish) = self.painted_as(self.at, end)
-        {
-            self.at = end;
-            return Ok(vec![vec![wish]]);
+        if let Some(told) = self.told_otherwise(verb, end) {
+            return told;
         }
         match verb {
-            // "Show me the shops" asks for a list.
-            Verb::Add if self.is_shown() => self.list(end),
-            Verb::Add if self.is_brought(end) => {
-                let what = self.things(self.at, end)?;
-                self.at = end;
-                Ok(vec![vec![Wish::Move { what, at: vec![super::wish::Where::Here] }]])
-            }
-            Verb::Add => {
-                if let Some(wish) = self.copies(end) {
-                    return Ok(wish);
-                }
-                if self.is_wanted()
-                    && let Some(wish) = self.small_clause(self.at, end)
-                {
-                    self.at = end;
-                    return Ok(wish);
-                }
-                match self.posed(end).filter(|_| self.is_definite(self.at)) {
-                    Some(wish) => Ok(vec![vec![wish]]),
-                    None => self.additions(end),
-                }
-            }
+            Verb::Add => self.adds(end),
             // "Put the bench ..." moves it, "put a bench ..." makes one.
             Verb::Put | Verb::Move if self.is_copies(end) => {
                 self.copies(end).ok_or_else(|| self.not_understood("say what to copy"))
             }
-            Verb::Put if self.is_for_me(end) || self.is_bare_plural(self.at, end) => self.additions(end),
-            Verb::Put if self.is_definite(self.at) => self.puts(end),
-            Verb::Put => {
-                let spreads = (self.at.saturating_sub(2)..self.at).any(|at| {
-                    matches!(
-                        self.word(at),
-                        Some("dot" | "scatter" | "sprinkle" | "strew" | "spread" | "distribute")
-                    )
-                });
-                let mut wishes = self.additions(end)?;
-                if spreads {
-                    wishes.iter_mut().flatten().for_each(|wish| self.spread(wish));
-                }
-                Ok(wishes)
-            }
+            Verb::Put => self.put(end),
             Verb::Move
                 if !self.is_definite(self.at)
                     && matches!(self.word(self.at - 1), Some("bring" | "send" | "ship" | "ferry")) =>
@@ -300,15 +267,34 @@ impl<'a> Reader<'a> {
                 Ok(vec![vec![Wish::Describe { what }]])
             }
             Verb::Make => self.make(end),
-            Verb::Close | Verb::Open if self.one_of(self.at, end).is_ok() => {
-                let which = vec![StreetRef::Thing(self.one_to(end)?)];
-                let passage = if verb == Verb::Open { Passage::Open } else { Passage::Closed };
-                Ok(vec![vec![Wish::Passage { which, passage }]])
-            }
-            Verb::Close | Verb::Open => {
-                Err(self.not_understood("say which street: by its name, or in front of what"))
-            }
+            Verb::Close | Verb::Open => self.closes(verb, end),
         }
+    }
+
+    /// What behind a verb asks for something else than the verb does alone: a place before a thing, a weather, a list, a colour.
+    fn told_otherwise(&mut self, verb: Verb, end: usize) -> Option<Result<Vec<Vec<Wish>>, PlanError>> {
+        if matches!(verb, Verb::Add | Verb::Put | Verb::Move)
+            && let Some(wishes) = self.place_then_thing(end)
+        {
+            return Some(Ok(wishes));
+        }
+        let one = |wish| Some(Ok(vec![vec![wish]]));
+        if verb == Verb::Add
+            && let Some(sky) = self.sky(end)
+        {
+            self.at = end;
+            return one(Wish::Sky(sky));
+        }
+        if verb == Verb::Add && self.eat_any(LISTS) {
+            return Some(self.list(end));
+        }
+        if matches!(verb, Verb::Paint | Verb::Make)
+            && let Some(wish) = self.painted_as(self.at, end)
+        {
+            self.at = end;
+            return one(wish);
+        }
+        None
     }
 
     // ---- things ----
@@ -318,6 +304,10 @@ impl<'a> Reader<'a> {
         let whole = self.one_of(start, end);
         if let Ok(what) = whole {
             return Ok(vec![what]);
+        }
+        // What stands in another sentence is listed with nothing: "the cars: the white one has to go".
+        if self.lexemes[start..end].iter().rev().skip(1).any(|lexeme| lexeme.token == Token::Break) {
+            return whole.map(|what| vec![what]);
         }
         // What stands somewhere is one thing.
         let is_list = !(start..end).any(|at| self.is_place(at));
@@ -405,7 +395,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    pub(super) fn eat_any(&mut self, phrases: &[&str]) -> bool {
+    pub(super) fn eat_any<L: PhraseList + ?Sized>(&mut self, phrases: &L) -> bool {
         let count = longest_phrase(&self.lexemes[self.at..], phrases);
         self.at += count.unwrap_or(0);
         count.is_some()
@@ -439,8 +429,8 @@ impl<'a> Reader<'a> {
         let rest = &self.lexemes[at.min(self.lexemes.len())..];
         let polite = longest_phrase(rest, POLITE).unwrap_or(0);
         // "Lets have a bench" is a wish.
-        let verb = longest(rest, VERBS).map_or(0, |(_, count)| count);
-        let way = longest(rest, super::words::WAYS).map_or(0, |(_, count)| count);
+        let verb = longest(rest, &VERBS).map_or(0, |(_, count)| count);
+        let way = longest(rest, &super::words::WAYS).map_or(0, |(_, count)| count);
         if verb.max(way) >= polite { 0 } else { polite }
     }
 
@@ -471,12 +461,12 @@ pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
 
 /// "Too" before a word of which there is too much.
 fn is_too_much(lexemes: &[Lexeme]) -> bool {
-    const GOES_ON: &[&str] = &[
+    const GOES_ON: &Phrases = &Phrases::of(&[
         "and", "please", "then", "thanks", "but", "plus", "also", "thank", "with", "put", "add", "paint",
         "move", "remove", "make",
-    ];
+    ]);
     longest_phrase(lexemes, &["too"]).is_some()
-        && matches!(lexemes.get(1).map(|next| &next.token), Some(Token::Word(word)) if !GOES_ON.contains(&word.as_str()))
+        && matches!(lexemes.get(1).map(|next| &next.token), Some(Token::Word(word)) if !GOES_ON.contains(word))
 }
 
 /// How many words at the start join two things or wishes.

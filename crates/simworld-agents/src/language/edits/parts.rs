@@ -8,6 +8,7 @@
 use super::super::clause::Reference;
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
 use super::follow::Said;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
@@ -16,8 +17,8 @@ use super::wish::Wish;
 const MOST_TRIED: usize = 160;
 /// What begins a part beside the joints of wishes.
 #[rustfmt::skip]
-const CUTS: &[&str] = &["because", "since", "as", "so", "so that", "cause", "cos", "coz", "for", "while", "which", "where", "in order to", "due to", "given that",
-    "seeing that", "considering", "or else", "otherwise", "have it", "have him", "have her", "have them"];
+const CUTS: &Phrases = &Phrases::of(&["because", "since", "as", "so", "so that", "cause", "cos", "coz", "for", "while", "which", "where", "in order to", "due to", "given that",
+    "seeing that", "considering", "or else", "otherwise", "have it", "have him", "have her", "have them"]);
 
 /// A search for the parts of a sentence.
 struct Search<'a> {
@@ -27,6 +28,9 @@ struct Search<'a> {
     is_there: &'a dyn Fn(&[Vec<Wish>]) -> bool,
     tried: usize,
 }
+
+/// So much was tried that nothing more is.
+struct Spent;
 
 impl Reader<'_> {
     /// All wishes of a sentence whose parts hang together, or ask for nothing.
@@ -56,10 +60,24 @@ impl Reader<'_> {
             return Some(Vec::new());
         }
         let cuts = self.cuts(from);
+        if let Some(found) = self.wish_and_rest(from, &cuts, (said, spoken_of), search).ok()? {
+            return Some(found);
+        }
+        self.remark_and_rest((remark, from), &cuts, (said, spoken_of), search)
+    }
+
+    /// A wish that ends at one of the cuts, the last first, and all that follows it.
+    fn wish_and_rest(
+        &self,
+        from: usize,
+        cuts: &[usize],
+        (said, spoken_of): (&Said, &[Reference]),
+        search: &mut Search<'_>,
+    ) -> Result<Option<Vec<Vec<Wish>>>, Spent> {
         for end in cuts.iter().rev().copied() {
             search.tried += 1;
             if search.tried > MOST_TRIED || self.memo.is_spent() {
-                return None;
+                return Err(Spent);
             }
             let mut part = Reader { at: from, ..self.up_to(end) };
             let Some(mut wishes) = part.part(said, end) else { continue };
@@ -82,56 +100,30 @@ impl Reader<'_> {
             };
             if let Some(rest) = self.parts_from(end, &now, &[], search) {
                 wishes.extend(rest);
-                return Some(wishes);
+                return Ok(Some(wishes));
             }
         }
-        // A remark ends at any of the next marks: "the crate, I think, is ugly".
-        for end in cuts.iter().copied().take(4) {
+        Ok(None)
+    }
+
+    /// A remark that ends at any of the next cuts, and all that follows it: "the crate, I think, is ugly".
+    fn remark_and_rest(
+        &self,
+        (remark, from): (usize, usize),
+        cuts: &[usize],
+        (said, spoken_of): (&Said, &[Reference]),
+        search: &mut Search<'_>,
+    ) -> Option<Vec<Vec<Wish>>> {
+        cuts.iter().copied().take(4).find_map(|end| {
             let is_heading = said.wish.is_none() && end < self.lexemes.len() && self.is_heading(from, end);
-            // "Bruno wants to watch Carol, turn him".
-            let is_said_twice = matches!(
-                said.wish,
-                Some(Wish::Face { .. } | Wish::Rotate { .. } | Wish::Move { .. } | Wish::Swap { .. })
-            ) && longest_phrase(
-                &self.lexemes[from..end],
-                &[
-                    "turn him",
-                    "turn her",
-                    "turn it",
-                    "turn them",
-                    "rotate him",
-                    "rotate her",
-                    "rotate it",
-                    "rotate them",
-                    "move him",
-                    "move her",
-                    "move it",
-                    "move them",
-                    "do it",
-                    "do that",
-                    "so turn him",
-                    "so turn her",
-                    "so turn it",
-                    "so move it",
-                    "swap them",
-                    "switch them",
-                ],
-            ) == Some(self.before_politeness(from, end) - from);
-            if !is_said_twice
-                && !is_heading
-                && !self.is_remark(from, end)
-                && !self.is_remark(remark.min(from), end)
-            {
-                continue;
+            let asks_nothing = is_heading
+                || self.is_said_twice(said, from, end)
+                || self.is_remark(from, end)
+                || self.is_remark(remark.min(from), end);
+            if !asks_nothing {
+                return None;
             }
-            let mut things = self.spoken_of(from, end);
-            // "There is nowhere to sit near the table": it is the table.
-            if (from..end).any(|at| self.word(at) == Some("nowhere"))
-                && let Some([super::wish::Where::To(_, super::wish::Anchor::Thing(near))]) =
-                    self.place_spoken_of(from, end).as_deref()
-            {
-                things = vec![near.clone()];
-            }
+            let mut things = self.remarked_on(from, end, spoken_of);
             if things.is_empty() {
                 things = spoken_of.to_vec();
             }
@@ -142,11 +134,38 @@ impl Reader<'_> {
                 .or_else(|| self.subject_place(from, end))
                 .unwrap_or_else(|| said.place.clone());
             let now = Said { noun, place, ..said.clone() };
-            if let Some(rest) = self.parts_from(end, &now, &things, search) {
-                return Some(rest);
-            }
+            self.parts_from(end, &now, &things, search)
+        })
+    }
+
+    /// "Bruno wants to watch Carol, turn him": what was asked for before, without saying anything new.
+    fn is_said_twice(&self, said: &Said, from: usize, end: usize) -> bool {
+        #[rustfmt::skip]
+        const DO_IT: &Phrases = &Phrases::of(&["turn him", "turn her", "turn it", "turn them", "rotate him", "rotate her", "rotate it", "rotate them", "move him", "move her", "move it", "move them",
+            "do it", "do that", "so turn him", "so turn her", "so turn it", "so move it", "swap them", "switch them"]);
+        matches!(
+            said.wish,
+            Some(Wish::Face { .. } | Wish::Rotate { .. } | Wish::Move { .. } | Wish::Swap { .. })
+        ) && longest_phrase(&self.lexemes[from..end], DO_IT) == Some(self.before_politeness(from, end) - from)
+    }
+
+    /// What a remark is about; where there is nothing of the kind ("nowhere to sit near the table"), what that is near.
+    fn remarked_on(&self, from: usize, end: usize, spoken_of: &[Reference]) -> Vec<Reference> {
+        if (from..end).any(|at| self.word(at) == Some("nowhere"))
+            && let Some([super::wish::Where::To(_, super::wish::Anchor::Thing(near))]) =
+                self.place_spoken_of(from, end).as_deref()
+        {
+            return vec![near.clone()];
         }
-        None
+        let mut things = self.spoken_of(from, end);
+        // "It is for Anna": what was spoken of before stays the first.
+        let again =
+            longest_phrase(&self.lexemes[from..end], &["it", "its", "it is", "they", "theyre", "they are"]);
+        if again.is_some() && !things.is_empty() {
+            let it = Reference::to(super::super::clause::Target::It, "it".to_owned());
+            things.insert(0, spoken_of.first().cloned().unwrap_or(it));
+        }
+        things
     }
 
     /// One part, all of its words.
@@ -158,6 +177,11 @@ impl Reader<'_> {
         let stop = self.before_politeness(start, end);
         if let Some(wish) = self.mended(stop) {
             return Some(vec![vec![wish]]);
+        }
+        // "The white ones go" behind chairs: the white chairs.
+        let of_those = self.names_ones(start, stop).then(|| self.with_noun(said, start, stop)).flatten();
+        if let Some(wishes) = of_those.and_then(|order| self.read_anew(&order)) {
+            return Some(wishes);
         }
         if let Ok(wishes) = self.wish(end)
             && self.at >= stop
@@ -173,13 +197,21 @@ impl Reader<'_> {
         self.with_noun(&own, start, end).and_then(|order| self.read_anew(&order))
     }
 
+    /// "The white one", "the others ones": which of those that were named before.
+    fn names_ones(&self, from: usize, end: usize) -> bool {
+        (from..end).any(|at| {
+            self.word(at) == Some("the")
+                && (at + 2..end.min(at + 4)).any(|at| matches!(self.word(at), Some("one" | "ones")))
+        })
+    }
+
     /// "Fix that with a bench".
     fn mended(&self, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const MENDS: &[&str] = &["fix that with", "fix it with", "fix this with", "solve that with", "solve it with", "solve this with", "remedy that with", "change that with",
+        const MENDS: &Phrases = &Phrases::of(&["fix that with", "fix it with", "fix this with", "solve that with", "solve it with", "solve this with", "remedy that with", "change that with",
             "sort that out with", "sort it out with", "help with", "fix that by adding", "fix it by adding", "change that by adding", "so fix that with", "cure that with",
             "mend that with", "deal with that by adding", "fix that by putting", "help them with", "help out with", "make up for it with", "brighten it up with",
-            "liven it up with", "cheer it up with", "spruce it up with", "spice it up with", "complete it with", "what about", "how about", "why not"];
+            "liven it up with", "cheer it up with", "spruce it up with", "spice it up with", "complete it with", "what about", "how about", "why not"]);
         let words = longest_phrase(&self.lexemes[self.at..end], MENDS)?;
         let mut reader = Reader { at: self.at + words, ..self.up_to(end) };
         if reader.is_definite(reader.at) {
@@ -208,8 +240,8 @@ impl Reader<'_> {
         #[rustfmt::skip]
         const BEFORE: &[&str] = &["to", "and", "should", "could", "can", "must", "will", "you", "not", "dont", "lets", "let", "have", "would", "may", "i", "we", "please", "just", "then", "or", "never", "also", "be", "the", "a", "so", "because", "since", "therefore"];
         #[rustfmt::skip]
-        const ORDERS: &[&str] = &["put", "move", "get", "get rid of", "take", "remove", "paint", "make", "turn", "add", "give", "shift", "swap", "please", "throw", "bin", "delete", "bring", "send", "replace", "scrap", "lose",
-            "say", "colour", "place", "set", "push", "pull", "drag", "tow"];
+        const ORDERS: &Phrases = &Phrases::of(&["put", "move", "get", "get rid of", "take", "remove", "paint", "make", "turn", "add", "give", "shift", "swap", "please", "throw", "bin", "delete", "bring", "send", "replace", "scrap", "lose",
+            "say", "colour", "place", "set", "push", "pull", "drag", "tow"]);
         let Some(words) = longest_phrase(&self.lexemes[at..], ORDERS).filter(|_| at > from + 2) else {
             return false;
         };

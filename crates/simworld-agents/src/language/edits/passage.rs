@@ -6,29 +6,30 @@ use simworld_core::scene::Relation;
 
 use super::super::lexer::Token;
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
 use super::wish::{Anchor, StreetRef, Wish};
 use super::words::{CLOSING, OPENING, WAYS, Way};
 
 /// That a street is closed, or to be.
 #[rustfmt::skip]
-const CLOSED: &[&str] = &["closed", "blocked", "shut", "barred", "sealed off", "car free", "carfree", "free of cars",
+const CLOSED: &Phrases = &Phrases::of(&["closed", "blocked", "shut", "barred", "sealed off", "car free", "carfree", "free of cars",
     "free of traffic", "traffic free", "off limits", "no more cars", "no cars", "no traffic", "no more traffic",
     "no vehicles", "no car", "nobody should be able to drive", "nobody may drive", "nobody drives", "no one may drive",
     "nobody should drive", "cars should not drive", "cars must not drive", "cars may not use", "cars cannot use",
     "without cars", "without traffic", "pedestrians only", "impassable", "nobody is to drive", "no cars allowed", "have no business", "has no business", "pedestrian only", "for pedestrians only", "a pedestrian zone", "pedestrian zone", "into a pedestrian zone",
     "pedestrianised", "pedestrianized", "a car free zone", "car free zone", "a no go zone", "no go zone", "nobody should drive", "nobody is allowed to drive", "no driving", "not for cars", "only for pedestrians", "for walkers only", "walkers only",
     "foot traffic only", "pedestrians and bikes only", "a dead end for cars", "no through traffic", "out of bounds", "off limits to cars", "cars are banned", "ban on cars", "stay off", "stay out of", "stay away from", "keep off", "a play street",
-    "a walking street", "no longer be open", "no longer open", "must not be used", "may not be used", "cannot be used", "cant be used", "nobody should use", "cars should stay off", "traffic should stay off"];
+    "a walking street", "no longer be open", "no longer open", "must not be used", "may not be used", "cannot be used", "cant be used", "nobody should use", "cars should stay off", "traffic should stay off"]);
 /// That a street is open, or to be.
 #[rustfmt::skip]
-const OPEN: &[&str] = &["open", "reopened", "opened", "unblocked", "passable", "back in use", "traffic may use",
+const OPEN: &Phrases = &Phrases::of(&["open", "reopened", "opened", "unblocked", "passable", "back in use", "traffic may use",
     "cars may use", "traffic can use", "cars can use", "traffic is allowed", "cars are allowed", "cars may drive",
     "let the cars back", "let cars back", "let traffic back", "let the traffic back", "cars can drive", "usable",
-    "traffic may return", "cars may return", "opened up", "let the cars back in", "let cars back in", "let traffic back in", "let the traffic back in", "shut long enough", "closed long enough", "blocked long enough", "shut for long enough", "closed for long enough", "shut for too long", "closed for too long", "free for traffic", "free for the traffic", "free to traffic", "free for cars", "free again", "free for all", "can be used", "may be used", "can be driven", "drivable", "back to normal", "flow again", "flowing again", "give back to traffic", "give back to cars", "for everyone again"];
+    "traffic may return", "cars may return", "opened up", "let the cars back in", "let cars back in", "let traffic back in", "let the traffic back in", "shut long enough", "closed long enough", "blocked long enough", "shut for long enough", "closed for long enough", "shut for too long", "closed for too long", "free for traffic", "free for the traffic", "free to traffic", "free for cars", "free again", "free for all", "can be used", "may be used", "can be driven", "drivable", "back to normal", "flow again", "flowing again", "give back to traffic", "give back to cars", "for everyone again"]);
 /// What says nothing more.
 #[rustfmt::skip]
-const NOISE: &[&str] = &["to", "traffic", "for", "on", "onto", "from", "again", "please", "is", "be", "should be", "must be",
+const NOISE: &Phrases = &Phrases::of(&["to", "traffic", "for", "on", "onto", "from", "again", "please", "is", "be", "should be", "must be",
     "should", "must", "down", "make", "now", "let", "cars", "all", "up", "and", "the", "of", "to traffic", "to all traffic",
     "to cars", "for traffic", "for cars", "has to be", "needs to be", "shall be", "i want", "we want", "to be", "allowed",
     "vehicles", "along", "in", "any more", "anymore", "any longer", "completely", "entirely", "off", "can you", "could you",
@@ -37,7 +38,7 @@ const NOISE: &[&str] = &["to", "traffic", "for", "on", "onto", "from", "again", 
     "every car", "at once", "immediately", "right away", "stretch", "today", "will be", "so that", "ought to be", "from now on",
     "was", "were", "closed half", "closed part", "closed bit", "closed section", "half", "part of", "part", "section of", "bit of",
     "this", "that", "there", "until further notice", "for good", "for the moment", "for now", "for a while", "for the time being",
-    "both directions", "in both directions", "want", "we", "i", "would like", "see", "high", "what if", "if", "were to be", "a", "turn", "goes", "go", "gets", "becomes", "become", "been", "tomorrow", "tonight", "this week", "this weekend", "for the day", "for today", "for the weekend", "for the parade", "for the market", "for the festival", "for the race", "for the marathon", "for the party", "for the event", "it", "please can", "needs", "need", "has", "with", "whole", "entire", "thing", "drivers", "driver", "my", "ok", "so", "right", "by", "at", "can", "may", "will", "id", "like", "love", "us", "in its whole length", "in its entire length", "on its whole length", "over its whole length", "along its whole length", "in full", "from end to end", "in whole"];
+    "both directions", "in both directions", "want", "we", "i", "would like", "see", "high", "what if", "if", "were to be", "a", "turn", "goes", "go", "gets", "becomes", "become", "been", "tomorrow", "tonight", "this week", "this weekend", "for the day", "for today", "for the weekend", "for the parade", "for the market", "for the festival", "for the race", "for the marathon", "for the party", "for the event", "it", "please can", "needs", "need", "has", "with", "whole", "entire", "thing", "drivers", "driver", "my", "ok", "so", "right", "by", "at", "can", "may", "will", "id", "like", "love", "us", "in its whole length", "in its entire length", "on its whole length", "over its whole length", "along its whole length", "in full", "from end to end", "in whole"]);
 
 /// Which way a sentence goes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -87,9 +88,9 @@ impl Reader<'_> {
                 at += 1;
                 continue;
             }
-            let long = |phrases: &[&str]| longest_phrase(rest, phrases).unwrap_or(0);
-            let (closes, opens) = (long(CLOSING).max(long(CLOSED)), long(OPENING).max(long(OPEN)));
-            let noise = long(NOISE).max(self.polite_at(at).min(end - at));
+            let closes = longest_phrase(rest, CLOSING).max(longest_phrase(rest, CLOSED)).unwrap_or(0);
+            let opens = longest_phrase(rest, OPENING).max(longest_phrase(rest, OPEN)).unwrap_or(0);
+            let noise = longest_phrase(rest, NOISE).unwrap_or(0).max(self.polite_at(at).min(end - at));
             let most = closes.max(opens).max(noise);
             if most == 0 {
                 return None;
@@ -218,7 +219,7 @@ impl Reader<'_> {
             return Some((StreetRef::Closed, at));
         }
         at += phrase(at, RUNS).unwrap_or(0);
-        let (way, words) = longest(&self.lexemes[at.min(end)..end], WAYS)
+        let (way, words) = longest(&self.lexemes[at.min(end)..end], &WAYS)
             .or(phrase(at, &["past"]).map(|words| (Way::At, words)))?;
         let mut reader = Reader { at: at + words, ..*self };
         let Ok(Anchor::Thing(thing)) = reader.anchor(end) else { return None };
@@ -234,10 +235,10 @@ impl Reader<'_> {
     /// "Pine Street", which is not here; or a thing that is no street.
     fn unknown_street(&self, start: usize, end: usize) -> Option<(StreetRef, usize)> {
         #[rustfmt::skip]
-        const KINDS: &[&str] = &["street", "road", "lane", "avenue", "walk", "boulevard", "alley", "drive", "way", "st", "rd", "ave"];
+        const KINDS: &Phrases = &Phrases::of(&["street", "road", "lane", "avenue", "walk", "boulevard", "alley", "drive", "way", "st", "rd", "ave"]);
         let is_name = |at: usize| {
             self.word(at).is_some_and(|word| {
-                longest_phrase(&self.lexemes[at..=at], NOISE).is_none() && !KINDS.contains(&word)
+                longest_phrase(&self.lexemes[at..=at], NOISE).is_none() && !KINDS.contains(word)
             })
         };
         if !is_name(start)
@@ -248,7 +249,7 @@ impl Reader<'_> {
             return None;
         }
         let last = (start + 1..end.min(start + 4))
-            .find(|at| self.word(*at).is_some_and(|word| KINDS.contains(&word)))?;
+            .find(|at| self.word(*at).is_some_and(|word| KINDS.contains(word)))?;
         // "Use Mill Lane" holds the name of a street that is there.
         let is_known =
             |at: usize| self.view.streets.is_some_and(|streets| streets.at(&self.lexemes[at..end]).is_some());

@@ -43,10 +43,10 @@ impl Reader<'_> {
         let verb = (self.at + 1..end).find(|at| {
             // "In the park" ends with no order to park.
             self.word(at - 1) != Some("the")
-                && longest(&self.lexemes[*at..end], VERBS)
+                && longest(&self.lexemes[*at..end], &VERBS)
                     .is_some_and(|(verb, _)| matches!(verb, Verb::Add | Verb::Put))
         })?;
-        let (kind, count) = longest(&self.lexemes[verb..end], VERBS)?;
+        let (kind, count) = longest(&self.lexemes[verb..end], &VERBS)?;
         let at = self.places(verb).ok()?;
         self.skip_joints_to(verb);
         if self.at != verb {
@@ -85,7 +85,7 @@ impl Reader<'_> {
 
     fn begins_place(&self, at: usize) -> bool {
         if matches!(self.word(at), Some("down" | "up" | "over" | "back" | "out" | "off"))
-            && longest(&self.lexemes[(at + 1).min(self.lexemes.len())..], WAYS).is_some()
+            && longest(&self.lexemes[(at + 1).min(self.lexemes.len())..], &WAYS).is_some()
         {
             return true;
         }
@@ -116,8 +116,8 @@ impl Reader<'_> {
             return true;
         }
         let rest = &self.lexemes[at.min(self.lexemes.len())..];
-        longest(rest, WAYS).is_some()
-            || longest(rest, ABOUT_IT).is_some()
+        longest(rest, &WAYS).is_some()
+            || longest(rest, &ABOUT_IT).is_some()
             || matches!(rest.first(), Some(Lexeme { token: Token::Open, .. }))
             || self.shift(at).is_some()
             || self.compass_of(at, self.lexemes.len()).is_some()
@@ -161,7 +161,7 @@ impl Reader<'_> {
         // "Set it down between the two".
         let is_particle = matches!(self.word(self.at), Some("down" | "up" | "over" | "back" | "out" | "off"));
         if is_particle
-            && longest(self.rest(end), WAYS).is_none_or(|(_, words)| words == 1)
+            && longest(self.rest(end), &WAYS).is_none_or(|(_, words)| words == 1)
             && self.is_place(self.at + 1)
         {
             self.at += 1;
@@ -196,8 +196,8 @@ impl Reader<'_> {
         if matches!(self.rest(end).first(), Some(Lexeme { token: Token::Open, .. })) {
             return self.point(end).ok_or_else(|| self.not_understood("write a point as (x, y)"));
         }
-        if let Some((relation, count)) = longest(self.rest(end), ABOUT_IT)
-            && (longest(self.rest(end), WAYS).is_none_or(|(_, words)| words < count)
+        if let Some((relation, count)) = longest(self.rest(end), &ABOUT_IT)
+            && (longest(self.rest(end), &WAYS).is_none_or(|(_, words)| words < count)
                 || self.at + count >= self.before_politeness(self.at, end))
         {
             self.at += count;
@@ -210,7 +210,7 @@ impl Reader<'_> {
 
     /// A place that begins with a word of relation.
     fn by_way(&mut self, end: usize) -> Result<Where, PlanError> {
-        let Some((way, count)) = longest(self.rest(end), WAYS) else {
+        let Some((way, count)) = longest(self.rest(end), &WAYS) else {
             return Err(self.not_understood("say where: next to, near, behind, between ..."));
         };
         self.at += count;
@@ -274,7 +274,7 @@ impl Reader<'_> {
                 reader.at += 1;
             }
             reader.eat_any(&["go", "walk", "take", "count", "measure", "and go", "its"]);
-            if let Some((relation, words)) = longest(reader.rest(end), ABOUT_IT) {
+            if let Some((relation, words)) = longest(reader.rest(end), &ABOUT_IT) {
                 return Some((Where::To(relation, Anchor::Thing(thing)), reader.at + words));
             }
             let (distance, words) = numbers::length(reader.rest(end))?;
@@ -364,6 +364,10 @@ impl Reader<'_> {
             Anchor::Thing(both) if both.count != Count::One || matches!(both.target, Target::Any(_)) => {
                 let (one, other) = super::super::parser::Parser::pair(&both);
                 Ok(Where::Between(Anchor::Thing(one), Anchor::Thing(other)))
+            }
+            // "Between them", behind a remark about two.
+            Anchor::Thing(them) if them.target == Target::Them => {
+                Ok(Where::Between(Anchor::Thing(them.clone()), Anchor::Thing(them)))
             }
             _ => Err(self.not_understood("say between what and what")),
         }

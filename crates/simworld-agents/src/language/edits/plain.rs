@@ -3,6 +3,7 @@
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, is_animate, longest, longest_phrase};
 use super::super::names::Names;
+use super::super::phrases::Phrases;
 use super::forms::word_at;
 use super::parts::is_mark;
 
@@ -35,6 +36,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
     needed_one(lexemes);
     relatives(lexemes);
     super::supposed::in_plain_words(lexemes);
+    super::afterthoughts::in_plain_words(lexemes);
     let is_call =
         |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if CALLS.contains(&word.as_str()));
     if !lexemes.iter().any(is_call) && lexemes.len() > 2 {
@@ -50,7 +52,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>, names: &Nam
         // "Stand together beside the statue".
         let is_both = is(&lexemes[at - 1], "together")
             && !is(&lexemes[at], "with")
-            && longest(&lexemes[at..], super::words::WAYS).is_some();
+            && longest(&lexemes[at..], &super::words::WAYS).is_some();
         if is_both {
             lexemes.remove(at - 1);
             continue;
@@ -74,72 +76,74 @@ pub(super) fn words() -> impl Iterator<Item = &'static str> {
 
 /// "The taxi's in the way" is "the taxi is in the way", and "at its corner" is "at the corner of it".
 fn contractions(words: &str, lexemes: &mut Vec<Lexeme>) {
-    #[rustfmt::skip]
-    const STATES: &[&str] = &["in", "too", "a", "on", "at", "so", "facing", "looking", "way", "always", "really", "just", "very", "not", "got", "ugly", "nice", "far",
-        "much", "blocking", "still", "standing", "behind", "next", "near", "an", "been", "kind", "boring", "broken", "old", "empty", "dirty", "lonely", "quite", "rather", "wrong"];
-    const SIDES: &[&str] = &["corner", "corners", "edge", "middle", "centre", "center", "side"];
     let mut at = 0;
     while at + 1 < lexemes.len() {
         let (Token::Word(word), Token::Word(next)) = (&lexemes[at].token, &lexemes[at + 1].token) else {
             at += 1;
             continue;
         };
+        let (word, next) = (word.clone(), next.clone());
         let written = words.get(lexemes[at].start..lexemes[at].end).unwrap_or_default();
-        let is_contracted = (written.ends_with("'s") || written.ends_with("’s")) && word.len() > 4;
-        if is_contracted
-            && STATES.contains(&next.as_str())
-            && !["thats", "whats", "theres", "wheres", "heres"].contains(&word.as_str())
-        {
-            let place = lexemes[at].clone();
-            let stem = word[..word.len() - 1].to_owned();
-            lexemes.splice(at..=at, [word_at(&place, &stem), word_at(&place, "is")]);
+        let (place, behind) = (lexemes[at].clone(), lexemes[at + 1].clone());
+        if let Some(stem) = contracted_is(written, &word, &next) {
+            lexemes.splice(at..=at, [word_at(&place, stem), word_at(&place, "is")]);
         } else if ["on", "inside", "onto", "behind", "under"].contains(&word.as_str()) && next == "there" {
-            let place = lexemes[at + 1].clone();
-            lexemes[at + 1] = word_at(&place, "it");
-        } else if (written.ends_with("'s") || written.ends_with("’s"))
-            && next == "side"
-            && at > 0
-            && matches!(&lexemes[at - 1].token, Token::Word(word) if ["to", "by", "at", "on"].contains(&word.as_str()))
-        {
+            lexemes[at + 1] = word_at(&behind, "it");
+        } else if is_owner(written) && next == "side" && at > 0 && is_at(&lexemes[at - 1]) {
             // "Over to Anna's side" is next to her.
-            let (place, stem) = (lexemes[at].clone(), word.strip_suffix('s').unwrap_or(word).to_owned());
+            let stem = word.strip_suffix('s').unwrap_or(&word);
             lexemes.splice(
                 at - 1..=at + 1,
-                [word_at(&place, "next"), word_at(&place, "to"), word_at(&place, &stem)],
+                [word_at(&place, "next"), word_at(&place, "to"), word_at(&place, stem)],
             );
         } else if is_owner(written)
             && let Some((plain, said)) = longest(&lexemes[at + 1..], OF_IT)
         {
             // "The robot's place is behind the school": the robot should be there.
-            let (place, stem) = (lexemes[at].clone(), word.strip_suffix('s').unwrap_or(word).to_owned());
-            let plain: Vec<Lexeme> = std::iter::once(word_at(&place, &stem))
-                .chain(super::forms::words_at(&place, plain))
-                .collect();
+            let stem = word.strip_suffix('s').unwrap_or(&word);
+            let plain: Vec<Lexeme> =
+                std::iter::once(word_at(&place, stem)).chain(super::forms::words_at(&place, plain)).collect();
             lexemes.splice(at..=at + said, plain);
         } else if word == "what" && category(&lexemes[at + 1..]).is_some() {
-            let place = lexemes[at].clone();
             lexemes[at] = word_at(&place, "which");
-        } else if let Some(who) =
-            ["we'll", "i'll", "they'll", "you'll", "it'll", "we’ll", "i’ll", "they’ll", "it’ll"]
-                .iter()
-                .find(|short| written.eq_ignore_ascii_case(short))
-        {
-            let (place, who) =
-                (lexemes[at].clone(), who.split(['\'', '’']).next().unwrap_or_default().to_owned());
-            lexemes.splice(at..=at, [word_at(&place, &who), word_at(&place, "will")]);
+        } else if let Some(who) = contracted_will(written) {
+            lexemes.splice(at..=at, [word_at(&place, who), word_at(&place, "will")]);
             at += 1;
-        } else if ["its", "his", "her", "their"].contains(&word.as_str())
-            && SIDES.contains(&next.as_str())
-            && at > 0
-        {
-            let (place, side) = (lexemes[at].clone(), lexemes[at + 1].clone());
+        } else if at > 0 && is_side_of_it(&word, &next) {
             lexemes.splice(
                 at..=at + 1,
-                [word_at(&place, "the"), side, word_at(&place, "of"), word_at(&place, "it")],
+                [word_at(&place, "the"), behind, word_at(&place, "of"), word_at(&place, "it")],
             );
         }
         at += 1;
     }
+}
+
+/// The thing of "the taxi's in the way", where "'s" is "is" and says not whose something is.
+fn contracted_is<'a>(written: &str, word: &'a str, next: &str) -> Option<&'a str> {
+    #[rustfmt::skip]
+    const STATES: &[&str] = &["in", "too", "a", "on", "at", "so", "facing", "looking", "way", "always", "really", "just", "very", "not", "got", "ugly", "nice", "far",
+        "much", "blocking", "still", "standing", "behind", "next", "near", "an", "been", "kind", "boring", "broken", "old", "empty", "dirty", "lonely", "quite", "rather", "wrong"];
+    let is_thing = word.len() > 4 && !["thats", "whats", "theres", "wheres", "heres"].contains(&word);
+    if is_owner(written) && is_thing && STATES.contains(&next) { word.get(..word.len() - 1) } else { None }
+}
+
+/// Who is meant by "we'll" and the like.
+fn contracted_will(written: &str) -> Option<&'static str> {
+    const WILL: [(&str, &str); 5] =
+        [("we'll", "we"), ("i'll", "i"), ("they'll", "they"), ("you'll", "you"), ("it'll", "it")];
+    let plain = written.replace('’', "'");
+    WILL.into_iter().find(|(short, _)| plain.eq_ignore_ascii_case(short)).map(|(_, who)| who)
+}
+
+/// "Its corner": a side of what was spoken of.
+fn is_side_of_it(word: &str, next: &str) -> bool {
+    const SIDES: &[&str] = &["corner", "corners", "edge", "middle", "centre", "center", "side"];
+    ["its", "his", "her", "their"].contains(&word) && SIDES.contains(&next)
+}
+
+fn is_at(lexeme: &Lexeme) -> bool {
+    matches!(&lexeme.token, Token::Word(word) if ["to", "by", "at", "on"].contains(&word.as_str()))
 }
 
 /// What is said of something by what it has.
@@ -158,7 +162,7 @@ fn is_owner(written: &str) -> bool {
 
 /// Who is spoken to, and what is said before one speaks.
 #[rustfmt::skip]
-const CALLED: &[&str] = &["right lads", "lads", "class", "kids", "children", "folks", "team", "guys", "boys", "girls", "ladies and gentlemen", "mate", "dear", "my dear", "love", "lass", "laddie", "sir", "madam",
+const CALLED: &Phrases = &Phrases::of(&["right lads", "lads", "class", "kids", "children", "folks", "team", "guys", "boys", "girls", "ladies and gentlemen", "mate", "dear", "my dear", "love", "lass", "laddie", "sir", "madam",
     "boss", "chief", "friends", "my friend", "my friends", "citizens", "buddy", "pal", "gents", "arr", "ahoy", "yes", "right", "okay", "ok", "now then", "listen", "look", "oh dear", "dear me", "oh", "sorry",
     "excuse me", "pardon", "pardon me", "hello", "hey", "hi", "good morning", "good day", "good evening", "bro", "dude", "yo", "nah", "sorry my english", "dear all", "colleagues", "crew", "everyone", "everybody",
     "attention", "note", "be a love and", "be a dear and", "all right", "alright", "well then", "so then", "come on", "comrades", "shipmates", "dear sir", "dear madam", "old chap", "my lad", "man", "gosh", "blimey",
@@ -169,7 +173,7 @@ const CALLED: &[&str] = &["right lads", "lads", "class", "kids", "children", "fo
     "do you know what we need", "you know what i want", "you know what id like", "you know what i would like", "know what id like", "what else", "one more thing", "here goes", "quick one", "quick question", "next job", "next task", "small request",
     "tiny request", "request", "idea", "suggestion", "proposal", "thought", "new request", "another thing", "another request", "hear me out", "picture this", "imagine this", "check this out", "get this", "question", "morning", "evening", "afternoon",
     "cheers mate", "hiya", "howdy", "greetings", "good afternoon", "dear editor", "dear simulator", "hey you", "hey computer", "computer", "editor", "hi team", "hello team", "update", "change of heart", "good news", "bad news", "be a darling",
-    "be an angel", "be a sport", "if you ask me", "in my opinion", "in my view", "personally speaking", "between you and me", "no rush", "no hurry", "when you can", "when you get a sec", "when you get a minute", "urgent", "important", "reminder"];
+    "be an angel", "be a sport", "if you ask me", "in my opinion", "in my view", "personally speaking", "between you and me", "no rush", "no hurry", "when you can", "when you get a sec", "when you get a minute", "urgent", "important", "reminder"]);
 
 /// "Spot seven" is called Spot 7.
 fn numbered(lexemes: &mut [Lexeme], names: &Names<'_>) {
@@ -243,7 +247,7 @@ fn called_to(lexemes: &mut Vec<Lexeme>) {
 /// "The bench of red colour" is the red bench.
 fn of_colour(lexemes: &mut Vec<Lexeme>) {
     const COLOUR: &[&str] = &["colour", "color", "colours", "colors"];
-    const BEFORE: &[&str] = &[
+    const BEFORE: &Phrases = &Phrases::of(&[
         "of the colour",
         "of the color",
         "in the colour",
@@ -252,7 +256,7 @@ fn of_colour(lexemes: &mut Vec<Lexeme>) {
         "of color",
         "coloured in",
         "colored in",
-    ];
+    ]);
     let mut at = 1;
     while at < lexemes.len() {
         let rest = &lexemes[at..];
@@ -279,9 +283,9 @@ fn of_colour(lexemes: &mut Vec<Lexeme>) {
 /// "Only the red chair stays, remove the others" says the same twice.
 fn others_too(lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
-    const OTHERS: &[&str] = &["remove the others", "delete the others", "remove the rest", "delete the rest", "take the others away", "take the rest away", "get rid of the others", "get rid of the rest", "the others go", "the rest go", "the rest goes",
+    const OTHERS: &Phrases = &Phrases::of(&["remove the others", "delete the others", "remove the rest", "delete the rest", "take the others away", "take the rest away", "get rid of the others", "get rid of the rest", "the others go", "the rest go", "the rest goes",
         "the others can go", "the rest can go", "the others must go", "the rest must go", "the others have to go", "the rest has to go", "clear the rest", "clear the others", "clear away the rest", "remove all the others", "remove all others",
-        "delete all others", "lose the rest", "lose the others", "all others go", "all the others go", "ditch the rest", "ditch the others", "bin the rest", "scrap the rest", "away with the rest", "away with the others"];
+        "delete all others", "lose the rest", "lose the others", "all others go", "all the others go", "ditch the rest", "ditch the others", "bin the rest", "scrap the rest", "away with the rest", "away with the others"]);
     let Some(only) =
         (0..lexemes.len()).find(|at| longest_phrase(&lexemes[*at..], &["only", "keep", "just"]).is_some())
     else {
@@ -301,12 +305,12 @@ fn others_too(lexemes: &mut Vec<Lexeme>) {
 /// "The ladder I need goes by the tree": it is one that is not there yet.
 fn needed_one(lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
-    const I_NEED: &[&str] = &["i need", "we need", "i want", "we want", "i ordered", "we ordered", "i asked for", "we asked for", "that i need", "that we need", "that i want", "that we want", "that i ordered", "that we ordered", "i was promised",
-        "we were promised", "i have in mind", "we have in mind", "im thinking of", "i am thinking of", "i was thinking of", "we are planning", "we planned"];
-    const GOES: &[&str] = &[
+    const I_NEED: &Phrases = &Phrases::of(&["i need", "we need", "i want", "we want", "i ordered", "we ordered", "i asked for", "we asked for", "that i need", "that we need", "that i want", "that we want", "that i ordered", "that we ordered", "i was promised",
+        "we were promised", "i have in mind", "we have in mind", "im thinking of", "i am thinking of", "i was thinking of", "we are planning", "we planned"]);
+    const GOES: &Phrases = &Phrases::of(&[
         "goes", "go", "should", "must", "belongs", "belong", "has to", "have to", "is to", "comes", "shall",
         "can", "could", "will", "needs to", "ought", "would", "is for", "stands",
-    ];
+    ]);
     let the = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if word == "the");
     let found = (0..lexemes.len()).filter(|at| the(&lexemes[*at])).find_map(|at| {
         (at + 2..lexemes.len().min(at + 5)).find_map(|need| {
@@ -328,14 +332,14 @@ fn needed_one(lexemes: &mut Vec<Lexeme>) {
 /// "To a spot near the kiosk" is near the kiosk, and "in the hospital's block" on the block of the hospital.
 fn spots(lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
-    const SPOTS: &[&str] = &["to a spot", "at a spot", "in a spot", "on a spot", "to a place", "at a place", "in a place", "to somewhere", "to some place", "to some spot", "at some spot", "in some spot", "to the spot", "to the area", "to a position",
+    const SPOTS: &Phrases = &Phrases::of(&["to a spot", "at a spot", "in a spot", "on a spot", "to a place", "at a place", "in a place", "to somewhere", "to some place", "to some spot", "at some spot", "in some spot", "to the spot", "to the area", "to a position",
         "to a location", "to the place", "into the spot", "to the ground", "on the ground", "on the floor", "to the space", "into the space", "in the space", "to a point", "somewhere", "someplace", "anywhere", "to the patch", "on a patch", "into position",
-        "in position", "into place", "in place"];
+        "in position", "into place", "in place"]);
     let mut at = 1;
     while at < lexemes.len() {
         let words = longest_phrase(&lexemes[at..], SPOTS).filter(|words| {
             let behind = &lexemes[at + words..];
-            longest(behind, super::words::WAYS).is_some_and(|(way, _)| {
+            longest(behind, &super::words::WAYS).is_some_and(|(way, _)| {
                 !matches!(way, super::words::Way::At | super::words::Way::Here | super::words::Way::There)
             })
         });
@@ -395,14 +399,14 @@ fn relatives(lexemes: &mut Vec<Lexeme>) {
         };
     let it = |at: usize| matches!(lexemes.get(at).map(|lexeme| &lexeme.token), Some(Token::Word(word)) if word == "it" || word == "them");
     let found = (from + 1..lexemes.len().min(from + 8)).find_map(|at| {
-        let (way, words) = longest(&lexemes[at..], super::words::WAYS)?;
+        let (way, words) = longest(&lexemes[at..], &super::words::WAYS)?;
         let near = matches!(way, super::words::Way::To(_));
         (near && it(at + words)).then_some((at, words))
     });
     if let Some((at, words)) = found {
         let place = lexemes[at].clone();
         let noun: Vec<Lexeme> = lexemes[from..at].to_vec();
-        let relation: Vec<Lexeme> = match longest(&lexemes[at..], super::words::WAYS) {
+        let relation: Vec<Lexeme> = match longest(&lexemes[at..], &super::words::WAYS) {
             Some((super::words::Way::To(simworld_core::scene::Relation::NextTo), _)) => {
                 lexemes[at..at + words].to_vec()
             }

@@ -1,13 +1,14 @@
 //! What joins wishes, and what is put before and behind them and says nothing.
+use super::super::phrases::Phrases;
 
 /// What joins two wishes.
 #[rustfmt::skip]
-pub(super) const JOINTS: &[&str] = &["and", "then", "and then", "also", "plus", "but", "and also", "as well as",
+pub(super) const JOINTS: &Phrases = &Phrases::of(&["and", "then", "and then", "also", "plus", "but", "and also", "as well as",
     "after that", "next", "finally", "too", "as well", "while you are at it", "now", "along with", "together with",
-    "and finally", "afterwards", "first", "so", "or rather", "with"];
+    "and finally", "afterwards", "first", "so", "or rather", "with"]);
 /// What is put before and behind wishes, and says nothing.
 #[rustfmt::skip]
-pub(super) const POLITE: &[&str] = &["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
+pub(super) const POLITE: &Phrases = &Phrases::of(&["please", "thanks", "thank you", "kindly", "hey", "hi", "hello", "ok", "okay", "alright",
     "um", "well", "could you", "can you", "would you", "will you", "can u", "could u", "i want you to",
     "i would like you to", "id like you to", "you should", "you must", "lets", "let us", "just", "try to",
     "go ahead and", "would you mind", "do you mind", "if you can", "if you could", "if possible",
@@ -23,10 +24,10 @@ pub(super) const POLITE: &[&str] = &["please", "thanks", "thank you", "kindly", 
     "i reckon we should", "you need to", "you have to", "you can", "you could", "go and", "go", "instead", "now",
     "kindly please", "sir", "as well", "too", "i wonder if you could", "it is time to", "its time to", "time to",
     "how about", "what about", "what if we", "shall we", "anymore", "any more", "any longer", "at all",
-    "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"];
+    "i want that", "i would like that", "i wish that", "like", "kind of", "sort of"]);
 /// What is put behind wishes, and says nothing.
 #[rustfmt::skip]
-pub(super) const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "for us", "if you can", "if you could",
+pub(super) const CODA: &Phrases = &Phrases::of(&["please", "thanks", "thank you", "for me", "for us", "if you can", "if you could",
     "if possible", "if you dont mind", "pls", "plz", "now", "instead", "too", "as well", "anymore", "any more",
     "any longer", "at all", "i dont care where", "i dont mind where", "cheers", "thx", "okay", "ok", "mate",
     "buddy", "bro", "dude", "sir", "quickly", "again", "would you", "will you", "could you", "can you",
@@ -51,4 +52,4 @@ pub(super) const CODA: &[&str] = &["please", "thanks", "thank you", "for me", "f
     "to liven things up", "to liven it up", "to cheer things up", "to brighten it up", "to spruce things up", "to spruce it up", "to cheer it up", "to make it cosier", "just because", "for fun", "for good measure", "for starters", "for a laugh",
     "for later", "for tonight", "for tomorrow", "for the weekend", "for the kids", "for the children", "for the visitors", "for visitors", "for the guests", "for the tourists", "for the customers", "for the party", "for the wedding", "for the show",
     "for the photo", "for the parade", "for the market", "for the festival", "for the students", "for people", "for the people", "for passers by", "for everyone to see", "for everyone to use", "for everyone to enjoy", "straight away", "this instant", "sharpish", "okey dokey", "dont you think", "do you not think", "dont you think so", "wouldnt you agree", "not where he is", "not where he is now", "not where she is", "not where she is now", "not where they are", "not where they are now", "not over there", "kthx",
-    "thank u", "thankyou", "thanx", "cheers then", "appreciate it", "id appreciate it", "i would appreciate it", "if you could please", "god bless", "bless you", "amen", "there you go", "there we go", "and that is that", "i beg of you", "pretty please", "with a cherry on top"];
+    "thank u", "thankyou", "thanx", "cheers then", "appreciate it", "id appreciate it", "i would appreciate it", "if you could please", "god bless", "bless you", "amen", "there you go", "there we go", "and that is that", "i beg of you", "pretty please", "with a cherry on top", "not on the ground", "and not on the ground", "not on the floor", "not more", "no more than that", "no more no less", "not more than that", "and not more", "and no more"]);

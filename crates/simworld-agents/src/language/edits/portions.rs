@@ -5,6 +5,7 @@ use simworld_core::seam::PlanError;
 use super::super::clause::{Choice, Count, Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::super::resolve::Purpose;
 use super::parse::Reader;
 
@@ -19,7 +20,7 @@ const SHARES: &[(&[&str], f64)] = &[
 ];
 /// Behind "as many", of what there are so many.
 #[rustfmt::skip]
-const AS_THERE_ARE: &[&str] = &["as there are", "as we have", "as there", "as you see", "as the number of", "as you can see", "as we see", "as there already are", "as there are already", "as we have got"];
+const AS_THERE_ARE: &Phrases = &Phrases::of(&["as there are", "as we have", "as there", "as you see", "as the number of", "as you can see", "as we see", "as there already are", "as there are already", "as we have got"]);
 
 impl Reader<'_> {
     /// "Half of the cars": any of them, if that makes a whole number.
@@ -41,8 +42,8 @@ impl Reader<'_> {
     /// "Each of them", "every one of those", "each": all that were spoken of, and how many words say so.
     pub(super) fn each_of_them(&self, at: usize, end: usize) -> Option<(Reference, usize)> {
         #[rustfmt::skip]
-        const EACH: &[&str] = &["each of them", "every one of them", "all of them", "each of those", "each of these", "every one of those", "each one of them", "both of them", "all three of them", "each and every one of them",
-            "each single one of them", "every single one of them", "all of those", "all of these", "them all", "any of them"];
+        const EACH: &Phrases = &Phrases::of(&["each of them", "every one of them", "all of them", "each of those", "each of these", "every one of those", "each one of them", "both of them", "all three of them", "each and every one of them",
+            "each single one of them", "every single one of them", "all of those", "all of these", "them all", "any of them"]);
         // Alone at the end they say no more.
         const ALONE: &[&str] =
             &["each", "each one", "every one", "every single one", "each single one", "all", "both"];

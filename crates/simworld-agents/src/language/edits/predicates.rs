@@ -4,6 +4,7 @@ use super::super::clause::Reference;
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::{PAINTS, Paint};
+use super::super::phrases::Phrases;
 use super::forms::as_order;
 use super::parse::{Reader, joint};
 use super::says::{LACKS, Subject};
@@ -13,40 +14,40 @@ use super::words::{ABOUT_IT, FACTORS};
 
 /// That something not yet there would be welcome; whatever stands around them is small.
 #[rustfmt::skip]
-const WELCOME: &[&str] = &["help", "helps", "helpful", "nice", "great", "good", "lovely", "handy", "useful", "perfect", "wonderful",
+const WELCOME: &Phrases = &Phrases::of(&["help", "helps", "helpful", "nice", "great", "good", "lovely", "handy", "useful", "perfect", "wonderful",
     "welcome", "appreciated", "overdue", "needed", "wanted", "missing", "required", "due", "idea", "lacking", "need", "want",
     "amazing", "fantastic", "beautiful", "awesome", "cute", "cool", "hurt", "amiss", "fine", "trick", "ticket", "thing", "order",
     "must", "do", "work", "fit", "suit", "requested", "desired", "called", "dream", "ideal", "sensible", "pretty", "neat", "sweet",
     "fun", "swell", "ace", "top", "terrific", "excellent", "superb", "magnificent", "charming", "grand", "super", "fab", "dandy", "brill", "wicked", "nicer", "smart",
-    "pleasant", "cosy", "cozy", "sensational", "marvellous", "delightful", "dope", "sick", "rad", "practical", "demand", "liven", "brighten", "please", "delight", "improve", "better", "loved", "splendid", "brilliant"];
+    "pleasant", "cosy", "cozy", "sensational", "marvellous", "delightful", "dope", "sick", "rad", "practical", "demand", "liven", "brighten", "please", "delight", "improve", "better", "loved", "splendid", "brilliant"]);
 /// What stands around them.
 #[rustfmt::skip]
-const AROUND: &[&str] = &["a", "an", "the", "very", "so", "really", "much", "be", "is", "are", "would", "wouldnt", "could", "not", "go", "goes",
+const AROUND: &Phrases = &Phrases::of(&["a", "an", "the", "very", "so", "really", "much", "be", "is", "are", "would", "wouldnt", "could", "not", "go", "goes",
     "what", "we", "i", "here", "there", "in", "long", "badly", "sorely", "us", "me", "everyone", "everybody", "things", "it", "right", "well",
     "might", "up", "place", "to", "have", "for", "also", "look", "looks", "make", "of", "totally", "just", "absolutely", "urgently",
     "quite", "some", "pretty", "should", "must", "too", "now", "most", "more", "that", "this", "thats", "whats", "lot", "bit", "people", "my",
     "day", "all", "greatly", "highly", "still", "certainly", "definitely", "surely", "will", "can", "come", "best", "actually",
-    "desperately", "desirable", "sight", "spot", "been", "has", "was", "were", "kind", "day", "wouldn't", "scene", "city", "view", "feel", "add"];
+    "desperately", "desirable", "sight", "spot", "been", "has", "was", "were", "kind", "day", "wouldn't", "scene", "city", "view", "feel", "add"]);
 /// That it should not be there any more.
 #[rustfmt::skip]
-const GONE: &[&str] = &["gone", "removed", "deleted", "away", "taken away", "out", "out of here", "go away", "disappear", "vanish",
+const GONE: &Phrases = &Phrases::of(&["gone", "removed", "deleted", "away", "taken away", "out", "out of here", "go away", "disappear", "vanish",
     "be gone", "byebye", "bye bye", "history", "out of the picture", "out of the scene", "off the map", "out of sight",
     "out of the way", "go byebye", "go bye bye", "leave", "leave the scene", "cease to exist", "not exist", "dead", "go for good",
     "gone for good", "not be there", "not be here", "out of my sight", "go", "taken out", "taken off", "thrown away", "thrown out",
     "scrapped", "gotten rid of", "got rid of", "done away with", "off", "vanished", "disappeared", "away from here", "go to the scrapyard",
-    "no longer there", "no longer here", "come down", "come out", "come off", "down", "be taken down", "pulled down", "come away", "cut down", "chopped down", "felled", "no more", "disposed of", "torn down", "out of there"];
+    "no longer there", "no longer here", "come down", "come out", "come off", "down", "be taken down", "pulled down", "come away", "cut down", "chopped down", "felled", "no more", "disposed of", "torn down", "out of there"]);
 /// That two should stand where the other does.
 #[rustfmt::skip]
-pub(super) const TRADES: &[&str] = &["have their places exchanged", "change their places", "switch their places", "switch their positions", "swap their positions", "swap their spots", "exchange their positions", "change their positions", "exchange spots", "change spots", "trade their places", "swap their places", "exchange their places", "change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
+pub(super) const TRADES: &Phrases = &Phrases::of(&["have their places exchanged", "change their places", "switch their places", "switch their positions", "swap their positions", "swap their spots", "exchange their positions", "change their positions", "exchange spots", "change spots", "trade their places", "swap their places", "exchange their places", "change places", "swap places", "trade places", "switch places", "swap", "switch", "trade spots", "swap spots",
     "exchange places", "swap positions", "switch positions", "exchange positions", "be swapped", "be switched", "swapped", "trade positions",
-    "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"];
+    "change positions", "switch spots", "the other way round", "the other way around", "swapped around", "switched around"]);
 /// Before a colour.
 #[rustfmt::skip]
-const IN_COLOUR: &[&str] = &["in", "into", "to", "a", "an", "the", "all", "as", "colour", "color", "bright", "light", "deep", "nice", "lovely",
+const IN_COLOUR: &Phrases = &Phrases::of(&["in", "into", "to", "a", "an", "the", "all", "as", "colour", "color", "bright", "light", "deep", "nice", "lovely",
     "shade", "of", "coloured", "colored", "painted", "paint", "proper", "with", "coat", "fresh", "new", "completely", "more", "plain", "totally",
-    "dressed", "wearing"];
+    "dressed", "wearing"]);
 /// Behind it.
-const COLOUR: &[&str] = &[
+const COLOUR: &Phrases = &Phrases::of(&[
     "colour",
     "color",
     "paint",
@@ -62,13 +63,13 @@ const COLOUR: &[&str] = &[
     "all over",
     "paint job",
     "from now on",
-];
+]);
 /// What something that is asked for does where it stands.
 #[rustfmt::skip]
-const PLACED: &[&str] = &["placed", "put", "parked", "planted", "installed", "built", "added", "set up", "wanted", "needed", "required", "missing",
+const PLACED: &Phrases = &Phrases::of(&["placed", "put", "parked", "planted", "installed", "built", "added", "set up", "wanted", "needed", "required", "missing",
     "located", "positioned", "standing", "sitting", "waiting", "set", "erected", "put up", "put down", "dropped", "lying", "situated",
     "hanging", "spawned", "created", "mounted", "stood", "squeezed in", "fitted", "inserted", "lined up", "overdue", "lacking", "requested",
-    "popped", "stuck", "left", "due", "welcome", "in order", "here", "leaning", "resting", "growing", "perched", "tucked", "nestled", "moved in"];
+    "popped", "stuck", "left", "due", "welcome", "in order", "here", "leaning", "resting", "growing", "perched", "tucked", "nestled", "moved in"]);
 
 impl Reader<'_> {
     /// What is said of a subject: all the words from here to the end.
@@ -91,7 +92,7 @@ impl Reader<'_> {
             }
             Subject::Place(places) => {
                 #[rustfmt::skip]
-                const MISSING: &[&str] = &["missing", "lacking", "needed", "wanted", "required", "missing still", "due"];
+                const MISSING: &Phrases = &Phrases::of(&["missing", "lacking", "needed", "wanted", "required", "missing still", "due"]);
                 let missing = longest_phrase(self.rest(end), MISSING).unwrap_or(0);
                 let at = at + missing;
                 if self.is_definite(at) && !self.is_bare_plural(at, end) {
@@ -110,7 +111,7 @@ impl Reader<'_> {
     /// What is said of something that is not there yet: that it would be welcome, or where it is to stand.
     fn of_new(&self, thing: &NewThing, places: &[Where], cut: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const WITH: &[&str] = &["well with", "with", "nicely with", "together with", "good with", "great with", "suit", "match"];
+        const WITH: &Phrases = &Phrases::of(&["well with", "with", "nicely with", "together with", "good with", "great with", "suit", "match"]);
         let (at, rest) = (self.at, self.rest(end));
         // "Near the cottage that is east of the school" says which cottage.
         if !places.is_empty() && matches!(self.word(cut), Some("that" | "which" | "who")) {
@@ -133,7 +134,7 @@ impl Reader<'_> {
         let asks_more = (at..end).any(|at| {
             self.is_place(at)
                 || longest(&self.lexemes[at..end], PAINTS).is_some()
-                || longest(&self.lexemes[at..end], FACTORS).is_some()
+                || longest(&self.lexemes[at..end], &FACTORS).is_some()
         });
         if is_would && !places.is_empty() && !rest.is_empty() && !asks_more {
             return Some(add(places.to_vec()));
@@ -156,7 +157,7 @@ impl Reader<'_> {
         end: usize,
     ) -> Option<Vec<Vec<Wish>>> {
         let (at, rest) = (self.at, self.rest(end));
-        let whole = |phrases: &[&str]| !rest.is_empty() && longest_phrase(rest, phrases) == Some(rest.len());
+        let whole = |phrases: &Phrases| !rest.is_empty() && longest_phrase(rest, phrases) == Some(rest.len());
         let own = || what.to_vec();
         // "Ada wants to sit down" asks for no end of her.
         let poses = (cut..at).any(|at| {
@@ -203,6 +204,7 @@ impl Reader<'_> {
         let one = |wish| vec![vec![wish]];
         wish.map(one)
             .or_else(|| self.face_each_other(what, at, end))
+            .or_else(|| self.side_by_side(what, at, end).map(one))
             .or_else(|| self.done_to((from, cut), at, end))
             .or_else(|| self.lacks((from, cut), end).map(one))
     }
@@ -235,8 +237,8 @@ impl Reader<'_> {
 
     /// A colour and nothing else but small words.
     pub(super) fn colour_to(&self, at: usize, end: usize) -> Option<Paint> {
-        let small = |from: usize, words: &[&str]| {
-            (from..end).take_while(|at| self.word(*at).is_some_and(|word| words.contains(&word))).count()
+        let small = |from: usize, words: &Phrases| {
+            (from..end).take_while(|at| self.word(*at).is_some_and(|word| words.contains(word))).count()
         };
         let before = at + small(at, IN_COLOUR);
         let (paint, words) = longest(&self.lexemes[before..end], PAINTS)?;
@@ -276,9 +278,9 @@ impl Reader<'_> {
     /// "The car should face the museum".
     fn faces(&self, what: &[Reference], at: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const FACES: &[&str] = &["face", "faces", "looks at", "looks towards", "points at", "facing", "look at", "looking at", "look towards", "looking towards", "point at", "pointing at",
+        const FACES: &Phrases = &Phrases::of(&["face", "faces", "looks at", "looks towards", "points at", "facing", "look at", "looking at", "look towards", "looking towards", "point at", "pointing at",
             "turned towards", "turned to", "turned to face", "to face", "look to", "watch", "watching", "point to", "point towards",
-            "towards", "rotated towards", "aimed at", "stare at", "gaze at"];
+            "towards", "rotated towards", "aimed at", "stare at", "gaze at"]);
         let words = longest_phrase(self.rest(end), FACES)?;
         let mut reader = Reader { at: at + words, ..self.up_to(end) };
         reader.towards(what.to_vec(), end).ok()
@@ -291,7 +293,7 @@ impl Reader<'_> {
         at: usize,
         end: usize,
     ) -> Option<Vec<Vec<Wish>>> {
-        const EACH: &[&str] = &[
+        const EACH: &Phrases = &Phrases::of(&[
             "face each other",
             "face one another",
             "look at each other",
@@ -304,13 +306,23 @@ impl Reader<'_> {
             "turned towards each other",
             "turned to each other",
             "watch each other",
-        ];
+        ]);
         let [one, other] = what else { return None };
         let whole = longest_phrase(&self.lexemes[at..end], EACH) == Some(end - at);
         let face = |one: &Reference, other: &Reference| {
             vec![Wish::Face { what: vec![one.clone()], towards: other.clone() }]
         };
         whole.then(|| vec![face(one, other), face(other, one)])
+    }
+
+    /// "Carol and Dmitri should stand together".
+    fn side_by_side(&self, what: &[Reference], at: usize, end: usize) -> Option<Wish> {
+        const TOGETHER: &[&str] =
+            &["next to each other", "side by side", "beside each other", "together", "next to one another"];
+        let [one, other] = what else { return None };
+        let whole = longest_phrase(&self.lexemes[at..end], TOGETHER) == Some(end - at);
+        let beside = Where::To(simworld_core::scene::Relation::NextTo, Anchor::Thing(other.clone()));
+        whole.then(|| Wish::Move { what: vec![one.clone()], at: vec![beside] })
     }
 
     /// "The bench should be moved behind the museum": the order that does so to the subject.
@@ -368,7 +380,7 @@ impl Reader<'_> {
             };
             return Some(Wish::Add { things: vec![thing], at: vec![place] });
         }
-        if let Some((relation, words)) = longest(reader.rest(end), ABOUT_IT)
+        if let Some((relation, words)) = longest(reader.rest(end), &ABOUT_IT)
             && reader.at + words >= end
         {
             return Some(Wish::Add { things: vec![thing], at: vec![Where::To(relation, anchor.clone())] });
@@ -404,9 +416,9 @@ pub(super) fn size_of(lexemes: &[Lexeme]) -> Option<f64> {
         .cloned()
         .collect();
     let whole = |words: &[Lexeme]| {
-        let named = longest(words, FACTORS).or_else(|| factor_in_numbers(words));
+        let named = longest(words, &FACTORS).or_else(|| factor_in_numbers(words));
         // "Three" alone is no size.
-        let is_number = words.len() == 1 && longest(words, FACTORS).is_none();
+        let is_number = words.len() == 1 && longest(words, &FACTORS).is_none();
         named.filter(|(_, count)| *count == words.len() && !is_number).map(|(factor, _)| factor)
     };
     if words.is_empty() {

@@ -8,19 +8,20 @@ use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers::{self, NUMERALS};
 use super::super::paint::PAINTS;
+use super::super::phrases::Phrases;
 use super::parts::is_mark;
 use super::words::{SKIES, VERBS, WAYS, Way};
 
 /// That what follows is meant, and what stood before is not.
 #[rustfmt::skip]
-const TAKEN_BACK: &[&str] = &["no wait", "wait no", "no no", "no sorry", "sorry no", "i mean", "i meant", "no i mean", "no i meant", "sorry i mean", "scratch that", "correction", "no make that",
+const TAKEN_BACK: &Phrases = &Phrases::of(&["no wait", "wait no", "no no", "no sorry", "sorry no", "i mean", "i meant", "no i mean", "no i meant", "sorry i mean", "scratch that", "correction", "no make that",
     "make that", "or rather", "no rather", "oh no", "wait", "no make it", "ok fine", "okay fine", "ok just", "or better", "no better", "better still", "no actually", "actually no",
-    "actually make that", "well i mean", "on second thought", "on second thoughts", "nope", "not that", "oops", "rather", "that is to say", "or simply", "or just", "well ok", "lets say", "let us say",
-    "let me say", "say", "shall we say", "or lets say", "no", "well", "sorry", "actually", "ah no", "hang on", "hold on", "no hang on", "no hold on", "sorry make that", "meaning", "strike that", "err", "er"];
+    "actually make that", "or no", "no not that one", "well i mean", "on second thought", "on second thoughts", "nope", "not that", "oops", "rather", "that is to say", "or simply", "or just", "well ok", "lets say", "let us say",
+    "let me say", "say", "shall we say", "or lets say", "no", "well", "sorry", "actually", "ah no", "hang on", "hold on", "no hang on", "no hold on", "sorry make that", "meaning", "strike that", "err", "er"]);
 /// Behind what is meant.
 const BEHIND: &[&str] = &["i mean", "i meant", "i should say", "rather"];
 /// Of the words that take back, those that are also said where nothing is: no order and no thing is taken back by them.
-const WEAK: &[&str] = &[
+const WEAK: &Phrases = &Phrases::of(&[
     "well",
     "say",
     "sorry",
@@ -33,7 +34,7 @@ const WEAK: &[&str] = &[
     "meaning",
     "err",
     "er",
-];
+]);
 
 /// Puts what was taken back right, as often as it was.
 pub(super) fn put_right(lexemes: &mut Vec<Lexeme>) {
@@ -50,12 +51,12 @@ fn without_dangling(lexemes: &mut Vec<Lexeme>) {
     while at < lexemes.len() {
         let behind = at + lexemes[at..].iter().take_while(|lexeme| is_mark(lexeme)).count();
         let said = longest_phrase(&lexemes[behind..], TAKEN_BACK)
-            .filter(|words| longest(&lexemes[behind + words..], WAYS).is_some());
+            .filter(|words| longest(&lexemes[behind + words..], &WAYS).is_some());
         let next = behind + said.unwrap_or(0);
-        let dangles = behind > at && longest(&lexemes[next..], WAYS).is_some();
+        let dangles = behind > at && longest(&lexemes[next..], &WAYS).is_some();
         let from = (at.saturating_sub(4)..at).find(|from| {
             dangles
-                && longest(&lexemes[*from..at], WAYS)
+                && longest(&lexemes[*from..at], &WAYS)
                     .is_some_and(|(way, words)| from + words == at && needs_anchor(way))
         });
         match from {
@@ -88,15 +89,27 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     let (from, to, behind) = if let Some(words) = longest_phrase(rest, TAKEN_BACK) {
         is_sure = longest_phrase(rest, WEAK) != Some(words);
         // "No clouds" takes nothing back, and "no, clouds" does.
-        if longest(rest, WAYS).is_some() {
+        if longest(rest, &WAYS).is_some() {
             return None;
         }
         let is_no = words == 1 && longest_phrase(rest, &["no"]).is_some();
-        if is_no && !rest.get(1).is_some_and(is_mark) && longest(&rest[1..], VERBS).is_none() {
+        if is_no && !rest.get(1).is_some_and(is_mark) && longest(&rest[1..], &VERBS).is_none() {
             return None;
         }
         let mut from = from + words;
         from += lexemes[from..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        // "Sorry, I meant the black one".
+        if let Some(words) = longest_phrase(&lexemes[from..], &["i mean", "i meant", "make that", "rather"]) {
+            is_sure = true;
+            from += words;
+        }
+        // "No, the other one, the blue one": the last of them says which.
+        if let Some(words) = longest_phrase(&lexemes[from..], &["the other one", "the other", "another one"])
+            && lexemes.get(from + words).is_some_and(is_mark)
+            && lexemes.get(from + words + 1..).is_some_and(is_article)
+        {
+            from += words + 1;
+        }
         let end = from + lexemes[from..].iter().position(is_mark).unwrap_or(lexemes.len() - from);
         (from, end, end)
     } else {
@@ -110,7 +123,7 @@ fn corrected(lexemes: &[Lexeme], mark: usize) -> Option<Vec<Lexeme>> {
     }
     let (start, stop) = replaced(before, meant, is_sure)?;
     let mut right = before[..start].to_vec();
-    right.extend_from_slice(meant);
+    right.extend(with_its_noun(meant, &before[start..stop]));
     right.extend_from_slice(&before[stop..]);
     right.extend_from_slice(&lexemes[behind..]);
     Some(right)
@@ -134,19 +147,27 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
     if longest(meant, PAINTS).is_some_and(|(_, words)| words == meant.len()) {
         return last(&|at| longest(&before[at..], PAINTS).map(|(_, words)| words));
     }
-    if longest(meant, SKIES).is_some() {
-        return last(&|at| longest(&before[at..], SKIES).map(|(_, words)| words)).or(Some((clause, all)));
+    if longest(meant, &SKIES).is_some() {
+        return last(&|at| longest(&before[at..], &SKIES).map(|(_, words)| words)).or(Some((clause, all)));
     }
-    if longest(meant, VERBS).is_some() {
+    if longest(meant, &VERBS).is_some() {
         // An order is taken back as a whole.
-        return last(&|at| longest(&before[at..], VERBS).filter(|_| is_sure).map(|_| all - at));
+        return last(&|at| longest(&before[at..], &VERBS).filter(|_| is_sure).map(|_| all - at));
     }
-    if longest(meant, WAYS).is_some() {
-        return last(&|at| longest(&before[at..], WAYS).map(|_| all - at))
+    if longest(meant, &WAYS).is_some() {
+        return last(&|at| longest(&before[at..], &WAYS).map(|_| all - at))
             .map(|(from, _)| (whole_way(before, from), all));
     }
     let noun =
         (0..meant.len()).find_map(|at| category(&meant[at..]).map(|(class, words)| (class, at + words)));
+    // "The white car, I mean the black one": the colour is taken back.
+    if let [the, paint @ .., one] = meant
+        && the.token == Token::Word("the".to_owned())
+        && one.token == Token::Word("one".to_owned())
+        && longest(paint, PAINTS).is_some_and(|(_, words)| words == paint.len())
+    {
+        return coloured_before(before, clause);
+    }
     if is_article(meant) || meant.first().is_some_and(is_number) {
         // "A seat in front of the clinic, no, two seats".
         if let Some((class, words)) = noun
@@ -165,13 +186,36 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
     (is_noun && is_word && all > clause).then_some((all - 1, all))
 }
 
+/// "The black one" in the place of the white car is the black car.
+fn with_its_noun(meant: &[Lexeme], instead_of: &[Lexeme]) -> Vec<Lexeme> {
+    let noun = (0..instead_of.len()).find(|at| category(&instead_of[*at..]).is_some());
+    match (meant, noun) {
+        ([head @ .., one], Some(noun)) if one.token == Token::Word("one".to_owned()) && !head.is_empty() => {
+            head.iter().chain(&instead_of[noun..]).cloned().collect()
+        }
+        _ => meant.to_vec(),
+    }
+}
+
+/// The last thing before that is told by its colour: "the white car".
+fn coloured_before(before: &[Lexeme], clause: usize) -> Option<(usize, usize)> {
+    (clause..before.len()).rev().find_map(|at| {
+        if before[at].token != Token::Word("the".to_owned()) {
+            return None;
+        }
+        let (_, paint) = longest(&before[at + 1..], PAINTS)?;
+        let (_, noun) = category(&before[at + 1 + paint..])?;
+        Some((at, at + 1 + paint + noun))
+    })
+}
+
 /// A noun without an article has no more words than that.
 const LONGEST: usize = 3;
 
 /// The first word of a relation of several words that ends in a shorter one: "on top of".
 fn whole_way(before: &[Lexeme], from: usize) -> usize {
     (from.saturating_sub(3)..from)
-        .find(|at| longest(&before[*at..], WAYS).is_some_and(|(_, words)| at + words > from))
+        .find(|at| longest(&before[*at..], &WAYS).is_some_and(|(_, words)| at + words > from))
         .unwrap_or(from)
 }
 

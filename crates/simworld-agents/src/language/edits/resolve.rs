@@ -8,6 +8,7 @@ use simworld_core::scene::{EntityKind, EntityRef, Scene};
 use simworld_core::seam::PlanError;
 
 use super::super::clause::{Choice, Count, Reference, Stands, Target};
+use super::super::compass::Compass;
 use super::super::lexer::{Token, lex};
 use super::super::lexicon::category;
 use super::super::resolve::{Purpose, View};
@@ -70,24 +71,10 @@ impl Finder<'_> {
             Wish::Add { things, at } => return self.added(things, at),
             Wish::Remove { what } => Edit::Remove { things: self.all(what)? },
             Wish::Move { what, at } => return self.moved(what, at),
-            Wish::Replace { what, with } => {
-                return self.replaced(what, with);
-            }
+            Wish::Replace { what, with } => return self.replaced(what, with),
             Wish::Rotate { what, angle } => Edit::Rotate { things: self.all(what)?, angle: *angle },
-            Wish::Face { what, towards } => {
-                let (things, towards) = (self.all(what)?, self.one(towards)?);
-                // "Move Fay next to Gus and make her face him": nobody faces themselves.
-                let other = self.focus.beside.filter(|_| things == [towards]);
-                Edit::Face { things, towards: other.unwrap_or(towards) }
-            }
-            Wish::FaceCompass { what, compass } => {
-                let turn = |thing: EntityId| {
-                    let now = self.scene.entity(thing).map_or(0.0, |entity| yaw_of(entity.pose));
-                    let angle = simworld_core::ops::wrap_angle(compass.heading() - now);
-                    Edit::Rotate { things: vec![thing], angle }
-                };
-                return Ok(self.all(what)?.into_iter().map(turn).collect());
-            }
+            Wish::Face { what, towards } => self.facing(what, towards)?,
+            Wish::FaceCompass { what, compass } => return self.facing_compass(what, *compass),
             Wish::Swap { one, other } => self.swapped(one, other.as_ref())?,
             Wish::Paint { what, paint } => Edit::Paint { things: self.all(what)?, color: paint.color() },
             Wish::Resize { what, size } => return self.resized(what, size),
@@ -97,26 +84,8 @@ impl Finder<'_> {
             }
             Wish::Multiply { what, times } => return self.multiplied(what, *times),
             Wish::Name { what, name } => Edit::Name { thing: self.one(what)?, name: name.clone() },
-            Wish::Count { what } => {
-                let things = match self.candidates(what) {
-                    Err(EditError::NotFound { .. }) => Vec::new(),
-                    found => found?,
-                };
-                Edit::Count { what: what.text.clone(), things }
-            }
-            Wish::CountAll { what, text } => {
-                let mut things = Vec::new();
-                for one in what {
-                    let all = Reference { count: Count::All, ..one.clone() };
-                    match self.candidates(&all) {
-                        Err(EditError::NotFound { .. }) => {}
-                        found => things.extend(found?),
-                    }
-                }
-                things.sort_unstable();
-                things.dedup();
-                Edit::Count { what: text.clone(), things }
-            }
+            Wish::Count { what } => self.counted(what)?,
+            Wish::CountAll { what, text } => self.counted_together(what, text)?,
             Wish::List { what, at } => Edit::List { things: self.listed(what.as_ref(), at)? },
             Wish::Describe { what } => Edit::Describe { thing: self.one(what)? },
             Wish::Row { thing, line, spacing } => self.row(thing, line, *spacing)?,
@@ -136,6 +105,45 @@ impl Finder<'_> {
             Wish::Sky(skies) => Edit::SetEnvironment(changed(*self.scene.environment(), skies)),
         };
         Ok(vec![edit])
+    }
+
+    fn facing(&self, what: &[Reference], towards: &Reference) -> Result<Edit, EditError> {
+        let (things, towards) = (self.all(what)?, self.one(towards)?);
+        // "Move Fay next to Gus and make her face him": nobody faces themselves.
+        let other = self.focus.beside.filter(|_| things == [towards]);
+        Ok(Edit::Face { things, towards: other.unwrap_or(towards) })
+    }
+
+    fn facing_compass(&self, what: &[Reference], compass: Compass) -> Result<Vec<Edit>, EditError> {
+        let turn = |thing: EntityId| {
+            let now = self.scene.entity(thing).map_or(0.0, |entity| yaw_of(entity.pose));
+            let angle = simworld_core::ops::wrap_angle(compass.heading() - now);
+            Edit::Rotate { things: vec![thing], angle }
+        };
+        Ok(self.all(what)?.into_iter().map(turn).collect())
+    }
+
+    /// What is not there is none.
+    fn counted(&self, what: &Reference) -> Result<Edit, EditError> {
+        let things = match self.candidates(what) {
+            Err(EditError::NotFound { .. }) => Vec::new(),
+            found => found?,
+        };
+        Ok(Edit::Count { what: what.text.clone(), things })
+    }
+
+    fn counted_together(&self, what: &[Reference], text: &str) -> Result<Edit, EditError> {
+        let mut things = Vec::new();
+        for one in what {
+            let all = Reference { count: Count::All, ..one.clone() };
+            match self.candidates(&all) {
+                Err(EditError::NotFound { .. }) => {}
+                found => things.extend(found?),
+            }
+        }
+        things.sort_unstable();
+        things.dedup();
+        Ok(Edit::Count { what: text.to_owned(), things })
     }
 
     pub(super) fn added(&self, things: &[NewThing], at: &[Where]) -> Result<Vec<Edit>, EditError> {
@@ -449,7 +457,9 @@ pub(super) fn plural(reference: &Reference) -> bool {
             category(&head[at..]).filter(|(own, _)| std::ptr::eq(*own, *class)).map_or(1, |found| found.1);
         said(at + words - 1).filter(|word| is_singular(word) || is_plural(word))
     };
-    (0..head.len()).find_map(last).is_some_and(is_plural)
+    // "The white ones" behind chairs are all that are white.
+    let are_ones = || (0..head.len()).any(|at| said(at) == Some("ones"));
+    (0..head.len()).find_map(last).map_or_else(are_ones, is_plural)
 }
 
 impl From<PlanError> for EditError {

@@ -5,29 +5,30 @@ use simworld_core::seam::PlanError;
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::{Anchor, NewThing, Where, Wish};
 use crate::editing::Spacing;
 
 /// Before a distance.
 #[rustfmt::skip]
-const EVERY: &[&str] = &["every", "each", "one every", "one each", "at intervals of", "at an interval of", "in intervals of",
+const EVERY: &Phrases = &Phrases::of(&["every", "each", "one every", "one each", "at intervals of", "at an interval of", "in intervals of",
     "with intervals of", "with a gap of", "with gaps of", "with a spacing of", "with a distance of", "at a spacing of",
-    "at distances of", "spaced every", "and one every", "with one every", "placed every", "spaced", "per", "one per", "for every", "one for every", "one to every", "once every", "a piece every"];
+    "at distances of", "spaced every", "and one every", "with one every", "placed every", "spaced", "per", "one per", "for every", "one for every", "one to every", "once every", "a piece every"]);
 /// Of those, the ones that may be of a distance from one thing.
 #[rustfmt::skip]
-pub(super) const GAPS: &[&str] = &["with a gap of", "with a distance of", "at a distance of", "leaving a gap of", "at a gap of", "in a distance of", "with a clearance of", "keeping a distance of", "at an interval of"];
+pub(super) const GAPS: &Phrases = &Phrases::of(&["with a gap of", "with a distance of", "at a distance of", "leaving a gap of", "at a gap of", "in a distance of", "with a clearance of", "keeping a distance of", "at an interval of"]);
 /// Behind a distance.
 #[rustfmt::skip]
-const APART: &[&str] = &["apart", "apart from each other", "from each other", "between them", "between each", "between each other",
+const APART: &Phrases = &Phrases::of(&["apart", "apart from each other", "from each other", "between them", "between each", "between each other",
     "intervals", "between", "in between", "from one another", "between each of them", "away from each other",
-    "between one and the next", "apart from one another", "between every two"];
+    "between one and the next", "apart from one another", "between every two"]);
 /// That things stand in a line.
 #[rustfmt::skip]
-const ROWS: &[&str] = &["a row of", "a line of", "in a row", "in a line", "in an even row", "in an evenly spaced row", "in a neat row", "in one row", "in a single row", "in a tidy row", "in a long row", "in an even line", "in a neat line", "in even rows", "a straight line of", "a queue of", "in a straight line", "a chain of",
+const ROWS: &Phrases = &Phrases::of(&["a row of", "a line of", "in a row", "in a line", "in an even row", "in an evenly spaced row", "in a neat row", "in one row", "in a single row", "in a tidy row", "in a long row", "in an even line", "in a neat line", "in even rows", "a straight line of", "a queue of", "in a straight line", "a chain of",
     "an avenue of", "in line", "rows of", "evenly spaced", "evenly",
     "evenly distributed", "at even distances", "at equal distances", "equally spaced", "at regular intervals", "spaced evenly",
-    "evenly spread", "spread evenly", "lined up", "one after another", "one after the other"];
+    "evenly spread", "spread evenly", "lined up", "one after another", "one after the other"]);
 /// That things stand in a circle.
 #[rustfmt::skip]
 const RINGS: &[&str] = &["a ring of", "a circle of", "in a ring", "in a circle", "ring of", "circle of"];
@@ -206,8 +207,9 @@ fn spacing(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
 /// "River Walk: a bench every 40 metres, both sides" is a bench every 40 metres on both sides of River Walk.
 pub(super) fn on_both_sides(lexemes: &mut Vec<Lexeme>, streets: &super::super::streets::StreetNames) {
     #[rustfmt::skip]
-    const BOTH: &[&str] = &["on both sides", "on either side", "on each side", "both sides", "along both sides", "at both sides", "to both sides", "left and right", "on the left and on the right", "on both sides of it", "on either side of it", "each side"];
-    const EVERY: &[&str] = &["every", "each", "per", "apart", "in a row", "in a line", "evenly"];
+    const BOTH: &Phrases = &Phrases::of(&["on both sides", "on either side", "on each side", "both sides", "along both sides", "at both sides", "to both sides", "left and right", "on the left and on the right", "on both sides of it", "on either side of it", "each side"]);
+    const EVERY: &Phrases =
+        &Phrases::of(&["every", "each", "per", "apart", "in a row", "in a line", "evenly"]);
     let is_mark = |lexeme: &Lexeme| matches!(lexeme.token, Token::Comma | Token::Break);
     let Some(place) = lexemes.first().cloned() else { return };
     if let Some(street) = streets.at(lexemes)
@@ -230,7 +232,7 @@ pub(super) fn on_both_sides(lexemes: &mut Vec<Lexeme>, streets: &super::super::s
     let named = (1..both).rev().find_map(|at| {
         let street = streets.at(&lexemes[at..both])?;
         let way = (at.saturating_sub(4)..at).find(|way| {
-            longest(&lexemes[*way..at], super::words::WAYS).is_some_and(|(_, words)| way + words == at)
+            longest(&lexemes[*way..at], &super::words::WAYS).is_some_and(|(_, words)| way + words == at)
         })?;
         Some((way, at, at + street.words))
     });

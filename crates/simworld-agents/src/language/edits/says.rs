@@ -9,6 +9,7 @@ use simworld_core::seam::PlanError;
 use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{category, longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::forms::as_order;
 use super::parse::{Reader, joint};
 use super::wish::{NewThing, Where, Wish};
@@ -25,7 +26,7 @@ pub(super) enum Mood {
 
 /// The small words between a subject and what is said of it.
 #[rustfmt::skip]
-const BETWEEN: &[&str] = &["should", "must", "ought", "to", "shall", "has", "have", "had", "needs", "need", "want", "wants", "is",
+const BETWEEN: &Phrases = &Phrases::of(&["should", "must", "ought", "to", "shall", "has", "have", "had", "needs", "need", "want", "wants", "is",
     "are", "be", "being", "been", "was", "were", "would", "could", "can", "may", "might", "will", "look", "looks", "looking",
     "feel", "feels", "become", "becomes", "turn", "turns", "get", "gets", "go", "goes", "come", "comes", "stand", "stands",
     "standing", "sit", "sits", "sitting", "belong", "belongs", "better", "nicer", "prettier", "best", "great", "good", "nice",
@@ -36,17 +37,18 @@ const BETWEEN: &[&str] = &["should", "must", "ought", "to", "shall", "has", "hav
     "fancier", "livelier", "id", "say", "think", "i", "happier", "safer", "thats", "that", "which", "so", "well", "pretty",
     "cute", "beautifully", "somehow", "exist", "grow", "grows", "wear", "wears", "like", "likes", "love", "sure", "lie", "park", "going",
     "gonna", "suit", "help", "even", "way", "super", "again", "used", "splendid", "brilliant", "do", "spawn", "pop", "up", "walk",
-    "over", "off", "kindly", "quickly", "hang", "rest", "move", "moved", "grand", "dashing", "stunning", "gorgeous", "elegant", "fresh", "festive", "cheerful", "sharp", "neat", "classy", "friendlier", "cooler", "brighter", "fresher"];
+    "over", "off", "kindly", "quickly", "hang", "rest", "move", "moved", "grand", "dashing", "stunning", "gorgeous", "elegant", "fresh", "festive", "cheerful", "sharp", "neat", "classy", "friendlier", "cooler", "brighter", "fresher"]);
 /// Of those, the words that say that it should be.
 #[rustfmt::skip]
 const OUGHT: &[&str] = &["should", "must", "ought", "shall", "needs", "need", "want", "wants", "would", "could", "might", "may", "can",
     "will", "becomes", "become", "belong", "belongs", "better", "nicer", "prettier", "best", "supposed", "meant", "goes", "go",
     "gets", "get", "comes", "gonna"];
 /// As [`OUGHT`], of several words.
-const OUGHT_TO: &[&str] = &["has to", "have to", "had to", "is to", "are to", "had better", "going to"];
+const OUGHT_TO: &Phrases =
+    &Phrases::of(&["has to", "have to", "had to", "is to", "are to", "had better", "going to"]);
 /// That something lacks what follows.
 #[rustfmt::skip]
-pub(super) const LACKS: &[&str] = &["could use", "needs is", "wants is", "lacks is", "really needs is", "is missing is", "could use is", "needs", "need", "wants", "want", "lacks", "lack", "is missing", "deserves", "deserve", "should have",
+pub(super) const LACKS: &Phrases = &Phrases::of(&["could use", "needs is", "wants is", "lacks is", "really needs is", "is missing is", "could use is", "needs", "need", "wants", "want", "lacks", "lack", "is missing", "deserves", "deserve", "should have",
     "should get", "must have", "has to have", "could do with", "can use", "ought to have", "would benefit from", "benefits from",
     "is in need of", "cries out for", "is crying out for", "is crying for", "calls for", "is short of", "would love", "would like",
     "would be happy with", "would appreciate", "requires", "require", "gets", "get", "should be given", "is in want of", "are missing",
@@ -57,7 +59,7 @@ pub(super) const LACKS: &[&str] = &["could use", "needs is", "wants is", "lacks 
     "would be glad of", "would be glad about", "wanna have", "want to have", "wants to have", "would like to have", "would love to have",
     "needs to have", "need to have", "deserves to have", "should receive", "receives", "is to get", "is to have", "shall have", "might use",
     "might like", "will need", "will get", "has to get", "must get", "still needs", "really needs", "badly needs", "desperately needs",
-    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due", "could have", "can have", "may have", "might have", "would have", "are due", "have to have", "would do well with", "would gain from", "will have", "should be provided with", "is to be given", "shall receive", "is to receive", "are to receive", "are to have", "are to get", "must receive", "would be served by", "would be improved by", "merits", "warrants", "could take", "expects", "craves", "seeks", "seek", "fancies", "fancy", "could go for", "hankers after", "yearns for", "yearn for", "hopes for", "hope for", "dreams of", "needs to get", "keep asking for", "keeps asking for", "kept asking for", "keep begging for", "keeps begging for", "are begging for", "have been begging for", "keep requesting", "ask us for", "asks us for", "asked for", "asked us for", "have asked for", "has asked for", "keep wanting", "want us to have", "never stop asking for", "are crying out for", "are longing for", "are hoping for", "is hoping for", "are waiting for"];
+    "urgently needs", "also needs", "still need", "really need", "badly need", "also wants", "really wants", "would profit from", "is due", "could have", "can have", "may have", "might have", "would have", "are due", "have to have", "would do well with", "would gain from", "will have", "should be provided with", "is to be given", "shall receive", "is to receive", "are to receive", "are to have", "are to get", "must receive", "would be served by", "would be improved by", "merits", "warrants", "could take", "expects", "craves", "seeks", "seek", "fancies", "fancy", "could go for", "hankers after", "yearns for", "yearn for", "hopes for", "hope for", "dreams of", "needs to get", "keep asking for", "keeps asking for", "kept asking for", "keep begging for", "keeps begging for", "are begging for", "have been begging for", "keep requesting", "ask us for", "asks us for", "asked for", "asked us for", "have asked for", "has asked for", "keep wanting", "want us to have", "never stop asking for", "are crying out for", "are longing for", "are hoping for", "is hoping for", "are waiting for"]);
 
 /// What a statement is about.
 pub(super) enum Subject {
@@ -116,12 +118,12 @@ impl<'a> Reader<'a> {
     /// "The black car goes": whole.
     fn goes(&self, from: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const GOES: &[&str] = &["goes", "is no longer needed", "isnt needed", "is not needed", "is not wanted", "isnt wanted", "is superfluous", "is unnecessary",
+        const GOES: &Phrases = &Phrases::of(&["goes", "is no longer needed", "isnt needed", "is not needed", "is not wanted", "isnt wanted", "is superfluous", "is unnecessary",
             "is surplus to requirements", "is no longer wanted", "are no longer needed", "arent needed", "are not needed", "has got to go", "have got to go",
             "has outlived its usefulness", "can go", "is one too many", "is of no use", "is no use", "is obsolete", "is no longer required", "is not required",
             "shouldnt be here", "should not be here", "shouldnt be there", "should not be there", "has no business here", "has no place here", "has served its time",
             "doesnt belong here", "does not belong here", "doesnt belong there", "does not belong there", "must not stay", "cannot stay", "cant stay", "may not stay",
-            "mustnt stay", "shouldnt stay", "should not stay", "wont be needed", "will not be needed", "is to go", "isnt wanted here", "is not wanted here"];
+            "mustnt stay", "shouldnt stay", "should not stay", "wont be needed", "will not be needed", "is to go", "isnt wanted here", "is not wanted here"]);
         (from + 1..end).find_map(|cut| {
             let rest = &self.lexemes[cut..end];
             let goes = longest_phrase(rest, GOES) == Some(rest.len()) && self.is_definite(from);
@@ -204,7 +206,7 @@ impl<'a> Reader<'a> {
     /// Whether the words may name something that is not here: "excavator", with nothing certain and no small word before it.
     pub(super) fn is_unknown(&self, from: usize, end: usize) -> bool {
         let is_said = |at: usize| {
-            self.word(at).is_none_or(|word| BETWEEN.contains(&word) || super::frames::is_small(word))
+            self.word(at).is_none_or(|word| BETWEEN.contains(word) || super::frames::is_small(word))
         };
         !(from..end).any(|at| self.is_certain(at)) && !(from..end).any(is_said)
     }
@@ -217,8 +219,8 @@ impl<'a> Reader<'a> {
     /// Whether a certain thing is spoken of from here: by an article, a name or a pronoun.
     pub(super) fn is_certain(&self, from: usize) -> bool {
         #[rustfmt::skip]
-        const CERTAIN: &[&str] = &["the", "that", "this", "these", "those", "my", "our", "your", "both", "all", "every", "each", "it", "them", "him", "her", "any",
-            "his", "their", "its", "either", "he", "she", "they", "everybody", "everyone"];
+        const CERTAIN: &Phrases = &Phrases::of(&["the", "that", "this", "these", "those", "my", "our", "your", "both", "all", "every", "each", "it", "them", "him", "her", "any",
+            "his", "their", "its", "either", "he", "she", "they", "everybody", "everyone"]);
         longest_phrase(&self.lexemes[from..], CERTAIN).is_some()
             || matches!(self.lexemes.get(from), Some(Lexeme { token: Token::Id(_), .. }))
             || self.names.exact(&self.lexemes[from..]).is_some()
@@ -227,8 +229,8 @@ impl<'a> Reader<'a> {
     /// Whether the words say that something is missing.
     fn is_needed(&self, end: usize) -> bool {
         #[rustfmt::skip]
-        const NEEDED: &[&str] = &["needed", "wanted", "missing", "required", "due", "overdue", "lacking", "requested", "order", "called", "must", "desired"];
-        (self.at..end).any(|at| self.word(at).is_some_and(|word| NEEDED.contains(&word)))
+        const NEEDED: &Phrases = &Phrases::of(&["needed", "wanted", "missing", "required", "due", "overdue", "lacking", "requested", "order", "called", "must", "desired"]);
+        (self.at..end).any(|at| self.word(at).is_some_and(|word| NEEDED.contains(word)))
     }
 
     /// As this reader, with nothing behind the end.
@@ -243,7 +245,7 @@ impl<'a> Reader<'a> {
                 && matches!(self.word(at + 1), Some("at" | "to" | "towards" | "toward"))
         };
         (at..end)
-            .take_while(|at| self.word(*at).is_some_and(|word| BETWEEN.contains(&word)) && !looks_at(*at))
+            .take_while(|at| self.word(*at).is_some_and(|word| BETWEEN.contains(word)) && !looks_at(*at))
             .count()
     }
 
@@ -296,7 +298,7 @@ impl<'a> Reader<'a> {
         let is_word = |at: usize| {
             self.word(at).is_some()
                 && (!self.is_place(at) || matches!(self.word(at), Some("at" | "of" | "from" | "in" | "on")))
-                && longest(&self.lexemes[at..cut], super::words::VERBS)
+                && longest(&self.lexemes[at..cut], &super::words::VERBS)
                     .is_none_or(|(verb, _)| matches!(verb, Verb::Name | Verb::Describe | Verb::List))
         };
         (from..cut).all(is_word)
@@ -361,6 +363,11 @@ impl<'a> Reader<'a> {
         let end = reader.before_politeness(0, order.len());
         reader.wish(end).ok().filter(|_| reader.at >= end)
     }
+}
+
+/// Whether it is one of the small words between a subject and what is said of it.
+pub(super) fn is_between(word: &str) -> bool {
+    BETWEEN.contains(word)
 }
 
 /// Who wants something has no more words.

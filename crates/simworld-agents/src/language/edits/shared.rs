@@ -3,6 +3,7 @@
 
 use super::super::clause::{Count, Reference, Target};
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::says::is_it;
 use super::wish::{Anchor, NewThing, StreetRef, Where, Wish};
@@ -12,10 +13,10 @@ use super::words::{WAYS, Way};
 const EACH: &[&str] = &["each of", "both of", "both", "each", "every one of", "all of", "all three of"];
 /// Before what something is painted like.
 #[rustfmt::skip]
-const LIKE: &[&str] = &["like", "the same colour as", "the same color as", "in the same colour as", "in the same color as", "in the colour of", "in the color of", "the colour of", "the color of", "to match", "to match the colour of",
+const LIKE: &Phrases = &Phrases::of(&["like", "the same colour as", "the same color as", "in the same colour as", "in the same color as", "in the colour of", "in the color of", "the colour of", "the color of", "to match", "to match the colour of",
     "to match the color of", "with the colour of", "with the same colour as", "as the same colour as", "the same as", "so that it matches", "so it matches", "so that they match", "to go with", "of the same colour as", "match",
     "match the colour of", "match the color of", "matching", "in the same colour like", "the same shade as", "in the same shade as", "just like", "exactly like", "same colour as", "same color as", "be the same colour as",
-    "have the same colour as", "have the colour of", "has the same colour as", "the exact colour of", "the same colour like", "in the same paint as"];
+    "have the same colour as", "have the colour of", "has the same colour as", "the exact colour of", "the same colour like", "in the same paint as"]);
 
 impl Reader<'_> {
     /// "... and the fountain": one more thing to which the last place is.
@@ -52,7 +53,7 @@ impl Reader<'_> {
 
     /// "Next to both the bank and the shop": a place at each of them.
     pub(super) fn each_place(&mut self, end: usize) -> Option<Vec<Where>> {
-        let (way, words) = longest(self.rest(end), WAYS)?;
+        let (way, words) = longest(self.rest(end), &WAYS)?;
         let from = self.at + words;
         let from = from + longest_phrase(&self.lexemes[from..end], EACH)?;
         let stop = self.before_politeness(from, end);
@@ -151,10 +152,10 @@ impl Reader<'_> {
     /// "More light near the bakery": what is lacking, which is no thing.
     pub(super) fn is_lack(&self, from: usize, end: usize) -> bool {
         #[rustfmt::skip]
-        const MORE: &[&str] = &["more", "some more", "a bit more", "we need more", "we need", "need more", "i need more", "i want more", "better", "extra", "not enough", "too little", "there is not enough", "there isnt enough",
-            "theres not enough", "for more", "some", "a little more", "we want more", "a lack of", "lack of", "no"];
+        const MORE: &Phrases = &Phrases::of(&["more", "some more", "a bit more", "we need more", "we need", "need more", "i need more", "i want more", "better", "extra", "not enough", "too little", "there is not enough", "there isnt enough",
+            "theres not enough", "for more", "some", "a little more", "we want more", "a lack of", "lack of", "no", "a bit of", "a touch of", "a little bit of", "a bit more of"]);
         #[rustfmt::skip]
-        const OF: &[&str] = &["light", "lighting", "shade", "seating", "greenery", "life", "parking", "green", "colour", "seats", "safety", "shelter", "comfort", "decoration", "storage", "space to sit", "places to sit", "room to sit", "illumination", "charm", "atmosphere", "entertainment", "fun", "cheering up", "love", "attention", "help", "company", "protection", "security", "brightening up", "livening up", "sprucing up", "shade", "fresh air"];
+        const OF: &Phrases = &Phrases::of(&["light", "lighting", "shade", "seating", "greenery", "life", "parking", "green", "colour", "seats", "safety", "shelter", "comfort", "decoration", "storage", "space to sit", "places to sit", "room to sit", "illumination", "charm", "atmosphere", "entertainment", "fun", "cheering up", "love", "attention", "help", "company", "protection", "security", "brightening up", "livening up", "sprucing up", "shade", "fresh air"]);
         let Some(more) = longest_phrase(&self.lexemes[from..end], MORE) else { return false };
         let Some(words) = longest_phrase(&self.lexemes[from + more..end], OF) else { return false };
         let at = from + more + words;

@@ -5,6 +5,7 @@ use super::super::clause::Count;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::PAINTS;
+use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
 use super::parts::is_mark;
 use super::wish::{Anchor, NewThing, Where, Wish};
@@ -12,11 +13,11 @@ use simworld_core::scene::Relation;
 
 /// That so many are for each of what they stand by.
 #[rustfmt::skip]
-const EACH: &[&str] = &["each", "apiece", "for each", "per piece", "to each", "each one", "for each of them", "for every one", "at each", "by each", "respectively each", "per head", "each please"];
+const EACH: &Phrases = &Phrases::of(&["each", "apiece", "for each", "per piece", "to each", "each one", "for each of them", "for every one", "at each", "by each", "respectively each", "per head", "each please"]);
 /// Behind a number of what was named before.
 #[rustfmt::skip]
-const OF_THEM: &[&str] = &["of them", "of those", "of these", "in all", "in total", "altogether", "pieces", "in number", "should do", "will do", "would do", "say", "please", "of each", "lengths",
-    "of the things", "or so", "at least", "if you can", "are enough", "is enough", "in total please", "items", "units", "exactly"];
+const OF_THEM: &Phrases = &Phrases::of(&["of them", "of those", "of these", "in all", "in total", "altogether", "pieces", "in number", "should do", "will do", "would do", "say", "please", "of each", "lengths",
+    "of the things", "or so", "at least", "if you can", "are enough", "is enough", "in total please", "items", "units", "exactly"]);
 /// Sides of what was named before, without a word of place.
 #[rustfmt::skip]
 const SIDES: &[(&[&str], Relation)] = &[

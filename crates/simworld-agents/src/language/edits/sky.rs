@@ -2,37 +2,58 @@
 
 use simworld_core::environment::{Environment, Sun};
 
-use super::super::lexer::Token;
+use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::{fits, longest, longest_phrase};
 use super::super::numbers;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::words::{ENDINGS, SKIES, SKY_NOISE, Sky};
+
+/// Before what is to stop.
+#[rustfmt::skip]
+const STOPS: &Phrases = &Phrases::of(&["stop", "end", "no more", "no", "without", "get rid of", "turn off", "remove", "clear", "disable", "lift", "halt", "switch off", "it shouldnt",
+    "it should not", "it must not", "it mustnt", "dont let it", "do not let it"]);
+/// Who says so has weather enough.
+pub(super) const COMPLAINS: &[&str] = &[
+    "it is so",
+    "its so",
+    "it is too",
+    "its too",
+    "it is way too",
+    "its way too",
+    "it is always",
+    "its always",
+    "it is far too",
+    "its far too",
+];
+/// What denies something else, so that nothing is wished for.
+const DENIES: &[&str] = &["not", "dont", "never", "shouldnt", "mustnt", "doesnt", "isnt"];
+
+/// What was heard of the sky so far.
+#[derive(Default)]
+struct Heard {
+    found: Vec<Sky>,
+    /// Whether what is named next is to stop.
+    stops: bool,
+}
+
+impl Heard {
+    /// "The rain has stopped": what was named is over.
+    fn is_over(&mut self) {
+        for sky in &mut self.found {
+            *sky = match *sky {
+                Sky::Rain(_) => Sky::DryUp,
+                Sky::Snow(_) => Sky::NoSnow,
+                Sky::Fog(_) => Sky::NoFog,
+                other => other,
+            };
+        }
+    }
+}
 
 impl Reader<'_> {
     /// What sky is wished for, if every word up to the end is about it.
     pub(super) fn sky(&self, end: usize) -> Option<Vec<Sky>> {
-        const STOPS: &[&str] = &[
-            "stop",
-            "end",
-            "no more",
-            "no",
-            "without",
-            "get rid of",
-            "turn off",
-            "remove",
-            "clear",
-            "disable",
-            "lift",
-            "halt",
-            "switch off",
-            "it shouldnt",
-            "it should not",
-            "it must not",
-            "it mustnt",
-            "dont let it",
-            "do not let it",
-        ];
-        const DENIES: &[&str] = &["not", "dont", "never", "shouldnt", "mustnt", "doesnt", "isnt"];
         let mut at = self.at;
         if matches!(self.word(at), Some("if" | "unless" | "when" | "whenever" | "once"))
             || longest_phrase(&self.lexemes[at..end], &["clear everything", "clear all", "clear it all"])
@@ -40,66 +61,63 @@ impl Reader<'_> {
         {
             return None;
         }
-        let mut found = Vec::new();
-        let mut stops = false;
-        while at < end {
-            let rest = &self.lexemes[at..end];
-            if matches!(rest[0].token, Token::Comma | Token::Break) {
-                at += 1;
-                continue;
-            }
-            // "Clear the fog" is no fog, and "clear" is a sky.
-            let the =
-                |from: usize| longest_phrase(&rest[from..], &["the", "this", "that", "all the"]).unwrap_or(0);
-            if let Some(words) = longest_phrase(rest, STOPS)
-                && longest(&rest[words + the(words)..], ENDINGS).is_some()
-            {
-                stops = true;
-                at += words + the(words);
-                continue;
-            }
-            if longest_phrase(rest, STOPS).is_none() && longest_phrase(rest, DENIES).is_some() {
-                return None;
-            }
-            let ending = longest(rest, ENDINGS).filter(|_| stops);
-            let sky = longest(rest, SKIES);
-            let hour = hour(rest).filter(|(_, words)| !is_bare(rest, *words) || self.speaks_of_time(end));
-            let noise = longest_phrase(rest, SKY_NOISE).unwrap_or(0);
-            if let Some((sky, count)) = ending {
-                found.push(sky);
-                at += count;
-            } else if let Some((sky, count)) = hour {
-                found.push(sky);
-                at += count;
-            } else if let Some((sky, count)) = sky.filter(|(_, count)| *count >= noise) {
-                found.push(sky);
-                at += count;
-            } else if let Some(count) = longest_phrase(rest, STOPS) {
-                stops = true;
-                at += count;
-            } else if noise > 0 {
-                at += noise;
-            } else if matches!(&rest[0].token, Token::Word(word) if ["stopped", "over", "ends", "ended", "stops"].contains(&word.as_str()))
-            {
-                for sky in &mut found {
-                    *sky = match *sky {
-                        Sky::Rain(_) => Sky::DryUp,
-                        Sky::Snow(_) => Sky::NoSnow,
-                        Sky::Fog(_) => Sky::NoFog,
-                        other => other,
-                    };
-                }
-                at += 1;
-            } else {
-                return None;
-            }
+        // "It is so hot" asks for no other weather.
+        let complains = |from: usize| longest_phrase(&self.lexemes[from..end], COMPLAINS);
+        if complains(at).is_some()
+            || (at.saturating_sub(4)..at).any(|from| complains(from).is_some_and(|words| from + words >= at))
+        {
+            return None;
         }
-        (!found.is_empty()).then_some(found)
+        let mut heard = Heard::default();
+        while at < end {
+            at += self.hear_sky(&self.lexemes[at..end], end, &mut heard)?;
+        }
+        (!heard.found.is_empty()).then_some(heard.found)
+    }
+
+    /// The next words about the sky, and how many they are; none if they are about something else.
+    fn hear_sky(&self, rest: &[Lexeme], end: usize, heard: &mut Heard) -> Option<usize> {
+        if matches!(rest[0].token, Token::Comma | Token::Break) {
+            return Some(1);
+        }
+        // "Clear the fog" is no fog, and "clear" is a sky.
+        let stops = longest_phrase(rest, STOPS);
+        let the =
+            |from: usize| longest_phrase(&rest[from..], &["the", "this", "that", "all the"]).unwrap_or(0);
+        if let Some(words) = stops
+            && longest(&rest[words + the(words)..], ENDINGS).is_some()
+        {
+            heard.stops = true;
+            return Some(words + the(words));
+        }
+        if stops.is_none() && longest_phrase(rest, DENIES).is_some() {
+            return None;
+        }
+        let noise = longest_phrase(rest, SKY_NOISE).unwrap_or(0);
+        let ending = longest(rest, ENDINGS).filter(|_| heard.stops);
+        let hour = || hour(rest).filter(|(_, words)| !is_bare(rest, *words) || self.speaks_of_time(end));
+        let sky = || longest(rest, &SKIES).filter(|(_, count)| *count >= noise);
+        if let Some((sky, count)) = ending.or_else(hour).or_else(sky) {
+            heard.found.push(sky);
+            return Some(count);
+        }
+        if stops.is_some() {
+            heard.stops = true;
+            return stops;
+        }
+        if noise > 0 {
+            return Some(noise);
+        }
+        let is_over = longest_phrase(rest, &["stopped", "over", "ends", "ended", "stops"]);
+        if is_over.is_some() {
+            heard.is_over();
+        }
+        is_over
     }
 }
 
 /// Whether a time of day is told by a number alone.
-fn is_bare(lexemes: &[super::super::lexer::Lexeme], words: usize) -> bool {
+fn is_bare(lexemes: &[Lexeme], words: usize) -> bool {
     numbers::number(lexemes).is_some_and(|(_, number)| number == words)
 }
 
@@ -113,7 +131,7 @@ impl Reader<'_> {
 }
 
 /// "8 pm", "20:30", "half past seven in the morning", "noon".
-pub(in crate::language) fn hour(lexemes: &[super::super::lexer::Lexeme]) -> Option<(Sky, usize)> {
+pub(in crate::language) fn hour(lexemes: &[Lexeme]) -> Option<(Sky, usize)> {
     const AFTER: &[&str] = &["pm", "p m", "in the evening", "in the afternoon", "at night", "p"];
     const BEFORE: &[&str] = &["am", "a m", "in the morning"];
     let half = longest_phrase(lexemes, &["half past"]).unwrap_or(0);

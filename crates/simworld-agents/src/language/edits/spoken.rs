@@ -2,6 +2,7 @@
 
 use super::super::clause::{Reference, Stands, Target};
 use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
 use super::super::resolve::Purpose;
 use super::parse::Reader;
 use super::wish::{Anchor, Where};
@@ -9,56 +10,12 @@ use super::wish::{Anchor, Where};
 impl Reader<'_> {
     /// The things of the scene that a remark names.
     pub(super) fn spoken_of(&self, from: usize, end: usize) -> Vec<Reference> {
-        let mut things: Vec<Reference> = Vec::new();
-        let mut at = from;
-        // "There's a hydrant by the fountain": of that one it is spoken.
-        if let Some(words) = longest_phrase(
-            &self.lexemes[from..end],
-            &[
-                "theres",
-                "there is",
-                "there are",
-                "you see",
-                "you can see",
-                "i see",
-                "we have",
-                "i can see",
-                "there stands",
-                "why is there",
-                "why are there",
-                "whys there",
-                "who put",
-                "who parked",
-                "who left",
-                "why do we have",
-                "why have we",
-                "what is",
-                "whats",
-                "who needs",
-            ],
-        ) {
-            let mut parser = self.parser(from + words, end);
-            if let Ok(mut thing) = parser.reference(0)
-                && parser.at > from + words
-            {
-                thing.indefinite = false;
-                things.push(thing);
-                at = parser.at;
-            }
-        }
-        // "That old pine takes the light": it is the pine, which is not here.
-        let that = longest_phrase(&self.lexemes[from..end], &["that", "this", "the"]);
-        let is_unknown = that.is_some_and(|words| {
-            super::follow::species(&self.lexemes[(from + words).min(end - 1)]).is_some()
-                || (from + words + 1 < end)
-                    && super::follow::species(&self.lexemes[from + words + 1]).is_some()
-        });
-        let asks_who = longest_phrase(
-            &self.lexemes[from..end],
-            &["who is that", "whos that", "what is that", "whats that"],
-        )
-        .is_some_and(|words| from + words < end && self.is_place(from + words));
-        if asks_who || is_unknown && !self.one_begins(from, end) {
+        let (first, mut at) = match self.shown(from, end) {
+            Some((thing, after)) => (Some(thing), after),
+            None => (None, from),
+        };
+        let mut things: Vec<Reference> = first.into_iter().collect();
+        if self.asks_who(from, end) || self.is_of_a_species(from, end) && !self.one_begins(from, end) {
             return things;
         }
         // "They have dumped a car by the shop": it is the car.
@@ -70,42 +27,65 @@ impl Reader<'_> {
             at = what;
         }
         while at < end {
-            let is_certain = longest_phrase(
-                &self.lexemes[at..end],
-                &["the", "that", "this", "my", "those", "our", "these"],
-            )
-            .is_some()
-                || self.names.exact(&self.lexemes[at..end]).is_some();
-            let mut parser = self.parser(at, end);
-            match parser.reference(0) {
-                Ok(thing)
-                    if is_certain
-                        && parser.at > at
-                        && !matches!(
-                            thing.target,
-                            Target::It | Target::Them | Target::Here | Target::There
-                        ) =>
-                {
-                    things.push(group_at(&thing).unwrap_or(thing));
-                    at = parser.at;
+            match self.named_at(at, end) {
+                Some((thing, after)) => {
+                    things.push(thing);
+                    at = after;
                 }
-                // "Dmitri is waiting for the bus": a name, whatever is said behind it.
-                _ => match self.names.exact(&self.lexemes[at..end]) {
-                    Some((ids, words)) => {
-                        things.push(Reference::to(Target::Named(ids), self.written(at, at + words)));
-                        at += words;
-                    }
-                    None => match self.shortest_named(at, end).filter(|_| is_certain) {
-                        Some((thing, after)) => {
-                            things.push(thing);
-                            at = after;
-                        }
-                        None => at += 1,
-                    },
-                },
+                None => at += 1,
             }
         }
         things
+    }
+
+    /// "There's a hydrant by the fountain": of that one it is spoken; and where that ends.
+    fn shown(&self, from: usize, end: usize) -> Option<(Reference, usize)> {
+        #[rustfmt::skip]
+        const SHOWS: &Phrases = &Phrases::of(&["theres", "there is", "there are", "you see", "you can see", "i see", "we have", "i can see", "there stands", "why is there", "why are there", "whys there",
+            "who put", "who parked", "who left", "why do we have", "why have we", "what is", "whats", "who needs"]);
+        let at = from + longest_phrase(&self.lexemes[from..end], SHOWS)?;
+        let mut parser = self.parser(at, end);
+        let thing = parser.reference(0).ok().filter(|_| parser.at > at)?;
+        Some((Reference { indefinite: false, ..thing }, parser.at))
+    }
+
+    /// "That old pine takes the light": it is the pine, which is not here.
+    fn is_of_a_species(&self, from: usize, end: usize) -> bool {
+        let that = longest_phrase(&self.lexemes[from..end], &["that", "this", "the"]);
+        let is_species = |at: usize| super::follow::species(&self.lexemes[at]).is_some();
+        that.is_some_and(|words| {
+            is_species((from + words).min(end - 1)) || from + words + 1 < end && is_species(from + words + 1)
+        })
+    }
+
+    /// "Who is that next to the statue?"
+    fn asks_who(&self, from: usize, end: usize) -> bool {
+        longest_phrase(&self.lexemes[from..end], &["who is that", "whos that", "what is that", "whats that"])
+            .is_some_and(|words| from + words < end && self.is_place(from + words))
+    }
+
+    /// A thing of the scene that is named here, and where its name ends.
+    fn named_at(&self, at: usize, end: usize) -> Option<(Reference, usize)> {
+        let says_which =
+            longest_phrase(&self.lexemes[at..end], &["the", "that", "this", "my", "those", "our", "these"])
+                .is_some();
+        let named = self.names.exact(&self.lexemes[at..end]);
+        let is_certain = says_which || named.is_some();
+        let mut parser = self.parser(at, end);
+        if let Ok(thing) = parser.reference(0)
+            && is_certain
+            && parser.at > at
+            && !matches!(thing.target, Target::It | Target::Them | Target::Here | Target::There)
+        {
+            return Some((group_at(&thing).unwrap_or(thing), parser.at));
+        }
+        // "Dmitri is waiting for the bus": a name, whatever is said behind it.
+        match named {
+            Some((ids, words)) => {
+                Some((Reference::to(Target::Named(ids), self.written(at, at + words)), at + words))
+            }
+            None => self.shortest_named(at, end).filter(|_| is_certain),
+        }
     }
 
     /// "The green bench is facing the wrong way": the thing, where what is said behind it makes no sense.
@@ -151,7 +131,9 @@ impl Reader<'_> {
     pub(super) fn place_spoken_of(&self, from: usize, end: usize) -> Option<Vec<super::wish::Where>> {
         (from..end).filter(|at| self.is_place(*at)).find_map(|at| {
             let mut reader = Reader { at, ..self.up_to(end) };
-            let place = reader.place(end).ok().filter(|place| {
+            let found = reader.place(end).ok();
+            let found = found.or_else(|| self.place_before_remark(at, end).map(|(place, _)| place));
+            let place = found.filter(|place| {
                 // "Looks empty to me" says nothing of where.
                 place.anchor().is_some_and(|anchor| !anchor.is_it() && anchor != Anchor::Viewer)
             })?;

@@ -4,6 +4,7 @@ use simworld_core::seam::PlanError;
 
 use super::super::clause::{Count, Reference, Target};
 use super::super::lexicon::{longest, longest_phrase};
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::says::LACKS;
 use super::wish::{Anchor, Where, Wish};
@@ -34,7 +35,7 @@ const GIVES: &[(&[&str], Gives)] = &[
 impl Reader<'_> {
     /// "The museum could use a bench out front", "give the café a tree at the back", "set the office up with a flagpole".
     pub(super) fn lacking(&mut self, start: usize, end: usize) -> Option<Wish> {
-        let asks = longest(&self.lexemes[start..end], super::words::VERBS).is_some_and(|(verb, _)| {
+        let asks = longest(&self.lexemes[start..end], &super::words::VERBS).is_some_and(|(verb, _)| {
             matches!(
                 verb,
                 super::words::Verb::List | super::words::Verb::Count | super::words::Verb::Describe
@@ -103,7 +104,7 @@ impl Reader<'_> {
             }
             return Some(Wish::Add { things: vec![thing], at });
         }
-        let relation = longest(self.rest(end), ABOUT_IT);
+        let relation = longest(self.rest(end), &ABOUT_IT);
         let stop = self.at + relation.map_or(0, |(_, words)| words);
         if self.before_politeness(stop.saturating_sub(1), end) > stop {
             return None;
@@ -162,7 +163,7 @@ impl Reader<'_> {
     /// "Give the robot a name: 'Willow'".
     fn given_a_name(&self, from: usize, end: usize) -> Option<Wish> {
         #[rustfmt::skip]
-        const NAME: &[&str] = &["the name", "a name", "a new name", "the new name", "the nickname", "a nickname", "the title", "its name", "his name", "her name"];
+        const NAME: &Phrases = &Phrases::of(&["the name", "a name", "a new name", "the new name", "the nickname", "a nickname", "the title", "its name", "his name", "her name"]);
         (from + 1..end).find_map(|cut| {
             let words = longest_phrase(&self.lexemes[cut..end], NAME)?;
             let what = self.one_of(from, cut).ok()?;
@@ -245,7 +246,7 @@ impl Reader<'_> {
             self.depth < super::says::DEEPEST
                 && self.is_unknown(at, place)
                 && self.one_of(at, place).is_err()
-                && longest(&self.lexemes[at..place], super::words::VERBS).is_none()
+                && longest(&self.lexemes[at..place], &super::words::VERBS).is_none()
                 && super::follow::species(&self.lexemes[at]).is_none()
                 && super::forms::as_order(&self.lexemes[at..place]).is_none()
                 && self.names.exact(&self.lexemes[place - 1..place]).is_none()

@@ -3,22 +3,23 @@
 
 use super::super::lexer::{Lexeme, Token};
 use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
 use super::forms::words_at;
 use super::parts::is_mark;
 
 /// Asks whether there is something.
 #[rustfmt::skip]
-const ASKED: &[&str] = &["is there", "are there", "do we have", "have we", "have we got", "do you see", "is there maybe", "have you got", "do you have", "can you see", "was there", "where is the", "where is",
-    "does anybody see", "is there still", "wheres the", "wheres"];
+const ASKED: &Phrases = &Phrases::of(&["is there", "are there", "do we have", "have we", "have we got", "do you see", "is there maybe", "have you got", "do you have", "can you see", "was there", "where is the", "where is",
+    "does anybody see", "is there still", "wheres the", "wheres"]);
 /// That there is.
 #[rustfmt::skip]
-const SO: &[&str] = &["if so", "if yes", "if there is", "if there are", "if it is", "in that case", "if that is so", "if you do", "if we do", "if there is one", "if they are", "if you can", "if you find one"];
+const SO: &Phrases = &Phrases::of(&["if so", "if yes", "if there is", "if there are", "if it is", "in that case", "if that is so", "if you do", "if we do", "if there is one", "if they are", "if you can", "if you find one"]);
 /// That there is not.
 #[rustfmt::skip]
-const NOT_SO: &[&str] = &["if not", "if there is not", "if there is none", "if there are none", "if no", "if there is not one", "if there is no one", "if you do not", "if we do not", "if there are not any",
-    "there is none so", "there are none so", "theres none so", "if none", "if there isnt", "if there isnt one", "if there arent", "if there is not any", "if nobody"];
+const NOT_SO: &Phrases = &Phrases::of(&["if not", "if there is not", "if there is none", "if there are none", "if no", "if there is not one", "if there is no one", "if you do not", "if we do not", "if there are not any",
+    "there is none so", "there are none so", "theres none so", "if none", "if there isnt", "if there isnt one", "if there arent", "if there is not any", "if nobody"]);
 /// Where something is that may be there.
-const BE: &[&str] = &[
+const BE: &Phrases = &Phrases::of(&[
     "be",
     "stand",
     "exist",
@@ -30,7 +31,7 @@ const BE: &[&str] = &[
     "be parked",
     "be there",
     "be present",
-];
+]);
 
 /// Puts conditions into the words that conditions begin with.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {

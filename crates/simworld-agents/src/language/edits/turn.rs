@@ -8,6 +8,7 @@ use super::super::lexer::Lexeme;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::PAINTS;
+use super::super::phrases::Phrases;
 use super::parse::Reader;
 use super::wish::Wish;
 
@@ -15,11 +16,11 @@ impl Reader<'_> {
     /// "Rotate the truck 90 degrees to the left", "turn the statue around", "turn Gus towards the fountain", "turn the car red".
     pub(super) fn turns(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         #[rustfmt::skip]
-    const TOWARDS: &[&str] = &["towards", "toward", "to face", "so that it faces", "so it faces", "to look at",
+    const TOWARDS: &Phrases = &Phrases::of(&["towards", "toward", "to face", "so that it faces", "so it faces", "to look at",
         "at", "facing", "so that it looks at", "so it looks at", "so that he faces", "so that she faces", "to",
         "so she faces", "so he faces", "so they face", "until it faces", "so that they face", "so it looks towards",
         "so she looks at", "so he looks at", "to look towards", "in the direction of", "so that it looks towards",
-        "to point at"];
+        "to point at"]);
         let start = self.at;
         for cut in start + 1..end {
             let rest = &self.lexemes[cut..self.before_politeness(cut, end)];
@@ -68,8 +69,8 @@ pub(super) fn angle(lexemes: &[Lexeme]) -> Option<f64> {
         (&["a bit", "a little", "slightly"], 15.0),
     ];
     #[rustfmt::skip]
-    const AROUND: &[&str] = &["around", "round", "backwards", "the other way", "the other way round",
-        "the other way around", "upside down", "the opposite way", "the opposite direction", "in the other direction", "in the opposite direction", "the other direction", "other way", "back to front", "180", "about face", "all the way around"];
+    const AROUND: &Phrases = &Phrases::of(&["around", "round", "backwards", "the other way", "the other way round",
+        "the other way around", "upside down", "the opposite way", "the opposite direction", "in the other direction", "in the opposite direction", "the other direction", "other way", "back to front", "180", "about face", "all the way around"]);
     #[rustfmt::skip]
     const LEFT: &[&str] = &["left", "to the left", "counterclockwise", "counter clockwise", "anticlockwise",
         "anti clockwise", "leftwards"];

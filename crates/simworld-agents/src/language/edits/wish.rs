@@ -284,6 +284,24 @@ impl Wish {
         {
             *towards = last.clone();
         }
+        // "The taxi and the van: swap them", "Anna and Ben are hungry, put a table between them".
+        let is_open = |one: &Reference| matches!(one.target, Target::It | Target::Them);
+        if let Self::Swap { one, other: other @ None } = self
+            && things.len() > 1
+            && is_open(one)
+        {
+            (*one, *other) = (first.clone(), Some(last.clone()));
+            return;
+        }
+        for place in self.places_mut() {
+            if let Where::Between(one, other) = place
+                && things.len() > 1
+                && one.is_it()
+                && other.is_it()
+            {
+                (*one, *other) = (Anchor::Thing(first.clone()), Anchor::Thing(last.clone()));
+            }
+        }
         for one in self.objects_mut() {
             if matches!(one.target, Target::It | Target::Them) {
                 *one = as_said(one, first);

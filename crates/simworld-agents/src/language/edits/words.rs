@@ -1,6 +1,10 @@
 //! The words by which scenes are changed: verbs, relations, weather, sizes.
 
+use std::sync::LazyLock;
+
 use simworld_core::scene::Relation;
+
+use super::super::phrases::{Index, Phrases};
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,8 +36,10 @@ pub(super) enum Verb {
     Take,
 }
 
+pub(super) static VERBS: LazyLock<Index<Verb>> = LazyLock::new(|| Index::of(VERB_ROWS));
+
 #[rustfmt::skip]
-pub(super) const VERBS: &[(&[&str], Verb)] = &[
+const VERB_ROWS: &[(&[&str], Verb)] = &[
     (&["add", "spawn", "create", "build", "insert", "plant", "install", "instantiate", "generate", "give me",
         "gimme", "there should be", "there must be", "there needs to be", "there has to be", "there ought to be",
         "let there be", "i want", "i need", "i would like", "id like", "i would love", "id love", "we need",
@@ -158,8 +164,10 @@ pub(super) enum Way {
     Anywhere,
 }
 
+pub(super) static WAYS: LazyLock<Index<Way>> = LazyLock::new(|| Index::of(WAY_ROWS));
+
 #[rustfmt::skip]
-pub(super) const WAYS: &[(&[&str], Way)] = &[
+const WAY_ROWS: &[(&[&str], Way)] = &[
     (&["next to", "beside", "by", "right next to", "right by", "right beside", "just beside", "just next to",
         "just by", "adjacent to", "at the side of", "alongside", "directly next to", "touching", "by the side of",
         "to the side of", "against", "immediately next to", "close beside", "directly beside", "flanking",
@@ -239,8 +247,10 @@ pub(super) const WAYS: &[(&[&str], Way)] = &[
 ];
 
 /// Sides of what was spoken of, or of who speaks.
+pub(super) static ABOUT_IT: LazyLock<Index<Relation>> = LazyLock::new(|| Index::of(SIDE_ROWS));
+
 #[rustfmt::skip]
-pub(super) const ABOUT_IT: &[(&[&str], Relation)] = &[
+const SIDE_ROWS: &[(&[&str], Relation)] = &[
     (&["out front", "at the front", "in front", "up front", "in the front", "out the front", "out in front", "round the front", "around the front", "outside", "right outside", "just outside", "by the entrance", "at the entrance", "outside the door"], Relation::InFrontOf),
     (&["at the back", "out back", "round the back", "in the back", "at the rear", "out the back",
         "around the back", "out at the back", "out in the back", "round back", "in the backyard", "in the back yard"], Relation::Behind),
@@ -259,8 +269,10 @@ pub(super) const HARMLESS: &[&str] = &["new", "nice", "beautiful", "lovely", "fr
     "shiny", "cute", "fancy", "identical", "pair", "of", "bit", "piece", "kind", "sort", "the"];
 
 /// Words of size, with the factor.
+pub(super) static SIZES: LazyLock<Index<f64>> = LazyLock::new(|| Index::of(SIZE_ROWS));
+
 #[rustfmt::skip]
-pub(super) const SIZES: &[(&[&str], f64)] = &[
+const SIZE_ROWS: &[(&[&str], f64)] = &[
     (&["huge", "giant", "gigantic", "enormous", "massive"], 2.0),
     (&["big", "large", "bigger", "larger", "great"], 1.5),
     (&["small", "little", "smaller", "mini"], 0.7),
@@ -281,8 +293,10 @@ pub(super) const OPENING: &[&str] = &["open", "reopen", "re open", "open up", "u
     "let traffic onto", "let cars onto", "allow traffic on", "allow cars on", "clear for traffic", "open up again"];
 
 /// How a thing is to change in size, with the factor.
+pub(super) static FACTORS: LazyLock<Index<f64>> = LazyLock::new(|| Index::of(FACTOR_ROWS));
+
 #[rustfmt::skip]
-pub(super) const FACTORS: &[(&[&str], f64)] = &[
+const FACTOR_ROWS: &[(&[&str], f64)] = &[
     (&["twice as big", "twice as large", "double the size", "twice the size", "two times bigger", "double in size",
         "double its size", "twice as tall", "twice as high", "two times as big", "twice its size",
         "to twice its size", "to double its size", "to double the size", "to twice the size", "by two",
@@ -332,8 +346,10 @@ pub(in crate::language) enum Sky {
     Warmth(f64),
 }
 
+pub(in crate::language) static SKIES: LazyLock<Index<Sky>> = LazyLock::new(|| Index::of(SKY_ROWS));
+
 #[rustfmt::skip]
-pub(in crate::language) const SKIES: &[(&[&str], Sky)] = &[
+pub(in crate::language) const SKY_ROWS: &[(&[&str], Sky)] = &[
     (&["rain", "rainy", "raining", "wet", "rains", "rain weather", "shower", "showers", "drizzle", "drizzly",
         "drizzling", "rainfall", "raindrops", "umbrella weather", "rain shower", "rain showers", "wet weather"], Sky::Rain(4.0)),
     (&["light rain", "drizzle", "a little rain", "a bit of rain", "lightly raining", "rain lightly", "some rain",
@@ -348,7 +364,7 @@ pub(in crate::language) const SKIES: &[(&[&str], Sky)] = &[
     (&["light fog", "slightly foggy", "a little fog", "a bit foggy", "light mist"], Sky::Fog(600.0)),
     (&["clear", "sunny", "sunshine", "fine", "bright", "clear sky", "clear skies", "clear weather", "nice weather",
         "good weather", "sun shine", "sun shines", "the sky clear", "sky is clear", "sky clear", "cloudless",
-        "nice and sunny", "blue sky", "blue skies", "sun come out", "sun comes out", "sun to come out", "sun is shining", "cloud free", "without a cloud", "not a cloud in the sky", "fair weather", "sunlight", "sunny weather", "brilliant sunshine", "glorious sunshine"], Sky::Clear),
+        "nice and sunny", "blue sky", "blue skies", "sun come out", "sun comes out", "sun to come out", "sun is shining", "cloud free", "without a cloud", "not a cloud in the sky", "fair weather", "clear up the weather", "clear up the sky", "sunlight", "sunny weather", "brilliant sunshine", "glorious sunshine"], Sky::Clear),
     (&["cloudy", "overcast", "clouds", "grey sky", "gray sky", "clouded"], Sky::Cloudy),
     (&["windy", "wind", "breezy"], Sky::Windy(10.0)),
     (&["winter", "wintry", "freezing", "icy", "frosty", "in winter", "winter time", "in the winter"], Sky::Warmth(-2.0)),
@@ -380,7 +396,7 @@ pub(super) const ENDINGS: &[(&[&str], Sky)] = &[
 
 /// Words around weather that say nothing themselves.
 #[rustfmt::skip]
-pub(super) const SKY_NOISE: &[&str] = &["it", "its", "it is", "be", "a", "an", "the", "with", "some", "and",
+pub(super) const SKY_NOISE: &Phrases = &Phrases::of(&["it", "its", "it is", "be", "a", "an", "the", "with", "some", "and",
     "weather", "sky", "is", "to", "into", "time", "of", "day", "it to be", "want", "should be", "should",
     "there is", "there be", "in", "at", "let", "make", "set", "change", "turn", "switch", "have", "lets", "please",
     "time of day", "time to", "give us", "give me", "bring", "bring on", "i want", "id like", "i would like", "now",
@@ -392,15 +408,15 @@ pub(super) const SKY_NOISE: &[&str] = &["it", "its", "it is", "be", "a", "an", "
     "supposed", "let it be", "supposed to be", "season", "months", "late", "early", "atmospheric", "quite", "pitch", "say", "see", "place", "in falling", "could we", "can we", "under", "beneath", "lots of", "plenty of", "maybe", "perhaps", "how about", "what about", "turned", "over everything", "around", "about", "roughly", "sharp", "exactly", "blanket of", "layer of", "hint of", "touch of",
     "then", "fall", "falling", "come", "coming", "down", "shall", "must", "shooting", "filming", "shoot", "thats",
     "show me", "show us", "show", "let me see", "id like to see", "i want to see", "keep", "stay", "stays", "keep it", "this", "wouldnt", "hurt", "love", "wish", "were", "if", "was", "story", "party", "takes place", "set in", "id love", "wed like",
-    "could do with", "could use", "wed love", "mood", "picture", "be nice", "i feel like", "feel like", "i am in the mood for", "im in the mood for", "in the mood for", "time for", "fancy", "i fancy", "nothing beats", "go for", "lets go for", "already", "christmas", "sound", "please let", "wanna", "hope for", "switch to", "change to", "get me", "gets", "it gets", "getting", "turning", "going", "go", "goes", "grow", "nicely", "proper", "properly", "good", "old", "any chance of", "chance of", "were having", "we are having", "having", "as if", "everywhere", "here please", "bit more", "dreary", "grey", "spooky", "romantic", "cosy", "cozy", "slowly", "soon", "gradually", "quickly", "shortly", "finally", "for once", "in my story", "in the story", "for the story", "for my film", "for the film", "film", "movie", "scene to", "over the city", "over the town", "over the harbour", "over the campus", "spell of", "dose of", "splash of", "sprinkling of", "bout of", "be great", "lovely", "please make"];
+    "could do with", "could use", "wed love", "mood", "picture", "be nice", "i feel like", "feel like", "i am in the mood for", "im in the mood for", "in the mood for", "time for", "fancy", "i fancy", "nothing beats", "go for", "lets go for", "already", "christmas", "sound", "please let", "wanna", "hope for", "switch to", "change to", "get me", "gets", "it gets", "getting", "turning", "going", "go", "goes", "grow", "nicely", "proper", "properly", "good", "old", "any chance of", "chance of", "were having", "we are having", "having", "as if", "everywhere", "here please", "bit more", "dreary", "grey", "spooky", "romantic", "cosy", "cozy", "slowly", "soon", "gradually", "quickly", "shortly", "finally", "for once", "in my story", "in the story", "for the story", "for my film", "for the film", "film", "movie", "scene to", "over the city", "over the town", "over the harbour", "over the campus", "spell of", "dose of", "splash of", "sprinkling of", "bout of", "be great", "lovely", "please make"]);
 
 /// Every single word here, so that none is taken for a misspelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    let verbs = VERBS.iter().flat_map(|(words, _)| *words);
-    let ways = WAYS.iter().flat_map(|(words, _)| *words);
-    let skies = SKIES.iter().chain(ENDINGS).flat_map(|(words, _)| *words);
-    let sizes = SIZES.iter().chain(FACTORS).flat_map(|(words, _)| *words);
-    let sides = ABOUT_IT.iter().flat_map(|(words, _)| *words);
+    let verbs = VERB_ROWS.iter().flat_map(|(words, _)| *words);
+    let ways = WAY_ROWS.iter().flat_map(|(words, _)| *words);
+    let skies = SKY_ROWS.iter().chain(ENDINGS).flat_map(|(words, _)| *words);
+    let sizes = SIZE_ROWS.iter().chain(FACTOR_ROWS).flat_map(|(words, _)| *words);
+    let sides = SIDE_ROWS.iter().flat_map(|(words, _)| *words);
     let more = super::super::numbers::words_of_length()
         .chain(super::super::whereabouts::words())
         .chain(super::more_words());
