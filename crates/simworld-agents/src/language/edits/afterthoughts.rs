@@ -138,7 +138,8 @@ fn said_once_more(lexemes: &mut Vec<Lexeme>) {
     let Some((mark, to, article, mut said)) = found else { return };
     said.retain(|word| !is_word(word, PRAISE));
     lexemes.drain(mark..to);
-    lexemes.splice(article + 1..article + 1, said);
+    let noun = article + 1;
+    lexemes.splice(noun..noun, said);
 }
 
 /// "Two benches by the fountain, red ones".
