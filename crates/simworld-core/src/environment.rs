@@ -1,5 +1,12 @@
-//! Sun, light and weather, in physical units.
+//! Sun, moon, light and weather, in physical units.
 
+mod almanac;
+mod kelvin;
+mod preset;
+
+pub use almanac::{Moment, day_of_year};
+pub use kelvin::{black_body_chromaticity, color_of_kelvin};
+pub use preset::{NamedTime, NamedWeather, Preset, UnknownPreset};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -59,9 +66,39 @@ impl Sun {
 
     /// The unit vector from the ground towards the sun, world frame.
     pub fn direction(&self) -> Vector3 {
-        let (sin_az, cos_az) = ops::sin_cos(self.azimuth);
-        let (sin_el, cos_el) = ops::sin_cos(self.elevation);
-        Vector3::new(sin_az * cos_el, cos_az * cos_el, sin_el)
+        towards(self.azimuth, self.elevation)
+    }
+}
+
+fn towards(azimuth: f64, elevation: f64) -> Vector3 {
+    let (sin_az, cos_az) = ops::sin_cos(azimuth);
+    let (sin_el, cos_el) = ops::sin_cos(elevation);
+    Vector3::new(sin_az * cos_el, cos_az * cos_el, sin_el)
+}
+
+/// Where the moon stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Moon {
+    /// Angle from north, clockwise, radians.
+    pub azimuth: f64,
+    /// Angle above the horizon, radians in [-π/2, π/2]; below zero it is down.
+    pub elevation: f64,
+    /// Illuminance of a surface facing the moon, lux; 0.25 when it is full and high.
+    pub illuminance: f64,
+}
+
+impl Default for Moon {
+    /// Below the horizon.
+    fn default() -> Self {
+        Self { azimuth: 0.0, elevation: -0.785, illuminance: 0.0 }
+    }
+}
+
+impl Moon {
+    /// The unit vector from the ground towards the moon, world frame.
+    pub fn direction(&self) -> Vector3 {
+        towards(self.azimuth, self.elevation)
     }
 }
 
@@ -82,6 +119,42 @@ pub struct Weather {
     pub wind: Vector2,
     /// Air temperature, °C.
     pub temperature: f64,
+    /// How wet surfaces are, from 0 (dry) to 1 (a film of water everywhere), by what fell before. [`Weather::cover`] adds
+    /// what falls now.
+    pub wetness: f64,
+    /// Share of the hollows of level ground that are filled with water, in [0, 1], by what fell before.
+    pub puddles: f64,
+    /// Snow that lies on level ground, m, by what fell before.
+    pub snow_depth: f64,
+}
+
+/// What lies on the ground: what fell before and what falls now.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cover {
+    /// From 0 (dry) to 1 (a film of water everywhere).
+    pub wetness: f64,
+    /// Share of the hollows of level ground that are filled with water, in [0, 1].
+    pub puddles: f64,
+    /// Snow on level ground, m.
+    pub snow_depth: f64,
+}
+
+impl Weather {
+    /// What lies on the ground. What falls now lies at once: rain above a trace (0.05 mm/h) wets, snow lies up to 2 °C and is
+    /// rain above. The looks of surfaces and their grip follow from this.
+    pub fn cover(&self) -> Cover {
+        const TRACE: f64 = 0.05;
+        const LEAST: f64 = 0.01; // m: snow that falls covers at once
+        let (snows, rains) = (self.snow > TRACE, self.rain > TRACE);
+        let lies = snows && self.temperature <= 2.0;
+        let water = if rains { self.rain } else { 0.0 } + if snows && !lies { self.snow } else { 0.0 };
+        let (film, hollows) = if water > 0.0 { (0.5 + 0.1 * water, 0.07 * water) } else { (0.0, 0.0) };
+        Cover {
+            wetness: self.wetness.max(film.min(1.0)),
+            puddles: self.puddles.max(hollows.min(1.0)),
+            snow_depth: self.snow_depth.max(if lies { LEAST } else { 0.0 }),
+        }
+    }
 }
 
 impl Default for Weather {
@@ -94,11 +167,14 @@ impl Default for Weather {
             cloud_cover: 0.1,
             wind: Vector2::zeros(),
             temperature: 15.0,
+            wetness: 0.0,
+            puddles: 0.0,
+            snow_depth: 0.0,
         }
     }
 }
 
-/// Sun and weather of a world.
+/// Sun, moon and weather of a world.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Environment {
@@ -106,6 +182,18 @@ pub struct Environment {
     pub sun: Sun,
     /// What the air does.
     pub weather: Weather,
+    /// Where the moon stands.
+    pub moon: Moon,
+}
+
+/// The first of fields that is out of its range: name, value, least, most, and the range in words.
+fn within(checks: &[(&'static str, f64, f64, f64, &'static str)]) -> Result<(), EnvironmentError> {
+    for &(field, value, low, high, allowed) in checks {
+        if !(low..=high).contains(&value) {
+            return Err(EnvironmentError { field, value, allowed });
+        }
+    }
+    Ok(())
 }
 
 impl Environment {
@@ -114,7 +202,7 @@ impl Environment {
     /// # Errors
     /// The first field out of range, with what is allowed; NaN is always out of range.
     pub fn validate(&self) -> Result<(), EnvironmentError> {
-        let Self { sun, weather } = self;
+        let Self { sun, weather, moon } = self;
         let half_turn = std::f64::consts::FRAC_PI_2;
         let checks = [
             ("sun.azimuth", sun.azimuth, -10.0, 10.0, "an angle within ±10 rad"),
@@ -127,22 +215,25 @@ impl Environment {
             ("weather.wind.x", weather.wind.x, -120.0, 120.0, "-120 to 120 m/s"),
             ("weather.wind.y", weather.wind.y, -120.0, 120.0, "-120 to 120 m/s"),
             ("weather.temperature", weather.temperature, -90.0, 60.0, "-90 to 60 °C"),
+            ("weather.wetness", weather.wetness, 0.0, 1.0, "0 to 1"),
+            ("weather.puddles", weather.puddles, 0.0, 1.0, "0 to 1"),
+            ("weather.snow_depth", weather.snow_depth, 0.0, 5.0, "0 to 5 m"),
+            ("moon.azimuth", moon.azimuth, -10.0, 10.0, "an angle within ±10 rad"),
+            ("moon.elevation", moon.elevation, -half_turn, half_turn, "-π/2 to π/2 rad"),
+            ("moon.illuminance", moon.illuminance, 0.0, 10.0, "0 to 10 lux"),
         ];
-        for (field, value, low, high, allowed) in checks {
-            if !(low..=high).contains(&value) {
-                return Err(EnvironmentError { field, value, allowed });
-            }
-        }
-        Ok(())
+        within(&checks)
     }
 }
 
 impl StateHash for Environment {
     fn state_hash(&self, hasher: &mut StateHasher) {
-        let Self { sun, weather } = self;
+        let Self { sun, weather, moon } = self;
         hasher.f64(sun.azimuth).f64(sun.elevation).f64(sun.illuminance);
         hasher.f64(weather.rain).f64(weather.snow).f64(weather.visibility).f64(weather.cloud_cover);
         hasher.f64(weather.wind.x).f64(weather.wind.y).f64(weather.temperature);
+        hasher.f64(weather.wetness).f64(weather.puddles).f64(weather.snow_depth);
+        hasher.f64(moon.azimuth).f64(moon.elevation).f64(moon.illuminance);
     }
 }
 
@@ -163,5 +254,50 @@ mod tests {
         let error = foggy.validate().unwrap_err();
         assert_eq!(error.field, "weather.visibility");
         assert!(Environment::default().validate().is_ok());
+    }
+
+    /// What was saved before there were a moon, wet ground and lying snow is still read.
+    #[test]
+    fn an_older_environment_is_read_with_defaults() {
+        let old = r#"{"sun":{"azimuth":1.0,"elevation":0.5,"illuminance":50000.0},
+            "weather":{"rain":1.0,"snow":0.0,"visibility":9000.0,"cloud_cover":0.5,"wind":[1.0,0.0],"temperature":8.0}}"#;
+        let read: Environment = serde_json::from_str(old).unwrap();
+        assert_eq!((read.weather.snow_depth, read.moon), (0.0, Moon::default()));
+        assert_eq!(read.sun.elevation, 0.5);
+    }
+
+    #[test]
+    fn every_field_counts_in_the_digest() {
+        let digest = |environment: &Environment| {
+            let mut hasher = StateHasher::new();
+            environment.state_hash(&mut hasher);
+            hasher.finish()
+        };
+        let plain = digest(&Environment::default());
+        let changes: [fn(&mut Environment); 6] = [
+            |e| e.weather.wetness = 0.5,
+            |e| e.weather.puddles = 0.5,
+            |e| e.weather.snow_depth = 0.5,
+            |e| e.moon.azimuth = 0.5,
+            |e| e.moon.elevation = 0.5,
+            |e| e.moon.illuminance = 0.2,
+        ];
+        for change in changes {
+            let mut environment = Environment::default();
+            change(&mut environment);
+            assert_ne!(digest(&environment), plain);
+        }
+    }
+
+    #[test]
+    fn what_falls_lies_at_once_and_what_fell_stays() {
+        let weather = Weather::default();
+        assert_eq!(weather.cover(), Cover::default());
+        let rain = Weather { rain: 3.0, ..weather }.cover();
+        assert!(rain.wetness > 0.7 && rain.puddles > 0.1 && rain.snow_depth == 0.0);
+        let snow = |temperature| Weather { snow: 1.0, temperature, ..weather }.cover();
+        assert!(snow(-1.0).snow_depth > 0.0 && snow(-1.0).wetness == 0.0);
+        assert!(snow(4.0).snow_depth == 0.0 && snow(4.0).wetness > 0.5);
+        assert_eq!(Weather { wetness: 0.3, ..weather }.cover().wetness, 0.3);
     }
 }

@@ -46,17 +46,18 @@ impl RoadCondition {
     /// Every condition, from the best grip to the least.
     pub const ALL: &'static [Self] = &[Self::Dry, Self::Wet, Self::Snow, Self::Ice];
 
-    /// What falls now is what lies: rain wets and freezes below 0 °C, snow lies up to 2 °C and is rain above. What
-    /// fell before is not remembered.
+    /// What lies by core's [`Weather::cover`]: snow before water, and water below 0 °C is ice.
     pub fn of(weather: &Weather) -> Self {
-        const TRACE: f64 = 0.05; // mm/h: less does not wet a road
-        let is_snow = weather.snow > TRACE;
-        let falls = is_snow || weather.rain > TRACE;
-        match (falls, is_snow, weather.temperature) {
-            (true, true, temperature) if temperature <= 2.0 => Self::Snow,
-            (true, false, temperature) if temperature < 0.0 => Self::Ice,
-            (true, ..) => Self::Wet,
-            (false, ..) => Self::Dry,
+        const FILM: f64 = 0.05; // a share of wetness: less is no film
+        let cover = weather.cover();
+        if cover.snow_depth > 0.0 {
+            Self::Snow
+        } else if cover.wetness < FILM {
+            Self::Dry
+        } else if weather.temperature < 0.0 {
+            Self::Ice
+        } else {
+            Self::Wet
         }
     }
 

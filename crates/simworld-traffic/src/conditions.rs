@@ -64,7 +64,9 @@ impl DrivingConditions {
             cold(weather.temperature),
             fog(weather.visibility),
         ]);
-        let friction = match (weather.rain > 0.0, weather.snow > 0.0) {
+        let lies = weather.cover();
+        let is_wet = weather.rain > 0.0 || lies.wetness > 0.05;
+        let friction = match (is_wet, weather.snow > 0.0 || lies.snow_depth > 0.0) {
             (_, true) => SNOW,
             (true, false) if weather.temperature < 0.0 => SNOW,
             (true, false) => WET,
