@@ -141,6 +141,11 @@ pub trait PhysicsBody: Embodiment + Send + Any {
         f64::INFINITY
     }
 
+    /// Whether it looks around at all. What only lies and falls does not, and is not spread over threads for it.
+    fn looks_around(&self) -> bool {
+        true
+    }
+
     /// Looks around before anybody moves and makes up its mind; reads, and changes only itself.
     fn sense(&mut self, _around: &Surroundings<'_>, _dt: f64) {}
 

@@ -26,9 +26,11 @@ const PART: f64 = SKIN + 0.05;
 pub(crate) struct Contacts {
     /// Pairs that touch, the lower id first, ascending.
     pub(crate) touching: Vec<(EntityId, EntityId)>,
-    /// Those of the substep under examination.
-    now: Vec<(EntityId, EntityId)>,
-    /// Those that came to touch in this step.
+    /// Which of them still do in the substep under examination.
+    still: Vec<bool>,
+    /// What was looked at closely in it.
+    met: Vec<Met>,
+    /// Those that came to touch in this step, by ascending pair.
     begun: Vec<Contact>,
 }
 
@@ -41,9 +43,16 @@ struct Contact {
     impulse: f64,
 }
 
+/// A contact as one of the two finds it.
+#[derive(Clone, Copy, Debug)]
+struct Met {
+    contact: Contact,
+    /// Who finds it; of two who do the lower id counts.
+    by: EntityId,
+}
+
 /// What the solver has in contact with a body.
 struct Solved {
-    id: EntityId,
     other: ColliderHandle,
     point: Point3,
     towards_other: Vector3,
@@ -54,7 +63,6 @@ struct Solved {
 impl Contacts {
     /// Reports the contacts that began in this step, by ascending pair, each once.
     pub(crate) fn report(&mut self, world: &mut World) {
-        self.begun.sort_by_key(|contact| contact.pair);
         self.begun.dedup_by_key(|contact| contact.pair);
         for Contact { pair: (a, b), point, closing_speed, impulse } in self.begun.drain(..) {
             world.emit(EventKind::Contact { a, b, point, closing_speed, impulse });
@@ -65,26 +73,41 @@ impl Contacts {
         self.touching.binary_search(&pair).is_ok()
     }
 
-    fn note(&mut self, contact: Contact) {
-        if self.now.contains(&contact.pair) {
-            return; // noted from the other side
-        }
-        if self.touched(contact.pair) {
-            // A contact of this step goes on: a blow takes several substeps.
-            if let Some(begun) = self.begun.iter_mut().find(|begun| begun.pair == contact.pair) {
-                begun.impulse += contact.impulse;
-            }
-        } else {
-            self.begun.push(contact);
-        }
-        self.now.push(contact.pair);
+    /// Notes that a pair touches, if there is nothing to tell of it; says whether that is so.
+    fn goes_on(&mut self, pair: (EntityId, EntityId)) -> bool {
+        let Ok(place) = self.touching.binary_search(&pair) else { return false };
+        self.still[place] = true;
+        self.begun.binary_search_by_key(&pair, |begun| begun.pair).is_err()
     }
 
+    fn start(&mut self) {
+        self.still.clear();
+        self.still.resize(self.touching.len(), false);
+    }
+
+    /// Takes in what was met.
     fn finish(&mut self) {
-        self.now.sort_unstable();
-        self.now.dedup();
-        std::mem::swap(&mut self.touching, &mut self.now);
-        self.now.clear();
+        let Self { touching, still, met, begun } = self;
+        met.sort_by_key(|met| (met.contact.pair, met.by));
+        met.dedup_by_key(|met| met.contact.pair);
+        met.retain(|Met { contact, .. }| {
+            let Ok(place) = touching.binary_search(&contact.pair) else { return true };
+            still[place] = true;
+            // A contact of this step goes on: a blow takes several substeps.
+            let first = begun.partition_point(|begun| begun.pair < contact.pair);
+            if let Some(begun) = begun.get_mut(first).filter(|begun| begun.pair == contact.pair) {
+                begun.impulse += contact.impulse;
+            }
+            false
+        });
+        let mut still = still.iter();
+        touching.retain(|_| still.next().copied().unwrap_or(false));
+        if !met.is_empty() {
+            touching.extend(met.iter().map(|met| met.contact.pair));
+            touching.sort_unstable();
+            begun.extend(met.drain(..).map(|met| met.contact));
+            begun.sort_by_key(|begun| begun.pair);
+        }
     }
 }
 
@@ -92,51 +115,73 @@ impl PhysicsDynamics {
     /// Finds the pairs that touch after a substep.
     pub(crate) fn find_contacts(&mut self) {
         let mut contacts = std::mem::take(&mut self.contacts);
+        contacts.start();
         for owned in self.bodies.iter().filter(|owned| owned.bonds.carried.is_none()) {
-            if self.physics.bodies[owned.rigid].is_dynamic() || !owned.body.parts().is_empty() {
-                self.find_solved(owned, &mut contacts);
-            } else {
+            if !self.is_solved(owned) {
                 for handle in self.physics.bodies[owned.rigid].colliders() {
                     self.find_close(owned, *handle, &mut contacts);
                 }
             }
         }
+        self.find_solved(&mut contacts);
         contacts.finish();
         self.contacts = contacts;
     }
 
-    /// What the solver has in contact with a dynamic body: each other body once, by its deepest contact, with the impulse of
-    /// all of them.
-    fn find_solved(&self, owned: &Owned, contacts: &mut Contacts) {
-        let mut met: Vec<Solved> = Vec::new();
+    /// Whether the solver knows what a body touches.
+    fn is_solved(&self, owned: &Owned) -> bool {
+        self.physics.bodies[owned.rigid].is_dynamic() || !owned.body.parts().is_empty()
+    }
+
+    /// What the solver has in contact: all pairs of the engine once. What goes on, such as what lies in a pile, is only noted.
+    fn find_solved(&self, contacts: &mut Contacts) {
+        for pair in self.physics.contact_pairs().filter(|pair| pair.has_any_active_contact()) {
+            let entities = self.entity_of(pair.collider1).zip(self.entity_of(pair.collider2));
+            let Some((a, b)) = entities.filter(|(a, b)| a != b).map(|(a, b)| ordered(a, b)) else { continue };
+            if contacts.goes_on((a, b)) {
+                continue;
+            }
+            let met = [(a, b), (b, a)].into_iter().find_map(|(by, other)| {
+                let owned = &self.bodies[self.position(by).ok()?];
+                let is_free = owned.bonds.carried.is_none() && self.is_solved(owned);
+                let Solved { other, point, towards_other, impulse, .. } =
+                    is_free.then(|| self.solved(owned, other))??;
+                self.met(owned, other, point, towards_other, impulse)
+            });
+            contacts.met.extend(met);
+        }
+    }
+
+    /// How the solver has a body in contact with an entity: by the deepest contact, with the impulse of all of them.
+    fn solved(&self, owned: &Owned, with: EntityId) -> Option<Solved> {
+        let mut met: Option<Solved> = None;
         let rigids = std::iter::once(&owned.rigid).chain(owned.body.parts());
         let colliders = rigids.filter_map(|handle| self.physics.bodies.get(*handle));
         for handle in colliders.flat_map(RigidBody::colliders) {
             for pair in self.physics.contact_pairs_with(*handle).filter(|pair| pair.has_any_active_contact())
             {
-                let Some((manifold, deepest)) = pair.find_deepest_contact() else { continue };
                 let is_first = pair.collider1 == *handle;
                 let other = if is_first { pair.collider2 } else { pair.collider1 };
-                let Some(id) = self.entity_of(other).filter(|id| *id != owned.id) else { continue };
+                if self.entity_of(other) != Some(with) {
+                    continue;
+                }
+                let Some((manifold, deepest)) = pair.find_deepest_contact() else { continue };
                 let collider = &self.physics.colliders[pair.collider1];
                 let point = world_point(collider.position(), deepest.local_p1);
                 // The manifold's normal points from the first to the second.
                 let normal = from_vector(manifold.data.normal);
                 let towards_other = if is_first { normal } else { -normal };
                 let (impulse, dist) = (pair.total_impulse_magnitude(), deepest.dist);
-                match met.iter_mut().find(|solved| solved.id == id) {
+                match &mut met {
                     Some(solved) if solved.dist <= dist => solved.impulse += impulse,
-                    Some(solved) => {
-                        let impulse = solved.impulse + impulse;
-                        *solved = Solved { id, other, point, towards_other, impulse, dist };
+                    _ => {
+                        let impulse = met.map_or(0.0, |solved| solved.impulse) + impulse;
+                        met = Some(Solved { other, point, towards_other, impulse, dist });
                     }
-                    None => met.push(Solved { id, other, point, towards_other, impulse, dist }),
                 }
             }
         }
-        for Solved { other, point, towards_other, impulse, .. } in met {
-            self.note(owned, other, point, towards_other, impulse, contacts);
-        }
+        met
     }
 
     fn entity_of(&self, collider: ColliderHandle) -> Option<EntityId> {
@@ -157,27 +202,26 @@ impl PhysicsDynamics {
             let reach = if contacts.touched(ordered(owned.id, id)) { PART } else { TOUCH };
             if found.dist <= reach {
                 let point = from_point(found.point2);
-                self.note(owned, other, point, from_vector(found.normal1), 0.0, contacts);
+                contacts.met.extend(self.met(owned, other, point, from_vector(found.normal1), 0.0));
             }
         }
     }
 
-    fn note(
+    fn met(
         &self,
         owned: &Owned,
         other: ColliderHandle,
         point: Point3,
         towards_other: Vector3,
         impulse: f64,
-        contacts: &mut Contacts,
-    ) {
-        let collider = &self.physics.colliders[other];
-        let Some(id) = BodyTag::from_user_data(collider.user_data).entity() else { return };
+    ) -> Option<Met> {
+        let id = self.entity_of(other)?;
         let approach = velocity_before(owned, &point) - self.velocity_of(id, other, &point);
         let closing_speed = approach.dot(&towards_other).max(0.0);
         // The engine keeps the impulse of a contact that the bodies have already left.
         let impulse = if closing_speed > 0.0 { impulse } else { 0.0 };
-        contacts.note(Contact { pair: ordered(owned.id, id), point, closing_speed, impulse });
+        let contact = Contact { pair: ordered(owned.id, id), point, closing_speed, impulse };
+        Some(Met { contact, by: owned.id })
     }
 
     fn velocity_of(&self, id: EntityId, collider: ColliderHandle, point: &Point3) -> Vector3 {

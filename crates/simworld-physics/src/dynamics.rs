@@ -1,5 +1,6 @@
 //! The physics of a world: which bodies it has, and the step.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
@@ -20,7 +21,7 @@ use crate::contact::Contacts;
 use crate::convert::{from_point, from_pose, from_vector, to_pose, to_vector};
 use crate::grasp::Grasps;
 use crate::ground;
-use crate::humanoid::{Shove, least_blow};
+use crate::humanoid::{Humanoid, Shove, least_blow};
 use crate::mirror::Moving;
 use crate::movers::Movers;
 use crate::slot_set::SlotSet;
@@ -99,8 +100,9 @@ pub struct PhysicsDynamics {
     pub(crate) nobody: RigidBodySet,
     // Scratch space of a step.
     pub(crate) moving: Vec<Moving>,
-    /// Where the bodies of this physics are.
+    /// Where the bodies of this physics are, and whether that was looked up in this step.
     pub(crate) near: Cells<Point2>,
+    pub(crate) near_is_known: bool,
     /// What may knock somebody over.
     movers: Movers,
     claims: Claims,
@@ -152,6 +154,7 @@ impl PhysicsDynamics {
             nobody: RigidBodySet::new(),
             moving: Vec::new(),
             near: Cells::new(2.0 * near),
+            near_is_known: false,
             movers: Movers::default(),
             claims: Claims::default(),
             shoves: Vec::new(),
@@ -228,10 +231,10 @@ impl PhysicsDynamics {
                 owned.body.sense(&around, dt);
             }
         };
-        if self.bodies.len() >= config.parallel_threshold {
+        if self.bodies.iter().filter(|owned| owned.body.looks_around()).count() >= config.parallel_threshold {
             self.bodies.par_iter_mut().with_min_len(4).for_each(sense);
         } else {
-            self.bodies.iter_mut().for_each(sense);
+            self.bodies.iter_mut().filter(|owned| owned.body.looks_around()).for_each(sense);
         }
     }
 
@@ -239,6 +242,10 @@ impl PhysicsDynamics {
     fn note_movers(&mut self, dt: f64) {
         let slowest = least_blow(self.config.gravity);
         self.movers.clear();
+        let may_fall = |owned: &Owned| (&*owned.body as &dyn Any).is::<Humanoid>();
+        if !self.bodies.iter().any(may_fall) {
+            return;
+        }
         let own =
             self.bodies.iter().flat_map(|owned| std::iter::once(&owned.rigid).chain(owned.body.parts()));
         let mirrored = self.moving.iter().map(|moving| &moving.rigid);

@@ -5,7 +5,7 @@ use rapier3d_f64::prelude::{RigidBodyBuilder, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point2, Pose};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityRef, Shape, World};
+use simworld_core::scene::{EntityRef, Scene, Shape, World};
 
 use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
@@ -37,6 +37,7 @@ pub(crate) struct Moving {
 
 impl PhysicsDynamics {
     pub(crate) fn synchronise_mirror(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
+        self.look_up_near(world);
         let known = match &self.slots[slot] {
             Slot::Traffic(mirror) if mirror.id == entity.id && mirror.shape == entity.info.shape => {
                 Some((mirror.pose, mirror.rigid))
@@ -75,6 +76,17 @@ impl PhysicsDynamics {
         if let Slot::Traffic(mirror) = &mut self.slots[slot] {
             mirror.pose = *entity.pose;
             mirror.rigid = rigid;
+        }
+    }
+
+    /// Looks up where bodies are, once a step and only where there is traffic.
+    fn look_up_near(&mut self, world: &World) {
+        if std::mem::replace(&mut self.near_is_known, true) {
+            return;
+        }
+        self.near.clear();
+        for entity in self.bodies.iter().filter_map(|owned| world.entity(owned.id)) {
+            self.near.insert(entity.planar(), entity.planar());
         }
     }
 

@@ -95,6 +95,10 @@ impl PhysicsBody for Rigid {
         physics.insert(body, collider).0
     }
 
+    fn looks_around(&self) -> bool {
+        false
+    }
+
     fn drive(&mut self, _: &mut BodyContext<'_>, _: f64) {}
 
     fn settle(&mut self, state: &BodyState) {

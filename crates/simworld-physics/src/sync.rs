@@ -5,7 +5,7 @@
 
 use rapier3d_f64::prelude::{ColliderHandle, RigidBodyHandle};
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::{Pose, Twist, planar};
+use simworld_core::geometry::{Pose, Twist};
 use simworld_core::id::{AssetId, EntityId};
 use simworld_core::scene::{EntityRef, Role, Scene, Shape, World};
 use simworld_core::seam::BodyState;
@@ -53,15 +53,13 @@ impl PhysicsDynamics {
     pub(crate) fn synchronise(&mut self, world: &World) {
         self.lay_ground(world.ground());
         self.drop_orphans(world);
-        self.near.clear();
+        self.near_is_known = false;
         for owned in &mut self.bodies {
             if owned.bonds.scooter.is_some_and(|scooter| !rides(world, owned.id, scooter)) {
                 owned.bonds = bonds_of(owned.id, world);
             }
             owned.bonds.carried = None;
             if let Some(entity) = world.entity(owned.id) {
-                let here = planar(entity.pose);
-                self.near.insert(here, here);
                 owned.bonds.carried = entity.attachment.map(|bond| bond.role);
             }
         }
