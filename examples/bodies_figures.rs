@@ -296,17 +296,11 @@ fn mixed(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     let (people, cars) = (all * 6 / 10, all * 3 / 10);
     let crowd = Crowd { people, cars, dogs: all - people - cars, crates: 0 };
     let blocks = 30;
-    let mut quarter = Quarter::new(Quarter::world(blocks)?, blocks, crowd, Threads::All)?;
     // A circle in which about five hundred are.
     let extent = blocks as f64 * 80.0;
     let radius = extent * (500.0 / 10_000.0 / std::f64::consts::PI).sqrt();
-    let middle = Point3::new(extent / 2.0, extent / 2.0, 0.0);
-    let mut interest = vec![middle];
-    let near = quarter.physics.config().detail_radius;
-    if radius > near {
-        interest.extend([1.0, -1.0].map(|side| middle + simworld_core::geometry::Vector3::x() * side * near));
-    }
-    quarter.physics.set_interest(&interest);
+    let mut quarter = Quarter::with_detail(Quarter::world(blocks)?, blocks, crowd, Threads::All, radius)?;
+    quarter.physics.set_interest(&[Point3::new(extent / 2.0, extent / 2.0, 0.0)]);
     for _ in 0..some(120, share) {
         quarter.step()?;
     }

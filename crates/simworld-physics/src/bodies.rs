@@ -141,7 +141,8 @@ impl PhysicsDynamics {
         // Otherwise the engine knows the mass only after its first step, and the body drives before that.
         self.physics.bodies[rigid].recompute_mass_properties_from_colliders(&self.physics.colliders);
         let (written, bonds, before) = (*entity.pose, bonds_of(id, world), Twist::ZERO);
-        let owned = Owned { id, body, rigid, written, bonds, before, detail: Detail::Full };
+        let (is_roaming, detail) = (false, Detail::Full);
+        let owned = Owned { id, body, rigid, written, bonds, is_roaming, before, detail };
         self.bodies.insert(place, owned);
         self.file_body(rigid);
         Ok(())
@@ -193,6 +194,9 @@ impl PhysicsDynamics {
     /// The momentum of all of an entity's body, kg m/s, world frame, if it has one.
     pub fn momentum(&self, id: EntityId) -> Option<Vector3> {
         let owned = &self.bodies[self.position(id).ok()?];
+        if owned.is_roaming {
+            return Some(self.momentum_of_roamer(owned));
+        }
         let rigids = std::iter::once(&owned.rigid).chain(owned.body.parts());
         let momentum = |handle: &RigidBodyHandle| {
             let rigid = self.physics.bodies.get(*handle)?;

@@ -27,7 +27,8 @@ pub enum Detail {
     /// By all the laws it knows.
     #[default]
     Full,
-    /// By a simpler model, because it is far from what is of interest. A body with one model only goes on as it is.
+    /// By a simpler model, because it is far from what is of interest: what [can roam](PhysicsBody::can_roam) moves by itself, past
+    /// everything else that moves. A body with one model only goes on as it is.
     Reduced,
 }
 
@@ -149,6 +150,17 @@ pub trait PhysicsBody: Embodiment + Send + Any {
     /// Looks around before anybody moves and makes up its mind; reads, and changes only itself.
     fn sense(&mut self, _around: &Surroundings<'_>, _dt: f64) {}
 
+    /// Whether it can move on by [`roam`](Self::roam) now, where reduced detail will do; a body of most kinds cannot.
+    fn can_roam(&self) -> bool {
+        false
+    }
+
+    /// Moves on by a whole step of `dt` s by itself, far from what is of interest: it keeps off
+    /// [what stands fixed](Surroundings::queries_of_fixed), and its own rigid body is out of the engine meanwhile. It takes the place of all
+    /// substeps, and of [`sense`](Self::sense), [`drive`](Self::drive) and [`settle`](Self::settle) in them; its
+    /// [state](Embodiment::state) says where it came to.
+    fn roam(&mut self, _around: &Surroundings<'_>, _dt: f64) {}
+
     /// Acts on the engine for the coming substep of `dt` s: sets a kinematic target, applies impulses.
     fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64);
 
@@ -198,6 +210,11 @@ impl Surroundings<'_> {
     pub fn queries_above_ground(&self) -> QueryPipeline<'_> {
         let filter = QueryFilter::new().exclude_rigid_body(self.rigid).exclude_collider(self.ground);
         QueryPipeline { bodies: self.nobody, ..self.physics.query_pipeline_with_filter(filter) }
+    }
+
+    /// Queries against what stands fixed, and the ground.
+    pub fn queries_of_fixed(&self) -> QueryPipeline<'_> {
+        self.physics.query_pipeline_with_filter(QueryFilter::only_fixed())
     }
 
     /// The surface that everything stands on, if the ground is not level at z = 0.

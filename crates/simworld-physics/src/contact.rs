@@ -116,7 +116,7 @@ impl PhysicsDynamics {
     pub(crate) fn find_contacts(&mut self) {
         let mut contacts = std::mem::take(&mut self.contacts);
         contacts.start();
-        for owned in self.bodies.iter().filter(|owned| owned.bonds.carried.is_none()) {
+        for owned in self.bodies.iter().filter(|owned| owned.is_in_engine()) {
             if !self.is_solved(owned) {
                 for handle in self.physics.bodies[owned.rigid].colliders() {
                     self.find_close(owned, *handle, &mut contacts);
@@ -143,7 +143,7 @@ impl PhysicsDynamics {
             }
             let met = [(a, b), (b, a)].into_iter().find_map(|(by, other)| {
                 let owned = &self.bodies[self.position(by).ok()?];
-                let is_free = owned.bonds.carried.is_none() && self.is_solved(owned);
+                let is_free = owned.is_in_engine() && self.is_solved(owned);
                 let Solved { other, point, towards_other, impulse, .. } =
                     is_free.then(|| self.solved(owned, other))??;
                 self.met(owned, other, point, towards_other, impulse)
@@ -242,4 +242,43 @@ fn velocity_before(owned: &Owned, point: &Point3) -> Vector3 {
 
 fn ordered(a: EntityId, b: EntityId) -> (EntityId, EntityId) {
     if a <= b { (a, b) } else { (b, a) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn met(by: u32, impulse: f64) -> Met {
+        let pair = (EntityId::new(1, 0), EntityId::new(2, 0));
+        let contact = Contact { pair, point: Point3::origin(), closing_speed: 1.0, impulse };
+        Met { contact, by: EntityId::new(by, 0) }
+    }
+
+    fn substep(contacts: &mut Contacts, found: &[Met]) {
+        contacts.start();
+        for met in found {
+            if !contacts.goes_on(met.contact.pair) {
+                contacts.met.push(*met);
+            }
+        }
+        contacts.finish();
+    }
+
+    #[test]
+    fn a_contact_begins_once_adds_up_goes_on_and_ends() {
+        let mut contacts = Contacts::default();
+        substep(&mut contacts, &[met(2, 5.0), met(1, 3.0)]);
+        assert_eq!(contacts.touching, [met(1, 0.0).contact.pair]);
+        assert_eq!(contacts.begun.len(), 1);
+        assert_eq!(contacts.begun[0].impulse, 3.0, "of two who find it the lower counts");
+        substep(&mut contacts, &[met(1, 2.0)]);
+        assert_eq!(contacts.begun[0].impulse, 5.0, "a blow of two substeps");
+        contacts.begun.clear();
+        substep(&mut contacts, &[met(1, 2.0)]);
+        assert!(contacts.begun.is_empty() && contacts.touching.len() == 1, "it goes on");
+        substep(&mut contacts, &[]);
+        assert!(contacts.touching.is_empty(), "it ended");
+        substep(&mut contacts, &[met(1, 2.0)]);
+        assert_eq!(contacts.begun.len(), 1, "it begins anew");
+    }
 }

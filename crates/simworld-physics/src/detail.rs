@@ -1,7 +1,6 @@
 //! What changes around bodies: how finely each moves, and what the weather lays on surfaces.
 
 use simworld_core::geometry::Point3;
-use simworld_core::seam::Embodiment;
 
 use crate::body::Detail;
 use crate::dynamics::PhysicsDynamics;
@@ -33,7 +32,7 @@ impl PhysicsDynamics {
     pub(crate) fn choose_detail(&mut self) {
         let (points, radius) = (&self.interest, self.config.detail_radius);
         for owned in &mut self.bodies {
-            let place = owned.body.state().pose.translation.vector;
+            let place = owned.written.translation.vector;
             let nearest = points
                 .iter()
                 .map(|point| (point.coords - place).norm_squared())

@@ -24,6 +24,7 @@ use crate::ground;
 use crate::humanoid::{Humanoid, Shove, least_blow};
 use crate::mirror::Moving;
 use crate::movers::Movers;
+use crate::roam::Roamers;
 use crate::slot_set::SlotSet;
 use crate::solid::Solids;
 use crate::surface::Conditions;
@@ -104,7 +105,9 @@ pub struct PhysicsDynamics {
     pub(crate) near: Cells<Point2>,
     pub(crate) near_is_known: bool,
     /// What may knock somebody over.
-    movers: Movers,
+    pub(crate) movers: Movers,
+    /// Who moves by itself, for who asks.
+    pub(crate) roamers: Roamers,
     claims: Claims,
     /// Who pushed whom in the last substep.
     pub(crate) shoves: Vec<Shove>,
@@ -119,10 +122,19 @@ pub(crate) struct Owned {
     /// The pose that the physics wrote last; another one in the world means that somebody moved the entity.
     pub(crate) written: Pose,
     pub(crate) bonds: Bonds,
+    /// Whether it moves by itself, out of the engine.
+    pub(crate) is_roaming: bool,
     /// Velocity at the start of the substep, for the closing speed of contacts.
     pub(crate) before: Twist,
     /// How finely it is to move.
     pub(crate) detail: Detail,
+}
+
+impl Owned {
+    /// Whether the engine has it: nothing carries it, and it does not roam.
+    pub(crate) fn is_in_engine(&self) -> bool {
+        self.bonds.carried.is_none() && !self.is_roaming
+    }
 }
 
 impl PhysicsDynamics {
@@ -156,6 +168,7 @@ impl PhysicsDynamics {
             near: Cells::new(2.0 * near),
             near_is_known: false,
             movers: Movers::default(),
+            roamers: Roamers::default(),
             claims: Claims::default(),
             shoves: Vec::new(),
             failures: Vec::new(),
@@ -171,8 +184,8 @@ impl PhysicsDynamics {
 
     /// How many substeps a step of `dt` s takes: what the settings say, or more if a body needs it.
     fn substeps(&self, dt: f64) -> u32 {
-        let longest =
-            self.bodies.iter().map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
+        let asked = self.bodies.iter().filter(|owned| owned.is_in_engine());
+        let longest = asked.map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
         let longest =
             if self.grasps.list.is_empty() { longest } else { longest.min(LONGEST_JOINTED_SUBSTEP) };
         let needed = (dt / longest - 1e-9).ceil().clamp(1.0, MOST_SUBSTEPS);
@@ -182,7 +195,7 @@ impl PhysicsDynamics {
     /// How many times the solver goes over a substep: once where a body asks for substeps so short that as many passes a second
     /// are made as with the usual ones.
     fn iterations(&self) -> usize {
-        let short = |owned: &Owned| owned.body.longest_substep() <= SHORT_SUBSTEP;
+        let short = |owned: &Owned| owned.is_in_engine() && owned.body.longest_substep() <= SHORT_SUBSTEP;
         if self.bodies.iter().any(short) { 1 } else { ITERATIONS }
     }
 
@@ -211,7 +224,7 @@ impl PhysicsDynamics {
         let (ground, surface) = (self.ground, self.surface.as_deref());
         let (movers, shoves, holds) = (&self.movers, &*self.shoves, &*self.grasps.holds);
         let sense = |owned: &mut Owned| {
-            if owned.bonds.carried.is_none() {
+            if owned.is_in_engine() && owned.body.looks_around() {
                 let (rigid, detail) = (owned.rigid, owned.detail);
                 let first = holds.partition_point(|hold| hold.who < owned.id);
                 let count = holds[first..].partition_point(|hold| hold.who == owned.id);
@@ -231,10 +244,11 @@ impl PhysicsDynamics {
                 owned.body.sense(&around, dt);
             }
         };
-        if self.bodies.iter().filter(|owned| owned.body.looks_around()).count() >= config.parallel_threshold {
+        let looks = |owned: &&Owned| owned.is_in_engine() && owned.body.looks_around();
+        if self.bodies.iter().filter(looks).count() >= config.parallel_threshold {
             self.bodies.par_iter_mut().with_min_len(4).for_each(sense);
         } else {
-            self.bodies.iter_mut().filter(|owned| owned.body.looks_around()).for_each(sense);
+            self.bodies.iter_mut().for_each(sense);
         }
     }
 
@@ -242,12 +256,12 @@ impl PhysicsDynamics {
     fn note_movers(&mut self, dt: f64) {
         let slowest = least_blow(self.config.gravity);
         self.movers.clear();
-        let may_fall = |owned: &Owned| (&*owned.body as &dyn Any).is::<Humanoid>();
+        let may_fall = |owned: &Owned| owned.is_in_engine() && (&*owned.body as &dyn Any).is::<Humanoid>();
         if !self.bodies.iter().any(may_fall) {
             return;
         }
-        let own =
-            self.bodies.iter().flat_map(|owned| std::iter::once(&owned.rigid).chain(owned.body.parts()));
+        let own = self.bodies.iter().filter(|owned| owned.is_in_engine());
+        let own = own.flat_map(|owned| std::iter::once(&owned.rigid).chain(owned.body.parts()));
         let mirrored = self.moving.iter().map(|moving| &moving.rigid);
         for rigid in own.chain(mirrored) {
             self.movers.note(*rigid, slowest, dt, &self.physics);
@@ -260,7 +274,7 @@ impl PhysicsDynamics {
         self.sense(dt);
         self.claims.clear();
         self.shoves.clear();
-        for owned in &mut self.bodies {
+        for owned in self.bodies.iter_mut().filter(|owned| !owned.is_roaming) {
             owned.before = owned.body.state().twist;
             if owned.bonds.carried.is_none() {
                 let (physics, rigid, detail) = (&mut self.physics, owned.rigid, owned.detail);
@@ -274,7 +288,7 @@ impl PhysicsDynamics {
         self.physics.step();
         self.check_finite()?;
         self.strain_grasps(dt);
-        for owned in self.bodies.iter_mut().filter(|owned| owned.bonds.carried.is_none()) {
+        for owned in self.bodies.iter_mut().filter(|owned| owned.is_in_engine()) {
             let rigid = &self.physics.bodies[owned.rigid];
             let linear = from_vector(rigid.velocity_at_point(rigid.translation()));
             let twist = Twist { linear, angular: from_vector(rigid.angvel()) };
@@ -349,6 +363,8 @@ impl Dynamics for PhysicsDynamics {
         self.synchronise(world);
         self.choose_detail();
         self.take_actions(world);
+        self.choose_roamers();
+        self.roam(dt);
         let count = self.substeps(dt);
         let substeps = f64::from(count);
         self.physics.integration_parameters.dt = dt / substeps;

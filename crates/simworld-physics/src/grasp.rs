@@ -182,6 +182,11 @@ impl PhysicsDynamics {
         grip: Grip,
     ) -> Result<(), PhysicsError> {
         grip.validate()?;
+        for id in [who, thing] {
+            if let Some(place) = self.position(id).ok().filter(|place| self.bodies[*place].is_roaming) {
+                self.take_back(place);
+            }
+        }
         let (hand, held) = (self.hand(world, who, &grip)?, self.holdable(world, thing)?);
         let refuse = |reason: &str| PhysicsError::Grasp { who, thing, reason: reason.to_owned() };
         if hand == held || who == thing {

@@ -23,6 +23,7 @@ pub mod proving;
 mod quadruped;
 mod query;
 mod rigid;
+mod roam;
 pub mod robot;
 mod shape;
 mod slot_set;

@@ -85,7 +85,8 @@ impl PhysicsDynamics {
             return;
         }
         self.near.clear();
-        for entity in self.bodies.iter().filter_map(|owned| world.entity(owned.id)) {
+        let solid = self.bodies.iter().filter(|owned| !owned.is_roaming);
+        for entity in solid.filter_map(|owned| world.entity(owned.id)) {
             self.near.insert(entity.planar(), entity.planar());
         }
     }

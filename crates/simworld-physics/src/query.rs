@@ -32,6 +32,14 @@ impl PhysicsDynamics {
                 out.push(mirror.id);
             }
         }
+        let near = solid.compute_aabb(&world_from_solid);
+        for roamer in self.roamers_in(&near) {
+            if intersection_test(&world_from_solid, &*solid, &roamer.pose, &*roamer.solid)
+                .is_ok_and(|test| test.intersecting)
+            {
+                out.push(roamer.id);
+            }
+        }
         out.sort_unstable();
         out.dedup();
     }
@@ -44,7 +52,7 @@ impl PhysicsDynamics {
         })
     }
 
-    /// The first distant traffic on the ray.
+    /// The first distant traffic, or body that roams, on the ray.
     fn cast_at_distant(
         &self,
         ray: &Ray,
@@ -53,7 +61,8 @@ impl PhysicsDynamics {
     ) -> Option<RayHit> {
         let line = RapierRay::new(to_point(&ray.origin), to_vector(&ray.direction));
         let swept = Aabb::new(ray.origin, ray.at(max_distance));
-        let mut best: Option<RayHit> = None;
+        let roaming = self.cast_at_roamers(&line, max_distance, filter);
+        let mut best = roaming.map(|(entity, distance, normal)| RayHit { entity, distance, normal });
         for mirror in self.distant().filter(|mirror| mirror.bounds().intersects(&swept)) {
             let reach = best.map_or(max_distance, |hit| hit.distance);
             let (solid, place) = mirror.solid();

@@ -16,13 +16,14 @@ use crate::convert::{from_pose, from_vector};
 use crate::dynamics::{Owned, PhysicsDynamics};
 use crate::grasp::{Grasp, Grasps};
 use crate::humanoid::Shove;
+use crate::roam::Roamers;
 use crate::slot_set::SlotSet;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// The mark of this crate's saved state and its version.
-const MARK: [u8; 8] = *b"swphys05";
+const MARK: [u8; 8] = *b"swphys06";
 
 /// What is written, by reference.
 #[derive(Serialize)]
@@ -63,6 +64,7 @@ struct SavedBody {
     rigid: RigidBodyHandle,
     written: Pose,
     detail: Detail,
+    is_roaming: bool,
     pose: Pose,
     twist: Twist,
     inner: Vec<u8>,
@@ -80,8 +82,8 @@ impl PhysicsDynamics {
     pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, PhysicsError> {
         let save = |owned: &Owned| {
             let BodyState { pose, twist } = owned.body.state();
-            let (id, rigid, written) = (owned.id, owned.rigid, owned.written);
-            SavedBody { id, rigid, written, detail: owned.detail, pose, twist, inner: owned.body.save() }
+            let Owned { id, rigid, written, detail, is_roaming, .. } = *owned;
+            SavedBody { id, rigid, written, detail, is_roaming, pose, twist, inner: owned.body.save() }
         };
         let written = Written {
             config: &self.config,
@@ -135,9 +137,10 @@ impl PhysicsDynamics {
             owned.written = body.written;
             owned.before = body.twist;
             owned.bonds = Bonds::default();
-            owned.detail = body.detail;
+            (owned.detail, owned.is_roaming) = (body.detail, body.is_roaming);
         }
         self.physics = read.physics;
+        self.roamers = Roamers::default();
         (self.ground, self.surface) = (read.ground, surface.cloned());
         self.slots = read.slots;
         (self.traffic, self.stale, self.seen) = (SlotSet::default(), SlotSet::default(), None);
@@ -158,6 +161,10 @@ impl PhysicsDynamics {
         for owned in &self.bodies {
             let inner = owned.body.save();
             hasher.u64(owned.id.into()).u64(inner.len() as u64).bytes(&inner);
+            if owned.is_roaming {
+                hasher.pose(&owned.body.state().pose).vector(&owned.body.state().twist.linear);
+                continue; // what the engine has of it is where it went off
+            }
             for handle in std::iter::once(&owned.rigid).chain(owned.body.parts()) {
                 let Some(rigid) = self.physics.bodies.get(*handle) else { continue };
                 hasher.pose(&from_pose(rigid.position()));

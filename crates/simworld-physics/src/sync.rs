@@ -179,7 +179,11 @@ impl PhysicsDynamics {
             let owned = &self.bodies[index];
             let Some(entity) = world.entity(owned.id) else { continue };
             let is_carried = owned.bonds.carried.is_some();
-            let was_carried = !self.is_solid(owned.rigid);
+            if is_carried && owned.is_roaming {
+                self.take_back(index);
+            }
+            let owned = &self.bodies[index];
+            let was_carried = !owned.is_roaming && !self.is_solid(owned.rigid);
             if is_carried != was_carried {
                 let rigid = owned.rigid;
                 self.bodies[index].body.gather(&mut self.physics, rigid);
@@ -197,8 +201,8 @@ impl PhysicsDynamics {
         self.physics.bodies[rigid].is_enabled()
     }
 
-    /// A body on a seat is out of the engine for as long as it sits.
-    fn set_solid(&mut self, rigid: RigidBodyHandle, solid: bool) {
+    /// A body on a seat is out of the engine for as long as it sits, and one that roams while it does.
+    pub(crate) fn set_solid(&mut self, rigid: RigidBodyHandle, solid: bool) {
         self.physics.bodies[rigid].set_enabled(solid);
         for handle in self.physics.bodies[rigid].colliders().to_vec() {
             if let Some(collider) = self.physics.colliders.get_mut(handle) {

@@ -1,13 +1,15 @@
 //! A city of blocks with somebody in it, for measuring what bodies cost.
 
+use std::ops::ControlFlow;
+
 use simworld_core::action::Action;
-use simworld_core::geometry::{Point3, Twist, Vector3, pose_facing};
+use simworld_core::geometry::{Aabb, Point3, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+use simworld_core::scene::{EntityDesc, EntityKind, EntityRef, Scene, Shape, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::{Seed, StreamRng};
 use simworld_physics::proving::ProvingError;
-use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics, VehicleClass};
+use simworld_physics::{Detail, HumanoidConfig, PhysicsConfig, PhysicsDynamics, VehicleClass};
 
 /// Width of a block with its street, m.
 const BLOCK: f64 = 80.0;
@@ -17,6 +19,11 @@ pub const SOLIDS: usize = 32;
 pub const BUILDINGS: usize = 4;
 /// Between two orders to the same person, steps of 1/60 s.
 const HABIT: u64 = 240;
+
+/// Between two looks of a driver ahead, steps.
+const LOOK: u64 = 6;
+/// What a driver does with a free way: some 30 km/h.
+const CRUISE: Action = Action::Throttle { level: 0.08 };
 
 /// Who is in the city.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,6 +46,8 @@ pub struct Quarter {
     pub physics: PhysicsDynamics,
     /// Who walks.
     walkers: Vec<EntityId>,
+    /// Cars, and whether their drivers brake.
+    cars: Vec<(EntityId, bool)>,
     rng: StreamRng,
     tick: u64,
 }
@@ -79,11 +88,26 @@ impl Quarter {
     /// # Errors
     /// The physics refuses a body.
     pub fn new(world: World, within: usize, crowd: Crowd, threads: Threads) -> Result<Self, ProvingError> {
+        Self::with_detail(world, within, crowd, threads, PhysicsConfig::default().detail_radius)
+    }
+
+    /// The same with full detail within so many metres of what is of interest.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_detail(
+        world: World,
+        within: usize,
+        crowd: Crowd,
+        threads: Threads,
+        detail_radius: f64,
+    ) -> Result<Self, ProvingError> {
         let parallel_threshold = if threads == Threads::One { usize::MAX } else { 48 };
-        let config = PhysicsConfig { substeps: 1, parallel_threshold, ..PhysicsConfig::default() };
+        let config =
+            PhysicsConfig { substeps: 1, parallel_threshold, detail_radius, ..PhysicsConfig::default() };
         let physics = PhysicsDynamics::new(config)?;
         let rng = Seed(1).stream("figures/quarter").rng();
-        let mut quarter = Self { world, physics, walkers: Vec::new(), rng, tick: 0 };
+        let mut quarter = Self { world, physics, walkers: Vec::new(), cars: Vec::new(), rng, tick: 0 };
         for _ in 0..crowd.people {
             let id = quarter.put(
                 within,
@@ -102,7 +126,8 @@ impl Quarter {
         for _ in 0..crowd.cars {
             let id = quarter.put(within, EntityKind::Car, 40.0, Shape::cuboid(4.3, 1.8, 1.5))?;
             quarter.physics.add_vehicle(&quarter.world, id, VehicleClass::Sedan.parameters())?;
-            quarter.world.actuate(id, Action::Throttle { level: 0.08 })?;
+            quarter.world.actuate(id, CRUISE)?;
+            quarter.cars.push((id, false));
         }
         for _ in 0..crowd.crates {
             let id = quarter.put(within, EntityKind::Prop, 37.0, Shape::cuboid(0.5, 0.5, 0.5))?;
@@ -147,11 +172,47 @@ impl Quarter {
                 self.world.actuate(*who, Action::Rotate { angle: quarter * std::f64::consts::FRAC_PI_2 })?;
             }
         }
+        self.drive()?;
         self.physics.step(&mut self.world, 1.0 / 60.0)?;
         self.world.finish_step();
         self.tick += 1;
         Ok(())
     }
+}
+
+impl Quarter {
+    /// Lets drivers near by brake for whatever is in their way, and go on when it is free; those far away meet nobody.
+    fn drive(&mut self) -> Result<(), ProvingError> {
+        for (index, (car, brakes)) in self.cars.iter_mut().enumerate() {
+            let looks = (self.tick + index as u64).is_multiple_of(LOOK);
+            if !looks || self.physics.detail(*car) != Some(Detail::Full) {
+                continue;
+            }
+            let Some(me) = self.world.entity(*car) else { continue };
+            let is_blocked = is_blocked(&self.world, &me);
+            if is_blocked != *brakes {
+                *brakes = is_blocked;
+                self.world.actuate(*car, if is_blocked { Action::Brake { level: 1.0 } } else { CRUISE })?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether something is on the way that a car needs to stop, or will be when it walks into it.
+fn is_blocked(world: &World, car: &EntityRef<'_>) -> bool {
+    let (speed, half) = (car.twist.linear.norm(), car.info.shape.size() * 0.5);
+    // A second to react and a stop at 4 m/s².
+    let reach = half.x + 2.0 + speed + speed * speed / 8.0;
+    let all = Aabb::around(car.position(), Vector3::new(reach, reach, 3.0));
+    world
+        .visit(&all, &mut |other| {
+            let seen = car.pose.inverse() * other.position();
+            let wide = half.y + 0.5 * other.info.shape.size().x.min(other.info.shape.size().y) + 0.7;
+            let is_ahead = seen.x > half.x && seen.x < reach && seen.y.abs() < wide;
+            if is_ahead && other.id != car.id { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .is_break()
 }
 
 /// How many threads look around.

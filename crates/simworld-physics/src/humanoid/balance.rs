@@ -82,7 +82,7 @@ impl Balance {
     }
 
     /// Lets the centre of mass follow the feet for `dt` s; returns the acceleration that it asked for at the beginning.
-    fn follow(&mut self, velocity: Vector2, dt: f64) -> Vector2 {
+    pub(super) fn follow(&mut self, velocity: Vector2, dt: f64) -> Vector2 {
         let asked = (velocity - self.momentum) / STEP_TIME;
         self.momentum += (velocity - self.momentum) * (dt / (dt + STEP_TIME));
         asked

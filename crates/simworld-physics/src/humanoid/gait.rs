@@ -38,6 +38,9 @@ const SWING: f64 = 0.6;
 const ELBOWS: [f64; 2] = [0.2, 1.4];
 /// Who has not moved for so long stands on both feet, s.
 const STANDING: f64 = 0.25;
+/// What stands for a share of the stride of who stands, and of who has told none yet.
+const STILL: f64 = -1.0;
+pub(super) const NEVER: f64 = -2.0;
 
 /// A foot: the print it is on or swings to, and the one it swings from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -185,6 +188,9 @@ impl Humanoid {
     fn print(&self, foot: usize, from: Point3, ahead: Vector2, around: &Surroundings<'_>) -> Foot {
         let offset = self.beside(foot) + ahead;
         let level = self.feet() + Vector3::new(offset.x, offset.y, 0.0);
+        if self.plan.strolls {
+            return Foot { from, to: level, slope: 0.0 }; // it walks by looks alone
+        }
         let reach = 2.0 * around.config().step_height;
         let found = look_down(to_vector(&level.coords), reach, around, &around.queries());
         let Some(ground) = found else { return Foot { from, to: level, slope: 0.0 } };
@@ -193,6 +199,22 @@ impl Humanoid {
             None => 0.0,
         };
         Foot { from, to: Point3::new(level.x, level.y, ground.height), slope }
+    }
+
+    /// Whether somebody who walks by looks alone has told how it holds its limbs, as far as that can be seen from there: an eighth of a
+    /// cycle ago at most.
+    pub(super) fn has_told(&mut self) -> bool {
+        if !self.plan.strolls {
+            return false;
+        }
+        let (gait, told) = (&self.motion.gait, self.plan.told);
+        let now = if gait.is_standing() { STILL } else { gait.phase };
+        let apart = (now - told).abs();
+        let is_news = if now < 0.0 || told < 0.0 { now != told } else { apart.min(1.0 - apart) >= 0.125 };
+        if is_news {
+            self.plan.told = now;
+        }
+        !is_news
     }
 
     /// How it holds its limbs.

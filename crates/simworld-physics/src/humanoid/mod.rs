@@ -10,6 +10,7 @@ mod physics_body;
 mod push;
 mod ragdoll;
 mod recovery;
+mod stroll;
 mod surface;
 mod walk;
 
@@ -30,6 +31,7 @@ use simworld_core::geometry::{Point3, Pose, Twist, Vector2, Vector3, pose_facing
 use simworld_core::limbs::JointAngles;
 use simworld_core::scene::{EntityKind, EntityRef, FallCause, Footing, Shape};
 use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
+use stroll::Stroll;
 
 use crate::error::{PhysicsError, check_range};
 
@@ -193,6 +195,10 @@ struct Plan {
     effort: Vector2,
     /// How its limbs lie while it is limp.
     limp: Option<JointAngles>,
+    /// Whether it walks by looks alone.
+    strolls: bool,
+    /// The share of its stride at which it told how it holds its limbs, last while it does; below zero for standing, and before.
+    told: f64,
     /// What it has to tell at the end of the step: why it fell, and whether it stands again.
     fell: Option<FallCause>,
     got_up: bool,
@@ -234,6 +240,8 @@ struct Motion {
     gait: Gait,
     /// How it fares since it fell.
     recovery: Recovery,
+    /// What it goes by far from what is of interest.
+    stroll: Stroll,
 }
 
 impl Humanoid {
@@ -265,6 +273,7 @@ impl Humanoid {
                 pace: Pace::default(),
                 gait: Gait::default(),
                 recovery: Recovery::default(),
+                stroll: Stroll::default(),
             },
             plan: Plan::default(),
         };

@@ -2,11 +2,12 @@
 
 use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
 use simworld_core::event::EventKind;
-use simworld_core::geometry::{Twist, Vector2, direction};
+use simworld_core::geometry::{Twist, Vector2};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{FOOTING, Footing, Role, Scene, World, WorldError};
 use simworld_core::seam::BodyState;
 
+use super::gait::NEVER;
 use super::ragdoll::{Ragdoll, dressed};
 use super::{Gait, Humanoid, Pace, Posture, Recovery};
 use crate::body::{BodyContext, Bonds, PhysicsBody, Surroundings};
@@ -46,7 +47,19 @@ impl PhysicsBody for Humanoid {
         self.footing() == Footing::Upright && self.motion.posture == Posture::Standing
     }
 
+    fn can_roam(&self) -> bool {
+        self.can_stroll()
+    }
+
+    fn roam(&mut self, around: &Surroundings<'_>, dt: f64) {
+        if !std::mem::replace(&mut self.plan.strolls, true) {
+            self.plan.told = NEVER;
+        }
+        self.stroll(around, dt);
+    }
+
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
+        self.stop_strolling();
         if !self.is_limp() {
             self.look_around(around, dt);
         }
@@ -63,12 +76,7 @@ impl PhysicsBody for Humanoid {
         }
         let displacement = self.step_on(context);
         self.push(context, dt);
-        if self.motion.posture == Posture::Riding {
-            // A rider who was stopped by a wall has to pick up speed again.
-            let heading = direction(self.motion.yaw);
-            let achieved = displacement.xy().dot(&heading) / dt;
-            self.motion.speed = self.motion.speed.min(achieved.max(0.0) + 1e-9);
-        }
+        self.slow_down(displacement.xy(), dt);
         self.recover(context, dt);
     }
 
@@ -104,6 +112,9 @@ impl PhysicsBody for Humanoid {
     }
 
     fn report(&mut self, id: EntityId, world: &mut World) -> Result<(), WorldError> {
+        if self.has_told() {
+            return Ok(());
+        }
         let footing = self.footing();
         if world.entity(id).is_some_and(|entity| entity.footing() != footing) {
             world.set_attribute(id, FOOTING, footing.to_attribute())?;

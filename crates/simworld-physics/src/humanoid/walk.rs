@@ -73,7 +73,7 @@ impl Humanoid {
     }
 
     /// Turns and changes speed within the limits; returns the displacement it would like, world frame, m.
-    fn intend(&mut self, around: &Surroundings<'_>, dt: f64) -> Vector3 {
+    pub(super) fn intend(&mut self, around: &Surroundings<'_>, dt: f64) -> Vector3 {
         let rises = self.footing() == Footing::Rising;
         let way = if rises { Vector2::zeros() } else { self.intend_to_go(around.holds, dt) };
         let way = self.motion.balance.hold_back(way / dt) * dt;

@@ -54,6 +54,15 @@ impl PhysicsBody for Quadruped {
         self.cheap.bind(bonds);
     }
 
+    fn can_roam(&self) -> bool {
+        self.motion.links.is_none() && self.motion.detail == Detail::Reduced && self.cheap.can_roam()
+    }
+
+    fn roam(&mut self, around: &Surroundings<'_>, dt: f64) {
+        self.cheap.roam(around, dt);
+        self.state = self.cheap.state();
+    }
+
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
         self.motion.detail = around.detail();
         let Some(links) = &self.motion.links else { return self.cheap.sense(around, dt) };

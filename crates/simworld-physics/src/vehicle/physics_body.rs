@@ -10,7 +10,7 @@ use crate::body::{BodyContext, Detail, PhysicsBody, Surroundings};
 use crate::convert::{to_pose, to_vector};
 
 /// The longest substep in which springs and tyres keep their accuracy, s.
-const LONGEST_SUBSTEP: f64 = 1.0 / 60.0;
+pub(super) const LONGEST_SUBSTEP: f64 = 1.0 / 60.0;
 /// How far the fastest oscillation, yaw on the tyres of a standing vehicle, goes in a substep at most, radians.
 const PHASE: f64 = 0.4;
 /// A vehicle slower than this for two seconds may sleep, m/s and rad/s.
@@ -48,11 +48,19 @@ impl PhysicsBody for Vehicle {
         }
     }
 
+    fn can_roam(&self) -> bool {
+        self.detail == Detail::Reduced
+    }
+
+    fn roam(&mut self, around: &Surroundings<'_>, dt: f64) {
+        self.roam_on_track(around, dt);
+    }
+
     fn sense(&mut self, around: &Surroundings<'_>, _: f64) {
         match around.detail() {
             Detail::Full if self.rests(around.is_sleeping()) => {}
             Detail::Full => self.look_down(around),
-            Detail::Reduced => self.look_at_ground(around),
+            Detail::Reduced => self.look_at_ground(around, &around.queries()),
         }
     }
 
@@ -63,7 +71,10 @@ impl PhysicsBody for Vehicle {
             self.change_detail(rigid, detail);
         }
         match detail {
-            Detail::Reduced => self.follow_track(rigid, &conditions, dt),
+            Detail::Reduced => {
+                let pose = self.follow_track(&conditions, dt);
+                rigid.set_next_kinematic_position(to_pose(&pose));
+            }
             // Spring impulses on a sleeping chassis would pile up until it wakes.
             Detail::Full if self.rests(rigid.is_sleeping()) => {}
             Detail::Full => {

@@ -6,16 +6,17 @@
 
 use nalgebra::{Translation3, UnitQuaternion};
 use parry3d_f64::query::Ray;
-use rapier3d_f64::prelude::{RigidBody, RigidBodyType};
+use rapier3d_f64::prelude::{QueryPipeline, RigidBody, RigidBodyType};
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point3, Pose, Twist, Vector3, yaw_of};
 use simworld_core::ops;
 use simworld_core::seam::BodyState;
 
+use super::physics_body::LONGEST_SUBSTEP;
 use super::single_track::{SingleTrackParameters, SingleTrackState};
 use super::{Drive, Vehicle, axle_of};
 use crate::body::{Detail, Surroundings};
-use crate::convert::{to_point, to_pose, to_vector};
+use crate::convert::{to_point, to_vector};
 use crate::shape::material_of;
 use crate::surface::Conditions;
 
@@ -35,12 +36,16 @@ pub(super) struct Track {
     /// Height of the ground under the front and the rear axle, m.
     ground: [f64; 2],
     grip: f64,
+    /// Way that it roams until it looks at the ground again, m.
+    until: f64,
 }
+
+/// Way between two looks at the ground of who roams, m: less than a wheelbase.
+const LOOK: f64 = 2.0;
 
 impl Vehicle {
     /// Finds the ground under the axles.
-    pub(super) fn look_at_ground(&mut self, around: &Surroundings<'_>) {
-        let queries = around.queries();
+    pub(super) fn look_at_ground(&mut self, around: &Surroundings<'_>, queries: &QueryPipeline<'_>) {
         let places = [self.parameters.front_axle(), self.parameters.rear_axle()];
         for (ground, x) in self.track.ground.iter_mut().zip(places) {
             let top = self.state.pose * Point3::new(x, 0.0, 0.0) + Vector3::z() * REACH;
@@ -54,8 +59,25 @@ impl Vehicle {
         }
     }
 
-    /// Moves on by a substep as a single track.
-    pub(super) fn follow_track(&mut self, rigid: &mut RigidBody, conditions: &Conditions, dt: f64) {
+    /// Moves on by a step out of the engine, along the ground as it finds it now and then.
+    pub(super) fn roam_on_track(&mut self, around: &Surroundings<'_>, dt: f64) {
+        let substeps = (dt / LONGEST_SUBSTEP - 1e-9).ceil().clamp(1.0, 1000.0);
+        let dt = dt / substeps;
+        for _ in 0..substeps as u32 {
+            self.track.until -= self.track.speed.abs() * dt;
+            if self.track.until <= 0.0 {
+                self.look_at_ground(around, &around.queries_of_fixed());
+                self.track.until = LOOK;
+            }
+            let before = self.state.pose.translation.z;
+            let pose = self.follow_track(around.conditions(), dt);
+            let linear = Vector3::z() * ((pose.translation.z - before) / dt);
+            self.settle_on_track(&BodyState { pose, twist: Twist { linear, angular: Vector3::zeros() } });
+        }
+    }
+
+    /// Where it comes to in a substep as a single track.
+    pub(super) fn follow_track(&mut self, conditions: &Conditions, dt: f64) -> Pose {
         let grip = self.track.grip.max(0.05);
         let model = SingleTrackParameters::of(&self.parameters, grip);
         let most = model.steering_limit_at(self.track.speed);
@@ -73,8 +95,7 @@ impl Vehicle {
         };
         let after = model.step(&before, self.controls.wheel_angle, acceleration, dt);
         (self.track.speed, self.track.slip, self.track.yaw_rate) = (after.speed, after.slip, after.yaw_rate);
-        let pose = self.pose_on_ground(&after, dt);
-        rigid.set_next_kinematic_position(to_pose(&pose));
+        self.pose_on_ground(&after, dt)
     }
 
     /// Acceleration along the track by engine, brakes and resistances within the grip, m/s²; it never turns the
@@ -156,6 +177,7 @@ impl Vehicle {
                 self.track.slip =
                     if along.abs() < 0.1 { 0.0 } else { ops::atan2(across, along.abs()) * along.signum() };
                 self.track.yaw_rate = angular.z;
+                self.track.until = 0.0;
                 rigid.set_body_type(RigidBodyType::KinematicPositionBased, true);
             }
             Detail::Full => {

@@ -6,6 +6,7 @@ mod blows;
 mod common;
 mod crowds;
 mod falls;
+mod far;
 mod obstacles;
 mod pushing;
 mod slopes;

@@ -3,7 +3,7 @@
 use crate::common::{Stage, at};
 use simworld_core::action::Action;
 use simworld_core::event::EventKind;
-use simworld_core::geometry::Twist;
+use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Shape};
 
@@ -76,4 +76,35 @@ fn a_car_that_runs_into_a_person_reports_its_speed_and_pushes_the_person_aside()
     let mut overlapping = Vec::new();
     stage.physics.overlapping(&Shape::cuboid(4.0, 1.6, 1.5), &at(6.0, 0.0, 0.0), &mut overlapping);
     assert!(!overlapping.contains(&person), "{}", stage.position(person));
+}
+
+#[test]
+fn what_sleeps_still_touches_and_waking_begins_no_contact_of_its_own() {
+    let mut stage = Stage::new();
+    let table = stage.building(0.0, 0.0, (2.0, 2.0, 1.0));
+    let on = |height: f64| -> Pose { pose_facing(Point3::new(0.0, 0.0, height), 0.0) };
+    let [lower, upper] = [1.0, 1.4].map(|height| {
+        let id = stage.spawn(EntityKind::Prop, on(height), Shape::cuboid(0.4, 0.4, 0.4));
+        stage.physics.add_rigid(&stage.world, id).unwrap();
+        id
+    });
+    stage.run(60);
+    let pairs = |stage: &Stage| contacts(stage).iter().map(|(a, b, _)| (*a, *b)).collect::<Vec<_>>();
+    let first = pairs(&stage);
+    assert!(first.contains(&(table, lower)) && first.contains(&(lower, upper)), "{first:?}");
+    stage.run(40);
+    assert_eq!(pairs(&stage), first, "asleep they go on touching");
+    let ball = stage.ball(Point3::new(0.0, 0.0, 3.0), Vector3::zeros(), 0.5);
+    stage.run(40);
+    let woken = pairs(&stage).split_off(first.len());
+    assert!(!woken.is_empty() && woken.iter().all(|(a, b)| *a == ball || *b == ball), "{woken:?}");
+    let count = |stage: &Stage| pairs(stage).iter().filter(|pair| **pair == (lower, upper)).count();
+    let before = count(&stage);
+    stage.world.set_motion(upper, at(10.0, 0.0, 0.0), Twist::ZERO).unwrap();
+    stage.run(20);
+    assert_eq!(count(&stage), before);
+    let height = stage.position(lower).z + 0.4;
+    stage.world.set_motion(upper, on(height + 0.02), Twist::ZERO).unwrap();
+    stage.run(20);
+    assert!(count(&stage) > before, "taken away and put back it touches anew");
 }
