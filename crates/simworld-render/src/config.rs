@@ -61,6 +61,18 @@ pub enum AntiAliasing {
     Msaa4,
 }
 
+/// How finely things are drawn that are few pixels wide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum LevelOfDetail {
+    /// With fewer triangles the fewer pixels they are wide. Rays meet the finest level all the same.
+    #[default]
+    ByPixels,
+    /// As finely as those that fill the picture: both backends draw the same then.
+    Finest,
+}
+
 /// Settings of a [`Renderer`](crate::Renderer).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -77,6 +89,8 @@ pub struct RenderConfig {
     pub far: f64,
     /// Entities whose bounding sphere covers fewer pixels across are not drawn, from 0 to 100.
     pub min_pixels: f64,
+    /// How finely things are drawn that are few pixels wide.
+    pub level_of_detail: LevelOfDetail,
     /// Smoothing of edges in RGB.
     pub anti_aliasing: AntiAliasing,
     /// Side of the sun's shadow map, texels, from 256 to 8192; 0 turns shadows off.
@@ -96,6 +110,7 @@ impl Default for RenderConfig {
             near: 0.05,
             far: 1000.0,
             min_pixels: 0.7,
+            level_of_detail: LevelOfDetail::ByPixels,
             anti_aliasing: AntiAliasing::Off,
             shadow_resolution: 2048,
             shadow_distance: 120.0,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use simworld_core::geometry::Vector3;
 use simworld_core::id::EntityId;
 
+use crate::look::Detail;
 use crate::mesh::Drawn;
 use crate::resident::{Ball, Residents};
 use crate::shadow::ShadowView;
@@ -55,6 +56,13 @@ impl DrawList {
         self.shading.clear();
         let [hidden, only] = [hidden, only].map(|id| id.map(|id| id.index() as u32));
         let from_eye = |ball: &Ball| ball.center - view.eye;
+        let detail = |ball: &Ball| {
+            if residents.finest {
+                return Detail::Near.bit();
+            }
+            let distance = from_eye(ball).norm().max(ball.radius);
+            Detail::of(ball.radius, view.pixels(ball.radius, distance)).bit()
+        };
         let sees =
             |cell: &Ball, largest: f64| view.sees_some(&from_eye(cell), cell.radius, largest, min_pixels);
         let entry = |number: u32, rank: u32| {
@@ -64,7 +72,9 @@ impl DrawList {
         residents.grid.visit(sees, |number, ball| {
             let center = from_eye(ball);
             let card = &residents.cards[number as usize];
-            let wanted = hidden != Some(card.slot) && only.is_none_or(|slot| slot == card.slot);
+            let wanted = hidden != Some(card.slot)
+                && only.is_none_or(|slot| slot == card.slot)
+                && card.details & detail(ball) != 0;
             if wanted && view.sees(&center, ball.radius, min_pixels) {
                 self.seen.push(entry(number, rank(card.mesh, &center)));
             }
@@ -74,7 +84,8 @@ impl DrawList {
             residents.grid.visit(
                 |cell, _| reaches(cell),
                 |number, ball| {
-                    if residents.cards[number as usize].casts && reaches(ball) {
+                    let card = &residents.cards[number as usize];
+                    if card.casts && card.details & detail(ball) != 0 && reaches(ball) {
                         self.shading.push(entry(number, 0));
                     }
                 },

@@ -24,7 +24,7 @@ mod view;
 mod works;
 
 pub use batch::{Channels, PixelFormat, Projection, Span, ViewOptions, ViewRequest, Views};
-pub use config::{AdapterChoice, AntiAliasing, Backend, Backends, RenderConfig};
+pub use config::{AdapterChoice, AntiAliasing, Backend, Backends, LevelOfDetail, RenderConfig};
 pub use error::RenderError;
 pub use export::PNG_DEPTH_LIMIT;
 pub use frame::{Frame, SKY_DEPTH};

@@ -121,7 +121,7 @@ impl View {
     }
 
     /// Pixels across a ball at that distance.
-    fn pixels(&self, radius: f64, distance: f64) -> f64 {
+    pub(crate) fn pixels(&self, radius: f64, distance: f64) -> f64 {
         let focal = self.intrinsics.fx.max(self.intrinsics.fy);
         match self.projection {
             Projection::Pinhole => 2.0 * radius * focal / distance.max(1e-9),

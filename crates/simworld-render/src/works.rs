@@ -7,7 +7,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 
 use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
-use crate::config::{AntiAliasing, Backend};
+use crate::config::{AntiAliasing, Backend, LevelOfDetail};
 use crate::draw_list::DrawList;
 use crate::gpu::{Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
 use crate::light::Light;
@@ -58,7 +58,9 @@ impl Works {
         let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
         let planes = Planes::new(&gpu);
         gpu.check()?;
-        let (readbacks, residents, list) = (Readbacks::default(), Residents::default(), DrawList::default());
+        let (readbacks, list) = (Readbacks::default(), DrawList::default());
+        let mut residents = Residents::default();
+        residents.finest = config.level_of_detail == LevelOfDetail::Finest;
         Ok(Self {
             gpu,
             shadow_resolution,

@@ -5,6 +5,7 @@
 //! and from 0 to 1 in z. The unit of offsets is set by the instance: metres, a radius, or the height.
 
 use bytemuck::{Pod, Zeroable};
+use simworld_core::geometry::{Point3, Pose, Vector3};
 use simworld_core::ops;
 
 pub(crate) type V3 = [f32; 3];
@@ -75,6 +76,9 @@ impl P {
         Self { a: [x.a[0], y.a[1], z.a[2]], o: [x.o[0], y.o[1], z.o[2]] }
     }
 }
+
+/// A ring of a turned surface: height, radii along x and y, and how far its middle is moved along x.
+pub(crate) type Ring = [f32; 4];
 
 /// Collects triangles of one mesh.
 pub(crate) struct Builder {
@@ -222,6 +226,84 @@ impl Builder {
         }
     }
 
+    /// A surface turned round the z axis through rings by ascending height; `place` says where its points are and must not
+    /// mirror them. It is smooth where it bends by less than 60°. A ring without radii closes it.
+    pub(crate) fn lathe(&mut self, rings: &[Ring], sides: u32, material: Material, place: &dyn Fn(V3) -> P) {
+        let last = rings.len() - 1;
+        let mut below = self.turned_row(rings, 0, [0, 1], sides, material, place);
+        for ring in 0..last {
+            let crease = ring + 1 < last && bends(&rings[ring..ring + 3]);
+            let (from, to) = (ring, if crease || ring + 1 == last { ring + 1 } else { ring + 2 });
+            let above = self.turned_row(rings, ring + 1, [from, to], sides, material, place);
+            let (open_below, open_above) = (rings[ring][1] > 0.0, rings[ring + 1][1] > 0.0);
+            for k in 0..sides {
+                let (a, d) = (below + k, above + k);
+                if open_below {
+                    self.indices.extend([a, a + 1, d + 1]);
+                }
+                if open_above {
+                    self.indices.extend([a, d + 1, d]);
+                }
+            }
+            below = if crease {
+                self.turned_row(rings, ring + 1, [ring + 1, ring + 2], sides, material, place)
+            } else {
+                above
+            };
+        }
+    }
+
+    /// The vertices of a ring, with the slope of the surface from one ring to another; returns the first.
+    fn turned_row(
+        &mut self,
+        rings: &[Ring],
+        ring: usize,
+        [from, to]: [usize; 2],
+        sides: u32,
+        material: Material,
+        place: &dyn Fn(V3) -> P,
+    ) -> u32 {
+        let point = |ring: usize, k: u32| {
+            let [z, rx, ry, dx] = rings[ring];
+            let [x, y, _] = around([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], k, sides);
+            [dx + rx * x, ry * y, z]
+        };
+        let first = self.vertices.len() as u32;
+        let origin = self.place(place([0.0; 3]));
+        // A ring without radii has the directions of its neighbour.
+        let wide = if rings[ring][1] > 0.0 {
+            ring
+        } else if ring == from {
+            to
+        } else {
+            from
+        };
+        for k in 0..=sides {
+            let along = sub(point(to, k), point(from, k));
+            let across = sub(point(wide, k + 1), point(wide, k + sides - 1));
+            let normal = normalize(cross(across, along));
+            let normal = normalize(sub(self.place(place(normal)), origin));
+            self.push(place(point(ring, k)), normal, material);
+        }
+        first
+    }
+
+    /// Takes over the triangles of another mesh, its anchors moved and turned and its materials renamed.
+    pub(crate) fn append(&mut self, other: &Self, place: &Pose, material: &dyn Fn(u32) -> Material) {
+        let first = self.vertices.len() as u32;
+        let narrow = |v: Vector3| [v.x as f32, v.y as f32, v.z as f32];
+        for vertex in &other.vertices {
+            let [x, y, z]: V3 =
+                std::array::from_fn(|i| vertex.anchor[i] * other.nominal[i] + vertex.offset[i] * other.scale);
+            let point = place * Point3::new(f64::from(x), f64::from(y), f64::from(z));
+            let normal = place.rotation * Vector3::from(vertex.normal.map(f64::from));
+            let anchor = narrow(point.coords);
+            let material = material(vertex.material);
+            self.push(P { a: anchor, o: [0.0; 3] }, narrow(normal), material);
+        }
+        self.indices.extend(other.indices.iter().map(|index| first + index));
+    }
+
     /// A limb: a tapered tube with round ends, radii in units.
     pub(crate) fn limb(&mut self, ends: [P; 2], radii: [f32; 2], material: Material) {
         self.tube(ends, radii, 8, material);
@@ -229,6 +311,12 @@ impl Builder {
             self.ball([end, end], [radius; 3], 4, 8, material);
         }
     }
+}
+
+/// Whether a turned surface has an edge at the middle one of three rings.
+fn bends(rings: &[Ring]) -> bool {
+    let slope = |a: &Ring, b: &Ring| normalize([(b[1] + b[2] - a[1] - a[2]) * 0.5, b[0] - a[0], 0.0]);
+    dot(slope(&rings[0], &rings[1]), slope(&rings[1], &rings[2])) < 0.5
 }
 
 /// The `k`-th of `sides` directions round the axis u x v.

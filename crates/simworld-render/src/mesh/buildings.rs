@@ -1,6 +1,6 @@
 //! Buildings: walls flush with the solid, so that depth and collisions agree; roofs inside it. Offsets in metres.
 
-use super::builder::{Builder, Material, share};
+use super::builder::{Builder, Material, P, share};
 use super::primitives::{BOTTOM, HIGH, LOW, TOP};
 
 /// Height and width of a parapet, m.
@@ -38,21 +38,111 @@ pub(crate) fn block() -> Builder {
     mesh
 }
 
-/// A pitched roof whose ridge follows the street, with gables and a chimney.
-pub(crate) fn house() -> Builder {
-    let mut mesh = Builder::new([10.0, 12.0, 7.0], 1.0);
-    let drop = 2.2;
-    walls(&mut mesh, drop);
-    let eave = |x: f32, y: f32| share(0.5 * x, 0.5 * y, 1.0).plus(0.0, 0.0, -drop);
-    let ridge = |y: f32| share(0.0, 0.5 * y, 1.0);
-    mesh.quad([eave(1.0, -1.0), eave(1.0, 1.0), ridge(1.0), ridge(-1.0)], Material::Second);
-    mesh.quad([eave(-1.0, 1.0), eave(-1.0, -1.0), ridge(-1.0), ridge(1.0)], Material::Second);
-    for side in [1.0, -1.0] {
-        // A gable is a triangle: the ridge stands twice.
-        mesh.quad([eave(-side, side), ridge(side), ridge(side), eave(side, side)], Material::White);
+/// How far below the top the walls of a pitched roof end, and how far its eaves reach out, m.
+const RISE: f32 = 2.2;
+const EAVES: f32 = 0.35;
+
+/// Where a ridge runs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ridge {
+    /// Along the street, which is y.
+    Across,
+    /// Away from the street, along x.
+    Along,
+}
+
+impl Ridge {
+    /// A point whose first share is across the ridge and whose second is along it.
+    fn at(self, across: f32, along: f32, z: f32) -> P {
+        match self {
+            Self::Across => share(across, along, z),
+            Self::Along => share(-along, across, z),
+        }
     }
-    let foot = share(-0.2, 0.25, 1.0);
-    mesh.cuboid(foot.plus(-0.3, -0.3, -1.4), foot.plus(0.3, 0.3, 0.0), Material::Dark);
+
+    fn plus(self, p: P, across: f32, along: f32, up: f32) -> P {
+        match self {
+            Self::Across => p.plus(across, along, up),
+            Self::Along => p.plus(-along, across, up),
+        }
+    }
+}
+
+/// A pitched roof with gables, or with four slopes where the ridge is shorter than the house by `hip` at both ends.
+pub(crate) fn house(run: Ridge, hip: f32) -> Builder {
+    let mut mesh = Builder::new([10.0, 12.0, 7.0], 1.0);
+    walls(&mut mesh, RISE);
+    // The eaves are as much lower as they reach out.
+    let eave = |x: f32, y: f32| {
+        let wall = run.at(0.5 * x, 0.5 * y, 1.0);
+        run.plus(wall, EAVES * x, EAVES * y, -RISE - 0.15)
+    };
+    let verge = |x: f32, y: f32| {
+        let wall = run.at(0.5 * x, 0.5 * y, 1.0);
+        run.plus(wall, EAVES * x, 0.2 * y, -RISE - 0.15)
+    };
+    let gabled = hip == 0.0;
+    let foot = |x: f32, y: f32| if gabled { verge(x, y) } else { eave(x, y) };
+    let ridge = |y: f32| {
+        let top = run.at(0.0, (0.5 - hip) * y, 1.0);
+        if gabled { run.plus(top, 0.0, 0.2 * y, 0.0) } else { top }
+    };
+    for side in [1.0, -1.0] {
+        mesh.quad([foot(side, -side), foot(side, side), ridge(side), ridge(-side)], Material::Second);
+        // What one sees of the roof from below.
+        let under = [ridge(-side), ridge(side), foot(side, side), foot(side, -side)];
+        mesh.quad(under.map(|p| p.plus(0.0, 0.0, -0.12)), Material::Wood);
+        let hem = |p: P| p.plus(0.0, 0.0, -0.12);
+        let [a, b] = [foot(side, -side), foot(side, side)];
+        mesh.quad([hem(a), hem(b), b, a], Material::White);
+    }
+    for side in [1.0, -1.0] {
+        if gabled {
+            // A gable is a triangle: the ridge stands twice. The wall goes on to it.
+            let wall = |x: f32| run.plus(run.at(0.5 * x, 0.5 * side, 1.0), 0.0, 0.0, -RISE);
+            let top = run.plus(run.at(0.0, 0.5 * side, 1.0), 0.0, 0.0, -0.1);
+            mesh.quad([wall(-side), top, top, wall(side)], Material::Body);
+            // The edges of the slopes.
+            for x in [side, -side] {
+                let (low, high) = (foot(x, side), ridge(side));
+                let hem = |p: P| p.plus(0.0, 0.0, -0.14);
+                let band = [hem(low), hem(high), high, low];
+                let [a, b, c, d] = band;
+                mesh.quad(if x * side > 0.0 { [b, a, d, c] } else { [a, b, c, d] }, Material::White);
+            }
+        } else {
+            mesh.quad([foot(side, side), foot(-side, side), ridge(side), ridge(side)], Material::Second);
+            let [a, b] = [foot(side, side), foot(-side, side)];
+            let hem = |p: P| p.plus(0.0, 0.0, -0.12);
+            mesh.quad([hem(a), hem(b), b, a], Material::White);
+            mesh.quad([ridge(side), ridge(side), b, a].map(hem), Material::Wood);
+        }
+    }
+    mesh
+}
+
+/// One slope, up from the street.
+pub(crate) fn shed() -> Builder {
+    let mut mesh = Builder::new([10.0, 12.0, 7.0], 1.0);
+    walls(&mut mesh, RISE);
+    let low = |y: f32| share(0.5, 0.5 * y, 1.0).plus(0.0, 0.0, -RISE);
+    let high = |y: f32| share(-0.5, 0.5 * y, 1.0);
+    let sill = |y: f32| high(y).plus(0.0, 0.0, -RISE);
+    mesh.quad([low(-1.0), low(1.0), high(1.0), high(-1.0)], Material::Second);
+    mesh.quad([sill(1.0), sill(-1.0), high(-1.0), high(1.0)], Material::Body);
+    mesh.quad([low(1.0), sill(1.0), high(1.0), high(1.0)], Material::Body);
+    mesh.quad([sill(-1.0), low(-1.0), high(-1.0), high(-1.0)], Material::Body);
+    mesh
+}
+
+/// A block of a few pixels.
+pub(crate) fn far_block() -> Builder {
+    let mut mesh = Builder::new([12.0, 16.0, 20.0], 1.0);
+    walls(&mut mesh, 0.0);
+    mesh.quad(
+        [share(0.5, -0.5, 1.0), share(0.5, 0.5, 1.0), share(-0.5, 0.5, 1.0), share(-0.5, -0.5, 1.0)],
+        Material::Second,
+    );
     mesh
 }
 

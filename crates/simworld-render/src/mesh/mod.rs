@@ -2,8 +2,13 @@
 
 mod builder;
 mod buildings;
+mod creatures;
+pub(crate) mod cycles;
+mod figures;
+mod fittings;
+mod heavy;
 mod nature;
-mod people;
+pub(crate) mod people;
 mod primitives;
 mod street;
 mod vehicles;
@@ -12,10 +17,11 @@ use std::ops::Range;
 
 use builder::Builder;
 pub(crate) use builder::Vertex;
+use buildings::Ridge;
+use figures::Stance;
 pub(crate) use nature::CROWN_RADIUS;
-use people::Stance;
+use people::{Grain, Hair};
 use simworld_core::id::AssetId;
-pub(crate) use street::LAMP_REACH;
 
 /// How the fragments of a mesh are painted; each is a pipeline of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,19 +75,72 @@ macro_rules! meshes {
 
 // Near and small things first: what they hide is not shaded again.
 meshes! {
-    Standing = Plain, people::person(Stance::Standing);
-    Walking = Plain, people::person(Stance::Walking);
-    Sitting = Plain, people::person(Stance::Sitting);
-    Dog = Plain, people::dog();
-    Robot = Plain, people::robot();
+    Pelvis = Plain, people::pelvis(Grain::Fine);
+    Chest = Plain, people::chest(Grain::Fine);
+    HeadShort = Plain, people::head(Grain::Fine, Hair::Short);
+    HeadLong = Plain, people::head(Grain::Fine, Hair::Long);
+    HeadBun = Plain, people::head(Grain::Fine, Hair::Bun);
+    HeadBald = Plain, people::head(Grain::Fine, Hair::None);
+    UpperArm = Plain, people::upper_arm(Grain::Fine);
+    Forearm = Plain, people::forearm(Grain::Fine);
+    Thigh = Plain, people::thigh(Grain::Fine);
+    Shank = Plain, people::shank(Grain::Fine);
+    Foot = Plain, people::foot(Grain::Fine);
+    CoarsePelvis = Plain, people::pelvis(Grain::Coarse);
+    CoarseChest = Plain, people::chest(Grain::Coarse);
+    CoarseHeadShort = Plain, people::head(Grain::Coarse, Hair::Short);
+    CoarseHeadLong = Plain, people::head(Grain::Coarse, Hair::Long);
+    CoarseUpperArm = Plain, people::upper_arm(Grain::Coarse);
+    CoarseForearm = Plain, people::forearm(Grain::Coarse);
+    CoarseThigh = Plain, people::thigh(Grain::Coarse);
+    CoarseShank = Plain, people::shank(Grain::Coarse);
+    CoarseFoot = Plain, people::foot(Grain::Coarse);
+    Cap = Plain, people::cap();
+    Hat = Plain, people::hat();
+    Helmet = Plain, people::helmet();
+    Coat = Plain, people::coat();
+    Skirt = Plain, people::skirt();
+    Backpack = Plain, people::backpack();
+    ShoulderBag = Plain, people::shoulder_bag();
+    Standing = Plain, figures::person(Stance::Standing);
+    Walking = Plain, figures::person(Stance::Walking);
+    Sitting = Plain, figures::person(Stance::Sitting);
+    Dog = Plain, creatures::dog();
+    Robot = Plain, creatures::robot();
     Parcel = Plain, street::parcel();
+    DogTrunk = Plain, creatures::dog_trunk();
+    DogThigh = Plain, creatures::dog_thigh();
+    DogShank = Plain, creatures::dog_shank();
+    RobotTrunk = Plain, creatures::robot_trunk();
+    RobotThigh = Plain, creatures::robot_thigh();
+    RobotShank = Plain, creatures::robot_shank();
+    Wheel = Plain, cycles::wheel(18);
+    CoarseWheel = Plain, cycles::wheel(8);
+    CycleWheel = Plain, cycles::spoked(0.045);
+    MotorWheel = Plain, cycles::spoked(0.16);
+    Bicycle = Plain, cycles::bicycle();
+    Motorcycle = Plain, cycles::motorcycle();
+    Scooter = Plain, cycles::scooter();
+    FarCycle = Plain, cycles::far_cycle();
     Sedan = Plain, vehicles::sedan();
     Hatchback = Plain, vehicles::hatchback();
-    Truck = Plain, vehicles::truck();
-    Bus = Plain, vehicles::bus();
-    Motorcycle = Plain, vehicles::motorcycle();
-    Bicycle = Plain, vehicles::bicycle();
-    Scooter = Plain, vehicles::scooter();
+    Estate = Plain, vehicles::estate();
+    Suv = Plain, vehicles::suv();
+    Sports = Plain, vehicles::sports();
+    Pickup = Plain, vehicles::pickup();
+    FarCar = Plain, vehicles::far_car();
+    TaxiSign = Plain, vehicles::taxi_sign();
+    LightBar = Plain, vehicles::light_bar();
+    Stripe = Plain, vehicles::stripe();
+    Van = Plain, heavy::van();
+    Truck = Plain, heavy::truck();
+    FireEngine = Plain, heavy::fire_engine();
+    Tanker = Plain, heavy::tanker();
+    Tipper = Plain, heavy::tipper();
+    FarTruck = Plain, heavy::far_truck();
+    Bus = Plain, heavy::bus();
+    DoubleDecker = Plain, heavy::double_decker();
+    FarBus = Plain, heavy::far_bus();
     Lamp = Plain, street::lamp();
     Signal = Plain, street::signal();
     Sign = Plain, buildings::sign();
@@ -93,12 +152,30 @@ meshes! {
     Hydrant = Plain, street::hydrant();
     Cone = Plain, street::cone();
     BusStop = Plain, buildings::bus_stop();
+    Chimney = Plain, fittings::chimney();
+    RoofUnit = Plain, fittings::roof_unit();
+    Tank = Plain, fittings::tank();
+    Antenna = Plain, fittings::antenna();
+    Awning = Plain, fittings::awning();
+    BladeSign = Plain, fittings::blade_sign();
+    Balcony = Plain, fittings::balcony();
+    Canopy = Plain, fittings::canopy();
+    Portico = Plain, fittings::portico();
+    Cross = Plain, fittings::cross();
+    Gate = Plain, fittings::gate();
+    Spire = Plain, fittings::spire();
+    Skylight = Plain, fittings::skylight();
     Cuboid = Plain, primitives::cuboid();
     Cylinder = Plain, primitives::cylinder();
     Capsule = Plain, primitives::capsule();
     Sphere = Plain, primitives::sphere();
     Block = Facade, buildings::block();
-    House = Facade, buildings::house();
+    FarBlock = Facade, buildings::far_block();
+    House = Facade, buildings::house(Ridge::Across, 0.0);
+    HouseAlong = Facade, buildings::house(Ridge::Along, 0.0);
+    Hip = Facade, buildings::house(Ridge::Across, 0.28);
+    HipAlong = Facade, buildings::house(Ridge::Along, 0.28);
+    Shed = Facade, buildings::shed();
     Broadleaf = Foliage, nature::broadleaf();
     Slender = Foliage, nature::slender();
     Shrub = Foliage, nature::shrub();
@@ -106,6 +183,24 @@ meshes! {
     Crosswalk = Crosswalk, primitives::cuboid();
     Road = Road, primitives::cuboid();
     Ground = Ground, primitives::cuboid();
+}
+
+impl MeshId {
+    /// The mesh of fewer triangles that stands for this one a little farther away, or the same.
+    pub(crate) const fn coarse(self) -> Self {
+        match self {
+            Self::Pelvis => Self::CoarsePelvis,
+            Self::Chest => Self::CoarseChest,
+            Self::HeadShort | Self::HeadBun | Self::HeadBald => Self::CoarseHeadShort,
+            Self::HeadLong => Self::CoarseHeadLong,
+            Self::UpperArm => Self::CoarseUpperArm,
+            Self::Forearm => Self::CoarseForearm,
+            Self::Thigh => Self::CoarseThigh,
+            Self::Shank => Self::CoarseShank,
+            Self::Foot => Self::CoarseFoot,
+            _ => self,
+        }
+    }
 }
 
 /// What is drawn of an entity: a mesh of this crate, or the model of its asset.
@@ -178,7 +273,7 @@ mod tests {
     /// The four solids and the walls fill their boxes exactly: depth agrees with what bodies collide with.
     #[test]
     fn solids_fill_their_boxes() {
-        for mesh in [MeshId::Cuboid, MeshId::Block, MeshId::House, MeshId::Road] {
+        for mesh in [MeshId::Cuboid, MeshId::Block, MeshId::FarBlock, MeshId::Road] {
             let built = mesh.build();
             let height = built.vertices.iter().map(|v| v.anchor[2] * 10.0 + v.offset[2]).fold(0.0, f32::max);
             let length = built.vertices.iter().map(|v| v.anchor[0] * 10.0 + v.offset[0]).fold(0.0, f32::max);

@@ -1,79 +1,140 @@
-//! Vehicles, facing +x. Their boxes stretch with the solid, wheels stay round. Offsets in metres.
+//! Cars, facing +x, without their wheels, which are instances of their own. Their boxes stretch with the solid, what is
+//! as large on every car stays so. Offsets in metres.
 
-use super::builder::{Builder, Material, P, share, unit};
-use super::primitives::{HIGH, LOW};
-
-/// Two wheels on an axle at `x` (share of the length plus metres).
-fn axle(mesh: &mut Builder, at: P, radius: f32, width: f32) {
-    for side in [-1.0, 1.0] {
-        let outer = P { a: [at.a[0], 0.5 * side, 0.0], o: [at.o[0], -0.02 * side, radius] };
-        let inner = outer.plus(0.0, -width * side, 0.0);
-        let rim = outer.plus(0.0, 0.012 * side, 0.0);
-        mesh.tube([inner, outer], [radius, radius], 18, Material::Rubber);
-        mesh.tube([outer, rim], [radius * 0.62, radius * 0.5], 12, Material::Metal);
-    }
-}
+use super::builder::{Builder, Material, P, share};
+use super::primitives::{LOW, TOP};
 
 /// Lamps at the nose and the tail, at a height in m.
-fn lights(mesh: &mut Builder, height: f32, inset: f32) {
+pub(super) fn lights(mesh: &mut Builder, height: f32, inset: f32) {
     for side in [-1.0, 1.0] {
         let nose = share(0.5, 0.5 * side, 0.0).plus(-0.06, -inset * side, height);
-        mesh.cuboid(nose.plus(0.0, -0.17, -0.07), nose.plus(0.075, 0.17, 0.07), Material::HeadLight);
-        let tail = share(-0.5, 0.5 * side, 0.0).plus(-0.015, -inset * side, height + 0.08);
-        mesh.cuboid(tail.plus(0.0, -0.16, -0.07), tail.plus(0.075, 0.16, 0.07), Material::TailLight);
+        mesh.cuboid(nose.plus(-0.06, -0.18, -0.06), nose.plus(0.062, 0.18, 0.06), Material::HeadLight);
+        let tail = share(-0.5, 0.5 * side, 0.0).plus(-0.012, -inset * side, height + 0.1);
+        mesh.cuboid(tail.plus(0.0, -0.17, -0.07), tail.plus(0.13, 0.17, 0.07), Material::TailLight);
     }
 }
 
-/// The body of a car along its side: (share of length, height share), with the cabin between two stations.
+/// Number plates, at a height in m.
+pub(super) fn plates(mesh: &mut Builder, height: f32) {
+    for (x, side) in [(0.5, 1.0), (-0.5, -1.0)] {
+        let middle = share(x, 0.0, 0.0).plus(0.012 * side, 0.0, height);
+        mesh.cuboid(middle.plus(-0.02, -0.26, -0.055), middle.plus(0.002, 0.26, 0.055), Material::White);
+    }
+}
+
+/// Dark arches round the wheels of an axle.
+pub(super) fn arches(mesh: &mut Builder, at: P, radius: f32) {
+    for side in [-1.0, 1.0] {
+        let middle = P { a: [at.a[0], 0.5 * side, 0.0], o: [at.o[0], 0.0, radius] };
+        let ends = [middle.plus(0.0, -0.1 * side, 0.0), middle.plus(0.0, 0.006 * side, 0.0)];
+        mesh.tube(ends, [radius * 1.17; 2], 14, Material::Dark);
+    }
+}
+
+/// Mirrors at the foot of the windscreen.
+fn mirrors(mesh: &mut Builder, at: P) {
+    for side in [-1.0, 1.0] {
+        let root = P { a: [at.a[0], 0.5 * side, at.a[2]], o: [at.o[0], 0.0, at.o[2]] };
+        let (low, high) = if side > 0.0 { (-0.03, 0.1) } else { (-0.1, 0.03) };
+        mesh.cuboid(root.plus(-0.05, low, 0.0), root.plus(0.06, high, 0.13), Material::Body);
+    }
+}
+
+/// One cross-section of a hull: share of the length, share of the height at its top, share of the width.
+pub(super) type Station = [f32; 3];
+
+/// A car along its side: hull and cabin.
 struct Profile {
-    /// Stations of the hull from nose to tail: x share and height share of the top.
-    hull: [(f32, f32); 5],
+    /// From nose to tail.
+    hull: &'static [Station],
     /// Foot and head of the windscreen, then head and foot of the rear window: x shares.
     cabin: [f32; 4],
+    /// Where the windows begin: share of the height.
+    belt: f32,
+    /// How high the floor is, m.
+    floor: f32,
+    /// How far the roof is drawn in on each side, share of the width.
+    draw: f32,
+    wheel: f32,
+}
+
+/// The corners of a cross-section: floor, sill, shoulder and top, the right side upwards, then the left side downwards.
+fn section([x, top, width]: Station, floor: f32) -> [P; 8] {
+    let y = 0.5 * width;
+    let right = [
+        share(x, -y, 0.0).plus(0.0, 0.05, floor),
+        share(x, -y, 0.0).plus(0.0, 0.0, floor + 0.14),
+        share(x, -y, top).plus(0.0, 0.0, -0.1),
+        share(x, -y, top).plus(0.0, 0.1, 0.0),
+    ];
+    let mirrored = |p: P| P { a: [p.a[0], -p.a[1], p.a[2]], o: [p.o[0], -p.o[1], p.o[2]] };
+    let [a, b, c, d] = right;
+    [a, b, c, d, mirrored(d), mirrored(c), mirrored(b), mirrored(a)]
+}
+
+/// A hull through cross-sections from nose to tail, with a dark sill.
+pub(super) fn hull(mesh: &mut Builder, stations: &[Station], floor: f32) {
+    for pair in stations.windows(2) {
+        let (front, back) = (section(pair[0], floor), section(pair[1], floor));
+        for k in 0..8 {
+            let next = (k + 1) % 8;
+            let material = if matches!(k, 0 | 6 | 7) { Material::Dark } else { Material::Body };
+            mesh.quad([front[k], front[next], back[next], back[k]], material);
+        }
+    }
+    for (station, forward) in [(stations[0], true), (stations[stations.len() - 1], false)] {
+        let ring = section(station, floor);
+        for (k, material) in [(0, Material::Dark), (1, Material::Body), (2, Material::Body)] {
+            let corners = [ring[k], ring[7 - k], ring[6 - k], ring[k + 1]];
+            let [a, b, c, d] = corners;
+            mesh.quad(if forward { [a, b, c, d] } else { [b, a, d, c] }, material);
+        }
+    }
 }
 
 fn car(profile: &Profile) -> Builder {
     let mut mesh = Builder::new([4.5, 1.8, 1.5], 1.0);
-    let floor = 0.2;
-    let ring = |x: f32, tuck: f32, z: P| {
-        let y = 0.5;
-        [P { a: [x, -y, z.a[2]], o: [0.0, tuck, z.o[2]] }, P { a: [x, y, z.a[2]], o: [0.0, -tuck, z.o[2]] }]
-    };
-    let low = unit(0.0, 0.0, floor);
-    for pair in profile.hull.windows(2) {
-        let ((x0, z0), (x1, z1)) = (pair[0], pair[1]);
-        let [b0, b1] = ring(x0, 0.03, low);
-        let [b3, b2] = ring(x1, 0.03, low);
-        let [t0, t1] = ring(x0, 0.05, share(0.0, 0.0, z0));
-        let [t3, t2] = ring(x1, 0.05, share(0.0, 0.0, z1));
-        mesh.hexa([b0, b1, b2, b3], [t0, t1, t2, t3], Material::Body);
-    }
-    // A dark sill and bumpers below the hull.
+    hull(&mut mesh, profile.hull, profile.floor);
+    cabin(&mut mesh, profile);
+    let nose = profile.hull[0][1];
     mesh.cuboid(
-        LOW.plus(0.05, 0.06, floor - 0.05),
-        share(0.5, 0.5, 0.0).plus(-0.05, -0.06, floor + 0.02),
+        share(0.5, -0.28, 0.0).plus(-0.03, 0.0, profile.floor + 0.18),
+        share(0.5, 0.28, nose).plus(0.012, 0.0, -0.16),
         Material::Dark,
     );
-    let [a, b, c, d] = profile.cabin;
-    let belt = 0.6;
-    let foot =
-        [[a, -0.5], [a, 0.5], [d, 0.5], [d, -0.5]].map(|[x, y]| share(x, y, belt).plus(0.0, -y * 0.16, 0.0));
-    let head =
-        [[b, -0.5], [b, 0.5], [c, 0.5], [c, -0.5]].map(|[x, y]| share(x, y, 0.95).plus(0.0, -y * 0.52, 0.0));
-    mesh.hexa(foot, head, Material::Glass);
-    let roof = [[b, -0.5], [b, 0.5], [c, 0.5], [c, -0.5]]
-        .map(|[x, y]| share(x, y, 1.0).plus(-x * 0.3, -y * 0.62, 0.0));
-    let brim = head.map(|corner| corner.plus(0.0, corner.a[1] * 0.02, 0.0));
-    mesh.hexa(brim, roof, Material::Body);
-    pillars(&mut mesh, foot, head);
-    for x in [0.31, -0.31] {
-        axle(&mut mesh, share(x, 0.0, 0.0), 0.33, 0.22);
+    // The seams of the doors.
+    for x in [0.16, -0.06, -0.24] {
+        for side in [-0.5, 0.5] {
+            let foot = share(x, side, 0.0).plus(0.0, 0.0, profile.floor + 0.16);
+            let head = share(x, side, profile.belt).plus(0.0, 0.0, -0.08);
+            mesh.cuboid(foot.plus(-0.006, -0.003, 0.0), head.plus(0.006, 0.003, 0.0), Material::Dark);
+        }
     }
-    lights(&mut mesh, 0.62, 0.3);
+    for x in [0.31, -0.31] {
+        arches(&mut mesh, share(x, 0.0, 0.0), profile.wheel);
+    }
+    mirrors(&mut mesh, share(profile.cabin[0] - 0.05, 0.0, profile.belt));
+    lights(&mut mesh, profile.floor + 0.44, 0.34);
+    plates(&mut mesh, profile.floor + 0.22);
     mesh
 }
 
-/// Body-coloured posts at the corners and in the middle of the cabin.
+fn cabin(mesh: &mut Builder, profile: &Profile) {
+    let [a, b, c, d] = profile.cabin;
+    let draw = profile.draw;
+    let foot = [[a, -0.5], [a, 0.5], [d, 0.5], [d, -0.5]]
+        .map(|[x, y]| share(x, y, profile.belt).plus(0.0, -y * 0.2, -0.02));
+    let head =
+        [[b, -0.5], [b, 0.5], [c, 0.5], [c, -0.5]].map(|[x, y]| share(x, y * (1.0 - 2.0 * draw), 0.95));
+    mesh.hexa(foot, head, Material::Glass);
+    let roof = [[b, -0.5], [b, 0.5], [c, 0.5], [c, -0.5]]
+        .map(|[x, y]| share(x, y * (1.0 - 2.0 * draw), 1.0).plus(-x.signum() * 0.1, -y * 0.16, 0.0));
+    let brim = head.map(|corner| corner.plus(0.0, corner.a[1] * 0.03, 0.0));
+    mesh.hexa(brim, roof, Material::Body);
+    pillars(mesh, foot, head);
+}
+
+/// Body-coloured posts at the corners and in the middle of a cabin.
 fn pillars(mesh: &mut Builder, foot: [P; 4], head: [P; 4]) {
     let half = 0.035;
     let outside = |p: P, grow: f32| p.plus(0.0, p.a[1] * grow, 0.0);
@@ -97,137 +158,192 @@ fn pillars(mesh: &mut Builder, foot: [P; 4], head: [P; 4]) {
 
 pub(crate) fn sedan() -> Builder {
     car(&Profile {
-        hull: [(0.5, 0.48), (0.44, 0.56), (0.2, 0.62), (-0.36, 0.63), (-0.5, 0.6)],
-        cabin: [0.23, 0.08, -0.2, -0.38],
+        hull: &[
+            [0.5, 0.42, 0.84],
+            [0.47, 0.5, 0.96],
+            [0.42, 0.55, 1.0],
+            [0.2, 0.62, 1.0],
+            [-0.3, 0.64, 1.0],
+            [-0.46, 0.63, 0.98],
+            [-0.5, 0.56, 0.9],
+        ],
+        cabin: [0.23, 0.07, -0.2, -0.37],
+        belt: 0.62,
+        floor: 0.18,
+        draw: 0.11,
+        wheel: 0.33,
     })
 }
 
 pub(crate) fn hatchback() -> Builder {
     car(&Profile {
-        hull: [(0.5, 0.46), (0.45, 0.56), (0.24, 0.63), (-0.42, 0.64), (-0.5, 0.58)],
-        cabin: [0.27, 0.1, -0.34, -0.47],
+        hull: &[
+            [0.5, 0.42, 0.84],
+            [0.46, 0.52, 0.97],
+            [0.4, 0.58, 1.0],
+            [0.25, 0.63, 1.0],
+            [-0.42, 0.65, 1.0],
+            [-0.5, 0.58, 0.92],
+        ],
+        cabin: [0.27, 0.09, -0.36, -0.48],
+        belt: 0.63,
+        floor: 0.18,
+        draw: 0.1,
+        wheel: 0.31,
     })
 }
 
-pub(crate) fn bus() -> Builder {
-    let mut mesh = Builder::new([11.0, 2.5, 3.0], 1.0);
-    mesh.cuboid(LOW.plus(0.0, 0.0, 0.3), HIGH.plus(0.0, 0.0, -0.12), Material::Body);
-    mesh.cuboid(
-        LOW.plus(0.3, 0.2, 0.0).plus(0.0, 0.0, 0.2),
-        share(0.5, 0.5, 0.0).plus(-0.3, -0.2, 0.32),
-        Material::Dark,
+pub(crate) fn suv() -> Builder {
+    let mut mesh = car(&Profile {
+        hull: &[
+            [0.5, 0.44, 0.9],
+            [0.47, 0.54, 0.98],
+            [0.4, 0.6, 1.0],
+            [0.24, 0.63, 1.0],
+            [-0.46, 0.65, 1.0],
+            [-0.5, 0.6, 0.95],
+        ],
+        cabin: [0.25, 0.13, -0.42, -0.49],
+        belt: 0.63,
+        floor: 0.26,
+        draw: 0.07,
+        wheel: 0.37,
+    });
+    for side in [-1.0, 1.0] {
+        let rail = TOP.plus(0.0, 0.0, 0.02);
+        let end = |x: f32| P { a: [x, 0.36 * side, 1.0], o: rail.o };
+        mesh.tube([end(-0.36), end(0.06)], [0.02, 0.02], 5, Material::Metal);
+    }
+    mesh
+}
+
+pub(crate) fn estate() -> Builder {
+    car(&Profile {
+        hull: &[
+            [0.5, 0.42, 0.84],
+            [0.47, 0.51, 0.96],
+            [0.41, 0.56, 1.0],
+            [0.22, 0.62, 1.0],
+            [-0.46, 0.64, 1.0],
+            [-0.5, 0.58, 0.94],
+        ],
+        cabin: [0.24, 0.08, -0.43, -0.49],
+        belt: 0.62,
+        floor: 0.18,
+        draw: 0.1,
+        wheel: 0.33,
+    })
+}
+
+pub(crate) fn sports() -> Builder {
+    let mut mesh = car(&Profile {
+        hull: &[
+            [0.5, 0.34, 0.8],
+            [0.46, 0.44, 0.96],
+            [0.36, 0.55, 1.0],
+            [0.16, 0.62, 1.0],
+            [-0.2, 0.66, 1.0],
+            [-0.44, 0.7, 1.0],
+            [-0.5, 0.62, 0.93],
+        ],
+        cabin: [0.16, -0.04, -0.18, -0.38],
+        belt: 0.63,
+        floor: 0.12,
+        draw: 0.13,
+        wheel: 0.34,
+    });
+    let wing = share(-0.5, 0.0, 0.7);
+    mesh.cuboid(wing.plus(0.0, -0.7, 0.13), wing.plus(0.28, 0.7, 0.16), Material::Body);
+    for side in [-1.0, 1.0] {
+        let post = wing.plus(0.15, 0.5 * side, 0.0);
+        mesh.cuboid(post.plus(-0.04, -0.02, -0.05), post.plus(0.04, 0.02, 0.14), Material::Dark);
+    }
+    mesh
+}
+
+/// A cab for two rows before an open bed.
+pub(crate) fn pickup() -> Builder {
+    let mut mesh = car(&Profile {
+        hull: &[
+            [0.5, 0.44, 0.92],
+            [0.47, 0.55, 1.0],
+            [0.25, 0.6, 1.0],
+            [-0.12, 0.61, 1.0],
+            [-0.14, 0.46, 1.0],
+            [-0.5, 0.46, 1.0],
+        ],
+        cabin: [0.24, 0.14, -0.08, -0.13],
+        belt: 0.6,
+        floor: 0.3,
+        draw: 0.08,
+        wheel: 0.38,
+    });
+    let wall = |mesh: &mut Builder, low: P, high: P| mesh.cuboid(low, high, Material::Body);
+    for side in [-1.0_f32, 1.0] {
+        let (inner, outer) = (0.44 * side, 0.5 * side);
+        let (y0, y1) = (inner.min(outer), inner.max(outer));
+        wall(&mut mesh, share(-0.5, y0, 0.4), share(-0.14, y1, 0.6));
+    }
+    wall(&mut mesh, share(-0.5, -0.44, 0.4), share(-0.485, 0.44, 0.6));
+    mesh.cuboid(share(-0.484, -0.44, 0.45), share(-0.145, 0.44, 0.468), Material::Dark);
+    mesh
+}
+
+/// A car of a few pixels, wheels and all.
+pub(crate) fn far_car() -> Builder {
+    let mut mesh = Builder::new([4.5, 1.8, 1.5], 1.0);
+    let ring = |x0: f32, x1: f32, y: f32, z: f32| {
+        [[x1, -y], [x1, y], [x0, y], [x0, -y]].map(|[x, y]| share(x, y, z))
+    };
+    mesh.hexa(ring(-0.5, 0.5, 0.48, 0.16), ring(-0.49, 0.46, 0.5, 0.6), Material::Body);
+    mesh.hexa(ring(-0.44, 0.24, 0.46, 0.6), ring(-0.32, 0.08, 0.4, 0.96), Material::Glass);
+    mesh.quad(ring(-0.32, 0.08, 0.4, 0.97), Material::Body);
+    for x in [0.31_f32, -0.31] {
+        mesh.cuboid(share(x - 0.07, -0.5, 0.0), share(x + 0.07, 0.5, 0.42), Material::Dark);
+    }
+    lights(&mut mesh, 0.62, 0.34);
+    mesh
+}
+
+/// The lit sign on a taxi.
+pub(crate) fn taxi_sign() -> Builder {
+    let mut mesh = Builder::new([4.5, 1.8, 1.5], 1.0);
+    mesh.tapered(
+        TOP.plus(-0.2, -0.28, -0.02),
+        TOP.plus(-0.05, 0.28, 0.14),
+        [0.03, 0.03],
+        [Material::LampGlow; 3],
     );
-    mesh.cuboid(share(-0.5, -0.5, 1.0).plus(0.6, 0.3, -0.12), HIGH.plus(-0.8, -0.3, 0.0), Material::White);
-    // A band of windows round the hull, and doors on the right.
-    mesh.cuboid(
-        share(-0.5, -0.5, 0.42).plus(0.3, -0.01, 0.0),
-        share(0.5, 0.5, 0.8).plus(0.01, 0.01, 0.0),
-        Material::Glass,
-    );
-    for x in [0.36, -0.05] {
-        mesh.cuboid(
-            share(x, -0.5, 0.0).plus(-0.6, -0.015, 0.4),
-            share(x, -0.5, 0.8).plus(0.6, 0.1, 0.0),
-            Material::Glass,
+    mesh
+}
+
+/// A bar of blue lamps on the roof.
+pub(crate) fn light_bar() -> Builder {
+    let mut mesh = Builder::new([4.5, 1.8, 1.5], 1.0);
+    mesh.cuboid(TOP.plus(-0.15, -0.12, -0.02), TOP.plus(0.1, 0.12, 0.1), Material::Dark);
+    for side in [-1.0_f32, 1.0] {
+        let (low, high) = if side > 0.0 { (0.12, 0.6) } else { (-0.6, -0.12) };
+        mesh.tapered(
+            TOP.plus(-0.15, low, -0.02),
+            TOP.plus(0.1, high, 0.12),
+            [0.03, 0.03],
+            [Material::Body; 3],
         );
     }
-    mesh.cuboid(
-        share(0.5, -0.35, 0.84).plus(-0.05, 0.0, 0.0),
-        share(0.5, 0.35, 0.92).plus(0.012, 0.0, 0.0),
-        Material::Dark,
-    );
-    for x in [0.3, -0.28] {
-        axle(&mut mesh, share(x, 0.0, 0.0), 0.48, 0.3);
+    mesh
+}
+
+/// A band of the second colour along both sides.
+pub(crate) fn stripe() -> Builder {
+    let mut mesh = Builder::new([5.0, 2.0, 2.0], 1.0);
+    for side in [-0.5, 0.5] {
+        let (low, high) = (share(-0.48, side, 0.36), share(0.44, side, 0.46));
+        mesh.cuboid(low.plus(0.0, -0.008, 0.0), high.plus(0.0, 0.008, 0.0), Material::Body);
     }
-    lights(&mut mesh, 0.6, 0.3);
     mesh
 }
 
-/// A van or lorry: a cab with a windscreen before a box.
-pub(crate) fn truck() -> Builder {
-    let mut mesh = Builder::new([5.5, 2.0, 2.4], 1.0);
-    let cab = share(0.5, 0.0, 0.0).plus(-1.7, 0.0, 0.0);
-    let at = |p: P, y: f32, z: P| P { a: [p.a[0], y, z.a[2]], o: [p.o[0], 0.0, z.o[2]] };
-    mesh.cuboid(LOW.plus(0.0, 0.0, 0.28), at(cab.plus(0.02, 0.0, 0.0), 0.5, HIGH), Material::Second);
-    mesh.cuboid(at(cab, -0.5, unit(0.0, 0.0, 0.28)), share(0.5, 0.5, 0.5), Material::Body);
-    let foot = [
-        share(0.5, -0.5, 0.5),
-        share(0.5, 0.5, 0.5),
-        at(cab, 0.5, share(0.0, 0.0, 0.5)),
-        at(cab, -0.5, share(0.0, 0.0, 0.5)),
-    ]
-    .map(|p| p.plus(0.0, -p.a[1] * 0.06, 0.0));
-    let brow = |y: f32, z: f32| share(0.5, y, z).plus(-0.75, -y * 0.2, 0.0);
-    let back = |y: f32, z: f32| at(cab, y, share(0.0, 0.0, z)).plus(0.0, -y * 0.2, 0.0);
-    let head = [brow(-0.5, 0.86), brow(0.5, 0.86), back(0.5, 0.86), back(-0.5, 0.86)];
-    let roof = [brow(-0.5, 0.94), brow(0.5, 0.94), back(0.5, 0.94), back(-0.5, 0.94)];
-    mesh.hexa(foot, head, Material::Glass);
-    mesh.hexa(head, roof, Material::Body);
-    mesh.cuboid(LOW.plus(0.1, 0.12, 0.2), share(0.5, 0.5, 0.0).plus(-0.05, -0.12, 0.32), Material::Dark);
-    for x in [0.32, -0.32] {
-        axle(&mut mesh, share(x, 0.0, 0.0), 0.37, 0.24);
-    }
-    lights(&mut mesh, 0.66, 0.28);
-    mesh
-}
-
-/// A single wheel in the middle plane.
-fn wheel(mesh: &mut Builder, center: P, radius: f32, width: f32) {
-    let ends = [center.plus(0.0, -width, 0.0), center.plus(0.0, width, 0.0)];
-    mesh.tube(ends, [radius, radius], 18, Material::Rubber);
-    let hub = [center.plus(0.0, -width - 0.004, 0.0), center.plus(0.0, width + 0.004, 0.0)];
-    mesh.tube(hub, [radius * 0.78, radius * 0.78], 14, Material::Metal);
-}
-
-pub(crate) fn bicycle() -> Builder {
-    let mut mesh = Builder::new([1.75, 0.5, 1.1], 1.0);
-    let (front, rear) =
-        (share(0.5, 0.0, 0.0).plus(-0.34, 0.0, 0.34), share(-0.5, 0.0, 0.0).plus(0.34, 0.0, 0.34));
-    wheel(&mut mesh, front, 0.34, 0.02);
-    wheel(&mut mesh, rear, 0.34, 0.02);
-    let (crank, seat, head) = (unit(-0.08, 0.0, 0.3), unit(-0.25, 0.0, 0.85), unit(0.4, 0.0, 0.85));
-    for ends in [[rear, crank], [rear, seat], [crank, seat], [crank, head], [seat, head], [head, front]] {
-        mesh.tube(ends, [0.02, 0.02], 6, Material::Body);
-    }
-    let bar = unit(0.38, 0.0, 1.02);
-    mesh.tube([head, bar], [0.018, 0.018], 6, Material::Metal);
-    mesh.tube([bar.plus(0.0, -0.27, 0.0), bar.plus(0.0, 0.27, 0.0)], [0.018, 0.018], 6, Material::Dark);
-    mesh.cuboid(seat.plus(-0.14, -0.07, 0.07), seat.plus(0.12, 0.07, 0.12), Material::Dark);
-    mesh
-}
-
-pub(crate) fn motorcycle() -> Builder {
-    let mut mesh = Builder::new([2.1, 0.75, 1.15], 1.0);
-    let (front, rear) =
-        (share(0.5, 0.0, 0.0).plus(-0.32, 0.0, 0.32), share(-0.5, 0.0, 0.0).plus(0.32, 0.0, 0.32));
-    wheel(&mut mesh, front, 0.32, 0.06);
-    wheel(&mut mesh, rear, 0.32, 0.08);
-    mesh.cuboid(unit(-0.3, -0.14, 0.3), unit(0.3, 0.14, 0.62), Material::Metal);
-    mesh.ball([unit(0.18, 0.0, 0.74), unit(0.18, 0.0, 0.74)], [0.3, 0.16, 0.16], 8, 12, Material::Body);
-    mesh.cuboid(unit(-0.75, -0.13, 0.68), unit(-0.08, 0.13, 0.78), Material::Dark);
-    let bar = unit(0.42, 0.0, 1.05);
-    mesh.tube([front, bar], [0.04, 0.035], 8, Material::Metal);
-    mesh.tube([bar.plus(0.0, -0.36, 0.0), bar.plus(0.0, 0.36, 0.0)], [0.02, 0.02], 6, Material::Dark);
-    mesh.tube([unit(0.5, 0.0, 0.88), unit(0.6, 0.0, 0.88)], [0.11, 0.11], 12, Material::HeadLight);
-    mesh
-}
-
-/// An electric kick scooter.
-pub(crate) fn scooter() -> Builder {
-    let mut mesh = Builder::new([1.1, 0.45, 1.1], 1.0);
-    let (front, rear) =
-        (share(0.5, 0.0, 0.0).plus(-0.12, 0.0, 0.11), share(-0.5, 0.0, 0.0).plus(0.11, 0.0, 0.11));
-    wheel(&mut mesh, front, 0.11, 0.025);
-    wheel(&mut mesh, rear, 0.11, 0.025);
-    mesh.cuboid(
-        share(-0.5, 0.0, 0.0).plus(0.2, -0.08, 0.1),
-        share(0.5, 0.0, 0.0).plus(-0.3, 0.08, 0.16),
-        Material::Body,
-    );
-    let neck = share(0.5, 0.0, 0.0).plus(-0.2, 0.0, 0.14);
-    mesh.tube([neck.plus(-0.12, 0.0, 0.0), front.plus(-0.05, 0.0, 0.14)], [0.03, 0.03], 8, Material::Body);
-    let bar = share(0.5, 0.0, 1.0).plus(-0.3, 0.0, -0.04);
-    mesh.tube([front, bar], [0.026, 0.022], 8, Material::Body);
-    mesh.tube([bar.plus(0.0, -0.21, 0.0), bar.plus(0.0, 0.21, 0.0)], [0.018, 0.018], 6, Material::Dark);
-    mesh
+/// What stands below a hull of any length, dark.
+pub(super) fn chassis(mesh: &mut Builder, low: f32, high: f32) {
+    mesh.cuboid(LOW.plus(0.1, 0.14, low), share(0.5, 0.5, 0.0).plus(-0.1, -0.14, high), Material::Dark);
 }

@@ -107,7 +107,7 @@ impl Bodies {
         let (mut fixed_changed, mut members_changed) = (false, false);
         for number in changed {
             let index = *number as usize;
-            let is_there = residents.cards[index].is_taken();
+            let is_there = residents.cards[index].is_met();
             match (self.homes[index], is_there) {
                 (Home::Nowhere, true) => {
                     (self.homes[index], members_changed) = (Home::Moving, true);
@@ -160,7 +160,7 @@ impl Bodies {
         self.placed = vec![Zeroable::zeroed(); count];
         let mut still: Vec<u32> = Vec::new();
         for (number, card) in (0..).zip(&residents.cards) {
-            if !card.is_taken() {
+            if !card.is_met() {
                 continue;
             }
             self.place(scene, shapes, residents, number);

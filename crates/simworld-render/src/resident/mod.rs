@@ -12,15 +12,15 @@ use std::sync::Arc;
 
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
+use simworld_core::clock::Tick;
 use simworld_core::geometry::{Aabb, Pose, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 
 use crate::classes::class_of;
-use crate::look::{Look, Looks};
+use crate::look::{Detail, Look, Looks, overhang};
 use crate::mesh::Drawn;
-use crate::models::model_of;
 
 const NONE: u32 = u32::MAX;
 
@@ -36,6 +36,8 @@ pub(crate) struct Card {
     pub casts: bool,
     /// Whether its kind moves about.
     pub mobile: bool,
+    /// At which levels of detail it is drawn, as [`Detail::bit`]s: an entity has instances for each of them.
+    pub details: u8,
     /// The next instance of the entity, or of the free ones.
     next: u32,
 }
@@ -46,6 +48,8 @@ pub(crate) struct Part {
     /// World from part.
     pub pose: Pose,
     pub look: Look,
+    /// At which levels of detail it is drawn, as [`Detail::bit`]s.
+    pub details: u8,
 }
 
 /// The instances of a scene.
@@ -67,7 +71,12 @@ pub(crate) struct Residents {
     signals: Vec<Aspect>,
     /// Slots of those that show signals.
     signalling: BTreeSet<u32>,
+    /// Slots of those whose arms move with the clock, whatever else changes.
+    restless: BTreeSet<u32>,
+    tick: Tick,
     parts: Vec<Part>,
+    /// Whether every view draws the finest level, however small it is.
+    pub finest: bool,
 }
 
 impl Residents {
@@ -91,6 +100,13 @@ impl Residents {
             });
         }
         self.mark = mark;
+        if self.tick != scene.clock().tick() {
+            self.tick = scene.clock().tick();
+            for slot in self.restless.clone() {
+                let id = self.names[slot as usize];
+                self.look_at(scene, &looks, slot as usize, scene.entity(id));
+            }
+        }
         if self.signals != scene.signals() {
             self.signals = scene.signals().to_vec();
             for slot in self.signalling.clone() {
@@ -112,6 +128,7 @@ impl Residents {
         self.heads.clear();
         self.changed.clear();
         self.signalling.clear();
+        self.restless.clear();
         self.names = Arc::default();
         self.free = NONE;
         self.epoch += 1;
@@ -136,10 +153,16 @@ impl Residents {
             } else {
                 self.signalling.remove(&(slot as u32));
             }
-            dress(scene, looks, &entity, &mut parts);
+            if entity.gesture().is_some() {
+                self.restless.insert(slot as u32);
+            } else {
+                self.restless.remove(&(slot as u32));
+            }
+            looks.dress(&entity, scene, &mut parts);
             self.fill(slot, &entity, &parts);
         } else {
             self.signalling.remove(&(slot as u32));
+            self.restless.remove(&(slot as u32));
             self.cut(slot, NONE);
         }
         self.parts = parts;
@@ -161,21 +184,23 @@ impl Residents {
             let casts = casts(entity.kind);
             let instance = Instance::new(&part.pose, &part.look, entity.id, class_of(entity.kind));
             let card = &mut self.cards[number as usize];
-            let is_same =
-                self.instances[number as usize] == instance && card.mesh == part.mesh && card.casts == casts;
+            let is_same = self.instances[number as usize] == instance
+                && card.mesh == part.mesh
+                && (card.casts, card.details) == (casts, part.details);
             *card = Card {
                 mesh: part.mesh,
                 slot: slot as u32,
                 part: index,
                 casts,
                 mobile: entity.kind.is_mobile(),
+                details: part.details,
                 next,
             };
             if !is_same {
                 self.instances[number as usize] = instance;
                 self.changed.push(number);
             }
-            self.grid.place(number, ball_of(entity, part));
+            self.grid.place(number, ball_of(entity));
             (last, number) = (number, next);
         }
         self.cut(slot, last);
@@ -206,35 +231,24 @@ impl Residents {
             return number;
         }
         let mesh = Drawn::Own(crate::mesh::MeshId::Cuboid);
-        self.cards.push(Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, next: NONE });
+        let card = Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, details: 0, next: NONE };
+        self.cards.push(card);
         self.instances.push(bytemuck::Zeroable::zeroed());
         self.cards.len() as u32 - 1
     }
 }
 
 impl Card {
-    /// Whether somebody has this number now.
-    pub(crate) const fn is_taken(&self) -> bool {
-        self.slot != NONE
+    /// Whether rays meet it: somebody has this number now, and it is of the finest level.
+    pub(crate) const fn is_met(&self) -> bool {
+        self.slot != NONE && self.details & Detail::Near.bit() != 0
     }
 }
 
-/// What an entity is drawn as.
-fn dress(scene: &dyn Scene, looks: &Looks, entity: &EntityRef<'_>, parts: &mut Vec<Part>) {
-    let (mesh, look) = match entity.info.asset {
-        Some(id) if model_of(scene, id).is_some() => (Drawn::Model(id), looks.of_model(entity)),
-        _ => {
-            let look = looks.of(entity, scene.signals());
-            (Drawn::Own(look.mesh), look)
-        }
-    };
-    parts.push(Part { mesh, pose: *entity.pose, look });
-}
-
-/// The ball around an instance: that around the bounds, and what overhangs them.
-fn ball_of(entity: &EntityRef<'_>, part: &Part) -> Ball {
+/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them.
+fn ball_of(entity: &EntityRef<'_>) -> Ball {
     let half = entity.bounds.half_extents().norm();
-    Ball { center: entity.bounds.center(), radius: half + part.look.reach }
+    Ball { center: entity.bounds.center(), radius: half + overhang(entity.kind) }
 }
 
 /// Whether it throws a shadow that one would miss; surfaces lie flat.

@@ -1,17 +1,77 @@
-//! How a kind of entity looks: its mesh, its size, its colours, with deterministic variation by id.
+//! How a kind of entity looks: its rigid parts, their meshes, sizes and colours, with deterministic variation by id.
 
+mod buildings;
+mod creatures;
+mod people;
+mod posture;
+mod riders;
+mod vehicles;
+
+use simworld_core::geometry::Pose;
 use simworld_core::net::Aspect;
-use simworld_core::scene::{EntityKind, EntityRef, Place, Role, Shape};
+use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
 
-use crate::mesh::{CROWN_RADIUS, LAMP_REACH, MeshId};
+use crate::mesh::{CROWN_RADIUS, Drawn, MeshId};
+use crate::models::model_of;
+use crate::resident;
 
-/// Homes up to this height have a pitched roof, m.
-const HOUSE_HEIGHT: f64 = 10.5;
-/// Slower people stand, m/s.
-const WALKING_SPEED: f64 = 0.2;
+/// How much of an entity is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Detail {
+    /// A few pixels: one mesh of few triangles.
+    Far,
+    /// All parts that move, coarsely.
+    Middle,
+    /// Everything.
+    Near,
+}
 
-/// Everything about the look of one entity but its pose.
+impl Detail {
+    /// Of something in a ball of that radius (m) that is so many pixels across; what is large has its details in less of it.
+    pub(crate) fn of(radius: f64, pixels: f64) -> Self {
+        let share = if radius > 8.5 { 0.3 } else { 1.0 };
+        match pixels * share {
+            pixels if pixels < 28.0 => Self::Far,
+            pixels if pixels < 80.0 => Self::Middle,
+            _ => Self::Near,
+        }
+    }
+
+    const ALL: [Self; 3] = [Self::Far, Self::Middle, Self::Near];
+    /// The bits of all of them.
+    pub(crate) const EVERY: u8 = 7;
+
+    /// Its bit in a set of levels.
+    pub(crate) const fn bit(self) -> u8 {
+        1 << self as u8
+    }
+}
+
+/// What dresses a kind of entity: the entity, its scene, its plain look, the bits of its variation, the level of detail, and
+/// where the parts go.
+type Dresser = fn(&EntityRef<'_>, &dyn Scene, &Look, u64, Detail, &mut Vec<Part>);
+
+/// How far one of that kind may reach beyond the ball around its solid, m: crowns, arms of lamps, riders, awnings.
+pub(crate) const fn overhang(kind: EntityKind) -> f64 {
+    match kind {
+        EntityKind::Tree => 8.0,
+        EntityKind::Building => 2.5,
+        EntityKind::StreetLamp => 1.7,
+        EntityKind::Ground | EntityKind::Road | EntityKind::Sidewalk | EntityKind::Crosswalk => 0.0,
+        _ => 0.8,
+    }
+}
+
+/// A rigid part of an entity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Part {
+    pub look: Look,
+    /// Body from part.
+    pub place: Pose,
+}
+
+/// Everything about the look of one part but its pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Look {
     pub mesh: MeshId,
@@ -29,59 +89,10 @@ pub(crate) struct Look {
     pub state: f32,
     /// Buildings: storeys.
     pub param: f32,
-    /// How far it reaches beyond the ball around its solid, m.
-    pub reach: f64,
 }
 
-/// Shirts, dresses and coats.
-const CLOTHES: [[f32; 3]; 10] = [
-    [0.55, 0.06, 0.05],
-    [0.04, 0.12, 0.4],
-    [0.75, 0.72, 0.66],
-    [0.05, 0.25, 0.12],
-    [0.7, 0.42, 0.05],
-    [0.06, 0.06, 0.07],
-    [0.3, 0.05, 0.22],
-    [0.12, 0.38, 0.5],
-    [0.4, 0.4, 0.42],
-    [0.72, 0.25, 0.16],
-];
-/// Trousers and skirts.
-const TROUSERS: [[f32; 3]; 6] = [
-    [0.03, 0.05, 0.12],
-    [0.02, 0.02, 0.025],
-    [0.2, 0.15, 0.09],
-    [0.09, 0.13, 0.22],
-    [0.12, 0.12, 0.13],
-    [0.32, 0.27, 0.2],
-];
-/// Car paint, in the shares in which cars are bought.
-const PAINT: [[f32; 3]; 10] = [
-    [0.78, 0.78, 0.78],
-    [0.78, 0.78, 0.78],
-    [0.025, 0.025, 0.03],
-    [0.025, 0.025, 0.03],
-    [0.22, 0.23, 0.25],
-    [0.42, 0.43, 0.45],
-    [0.02, 0.07, 0.26],
-    [0.36, 0.015, 0.015],
-    [0.04, 0.16, 0.13],
-    [0.45, 0.3, 0.12],
-];
 const LEAVES: [[f32; 3]; 5] =
     [[0.085, 0.17, 0.045], [0.12, 0.2, 0.05], [0.065, 0.14, 0.05], [0.16, 0.22, 0.055], [0.1, 0.16, 0.065]];
-const ROOFS: [[f32; 3]; 4] = [[0.3, 0.09, 0.05], [0.22, 0.07, 0.05], [0.09, 0.09, 0.1], [0.2, 0.13, 0.09]];
-const WALLS: [[f32; 3]; 6] = [
-    [0.6, 0.52, 0.42],
-    [0.5, 0.24, 0.16],
-    [0.66, 0.62, 0.55],
-    [0.42, 0.42, 0.42],
-    [0.55, 0.4, 0.28],
-    [0.36, 0.4, 0.44],
-];
-/// Flat roofs.
-const GRAVEL: [f32; 3] = [0.28, 0.27, 0.26];
-
 /// Draws the variation of entities: the same id looks the same in every picture.
 pub(crate) struct Looks {
     variation: Stream,
@@ -90,6 +101,45 @@ pub(crate) struct Looks {
 impl Looks {
     pub(crate) fn new() -> Self {
         Self { variation: Seed(0).stream("render/variation") }
+    }
+
+    /// Dresses an entity: its rigid parts at every level of detail. What is the same at several stands there once.
+    pub(crate) fn dress(&self, entity: &EntityRef<'_>, scene: &dyn Scene, out: &mut Vec<resident::Part>) {
+        let whole = |mesh, look| resident::Part { mesh, pose: *entity.pose, look, details: Detail::EVERY };
+        if let Some(id) = entity.info.asset.filter(|id| model_of(scene, *id).is_some()) {
+            return out.push(whole(Drawn::Model(id), self.of_model(entity)));
+        }
+        let bits = self.bits(entity);
+        let dresser: Dresser = match entity.kind {
+            EntityKind::Person => people::dress,
+            EntityKind::Building => buildings::dress,
+            EntityKind::Dog => creatures::dress,
+            kind if kind.is_vehicle() => vehicles::dress,
+            _ => {
+                let look = self.of(entity, scene.signals());
+                return out.push(whole(Drawn::Own(look.mesh), look));
+            }
+        };
+        let plain = self.plain(entity);
+        let mut parts = Vec::new();
+        for detail in Detail::ALL {
+            parts.clear();
+            dresser(entity, scene, &plain, bits, detail, &mut parts);
+            let known = out.len();
+            for Part { look, place } in &parts {
+                let pose = entity.pose * place;
+                let twin = out[..known].iter_mut().find(|other| other.look == *look && other.pose == pose);
+                match twin {
+                    Some(twin) => twin.details |= detail.bit(),
+                    None => out.push(resident::Part {
+                        mesh: Drawn::Own(look.mesh),
+                        pose,
+                        look: *look,
+                        details: detail.bit(),
+                    }),
+                }
+            }
+        }
     }
 
     /// The look of an entity that is drawn as its asset's model.
@@ -128,7 +178,6 @@ impl Looks {
             seed: (self.bits(entity) >> 40) as f32 / (1_u32 << 24) as f32,
             state: 0.0,
             param: 0.0,
-            reach: 0.0,
         }
     }
 }
@@ -142,6 +191,48 @@ fn primitive(shape: &Shape) -> MeshId {
     }
 }
 
+/// What the asset of an entity is called, if it has one.
+fn asset_name<'a>(entity: &EntityRef<'_>, scene: &'a dyn Scene) -> Option<&'a str> {
+    Some(&scene.assets()?.get(entity.info.asset?)?.name)
+}
+
+/// The colour that an entity was given; none where it only has that of an asset whose likes come in many colours.
+fn own_color(entity: &EntityRef<'_>, scene: &dyn Scene) -> Option<[f32; 3]> {
+    const VARIED: [&str; 14] = [
+        "person",
+        "man",
+        "woman",
+        "child",
+        "girl",
+        "boy",
+        "teenager",
+        "elderly_person",
+        "tourist",
+        "student",
+        "car",
+        "small_car",
+        "suv",
+        "bicycle",
+    ];
+    let color = entity.info.color?;
+    let Some(asset) = scene.assets().and_then(|assets| assets.get(entity.info.asset?)) else {
+        return Some(color);
+    };
+    let plain = asset.color == Some(color) && VARIED.contains(&asset.name.as_str());
+    (!plain).then_some(color)
+}
+
+/// How far along its heading an entity has come, m: grows as it goes on, and is the same in every run.
+///
+/// Reckoned from the middle of a cell of the ground, so that a turn of the heading changes it little.
+fn way(entity: &EntityRef<'_>) -> f64 {
+    const CELL: f64 = 16.0;
+    let ahead = entity.pose.rotation * simworld_core::geometry::Vector3::x();
+    let at = entity.position();
+    let within = |x: f64| x - (x / CELL).round() * CELL;
+    within(at.x) * ahead.x + within(at.y) * ahead.y
+}
+
 /// One of the entries, by some of the bits.
 fn pick<T: Copy, const N: usize>(entries: &[T; N], bits: u64) -> T {
     entries[(bits % N as u64) as usize]
@@ -149,24 +240,16 @@ fn pick<T: Copy, const N: usize>(entries: &[T; N], bits: u64) -> T {
 
 fn dress(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect], bits: u64) {
     match entity.kind {
-        EntityKind::Building => building(look, entity, bits),
         EntityKind::Tree => tree(look, bits),
         EntityKind::Shrub => *look = Look { mesh: MeshId::Shrub, color: pick(&LEAVES, bits), ..fitted(look) },
-        EntityKind::Person => person(look, entity, bits),
         EntityKind::StreetLamp => {
-            *look = Look {
-                mesh: MeshId::Lamp,
-                color: [0.05, 0.06, 0.06],
-                reach: f64::from(LAMP_REACH),
-                ..metric(look)
-            };
+            *look = Look { mesh: MeshId::Lamp, color: [0.05, 0.06, 0.06], ..metric(look) };
         }
         EntityKind::TrafficSignal => signal(look, entity, signals),
         EntityKind::Sign => {
             let color = pick(&[[0.02, 0.08, 0.4], [0.5, 0.02, 0.02], [0.02, 0.08, 0.4]], bits);
-            *look = Look { mesh: MeshId::Sign, color, reach: 0.4, ..metric(look) };
+            *look = Look { mesh: MeshId::Sign, color, ..metric(look) };
         }
-        kind if kind.is_vehicle() => vehicle(look, kind, bits),
         kind => furniture(look, kind, bits),
     }
 }
@@ -181,29 +264,6 @@ fn fitted(look: &Look) -> Look {
     Look { unit: look.scale[0].max(look.scale[1]).max(look.scale[2] * 0.8), ..*look }
 }
 
-fn building(look: &mut Look, entity: &EntityRef<'_>, bits: u64) {
-    let size = entity.info.shape.size();
-    let place = entity.info.place;
-    let home = matches!(place, Some(Place::Home));
-    let pitched = size.z <= HOUSE_HEIGHT && (home || place.is_none()) && size.z > 3.5;
-    let storeys = entity.info.attributes.get("storeys").and_then(simworld_core::value::Value::as_i64);
-    look.param = storeys.filter(|count| (1..200).contains(count)).unwrap_or(0) as f32;
-    if !matches!(entity.info.shape, Shape::Box { .. }) {
-        // Facades are laid out on boxes.
-        look.color = pick(&WALLS, bits);
-        return;
-    }
-    look.mesh = if pitched { MeshId::House } else { MeshId::Block };
-    look.unit = 1.0;
-    look.color = pick(&WALLS, bits);
-    look.second = if pitched { pick(&ROOFS, bits >> 8) } else { GRAVEL };
-    look.state = match place {
-        _ if pitched => 2.0,
-        Some(Place::Store | Place::Restaurant) => 1.0,
-        _ => 0.0,
-    };
-}
-
 fn tree(look: &mut Look, bits: u64) {
     let [x, y, z] = look.scale;
     // A thin solid is the trunk alone; a wide one holds the crown.
@@ -211,21 +271,6 @@ fn tree(look: &mut Look, bits: u64) {
     look.mesh = if bits.is_multiple_of(4) { MeshId::Slender } else { MeshId::Broadleaf };
     look.unit = (crown / CROWN_RADIUS).min(z * 1.4).max(z);
     look.color = pick(&LEAVES, bits >> 8);
-    look.reach = f64::from(crown) * 1.2;
-}
-
-fn person(look: &mut Look, entity: &EntityRef<'_>, bits: u64) {
-    let seated = entity.attachment.is_some_and(|bond| matches!(bond.role, Role::Seated | Role::Aboard));
-    let walking = entity.twist.ground_speed() > WALKING_SPEED;
-    look.mesh = match (seated, walking) {
-        (true, _) => MeshId::Sitting,
-        (false, true) => MeshId::Walking,
-        (false, false) => MeshId::Standing,
-    };
-    look.unit = look.scale[2];
-    look.color = pick(&CLOTHES, bits);
-    look.second = pick(&TROUSERS, bits >> 16);
-    look.reach = 0.6;
 }
 
 fn signal(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect]) {
@@ -237,22 +282,7 @@ fn signal(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect]) {
         Some(Aspect::Green) => 3.0,
         None => 0.0,
     };
-    *look = Look { mesh: MeshId::Signal, reach: 0.5, ..metric(look) };
-}
-
-fn vehicle(look: &mut Look, kind: EntityKind, bits: u64) {
-    let paint = pick(&PAINT, bits >> 4);
-    let (mesh, color, second) = match kind {
-        EntityKind::Bus => {
-            (MeshId::Bus, pick(&[[0.62, 0.05, 0.04], [0.03, 0.14, 0.4], [0.7, 0.5, 0.05]], bits), paint)
-        }
-        EntityKind::Truck => (MeshId::Truck, paint, [0.72, 0.72, 0.7]),
-        EntityKind::Motorcycle => (MeshId::Motorcycle, paint, paint),
-        EntityKind::Bicycle => (MeshId::Bicycle, pick(&CLOTHES, bits), paint),
-        EntityKind::Scooter => (MeshId::Scooter, pick(&[[0.12, 0.55, 0.12], [0.8, 0.25, 0.02]], bits), paint),
-        _ => (if bits & 1 == 0 { MeshId::Sedan } else { MeshId::Hatchback }, paint, paint),
-    };
-    *look = Look { mesh, color, second, reach: 0.1, ..metric(look) };
+    *look = Look { mesh: MeshId::Signal, ..metric(look) };
 }
 
 fn furniture(look: &mut Look, kind: EntityKind, bits: u64) {
@@ -267,7 +297,9 @@ fn furniture(look: &mut Look, kind: EntityKind, bits: u64) {
             (Look { mesh: MeshId::Crosswalk, ..metric(look) }, [0.072, 0.074, 0.08], [0.2; 3])
         }
         EntityKind::Bench => (Look { mesh: MeshId::Bench, ..metric(look) }, [0.3, 0.15, 0.06], [0.2; 3]),
-        EntityKind::Chair => (Look { mesh: MeshId::Chair, ..metric(look) }, pick(&CLOTHES, bits), [0.2; 3]),
+        EntityKind::Chair => {
+            (Look { mesh: MeshId::Chair, ..metric(look) }, pick(&people::CLOTHES, bits), [0.2; 3])
+        }
         EntityKind::Table => (Look { mesh: MeshId::Table, ..metric(look) }, [0.5, 0.45, 0.38], [0.2; 3]),
         EntityKind::TrashBin => (round(look, MeshId::TrashBin), [0.05, 0.14, 0.07], [0.03, 0.03, 0.035]),
         EntityKind::Mailbox => {
@@ -278,10 +310,6 @@ fn furniture(look: &mut Look, kind: EntityKind, bits: u64) {
         EntityKind::BusStop => (Look { mesh: MeshId::BusStop, ..metric(look) }, [0.1, 0.16, 0.2], [0.2; 3]),
         EntityKind::Parcel => {
             (Look { mesh: MeshId::Parcel, ..metric(look) }, [0.42, 0.26, 0.12], [0.62, 0.48, 0.28])
-        }
-        EntityKind::Dog => {
-            let coat = pick(&[[0.25, 0.14, 0.06], [0.05, 0.04, 0.035], [0.5, 0.38, 0.22]], bits);
-            (Look { mesh: MeshId::Dog, reach: 0.1, ..metric(look) }, coat, coat.map(|channel| channel * 0.5))
         }
         EntityKind::Robot => {
             (Look { mesh: MeshId::Robot, ..metric(look) }, [0.72, 0.73, 0.75], [0.85, 0.3, 0.02])
@@ -332,7 +360,7 @@ mod tests {
 
     #[test]
     fn a_given_colour_is_kept() {
-        let car = at_origin(EntityKind::Car, Shape::cuboid(4.0, 1.8, 1.5)).colored([0.1, 0.2, 0.3]);
-        assert_eq!(look_of(car, &[]).color, [0.1, 0.2, 0.3]);
+        let bin = at_origin(EntityKind::TrashBin, Shape::cuboid(0.4, 0.4, 1.0)).colored([0.1, 0.2, 0.3]);
+        assert_eq!(look_of(bin, &[]).color, [0.1, 0.2, 0.3]);
     }
 }
