@@ -15,6 +15,7 @@ pub mod edit;
 mod ending;
 pub mod experiment;
 pub mod folder;
+pub mod look;
 pub mod minds;
 pub mod report;
 pub mod robot;

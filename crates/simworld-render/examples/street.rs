@@ -1,13 +1,15 @@
-//! A street built by hand, drawn from the height of a balcony: RGB, depth, classes and instances as PNG files.
+//! A street built by hand, drawn from the height of a balcony: RGB, depth, classes and instances as PNG files; in any
+//! weather that has a name.
 //!
 //! ```sh
 //! cargo run --release -p simworld-render --example street -- out/street
+//! cargo run --release -p simworld-render --example street -- out/night HardRainNight
 //! ```
 
 use std::path::PathBuf;
 
 use simworld_core::camera::{Camera, Intrinsics};
-use simworld_core::environment::Environment;
+use simworld_core::environment::{Environment, Preset};
 use simworld_core::geometry::{Point3, Twist, Vector3, direction, pose_facing};
 use simworld_core::scene::{EntityDesc, EntityKind, Place, Shape, World, WorldError};
 use simworld_core::seed::Seed;
@@ -18,7 +20,11 @@ const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args_os().skip(1);
     let folder = PathBuf::from(arguments.next().unwrap_or_else(|| "out/street".into()));
-    let world = street()?;
+    let mut world = street()?;
+    if let Some(name) = arguments.next() {
+        let preset: Preset = name.to_string_lossy().parse()?;
+        world.set_environment(preset.environment())?;
+    }
     let intrinsics = Intrinsics::from_fov(1280, 720, 1.15)?;
     let views = [
         ("street", Point3::new(-1.0, 0.3, 4.0), Point3::new(30.0, 0.9, 3.3)),
@@ -60,6 +66,21 @@ fn street() -> Result<World, WorldError> {
 fn put(world: &mut World, kind: EntityKind, at: [f64; 3], yaw: f64, shape: Shape) -> Result<(), WorldError> {
     let pose = pose_facing(Point3::new(at[0], at[1], at[2]), yaw);
     world.spawn(EntityDesc::new(kind, pose, shape)).map(|_| ())
+}
+
+/// As [`put`], on its way at 8 m/s.
+fn drive(
+    world: &mut World,
+    kind: EntityKind,
+    at: [f64; 3],
+    yaw: f64,
+    shape: Shape,
+) -> Result<(), WorldError> {
+    let pose = pose_facing(Point3::new(at[0], at[1], at[2]), yaw);
+    let mut desc = EntityDesc::new(kind, pose, shape);
+    let way = direction(yaw) * 8.0;
+    desc.twist.linear = Vector3::new(way.x, way.y, 0.0);
+    world.spawn(desc).map(|_| ())
 }
 
 fn surfaces(world: &mut World) -> Result<(), WorldError> {
@@ -191,12 +212,12 @@ fn traffic(world: &mut World) -> Result<(), WorldError> {
     let road = -0.08;
     let car = Shape::cuboid(4.5, 1.8, 1.5);
     for x in [13.5, 24.0, 33.5, 78.0, 104.0] {
-        put(world, EntityKind::Car, [x, -1.9, road], 0.0, car)?;
+        drive(world, EntityKind::Car, [x, -1.9, road], 0.0, car)?;
     }
     for x in [-4.0, 15.5, 60.0, 84.0, 92.0] {
-        put(world, EntityKind::Car, [x, 1.9, road], std::f64::consts::PI, car)?;
+        drive(world, EntityKind::Car, [x, 1.9, road], std::f64::consts::PI, car)?;
     }
-    put(world, EntityKind::Bus, [26.0, 1.9, road], std::f64::consts::PI, Shape::cuboid(11.0, 2.5, 3.0))?;
+    drive(world, EntityKind::Bus, [26.0, 1.9, road], std::f64::consts::PI, Shape::cuboid(11.0, 2.5, 3.0))?;
     put(world, EntityKind::Truck, [62.0, -1.9, road], 0.0, Shape::cuboid(5.6, 2.0, 2.5))?;
     put(world, EntityKind::Car, [45.0, 11.0, road], -QUARTER, car)?;
     put(world, EntityKind::Bicycle, [10.5, -3.2, road], 0.0, Shape::cuboid(1.75, 0.5, 1.1))?;

@@ -55,7 +55,10 @@ fn main() -> Outcome<()> {
 
 type Sheet = (World, Point3, Point3);
 
-const SHEETS: [(&str, fn() -> Outcome<Sheet>); 7] = [
+/// A name, and what makes its sheet.
+type Named = (&'static str, fn() -> Outcome<Sheet>);
+
+const SHEETS: [Named; 7] = [
     ("people", people),
     ("actions", actions),
     ("vehicles", vehicles),

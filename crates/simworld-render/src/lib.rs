@@ -1,14 +1,17 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod atmosphere;
 mod batch;
 pub mod classes;
 mod config;
 mod draw_list;
 mod error;
 mod export;
+mod falling;
 mod frame;
 mod gpu;
+mod lamps;
 mod light;
 mod look;
 mod mesh;

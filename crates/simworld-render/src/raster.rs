@@ -4,7 +4,8 @@ use crate::RenderError;
 use crate::batch::{Channels, Layout, Span};
 use crate::config::AntiAliasing;
 use crate::draw_list::{Batch, DrawList, ViewBatches};
-use crate::gpu::{Gpu, Pipelines, Planes, Scenery, Targets};
+use crate::falling::Falling;
+use crate::gpu::{Features, Gpu, Pipelines, Planes, Scenery, Targets};
 use crate::mesh::{Drawn, MeshLibrary, Pattern};
 use crate::models::Models;
 
@@ -32,6 +33,19 @@ pub(crate) struct Job<'a> {
     pub channels: Channels,
     /// By view, whether the sun throws shadows.
     pub shaded: &'a [bool],
+    /// What the pictures need; [prepared](Raster::prepare).
+    pub features: Features,
+    /// By view, what falls before it.
+    pub falling: &'a [Falling],
+}
+
+/// With which pipelines entities are drawn.
+#[derive(Clone, Copy)]
+enum Painting<'a> {
+    /// Those of each pattern.
+    Picture(Features),
+    /// One for all, for depth and ids alone.
+    Measures(&'a wgpu::RenderPipeline),
 }
 
 impl Raster {
@@ -54,6 +68,11 @@ impl Raster {
         Ok(())
     }
 
+    /// Makes ready what pictures of these features are drawn with.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
+        self.pipelines.prepare(gpu, features);
+    }
+
     /// Records every view of a batch.
     pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, planes: &Planes, job: &Job<'_>) {
         let Some(targets) = &self.targets else { return };
@@ -61,13 +80,13 @@ impl Raster {
             if job.shaded[view] && job.channels.contains(Channels::RGB) {
                 self.draw_shadows(encoder, job.scenery, view, &batches.casters);
             }
-            let one = View { scenery: job.scenery, index: view, span, batches };
+            let one = View { job, index: view, span, batches };
             self.draw_view(encoder, targets, &one, job.channels);
             targets.copy(encoder, planes, span, job.channels);
             if job.channels.contains(Channels::NORMALS) {
                 // The texture of the ids was copied, and is free.
                 let mut pass = begin(encoder, &[attachment(&targets.id_view, None)], &targets.z, span);
-                one.scenery.bind(&mut pass, view);
+                one.job.scenery.bind(&mut pass, view);
                 self.draw_batches(&mut pass, &batches.visible, |pass, _| {
                     pass.set_pipeline(&self.pipelines.normals);
                 });
@@ -107,40 +126,47 @@ impl Raster {
         let (smooth, only_rgb) = (&targets.smooth, (channels - Channels::NORMALS) == Channels::RGB);
         if let (Some([color_samples, z_samples]), true) = (smooth, wants_rgb) {
             let mut pass = begin(encoder, &[attachment(color_samples, Some(color))], z_samples, one.span);
-            self.draw_entities(&mut pass, one, None);
+            self.draw_entities(&mut pass, one, Painting::Picture(one.job.features));
             self.draw_sky(&mut pass, one);
         }
         if smooth.is_some() || !wants_rgb {
             if !only_rgb {
                 let mut pass = begin(encoder, &measures, &targets.z, one.span);
-                self.draw_entities(&mut pass, one, Some(&self.pipelines.measures));
+                self.draw_entities(&mut pass, one, Painting::Measures(&self.pipelines.measures));
             }
         } else {
             let [depth, id] = measures;
             let mut pass = begin(encoder, &[attachment(color, None), depth, id], &targets.z, one.span);
-            self.draw_entities(&mut pass, one, None);
+            self.draw_entities(&mut pass, one, Painting::Picture(one.job.features));
             self.draw_sky(&mut pass, one);
         }
     }
 
-    /// Draws every batch, with the pipeline of its pattern or with one pipeline for all.
-    fn draw_entities(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        one: &View<'_>,
-        only: Option<&wgpu::RenderPipeline>,
-    ) {
-        one.scenery.bind(pass, one.index);
+    /// Draws every batch.
+    fn draw_entities(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>, painting: Painting<'_>) {
+        one.job.scenery.bind(pass, one.index);
         pass.set_bind_group(1, &self.pipelines.shadow_inputs, &[]);
         self.draw_batches(pass, &one.batches.visible, |pass, pattern| {
-            pass.set_pipeline(only.unwrap_or(&self.pipelines.picture[pattern as usize]));
+            let pipeline = match painting {
+                Painting::Picture(features) => self.pipelines.picture(features, pattern),
+                Painting::Measures(pipeline) => Some(pipeline),
+            };
+            if let Some(pipeline) = pipeline {
+                pass.set_pipeline(pipeline);
+            }
         });
     }
 
+    /// Draws the sky where nothing is, and what falls before all.
     fn draw_sky(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>) {
         pass.set_pipeline(&self.pipelines.sky);
-        one.scenery.bind(pass, one.index);
+        one.job.scenery.bind(pass, one.index);
         pass.draw(0..3, 0..1);
+        let drops = one.job.falling[one.index].count;
+        if drops > 0 {
+            pass.set_pipeline(&self.pipelines.precipitation);
+            pass.draw(0..6, 0..drops);
+        }
     }
 
     /// Draws batches in their order; before each pattern, what is to be done for it.
@@ -176,7 +202,7 @@ impl Raster {
 
 /// One view of a batch.
 struct View<'a> {
-    scenery: &'a Scenery,
+    job: &'a Job<'a>,
     index: usize,
     span: &'a Span,
     batches: &'a ViewBatches,

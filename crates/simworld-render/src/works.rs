@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use simworld_core::environment::Environment;
 use simworld_core::geometry::Aabb;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
@@ -9,10 +10,12 @@ use simworld_core::scene::Scene;
 use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
 use crate::config::{AntiAliasing, Backend, LevelOfDetail};
 use crate::draw_list::DrawList;
-use crate::gpu::{Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
+use crate::falling::Falling;
+use crate::gpu::{Features, Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
+use crate::lamps::LampGrids;
 use crate::light::Light;
 use crate::raster::{Job, Raster};
-use crate::raycast::{Look, MOST_VIEWS, Raycast};
+use crate::raycast::{BUFFERS, Look, MOST_VIEWS, Raycast};
 use crate::resident::{MOST_SLOTS, Residents};
 use crate::shadow::ShadowView;
 use crate::view::View;
@@ -31,6 +34,8 @@ pub(crate) struct Works {
     readbacks: Readbacks,
     residents: Residents,
     list: DrawList,
+    /// The light of the environment that was drawn last.
+    light: Option<(Environment, Arc<Light>)>,
 }
 
 /// A batch on its way to the host.
@@ -45,7 +50,9 @@ pub(crate) struct Pending {
 struct Sight {
     views: Vec<View>,
     shadows: Vec<Option<ShadowView>>,
-    light: Light,
+    light: Arc<Light>,
+    /// What falls before each view.
+    falling: Vec<Falling>,
     /// Around everything that any of them looks at.
     region: Aabb,
 }
@@ -71,6 +78,7 @@ impl Works {
             readbacks,
             residents,
             list,
+            light: None,
         })
     }
 
@@ -104,16 +112,18 @@ impl Works {
         if self.residents.names.len() > MOST_SLOTS {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
-        let globals = self.send(&sight)?;
+        let (globals, features) = self.send(scene, &sight)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         if self.casts(config, options, requests, &layout) {
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
             let (views, min_pixels) = (&sight.views[..], config.min_pixels);
             let look = Look { views, globals: &globals, requests, layout: &layout, min_pixels };
             raycast.hold(&self.gpu, scene, &self.residents, &look)?;
-            raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout, options.channels);
+            raycast.prepare(&self.gpu, features, options.channels);
+            raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight)?;
+            self.raster.prepare(&self.gpu, features);
             self.raster.hold(&self.gpu, layout.largest)?;
             let shaded: Vec<bool> = sight.shadows.iter().map(Option::is_some).collect();
             let job = Job {
@@ -122,6 +132,8 @@ impl Works {
                 layout: &layout,
                 channels: options.channels,
                 shaded: &shaded,
+                features,
+                falling: &sight.falling,
             };
             self.raster.draw(&mut encoder, &self.planes, &job);
         }
@@ -131,13 +143,14 @@ impl Works {
 
     /// Checks the cameras, and finds out what they look at in which light.
     fn look(
-        &self,
+        &mut self,
         config: &RenderConfig,
         scene: &dyn Scene,
         requests: &[ViewRequest],
     ) -> Result<Sight, RenderError> {
-        let light = Light::of(scene.environment(), config.exposure_compensation);
-        let (mut views, mut shadows) = (Vec::new(), Vec::new());
+        let environment = scene.environment();
+        let light = self.light_of(environment, config.exposure_compensation);
+        let (mut views, mut shadows, mut falling) = (Vec::new(), Vec::new(), Vec::new());
         let mut region: Option<Aabb> = None;
         for request in requests {
             let view = View::new(&request.camera, config.near, config.far, self.gpu.largest_picture())?
@@ -146,18 +159,22 @@ impl Works {
             let lit = request.only.is_none() && request.projection == Projection::Pinhole;
             let shadow = ShadowView::new(
                 &view,
-                &light.sun_direction,
+                &light.source,
                 config.shadow_distance,
                 if lit { self.shadow_resolution } else { 0 },
             );
             let around = view.region();
             let around = shadow.as_ref().map_or(around, |shadow| around.union(&shadow.region()));
             region = Some(region.map_or(around, |region| region.union(&around)));
+            let mut air = Falling::of(environment, &view.eye, scene.clock().seconds());
+            // What falls around an eye is nothing on a map.
+            air.count = if request.projection == Projection::Pinhole { air.count } else { 0 };
+            falling.push(air);
             views.push(view);
             shadows.push(shadow);
         }
         let region = region.ok_or(RenderError::NoViews)?.inflated(OVERHANG);
-        Ok(Sight { views, shadows, light, region })
+        Ok(Sight { views, shadows, light, falling, region })
     }
 
     /// Whether a batch is cast, and not drawn.
@@ -170,6 +187,9 @@ impl Works {
     ) -> bool {
         let is_parallel = requests.iter().any(|request| request.projection == Projection::Parallel);
         if is_parallel || options.channels.contains(Channels::NORMALS) || requests.len() > MOST_VIEWS {
+            return false;
+        }
+        if self.gpu.device.limits().max_storage_buffers_per_shader_stage < BUFFERS {
             return false;
         }
         match config.backend {
@@ -188,16 +208,40 @@ impl Works {
         }
     }
 
-    /// Sends what every view is drawn from, and what changed of the instances; gives the globals.
-    fn send(&mut self, sight: &Sight) -> Result<Vec<Globals>, RenderError> {
-        let pairs = sight.views.iter().zip(&sight.shadows);
-        let globals: Vec<Globals> =
-            pairs.map(|(view, shadow)| Globals::new(view, &sight.light, shadow.as_ref())).collect();
+    /// The light of an environment, reckoned anew only where that has changed.
+    fn light_of(&mut self, environment: &Environment, compensation: f64) -> Arc<Light> {
+        if let Some((known, light)) = &self.light
+            && known == environment
+        {
+            return Arc::clone(light);
+        }
+        let light = Arc::new(Light::of(environment, compensation));
+        self.light = Some((*environment, Arc::clone(&light)));
+        light
+    }
+
+    /// Sends what every view is drawn from, and what changed of the instances; gives the globals, and what the pictures
+    /// need.
+    fn send(&mut self, scene: &dyn Scene, sight: &Sight) -> Result<(Vec<Globals>, Features), RenderError> {
+        let (light, mut lamps) = (&sight.light, LampGrids::default());
+        let views = sight.views.iter().zip(&sight.shadows).zip(&sight.falling);
+        let globals: Vec<Globals> = views
+            .map(|((view, shadow), falling)| {
+                let place = lamps.around(scene, view.eye, light, light.sky.len());
+                Globals::new(view, light, falling, shadow.as_ref(), place.as_ref())
+            })
+            .collect();
         if let Some(raycast) = &mut self.raycast {
             raycast.note(&self.residents.changed);
         }
-        self.scenery.send(&self.gpu, &globals, &mut self.residents)?;
-        Ok(globals)
+        self.scenery.send(&self.gpu, &globals, [&light.sky, &lamps.entries], &mut self.residents)?;
+        let cover = &light.cover;
+        let features = Features {
+            lamps: !lamps.entries.is_empty(),
+            water: cover.wetness > 0.0 || cover.puddles > 0.0,
+            snow: cover.snow_depth > 0.0,
+        };
+        Ok((globals, features))
     }
 
     /// Finds what the raster backend draws, and sends that to the device.
@@ -217,7 +261,8 @@ impl Works {
         self.scenery.send_picks(&self.gpu, &self.list.picks)?;
         let batches: Vec<&[crate::draw_list::Batch]> =
             self.list.views.iter().flat_map(|view| [&view.visible[..], &view.casters[..]]).collect();
-        self.raster.models.hold(&self.gpu, scene, &batches)
+        self.raster.models.hold(&self.gpu, scene, &batches)?;
+        Ok(())
     }
 
     /// Hands the commands in, and asks for what they draw.

@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::config::{AdapterChoice, Backends};
 use crate::{RenderConfig, RenderError};
 
-/// Storage buffers that a stage may use: what the web offers.
-const STORAGE_BUFFERS: u32 = 8;
+/// Storage buffers that a stage may use, where the adapter has so many: one more than the web offers, for rays.
+const STORAGE_BUFFERS: u32 = crate::raycast::BUFFERS;
 
 /// A device, its queue, and the first error that wgpu reported since it was last asked.
 pub(crate) struct Gpu {

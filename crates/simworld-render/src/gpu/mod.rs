@@ -10,7 +10,7 @@ mod targets;
 
 pub(crate) use device::Gpu;
 pub(crate) use globals::Globals;
-pub(crate) use pipelines::{Pipelines, raycast_source};
+pub(crate) use pipelines::{Features, Pipelines, raycast_source};
 pub(crate) use planes::Planes;
 pub(crate) use readback::{Readback, Readbacks, place};
 pub(crate) use scenery::Scenery;

@@ -1,6 +1,8 @@
 //! The pipelines: one for each pattern, specialised by an override constant, so that no pixel pays for another's
 //! painting; one for the sky, and one for shadows.
 
+use std::collections::BTreeMap;
+
 use super::device::Gpu;
 use super::targets::{COLOR, DEPTH, ID, SAMPLES, Z};
 use crate::config::AntiAliasing;
@@ -15,6 +17,8 @@ const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
 const MATERIALS: &str = include_str!("../shaders/materials.wgsl");
 const HIT: &str = include_str!("../shaders/hit.wgsl");
 const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
+const LAMPS: &str = include_str!("../shaders/lamps.wgsl");
+const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
 const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
 const FORWARD: &str = include_str!("../shaders/forward.wgsl");
@@ -23,19 +27,39 @@ const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
 
 /// Everything that is bound and run.
 pub(crate) struct Pipelines {
-    /// RGB with the measures, or RGB alone where it is smoothed; by [`Pattern`].
-    pub picture: Vec<wgpu::RenderPipeline>,
+    /// RGB with the measures, or RGB alone where it is smoothed; by [`Features`], then by [`Pattern`].
+    picture: BTreeMap<Features, Vec<wgpu::RenderPipeline>>,
+    forward: wgpu::ShaderModule,
+    forward_layout: wgpu::PipelineLayout,
+    smooth: bool,
     /// Depth and ids alone, where RGB is smoothed or not asked for.
     pub measures: wgpu::RenderPipeline,
     /// Normals alone.
     pub normals: wgpu::RenderPipeline,
     pub sky: wgpu::RenderPipeline,
+    /// Rain and snow over the picture.
+    pub precipitation: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
     /// The layout of [`Scenery`](super::Scenery): globals of a view, and the instances.
     pub scenery: wgpu::BindGroupLayout,
     pub shadow_inputs: wgpu::BindGroup,
     /// The shadow map as a target.
     pub shadow_map: wgpu::TextureView,
+}
+
+/// What a picture needs beyond sun and sky; the bits of FEATURES in shaders/shading.wgsl.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Features {
+    pub lamps: bool,
+    pub water: bool,
+    pub snow: bool,
+}
+
+impl Features {
+    /// The value of FEATURES.
+    pub(crate) fn bits(self) -> u32 {
+        u32::from(self.lamps) | u32::from(self.water) << 1 | u32::from(self.snow) << 2
+    }
 }
 
 /// What the pipelines of one module share.
@@ -49,12 +73,27 @@ struct Variant<'a> {
     label: &'a str,
     vertex: &'a str,
     fragment: Option<&'a str>,
-    pattern: Option<Pattern>,
+    constants: &'a [(&'a str, f64)],
     targets: &'a [Option<wgpu::ColorTargetState>],
     depth: wgpu::DepthStencilState,
     samples: u32,
     /// Whether it reads vertices and instances.
     meshes: bool,
+}
+
+impl Pipelines {
+    /// Makes what a picture of these features is drawn with, the first time that one is wanted.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
+        let recipe = Recipe { gpu, module: &self.forward, layout: &self.forward_layout };
+        self.picture.entry(features).or_insert_with(|| {
+            Pattern::ALL.map(|pattern| recipe.picture(pattern, features, self.smooth)).into()
+        });
+    }
+
+    /// The pipeline of a pattern, if it was [prepared](Self::prepare).
+    pub(crate) fn picture(&self, features: Features, pattern: Pattern) -> Option<&wgpu::RenderPipeline> {
+        self.picture.get(&features).and_then(|pipelines| pipelines.get(pattern as usize))
+    }
 }
 
 impl Pipelines {
@@ -79,18 +118,22 @@ impl Pipelines {
         let plain = layout(&[Some(&scenery)]);
         let forward = module(
             "forward",
-            &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, SUNLIT, FORWARD],
+            &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, LAMPS, SUNLIT, FORWARD],
         );
         let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
+        let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, PRECIPITATION]);
         let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
         let normals = module("normals", &[COMMON, BINDINGS, NORMALS]);
 
         let smooth = smoothing == AntiAliasing::Msaa4;
-        let forward = Recipe { gpu, module: &forward, layout: &full };
         Self {
-            picture: Pattern::ALL.map(|pattern| forward.picture(pattern, smooth)).into(),
-            measures: forward.measures(),
+            picture: BTreeMap::new(),
+            measures: Recipe { gpu, module: &forward, layout: &full }.measures(),
             normals: Recipe { gpu, module: &normals, layout: &plain }.normals(),
+            forward,
+            forward_layout: full,
+            smooth,
+            precipitation: Recipe { gpu, module: &falling, layout: &plain }.precipitation(smooth),
             sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
             shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow(),
             scenery,
@@ -102,12 +145,19 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, RAYCAST].concat()
+    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, LAMPS, RAYCAST].concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]
 fn target(format: wgpu::TextureFormat, write_mask: wgpu::ColorWrites) -> Option<wgpu::ColorTargetState> {
     Some(wgpu::ColorTargetState { format, blend: None, write_mask })
+}
+
+/// Colour that is laid over what is there by its alpha.
+#[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]
+fn overlay(format: wgpu::TextureFormat) -> Option<wgpu::ColorTargetState> {
+    let blend = Some(wgpu::BlendState::ALPHA_BLENDING);
+    Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::COLOR })
 }
 
 fn depth_state(compare: wgpu::CompareFunction, bias: wgpu::DepthBiasState) -> wgpu::DepthStencilState {
@@ -121,14 +171,14 @@ fn depth_state(compare: wgpu::CompareFunction, bias: wgpu::DepthBiasState) -> wg
 }
 
 impl Recipe<'_> {
-    fn picture(&self, pattern: Pattern, smooth: bool) -> wgpu::RenderPipeline {
+    fn picture(&self, pattern: Pattern, features: Features, smooth: bool) -> wgpu::RenderPipeline {
         let all = wgpu::ColorWrites::ALL;
         let targets = [target(COLOR, all), target(DEPTH, all), target(ID, all)];
         self.build(&Variant {
             label: "picture",
             vertex: "vertex_main",
             fragment: Some(if smooth { "fragment_color" } else { "fragment_all" }),
-            pattern: Some(pattern),
+            constants: &[("PATTERN", f64::from(pattern as u32)), ("FEATURES", f64::from(features.bits()))],
             targets: if smooth { &targets[..1] } else { &targets },
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
             samples: if smooth { SAMPLES } else { 1 },
@@ -142,7 +192,7 @@ impl Recipe<'_> {
             label: "measures",
             vertex: "vertex_main",
             fragment: Some("fragment_measures"),
-            pattern: None,
+            constants: &[],
             targets: &[target(DEPTH, all), target(ID, all)],
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
             samples: 1,
@@ -155,7 +205,7 @@ impl Recipe<'_> {
             label: "normals",
             vertex: "vertex_normals",
             fragment: Some("fragment_normals"),
-            pattern: None,
+            constants: &[],
             targets: &[target(ID, wgpu::ColorWrites::ALL)],
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),
             samples: 1,
@@ -170,10 +220,27 @@ impl Recipe<'_> {
             label: "sky",
             vertex: "vertex_sky",
             fragment: Some(if smooth { "fragment_sky" } else { "fragment_sky_all" }),
-            pattern: None,
+            constants: &[],
             targets: if smooth { &targets[..1] } else { &targets },
             // Infinity, where nothing was drawn.
             depth: depth_state(wgpu::CompareFunction::Equal, wgpu::DepthBiasState::default()),
+            samples: if smooth { SAMPLES } else { 1 },
+            meshes: false,
+        })
+    }
+
+    fn precipitation(&self, smooth: bool) -> wgpu::RenderPipeline {
+        let none = wgpu::ColorWrites::empty();
+        let targets = [overlay(COLOR), target(DEPTH, none), target(ID, none)];
+        let mut depth = depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default());
+        depth.depth_write_enabled = Some(false);
+        self.build(&Variant {
+            label: "precipitation",
+            vertex: "vertex_drop",
+            fragment: Some(if smooth { "fragment_drop" } else { "fragment_drop_all" }),
+            constants: &[],
+            targets: if smooth { &targets[..1] } else { &targets },
+            depth,
             samples: if smooth { SAMPLES } else { 1 },
             meshes: false,
         })
@@ -185,7 +252,7 @@ impl Recipe<'_> {
             label: "shadow",
             vertex: "vertex_shadow",
             fragment: None,
-            pattern: None,
+            constants: &[],
             targets: &[],
             depth: depth_state(wgpu::CompareFunction::Less, bias),
             samples: 1,
@@ -194,9 +261,7 @@ impl Recipe<'_> {
     }
 
     fn build(&self, variant: &Variant<'_>) -> wgpu::RenderPipeline {
-        let constants: Vec<(&str, f64)> =
-            variant.pattern.iter().map(|pattern| ("PATTERN", f64::from(*pattern as u32))).collect();
-        let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let options = wgpu::PipelineCompilationOptions { constants: variant.constants, ..Default::default() };
         let buffers = [Some(vertex_layout()), Some(pick_layout())];
         self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(variant.label),
@@ -259,6 +324,8 @@ fn scenery_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         entries: &[
             entry(0, stages, wgpu::BufferBindingType::Uniform, true),
             entry(1, wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE, data, false),
+            // The sky and the lamps.
+            entry(2, stages, data, false),
         ],
     })
 }

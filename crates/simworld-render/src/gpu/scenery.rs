@@ -15,6 +15,8 @@ pub(crate) struct Scenery {
     globals: wgpu::Buffer,
     pub instances: wgpu::Buffer,
     picks: wgpu::Buffer,
+    /// The sky and the grids of lamps.
+    pub lights: wgpu::Buffer,
     group: wgpu::BindGroup,
     layout: wgpu::BindGroupLayout,
     /// Bytes from the globals of one view to those of the next.
@@ -30,15 +32,17 @@ impl Scenery {
         let instances =
             buffer(gpu, "instances", wgpu::BufferUsages::STORAGE, 1024 * size_of::<Instance>() as u64);
         let picks = buffer(gpu, "picks", wgpu::BufferUsages::VERTEX, 4096);
-        let group = bind(gpu, layout, &globals, &instances);
-        Self { globals, instances, picks, group, layout: layout.clone(), stride, epoch: 0 }
+        let lights = buffer(gpu, "lights", wgpu::BufferUsages::STORAGE, 4096);
+        let group = bind(gpu, layout, &globals, &instances, &lights);
+        Self { globals, instances, picks, lights, group, layout: layout.clone(), stride, epoch: 0 }
     }
 
-    /// Sends the globals of the views, and what changed of the instances.
+    /// Sends the globals of the views, the sky with the lamps behind it, and what changed of the instances.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,
         globals: &[Globals],
+        lights: [&[[f32; 4]]; 2],
         residents: &mut Residents,
     ) -> Result<(), RenderError> {
         let limits = gpu.device.limits();
@@ -50,7 +54,9 @@ impl Scenery {
         }
         let (wide, long) = (self.stride * globals.len() as u64, (count * size_of::<Instance>()) as u64);
         let is_new = long > self.instances.size();
-        if wide > self.globals.size() || is_new {
+        let [sky, lamps] = lights.map(bytemuck::cast_slice::<[f32; 4], u8>);
+        let lit = (sky.len() + lamps.len()) as u64;
+        if wide > self.globals.size() || is_new || lit > self.lights.size() {
             if wide > self.globals.size() {
                 self.globals = buffer(gpu, "globals", wgpu::BufferUsages::UNIFORM, wide.next_power_of_two());
             }
@@ -58,9 +64,14 @@ impl Scenery {
                 let roomy = (count.next_power_of_two().min(limit) * size_of::<Instance>()) as u64;
                 self.instances = buffer(gpu, "instances", wgpu::BufferUsages::STORAGE, roomy);
             }
-            self.group = bind(gpu, &self.layout, &self.globals, &self.instances);
+            if lit > self.lights.size() {
+                self.lights = buffer(gpu, "lights", wgpu::BufferUsages::STORAGE, lit.next_power_of_two());
+            }
+            self.group = bind(gpu, &self.layout, &self.globals, &self.instances, &self.lights);
             gpu.check()?;
         }
+        gpu.queue.write_buffer(&self.lights, 0, sky);
+        gpu.queue.write_buffer(&self.lights, sky.len() as u64, lamps);
         let mut bytes = vec![0; wide as usize];
         for (index, one) in globals.iter().enumerate() {
             let start = index * self.stride as usize;
@@ -139,6 +150,7 @@ fn bind(
     layout: &wgpu::BindGroupLayout,
     globals: &wgpu::Buffer,
     instances: &wgpu::Buffer,
+    lights: &wgpu::Buffer,
 ) -> wgpu::BindGroup {
     let window = wgpu::BufferBinding {
         buffer: globals,
@@ -151,6 +163,7 @@ fn bind(
         entries: &[
             wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(window) },
             wgpu::BindGroupEntry { binding: 1, resource: instances.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 2, resource: lights.as_entire_binding() },
         ],
     })
 }

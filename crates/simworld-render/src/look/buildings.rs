@@ -71,7 +71,6 @@ impl<'a> Plan<'a> {
             Some("hip") if lengthwise => MeshId::HipAlong,
             Some("hip") => MeshId::Hip,
             Some("shed") => MeshId::Shed,
-            Some(_) => MeshId::Block,
             None if size.z <= HOUSE_HEIGHT && size.z > 3.5 && matches!(place, Some(Place::Home) | None) => {
                 if bits & 4 == 0 {
                     MeshId::House
@@ -79,7 +78,7 @@ impl<'a> Plan<'a> {
                     MeshId::Hip
                 }
             }
-            None => MeshId::Block,
+            _ => MeshId::Block,
         };
         // A roof needs a wall under it.
         let roof = if size.z < ROOF_RISE + 2.0 { MeshId::Block } else { roof };
@@ -128,7 +127,7 @@ pub(super) fn dress(
         unit: 1.0,
         color,
         second: if flat { GRAVEL } else { pick(&ROOFS, bits >> 8) },
-        state: plan.front as u8 as f32,
+        state: f32::from(plan.front as u8),
         param: plan.storeys as f32,
         ..*look
     };

@@ -273,10 +273,14 @@ fn tree(look: &mut Look, bits: u64) {
     look.color = pick(&LEAVES, bits >> 8);
 }
 
-fn signal(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect]) {
+/// What the group of a signal shows now.
+pub(crate) fn aspect_of<'a>(entity: &EntityRef<'_>, signals: &'a [Aspect]) -> Option<&'a Aspect> {
     let group = entity.info.attributes.get("signal_group").and_then(simworld_core::value::Value::as_i64);
-    let aspect = group.and_then(|group| usize::try_from(group).ok()).and_then(|group| signals.get(group));
-    look.state = match aspect {
+    group.and_then(|group| usize::try_from(group).ok()).and_then(|group| signals.get(group))
+}
+
+fn signal(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect]) {
+    look.state = match aspect_of(entity, signals) {
         Some(Aspect::Red) => 1.0,
         Some(Aspect::Yellow) => 2.0,
         Some(Aspect::Green) => 3.0,

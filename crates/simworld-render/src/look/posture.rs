@@ -239,7 +239,7 @@ pub(super) fn posture_of(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64,
     let mut posture = held(entity, scene, height, seed);
     posture.gaze += entity.gaze().clamp(-0.7, 0.9);
     gesticulate(&mut posture, entity, scene, height);
-    let fits = entity.attachment.is_none() || entity.attachment.is_some_and(|bond| bond.role == Role::Seated);
+    let fits = entity.attachment.is_none_or(|bond| bond.role == Role::Seated);
     if fits {
         carry(&mut posture, entity, scene, height);
     }

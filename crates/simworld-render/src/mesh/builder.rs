@@ -46,6 +46,8 @@ pub(crate) enum Material {
     SignalGreen = 13,
     White = 14,
     Dark = 15,
+    /// The colour of the instance under a clear coat, as vehicles have it.
+    Paint = 16,
 }
 
 /// A point: anchor and offset.

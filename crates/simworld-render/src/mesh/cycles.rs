@@ -101,7 +101,7 @@ pub(crate) fn bicycle() -> Builder {
         (share(0.5, 0.0, 0.0).plus(-0.34, 0.0, 0.34), share(-0.5, 0.0, 0.0).plus(0.34, 0.0, 0.34));
     let (crank, seat, head) = (unit(-0.08, 0.0, 0.3), unit(-0.25, 0.0, 0.85), unit(0.4, 0.0, 0.85));
     for ends in [[rear, crank], [rear, seat], [crank, seat], [crank, head], [seat, head], [head, front]] {
-        mesh.tube(ends, [0.02, 0.02], 6, Material::Body);
+        mesh.tube(ends, [0.02, 0.02], 6, Material::Paint);
     }
     let bar = unit(0.38, 0.0, 1.02);
     mesh.tube([head, bar], [0.018, 0.018], 6, Material::Metal);
@@ -121,9 +121,9 @@ pub(crate) fn motorcycle() -> Builder {
     for z in [0.5, 0.56, 0.62] {
         mesh.cuboid(unit(-0.18, -0.13, z), unit(0.16, 0.13, z + 0.035), Material::Metal);
     }
-    mesh.ball([unit(0.12, 0.0, 0.74), unit(0.12, 0.0, 0.74)], [0.32, 0.17, 0.16], 8, 12, Material::Body);
+    mesh.ball([unit(0.12, 0.0, 0.74), unit(0.12, 0.0, 0.74)], [0.32, 0.17, 0.16], 8, 12, Material::Paint);
     mesh.tapered(unit(-0.72, -0.14, 0.7), unit(-0.08, 0.14, 0.82), [0.05, 0.03], [Material::Dark; 3]);
-    mesh.tapered(unit(-0.86, -0.1, 0.66), unit(-0.5, 0.1, 0.76), [0.06, 0.02], [Material::Body; 3]);
+    mesh.tapered(unit(-0.86, -0.1, 0.66), unit(-0.5, 0.1, 0.76), [0.06, 0.02], [Material::Paint; 3]);
     mesh.cuboid(unit(-0.89, -0.08, 0.68), unit(-0.85, 0.08, 0.75), Material::TailLight);
     let bar = unit(0.42, 0.0, 1.05);
     for side in [-0.1, 0.1] {
@@ -137,7 +137,7 @@ pub(crate) fn motorcycle() -> Builder {
     }
     mesh.tube([bar.plus(0.0, -0.36, 0.0), bar.plus(0.0, 0.36, 0.0)], [0.02, 0.02], 6, Material::Dark);
     mesh.tube([unit(0.5, 0.0, 0.9), unit(0.6, 0.0, 0.9)], [0.12, 0.1], 12, Material::HeadLight);
-    mesh.tapered(unit(0.42, -0.16, 0.92), unit(0.6, 0.16, 1.2), [0.06, 0.04], [Material::Body; 3]);
+    mesh.tapered(unit(0.42, -0.16, 0.92), unit(0.6, 0.16, 1.2), [0.06, 0.04], [Material::Paint; 3]);
     mesh.tube([unit(-0.1, -0.2, 0.3), unit(-0.8, -0.2, 0.36)], [0.04, 0.06], 8, Material::Metal);
     mesh
 }
@@ -149,7 +149,7 @@ pub(crate) fn scooter() -> Builder {
     mesh.cuboid(
         share(-0.5, 0.0, 0.0).plus(0.2, -0.08, 0.1),
         share(0.5, 0.0, 0.0).plus(-0.3, 0.08, 0.16),
-        Material::Body,
+        Material::Paint,
     );
     mesh.cuboid(
         share(-0.5, 0.0, 0.0).plus(0.22, -0.07, 0.16),
@@ -162,9 +162,9 @@ pub(crate) fn scooter() -> Builder {
         Material::Dark,
     );
     let neck = share(0.5, 0.0, 0.0).plus(-0.2, 0.0, 0.14);
-    mesh.tube([neck.plus(-0.12, 0.0, 0.0), front.plus(-0.05, 0.0, 0.14)], [0.03, 0.03], 8, Material::Body);
+    mesh.tube([neck.plus(-0.12, 0.0, 0.0), front.plus(-0.05, 0.0, 0.14)], [0.03, 0.03], 8, Material::Paint);
     let bar = share(0.5, 0.0, 1.0).plus(-0.3, 0.0, -0.04);
-    mesh.tube([front, bar], [0.03, 0.024], 8, Material::Body);
+    mesh.tube([front, bar], [0.03, 0.024], 8, Material::Paint);
     mesh.tube([bar.plus(0.0, -0.21, 0.0), bar.plus(0.0, 0.21, 0.0)], [0.02, 0.02], 6, Material::Dark);
     mesh.cuboid(bar.plus(-0.01, -0.04, -0.01), bar.plus(0.05, 0.04, 0.05), Material::Dark);
     mesh.tube([bar.plus(0.02, 0.0, -0.1), bar.plus(0.07, 0.0, -0.1)], [0.025, 0.03], 8, Material::HeadLight);
@@ -183,7 +183,7 @@ pub(crate) fn far_cycle() -> Builder {
             Material::Rubber,
         );
     }
-    mesh.cuboid(share(-0.3, -0.05, 0.35), share(0.2, 0.05, 0.6), Material::Body);
+    mesh.cuboid(share(-0.3, -0.05, 0.35), share(0.2, 0.05, 0.6), Material::Paint);
     mesh.cuboid(share(0.18, -0.5, 0.85), share(0.24, 0.5, 0.92), Material::Dark);
     mesh
 }

@@ -43,12 +43,12 @@ fn mirrors(mesh: &mut Builder, height: f32) {
 }
 
 fn coachwork(mesh: &mut Builder) {
-    mesh.cuboid(LOW.plus(0.0, 0.0, 0.3), HIGH.plus(0.0, 0.0, -0.1), Material::Body);
+    mesh.cuboid(LOW.plus(0.0, 0.0, 0.3), HIGH.plus(0.0, 0.0, -0.1), Material::Paint);
     mesh.tapered(
         share(-0.5, -0.5, 1.0).plus(0.0, 0.0, -0.1),
         HIGH,
         [0.12, 0.12],
-        [Material::Body, Material::White, Material::Body],
+        [Material::Paint, Material::White, Material::Paint],
     );
     chassis(mesh, 0.2, 0.34);
     for x in [0.3, -0.28] {
@@ -105,7 +105,7 @@ pub(crate) fn double_decker() -> Builder {
 /// A bus of a few pixels, wheels and all.
 pub(crate) fn far_bus() -> Builder {
     let mut mesh = Builder::new([11.0, 2.5, 3.0], 1.0);
-    mesh.cuboid(LOW.plus(0.0, 0.0, 0.3), HIGH, Material::Body);
+    mesh.cuboid(LOW.plus(0.0, 0.0, 0.3), HIGH, Material::Paint);
     mesh.cuboid(
         share(-0.49, -0.5, 0.42).plus(0.0, -0.01, 0.0),
         share(0.5, 0.5, 0.8).plus(0.01, 0.01, 0.0),
@@ -129,14 +129,14 @@ pub(crate) fn van() -> Builder {
     let low = |x0: P, x1: P| ring(x0, x1, floor, floor, 0.5);
     let back = share(-0.5, 0.0, 0.0);
     let (hood, nose) = (share(0.0, 0.0, 0.47), share(0.0, 0.0, 0.38));
-    mesh.hexa(low(cowl, front), ring(cowl, front, hood, nose, 0.49), Material::Body);
-    mesh.hexa(low(back, cowl), ring(back, cowl, hood, hood, 0.5), Material::Body);
+    mesh.hexa(low(cowl, front), ring(cowl, front, hood, nose, 0.49), Material::Paint);
+    mesh.hexa(low(back, cowl), ring(back, cowl, hood, hood, 0.5), Material::Paint);
     let (eave, roof) = (share(0.0, 0.0, 0.9), share(0.0, 0.0, 1.0));
-    mesh.hexa(ring(back, cowl, hood, hood, 0.5), ring(back, brow, eave, eave, 0.47), Material::Body);
+    mesh.hexa(ring(back, cowl, hood, hood, 0.5), ring(back, brow, eave, eave, 0.47), Material::Paint);
     mesh.hexa(
         ring(back, brow, eave, eave, 0.47),
         ring(back.plus(0.08, 0.0, 0.0), brow.plus(-0.15, 0.0, 0.0), roof, roof, 0.42),
-        Material::Body,
+        Material::Paint,
     );
     // Windscreen and side windows lie on the slanted faces.
     let screen = |x: P, y: f32, z: P| at(x, y, z).plus(0.015, 0.0, 0.01);
@@ -184,19 +184,19 @@ fn cab(mesh: &mut Builder, length: f32, top: f32) {
     let brow = front.plus(-0.25, 0.0, 0.0);
     let head = share(0.0, 0.0, 0.88 * top);
     let roof = share(0.0, 0.0, top);
-    mesh.hexa(ring(back, front, floor, 0.49), ring(back, front, belt, 0.5), Material::Body);
+    mesh.hexa(ring(back, front, floor, 0.49), ring(back, front, belt, 0.5), Material::Paint);
     mesh.hexa(ring(back, front, belt, 0.49), ring(back, brow, head, 0.47), Material::Glass);
     mesh.hexa(
         ring(back, brow, head, 0.48),
         ring(back, brow.plus(-0.15, 0.0, 0.0), roof, 0.45),
-        Material::Body,
+        Material::Paint,
     );
     // Posts behind the doors and at the corners of the screen.
     for side in [-1.0_f32, 1.0] {
         for (x, tilt) in [(back.plus(0.12, 0.0, 0.0), 0.0), (front.plus(-0.1, 0.0, 0.0), -0.25)] {
             let foot = at(x, 0.49 * side, belt);
             let ends = [foot, at(x.plus(tilt, 0.0, 0.0), 0.47 * side, head)];
-            mesh.tube(ends, [0.07, 0.07], 4, Material::Body);
+            mesh.tube(ends, [0.07, 0.07], 4, Material::Paint);
         }
     }
     mesh.cuboid(
@@ -249,7 +249,7 @@ pub(crate) fn fire_engine() -> Builder {
     frame(&mut mesh);
     cab(&mut mesh, 2.9, 0.86);
     let bulkhead = share(0.5, 0.5, 0.88).plus(-3.0, 0.0, 0.0);
-    mesh.cuboid(LOW.plus(0.0, 0.0, 0.55), bulkhead, Material::Body);
+    mesh.cuboid(LOW.plus(0.0, 0.0, 0.55), bulkhead, Material::Paint);
     for side in [-0.5, 0.5] {
         for k in 0..3_u8 {
             let x = -0.47 + 0.19 * f32::from(k);
@@ -326,9 +326,9 @@ pub(crate) fn tipper() -> Builder {
 pub(crate) fn far_truck() -> Builder {
     let mut mesh = Builder::new([7.0, 2.3, 3.0], 1.0);
     mesh.cuboid(LOW.plus(0.0, 0.0, 0.5), share(0.2, 0.5, 1.0), Material::Second);
-    mesh.cuboid(share(0.22, -0.5, 0.12), share(0.5, 0.5, 0.45), Material::Body);
+    mesh.cuboid(share(0.22, -0.5, 0.12), share(0.5, 0.5, 0.45), Material::Paint);
     mesh.cuboid(share(0.22, -0.48, 0.45), share(0.48, 0.48, 0.78), Material::Glass);
-    mesh.cuboid(share(0.22, -0.48, 0.78), share(0.46, 0.48, 0.84), Material::Body);
+    mesh.cuboid(share(0.22, -0.48, 0.78), share(0.46, 0.48, 0.84), Material::Paint);
     for x in [0.36_f32, -0.3] {
         mesh.cuboid(share(x - 0.06, -0.5, 0.0), share(x + 0.06, 0.5, 0.3), Material::Dark);
     }

@@ -22,6 +22,7 @@ use figures::Stance;
 pub(crate) use nature::CROWN_RADIUS;
 use people::{Grain, Hair};
 use simworld_core::id::AssetId;
+pub(crate) use street::LAMP_REACH;
 
 /// How the fragments of a mesh are painted; each is a pipeline of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

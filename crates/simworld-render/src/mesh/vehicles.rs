@@ -36,7 +36,7 @@ fn mirrors(mesh: &mut Builder, at: P) {
     for side in [-1.0, 1.0] {
         let root = P { a: [at.a[0], 0.5 * side, at.a[2]], o: [at.o[0], 0.0, at.o[2]] };
         let (low, high) = if side > 0.0 { (-0.03, 0.1) } else { (-0.1, 0.03) };
-        mesh.cuboid(root.plus(-0.05, low, 0.0), root.plus(0.06, high, 0.13), Material::Body);
+        mesh.cuboid(root.plus(-0.05, low, 0.0), root.plus(0.06, high, 0.13), Material::Paint);
     }
 }
 
@@ -78,13 +78,13 @@ pub(super) fn hull(mesh: &mut Builder, stations: &[Station], floor: f32) {
         let (front, back) = (section(pair[0], floor), section(pair[1], floor));
         for k in 0..8 {
             let next = (k + 1) % 8;
-            let material = if matches!(k, 0 | 6 | 7) { Material::Dark } else { Material::Body };
+            let material = if matches!(k, 0 | 6 | 7) { Material::Dark } else { Material::Paint };
             mesh.quad([front[k], front[next], back[next], back[k]], material);
         }
     }
     for (station, forward) in [(stations[0], true), (stations[stations.len() - 1], false)] {
         let ring = section(station, floor);
-        for (k, material) in [(0, Material::Dark), (1, Material::Body), (2, Material::Body)] {
+        for (k, material) in [(0, Material::Dark), (1, Material::Paint), (2, Material::Paint)] {
             let corners = [ring[k], ring[7 - k], ring[6 - k], ring[k + 1]];
             let [a, b, c, d] = corners;
             mesh.quad(if forward { [a, b, c, d] } else { [b, a, d, c] }, material);
@@ -130,7 +130,7 @@ fn cabin(mesh: &mut Builder, profile: &Profile) {
     let roof = [[b, -0.5], [b, 0.5], [c, 0.5], [c, -0.5]]
         .map(|[x, y]| share(x, y * (1.0 - 2.0 * draw), 1.0).plus(-x.signum() * 0.1, -y * 0.16, 0.0));
     let brim = head.map(|corner| corner.plus(0.0, corner.a[1] * 0.03, 0.0));
-    mesh.hexa(brim, roof, Material::Body);
+    mesh.hexa(brim, roof, Material::Paint);
     pillars(mesh, foot, head);
 }
 
@@ -151,7 +151,7 @@ fn pillars(mesh: &mut Builder, foot: [P; 4], head: [P; 4]) {
                 let (y0, y1) = if inwards > 0.0 { (0.0, inwards) } else { (inwards, 0.0) };
                 [p.plus(half, y0, 0.0), p.plus(half, y1, 0.0), p.plus(-half, y1, 0.0), p.plus(-half, y0, 0.0)]
             };
-            mesh.hexa(ring(low), ring(high), Material::Body);
+            mesh.hexa(ring(low), ring(high), Material::Paint);
         }
     }
 }
@@ -253,7 +253,7 @@ pub(crate) fn sports() -> Builder {
         wheel: 0.34,
     });
     let wing = share(-0.5, 0.0, 0.7);
-    mesh.cuboid(wing.plus(0.0, -0.7, 0.13), wing.plus(0.28, 0.7, 0.16), Material::Body);
+    mesh.cuboid(wing.plus(0.0, -0.7, 0.13), wing.plus(0.28, 0.7, 0.16), Material::Paint);
     for side in [-1.0, 1.0] {
         let post = wing.plus(0.15, 0.5 * side, 0.0);
         mesh.cuboid(post.plus(-0.04, -0.02, -0.05), post.plus(0.04, 0.02, 0.14), Material::Dark);
@@ -278,7 +278,7 @@ pub(crate) fn pickup() -> Builder {
         draw: 0.08,
         wheel: 0.38,
     });
-    let wall = |mesh: &mut Builder, low: P, high: P| mesh.cuboid(low, high, Material::Body);
+    let wall = |mesh: &mut Builder, low: P, high: P| mesh.cuboid(low, high, Material::Paint);
     for side in [-1.0_f32, 1.0] {
         let (inner, outer) = (0.44 * side, 0.5 * side);
         let (y0, y1) = (inner.min(outer), inner.max(outer));
@@ -295,9 +295,9 @@ pub(crate) fn far_car() -> Builder {
     let ring = |x0: f32, x1: f32, y: f32, z: f32| {
         [[x1, -y], [x1, y], [x0, y], [x0, -y]].map(|[x, y]| share(x, y, z))
     };
-    mesh.hexa(ring(-0.5, 0.5, 0.48, 0.16), ring(-0.49, 0.46, 0.5, 0.6), Material::Body);
+    mesh.hexa(ring(-0.5, 0.5, 0.48, 0.16), ring(-0.49, 0.46, 0.5, 0.6), Material::Paint);
     mesh.hexa(ring(-0.44, 0.24, 0.46, 0.6), ring(-0.32, 0.08, 0.4, 0.96), Material::Glass);
-    mesh.quad(ring(-0.32, 0.08, 0.4, 0.97), Material::Body);
+    mesh.quad(ring(-0.32, 0.08, 0.4, 0.97), Material::Paint);
     for x in [0.31_f32, -0.31] {
         mesh.cuboid(share(x - 0.07, -0.5, 0.0), share(x + 0.07, 0.5, 0.42), Material::Dark);
     }
@@ -327,7 +327,7 @@ pub(crate) fn light_bar() -> Builder {
             TOP.plus(-0.15, low, -0.02),
             TOP.plus(0.1, high, 0.12),
             [0.03, 0.03],
-            [Material::Body; 3],
+            [Material::Paint; 3],
         );
     }
     mesh
@@ -338,7 +338,7 @@ pub(crate) fn stripe() -> Builder {
     let mut mesh = Builder::new([5.0, 2.0, 2.0], 1.0);
     for side in [-0.5, 0.5] {
         let (low, high) = (share(-0.48, side, 0.36), share(0.44, side, 0.46));
-        mesh.cuboid(low.plus(0.0, -0.008, 0.0), high.plus(0.0, 0.008, 0.0), Material::Body);
+        mesh.cuboid(low.plus(0.0, -0.008, 0.0), high.plus(0.0, 0.008, 0.0), Material::Paint);
     }
     mesh
 }

@@ -7,6 +7,8 @@ mod bodies;
 mod bvh;
 mod shape;
 
+use std::collections::BTreeMap;
+
 use bodies::Bodies;
 use bytemuck::{Pod, Zeroable};
 use shape::Shapes;
@@ -14,12 +16,14 @@ use simworld_core::scene::Scene;
 
 use crate::RenderError;
 use crate::batch::{Channels, Layout, ViewRequest};
-use crate::gpu::{Globals, Gpu, Planes, Scenery, raycast_source};
+use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, raycast_source};
 use crate::resident::Residents;
 use crate::view::View;
 
 /// Pixels that one workgroup casts, each way, as in raycast.wgsl.
 const TILE: u32 = 8;
+/// Storage buffers that it binds.
+pub(crate) const BUFFERS: u32 = 9;
 /// Views that one dispatch takes.
 pub(crate) const MOST_VIEWS: usize = 65_535;
 
@@ -41,8 +45,12 @@ pub(crate) struct Raycast {
     /// Numbers whose instances changed since the trees last followed.
     noted: Vec<u32>,
     layout: wgpu::BindGroupLayout,
-    /// With colour, and without.
-    pipelines: [wgpu::ComputePipeline; 2],
+    module: wgpu::ShaderModule,
+    pipeline_layout: wgpu::PipelineLayout,
+    /// By what a picture needs; without colour it needs nothing.
+    pipelines: BTreeMap<Option<Features>, wgpu::ComputePipeline>,
+    /// That of the batch at hand.
+    prepared: Option<Features>,
     views: wgpu::Buffer,
     nodes: wgpu::Buffer,
     placed: wgpu::Buffer,
@@ -66,23 +74,35 @@ impl Raycast {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: binding < 5 },
+                ty: wgpu::BufferBindingType::Storage { read_only: binding < 5 || binding == 8 },
                 has_dynamic_offset: false,
                 min_binding_size: None,
             },
             count: None,
         };
-        let entries: Vec<_> = (0..8).map(entry).collect();
+        let entries: Vec<_> = (0..BUFFERS).map(entry).collect();
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("raycast"),
             entries: &entries,
+        });
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("raycast"),
+            source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
+        });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("raycast"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
         });
         let buffer = |size| storage(gpu, size);
         Self {
             shapes: Shapes::new(),
             bodies: Bodies::new(),
             noted: Vec::new(),
-            pipelines: pipelines(gpu, &layout),
+            module,
+            pipeline_layout,
+            pipelines: BTreeMap::new(),
+            prepared: None,
             layout,
             views: buffer(1024),
             nodes: buffer(1024),
@@ -158,7 +178,29 @@ impl Raycast {
         (0..look.views.len()).map(one).collect()
     }
 
-    /// Records the dispatch of a batch.
+    /// Makes ready what pictures of these features are cast with.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features, channels: Channels) {
+        self.prepared = channels.contains(Channels::RGB).then_some(features);
+        let (module, layout, wanted) = (&self.module, &self.pipeline_layout, self.prepared);
+        self.pipelines.entry(wanted).or_insert_with(|| {
+            let bits = wanted.map_or(0, Features::bits);
+            let constants =
+                [("SHADED", f64::from(u8::from(wanted.is_some()))), ("FEATURES", f64::from(bits))];
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("raycast"),
+                layout: Some(layout),
+                module,
+                entry_point: Some("cast_views"),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
+                cache: None,
+            })
+        });
+    }
+
+    /// Records the dispatch of a batch; does nothing before it was [prepared](Self::prepare).
     pub(crate) fn draw(
         &self,
         gpu: &Gpu,
@@ -166,11 +208,12 @@ impl Raycast {
         scenery: &Scenery,
         planes: &Planes,
         layout: &Layout,
-        channels: Channels,
     ) {
+        let Some(pipeline) = self.pipelines.get(&self.prepared) else { return };
         let [color, depth, who] = &planes.raw;
-        let buffers =
-            [&self.views, &scenery.instances, &self.nodes, &self.placed, &self.pieces, color, depth, who];
+        let trees = [&self.nodes, &self.placed, &self.pieces];
+        let buffers = [&self.views, &scenery.instances].into_iter().chain(trees);
+        let buffers = buffers.chain([color, depth, who, &scenery.lights]);
         let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
             .zip(buffers)
             .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
@@ -182,36 +225,10 @@ impl Raycast {
         });
         let [width, height] = layout.largest;
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(&self.pipelines[usize::from(!channels.contains(Channels::RGB))]);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), layout.spans.len() as u32);
     }
-}
-
-fn pipelines(gpu: &Gpu, layout: &wgpu::BindGroupLayout) -> [wgpu::ComputePipeline; 2] {
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("raycast"),
-        source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
-    });
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("raycast"),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
-    [1.0, 0.0].map(|shaded| {
-        let constants = [("SHADED", shaded)];
-        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("raycast"),
-            layout: Some(&layout),
-            module: &module,
-            entry_point: Some("cast_views"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            cache: None,
-        })
-    })
 }
 
 fn storage(gpu: &Gpu, size: u64) -> wgpu::Buffer {

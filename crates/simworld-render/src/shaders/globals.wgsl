@@ -8,19 +8,36 @@ struct Globals {
     forward: vec4f,
     // fx, fy, cx, cy, in pixels.
     intrinsics: vec4f,
-    // Towards the sun; w: how far it is night.
+    // Towards the sun, or at night towards the moon; w: how far it is night.
     sun_direction: vec4f,
-    // Radiance of a white surface in the sun, exposed; w: extinction of the air, 1/m.
+    // Radiance of a white surface that faces it by its light alone, exposed; w: extinction of the air at the eye, 1/m.
     sun: vec4f,
-    // The same under the sky alone; w: cloud cover.
-    sky: vec4f,
+    // Irradiance by spherical harmonics.
+    ambient: array<vec4f, 9>,
+    // Clouds overhead; w: the share of the sky that they cover.
+    overcast: vec4f,
+    // The sky's own glow; w: how fast the air thins out upwards, 1/m.
+    night_sky: vec4f,
+    // What fog scatters towards the eye; w: its share at the horizon.
+    fog: vec4f,
+    // Colours of what aerosol scatters near the horizon and overhead; w: vertical optical depth of fog.
+    aerosol_low: vec4f,
+    aerosol_high: vec4f,
     // Light from below; w: size of a shadow texel in m, or 0 without shadows.
     bounce: vec4f,
-    zenith: vec4f,
-    horizon: vec4f,
     // The eye in the world, and what that float leaves over.
     eye: vec4f,
     eye_rest: vec4f,
+    // The unit vector in the plane towards sun or moon; then how far the clouds have drifted.
+    source_flat: vec4f,
+    // Wetness, share of puddles, depth of snow in m; w: how much rain stirs the puddles.
+    cover: vec4f,
+    // Where rain and snow have fallen to, modulo their box, m; w: time, s.
+    drops: vec4f,
+    // How they fall, m/s; w: 0 for rain, 1 for snow.
+    fall: vec4f,
+    // Least corner of the grid of lamps relative to the eye, m; w: its first entry in `lights`, 0 without lamps.
+    lamp_grid: vec4f,
 }
 
 // One drawn thing; the twin of `Instance` in resident/instance.rs.

@@ -32,7 +32,7 @@ fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32) -> Finish {
         case 1u: { return matte(second.rgb); }
         case 2u: { return Finish(vec3f(0.012, 0.017, 0.022), 0.0, 1.0, 0.05, 0.0); }
         case 3u: { return matte(vec3f(0.016)); }
-        case 4u: { return Finish(vec3f(0.32, 0.33, 0.34), 0.0, 0.25, 0.35, 1.0); }
+        case 4u: { return Finish(vec3f(0.32, 0.33, 0.34), 0.0, 0.0, 0.55, 1.0); }
         case 5u: { return matte(vec3f(0.13, 0.08, 0.045)); }
         case 6u: { return matte(skin); }
         case 7u: { return matte(hair); }
@@ -44,6 +44,7 @@ fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32) -> Finish {
         case 13u: { return Finish(mix(vec3f(0.008, 0.07, 0.03), vec3f(0.03, 1.0, 0.35), f32(aspect == 3.0)), 1.6 * f32(aspect == 3.0), 0.2, 0.3, 0.0); }
         case 14u: { return matte(vec3f(0.7, 0.68, 0.64)); }
         case 15u: { return Finish(vec3f(0.03, 0.031, 0.034), 0.0, 0.1, 0.5, 0.0); }
+        case 16u: { return Finish(color.rgb, 0.0, 0.5, 0.5, 0.0); }
         default: { return matte(color.rgb); }
     }
 }

@@ -1,10 +1,13 @@
 // Surfaces painted from body-frame coordinates, in metres: no textures.
 struct Surface {
     albedo: vec3f,
-    // How much it mirrors the sky, 0 to 1.
+    // How much of a clear coat or pane it has, 0 to 1.
     gloss: f32,
     emissive: vec3f,
     normal: vec3f,
+    // Under the gloss; see `Finish`.
+    roughness: f32,
+    metallic: f32,
 }
 
 // A wall as its painter sees it: where the point is on the wall, how the wall is divided, and where the view ray meets

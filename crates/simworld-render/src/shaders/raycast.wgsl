@@ -40,6 +40,7 @@ struct Placed {
 @group(0) @binding(5) var<storage, read_write> out_color: array<u32>;
 @group(0) @binding(6) var<storage, read_write> out_depth: array<f32>;
 @group(0) @binding(7) var<storage, read_write> out_who: array<u32>;
+@group(0) @binding(8) var<storage, read> lights: array<vec4f>;
 
 var<private> globals: Globals;
 var<private> eye: vec3f;

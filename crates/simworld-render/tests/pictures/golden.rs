@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use crate::common::{difference, draw, renderer, square, square_camera};
 use simworld_core::camera::{Camera, Intrinsics};
-use simworld_core::environment::Environment;
+use simworld_core::environment::Preset;
 use simworld_core::geometry::Point3;
 use simworld_render::{AntiAliasing, Frame, RenderConfig};
 
@@ -49,21 +49,24 @@ fn check(name: &str, frame: &Frame) {
     }
 }
 
+/// Six lights and weathers of one place.
 #[test]
-fn a_square_by_day_in_fog_and_by_night() {
+fn a_square_in_six_lights_and_weathers() {
     let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
     let mut world = square(0.0);
-    let mut environment = Environment::default();
     let camera = square_camera(0.0, 160, 120);
-    check("day", &draw(&mut renderer, &world, &camera));
-    environment.weather.visibility = 60.0;
-    environment.weather.cloud_cover = 0.9;
-    world.set_environment(environment).expect("weather in range");
-    check("fog", &draw(&mut renderer, &world, &camera));
-    environment = Environment::default();
-    environment.sun.elevation = -0.3;
-    world.set_environment(environment).expect("a sun in range");
-    check("night", &draw(&mut renderer, &world, &camera));
+    for (name, preset) in [
+        ("noon", "ClearNoon"),
+        ("dusk", "CloudySunset"),
+        ("night", "WetNight"),
+        ("fog", "FogNoon"),
+        ("rain", "HardRainNoon"),
+        ("snow", "SnowNoon"),
+    ] {
+        let preset: Preset = preset.parse().expect("a preset");
+        world.set_environment(preset.environment()).expect("weather in range");
+        check(name, &draw(&mut renderer, &world, &camera));
+    }
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod flow_is_the_motion_that_is_known;
 mod golden;
 mod ids_and_classes_name_what_is_there;
 mod light_and_weather;
+mod look;
 mod maps_have_one_scale;
 mod models_are_drawn;
 mod normals_are_those_of_the_solids;
