@@ -305,7 +305,7 @@ fn street() -> Outcome<Sheet> {
         "billboard",
     ];
     let world = rows(&names, 11, [2.2, 4.4], -1.1, 0.0)?;
-    Ok((world, Point3::new(0.0, -13.0, 8.0), Point3::new(0.0, 6.0, 0.8)))
+    Ok((world, Point3::new(0.0, -24.0, 14.0), Point3::new(0.0, 4.0, 0.8)))
 }
 
 fn props() -> Outcome<Sheet> {
@@ -356,7 +356,7 @@ fn props() -> Outcome<Sheet> {
         "phone_booth",
     ];
     let world = rows(&names, 11, [3.6, 6.0], -1.1, 0.0)?;
-    Ok((world, Point3::new(0.0, -19.0, 11.5), Point3::new(0.0, 8.0, 0.8)))
+    Ok((world, Point3::new(0.0, -36.0, 20.0), Point3::new(0.0, 5.0, 0.8)))
 }
 
 fn trees() -> Outcome<Sheet> {
@@ -385,5 +385,5 @@ fn trees() -> Outcome<Sheet> {
             world.spawn(desc.with("season", season.as_str()))?;
         }
     }
-    Ok((world, Point3::new(0.0, -62.0, 30.0), Point3::new(0.0, 22.0, 6.0)))
+    Ok((world, Point3::new(0.0, -100.0, 50.0), Point3::new(0.0, 20.0, 3.0)))
 }

@@ -5,6 +5,8 @@ mod creatures;
 mod people;
 mod posture;
 mod riders;
+mod things;
+mod trees;
 mod vehicles;
 
 use simworld_core::geometry::Pose;
@@ -12,7 +14,7 @@ use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
 
-use crate::mesh::{CROWN_RADIUS, Drawn, MeshId};
+use crate::mesh::{Drawn, MeshId};
 use crate::models::model_of;
 use crate::resident;
 
@@ -114,9 +116,14 @@ impl Looks {
             EntityKind::Person => people::dress,
             EntityKind::Building => buildings::dress,
             EntityKind::Dog => creatures::dress,
+            EntityKind::Tree => trees::dress,
             kind if kind.is_vehicle() => vehicles::dress,
             _ => {
-                let look = self.of(entity, scene.signals());
+                let mut look = self.of(entity, scene.signals());
+                if let Some(mesh) = asset_name(entity, scene).and_then(things::named) {
+                    let second = pick(&people::CLOTHES, bits >> 12);
+                    look = Look { mesh, second, ..metric(&look) };
+                }
                 return out.push(whole(Drawn::Own(look.mesh), look));
             }
         };
@@ -240,7 +247,6 @@ fn pick<T: Copy, const N: usize>(entries: &[T; N], bits: u64) -> T {
 
 fn dress(look: &mut Look, entity: &EntityRef<'_>, signals: &[Aspect], bits: u64) {
     match entity.kind {
-        EntityKind::Tree => tree(look, bits),
         EntityKind::Shrub => *look = Look { mesh: MeshId::Shrub, color: pick(&LEAVES, bits), ..fitted(look) },
         EntityKind::StreetLamp => {
             *look = Look { mesh: MeshId::Lamp, color: [0.05, 0.06, 0.06], ..metric(look) };
@@ -262,15 +268,6 @@ fn metric(look: &Look) -> Look {
 /// Offsets in heights, with the box as wide as the solid.
 fn fitted(look: &Look) -> Look {
     Look { unit: look.scale[0].max(look.scale[1]).max(look.scale[2] * 0.8), ..*look }
-}
-
-fn tree(look: &mut Look, bits: u64) {
-    let [x, y, z] = look.scale;
-    // A thin solid is the trunk alone; a wide one holds the crown.
-    let crown = if x.max(y) > 0.3 * z { x.max(y) * 0.5 } else { CROWN_RADIUS * z };
-    look.mesh = if bits.is_multiple_of(4) { MeshId::Slender } else { MeshId::Broadleaf };
-    look.unit = (crown / CROWN_RADIUS).min(z * 1.4).max(z);
-    look.color = pick(&LEAVES, bits >> 8);
 }
 
 /// What the group of a signal shows now.
@@ -318,6 +315,9 @@ fn furniture(look: &mut Look, kind: EntityKind, bits: u64) {
         EntityKind::Robot => {
             (Look { mesh: MeshId::Robot, ..metric(look) }, [0.72, 0.73, 0.75], [0.85, 0.3, 0.02])
         }
+        EntityKind::Door => {
+            (Look { mesh: MeshId::Door, ..metric(look) }, [0.2, 0.09, 0.04], [0.15, 0.07, 0.03])
+        }
         // A prop is its solid.
         _ => (*look, pick(&[[0.45, 0.42, 0.38], [0.3, 0.36, 0.42], [0.5, 0.36, 0.25]], bits), [0.2; 3]),
     };
@@ -350,6 +350,53 @@ mod tests {
                 assert!((0.0..1.0).contains(&look.seed), "{kind}");
             }
         }
+    }
+
+    fn parts_of(kind: EntityKind, shape: Shape) -> Vec<resident::Part> {
+        let mut world = World::new();
+        let id = world.spawn(at_origin(kind, shape)).unwrap();
+        let mut parts = Vec::new();
+        Looks::new().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        parts
+    }
+
+    /// Only what is a box is drawn as one.
+    #[test]
+    fn every_kind_but_a_prop_has_a_mesh_of_its_own() {
+        let solids = [MeshId::Cuboid, MeshId::Cylinder, MeshId::Capsule, MeshId::Sphere];
+        for kind in EntityKind::ALL.iter().filter(|kind| **kind != EntityKind::Prop) {
+            let parts = parts_of(*kind, Shape::cuboid(2.0, 1.0, 1.5));
+            let plain = parts.iter().any(|part| solids.contains(&part.look.mesh));
+            assert!(!parts.is_empty() && !plain, "{kind}");
+        }
+    }
+
+    /// From level to level there are no more triangles, and few are left for some pixels.
+    #[test]
+    fn farther_away_there_are_fewer_triangles() {
+        let library = crate::mesh::MeshLibrary::build();
+        let (tall, car) = (Shape::Capsule { radius: 0.25, height: 1.8 }, Shape::cuboid(4.5, 1.8, 1.5));
+        let mut wrong = Vec::new();
+        for (kind, shape) in [
+            (EntityKind::Person, tall),
+            (EntityKind::Car, car),
+            (EntityKind::Truck, Shape::cuboid(8.0, 2.5, 3.2)),
+            (EntityKind::Bus, Shape::cuboid(12.0, 2.5, 3.1)),
+            (EntityKind::Bicycle, Shape::cuboid(1.75, 0.6, 1.1)),
+            (EntityKind::Dog, Shape::cuboid(0.8, 0.3, 0.6)),
+            (EntityKind::Tree, Shape::Cylinder { radius: 0.2, height: 8.0 }),
+            (EntityKind::Building, Shape::cuboid(14.0, 18.0, 17.0)),
+        ] {
+            let parts = parts_of(kind, shape);
+            let [far, middle, near] = Detail::ALL.map(|detail| {
+                let drawn = parts.iter().filter(|part| part.details & detail.bit() != 0);
+                drawn.map(|part| library.ranges[part.look.mesh as usize].len() / 3).sum::<usize>()
+            });
+            if far == 0 || far > 320 || far >= near || far > middle || middle > near {
+                wrong.push(format!("{kind}: {far}, {middle}, {near}"));
+            }
+        }
+        assert!(wrong.is_empty(), "triangles far, between and near: {wrong:?}");
     }
 
     #[test]

@@ -48,6 +48,8 @@ pub(crate) enum Material {
     Dark = 15,
     /// The colour of the instance under a clear coat, as vehicles have it.
     Paint = 16,
+    /// Green that is not of the instance: plants in pots, goods on a stall.
+    Leaf = 17,
 }
 
 /// A point: anchor and offset.

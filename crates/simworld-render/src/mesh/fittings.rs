@@ -238,3 +238,30 @@ pub(crate) fn skylight() -> Builder {
     }
     mesh
 }
+
+/// A tall stone that ends in a point.
+pub(crate) fn obelisk() -> Builder {
+    let mut mesh = metric();
+    mesh.cuboid(LOW, share(0.5, 0.5, 0.06), Material::Body);
+    let ring = |k: f32, z: f32| [[k, -k], [k, k], [-k, k], [-k, -k]].map(|[x, y]| share(x, y, z));
+    mesh.hexa(ring(0.36, 0.06), ring(0.24, 0.9), Material::Body);
+    mesh.hexa(ring(0.24, 0.9), ring(0.01, 1.0), Material::Body);
+    mesh
+}
+
+/// A leaf of a door with panels and a handle.
+pub(crate) fn door() -> Builder {
+    let mut mesh = metric();
+    mesh.cuboid(LOW, HIGH, Material::Body);
+    for (low, high) in [(0.08, 0.42), (0.5, 0.92)] {
+        for y in [-0.4, 0.06] {
+            for x in [-0.5, 0.5] {
+                let (from, to) = (share(x, y, low), share(x, y + 0.34, high));
+                mesh.cuboid(from.plus(-0.008, 0.0, 0.0), to.plus(0.008, 0.0, 0.0), Material::Second);
+            }
+        }
+    }
+    let handle = share(0.0, 0.42, 0.48);
+    mesh.cuboid(handle.plus(-0.07, -0.1, -0.012), handle.plus(0.07, 0.02, 0.012), Material::Metal);
+    mesh
+}

@@ -45,6 +45,7 @@ fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32) -> Finish {
         case 14u: { return matte(vec3f(0.7, 0.68, 0.64)); }
         case 15u: { return Finish(vec3f(0.03, 0.031, 0.034), 0.0, 0.1, 0.5, 0.0); }
         case 16u: { return Finish(color.rgb, 0.0, 0.5, 0.5, 0.0); }
+        case 17u: { return matte(vec3f(0.08, 0.16, 0.045)); }
         default: { return matte(color.rgb); }
     }
 }
