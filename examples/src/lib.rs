@@ -22,6 +22,7 @@ pub mod robot;
 pub mod served;
 pub mod timing;
 pub mod traffic;
+pub mod view;
 pub mod wayfinding;
 
 pub use ending::{Outcome, exit_code};

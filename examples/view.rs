@@ -1,0 +1,193 @@
+//! Looks on: a city with its traffic, or a recorded run, on film, without a window.
+//!
+//! ```sh
+//! cargo run --release --example view
+//! cargo run --release --example view -- --frames 100 --gif out/street.gif --follow car --show paths,ids
+//! cargo run --release --example view -- --replay out/delivery-1 --frames 60 --png out/run
+//! ```
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use simworld_core::scene::EntityKind;
+use simworld_core::seed::Seed;
+use simworld_examples::city::{Source, make};
+use simworld_examples::folder::make_folder;
+use simworld_examples::view::{Film, Going, Layer, Panes, Stage, Viewer, ViewerSettings};
+use simworld_examples::{Outcome, exit_code};
+
+/// Films a city with its traffic, or a recorded run: from over the street where most is going on, or from behind somebody; in colour, depth,
+/// classes or instances, or all of them side by side, with lanes, waypoints, ways come and ids drawn over the picture.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// A saved city, as `--example city` writes it; otherwise one is grown.
+    #[arg(long, value_name = "FILE.simcity")]
+    city: Option<PathBuf>,
+    /// Plays the run again that `--example delivery` recorded in this folder; its first seed.
+    #[arg(long, value_name = "DIR", conflicts_with = "city")]
+    replay: Option<PathBuf>,
+    /// Seed of the traffic, and of a grown city.
+    #[arg(long, default_value_t = 7)]
+    seed: u64,
+    /// Vehicles.
+    #[arg(long, default_value_t = 120)]
+    vehicles: u32,
+    /// People on foot.
+    #[arg(long, default_value_t = 200)]
+    pedestrians: u32,
+    /// Follows whoever of that kind has most others around it: car, bus, person ...
+    #[arg(long, value_name = "KIND")]
+    follow: Option<String>,
+    /// Layers over the picture: lanes, waypoints, paths, ids.
+    #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
+    show: Vec<Layer>,
+    /// What a picture shows: color, depth, classes, instances, all.
+    #[arg(long, default_value = "color")]
+    panes: Panes,
+    /// Pixels across.
+    #[arg(long, default_value_t = 960)]
+    width: u32,
+    /// Pixels down.
+    #[arg(long, default_value_t = 540)]
+    height: u32,
+    /// Pictures of the film.
+    #[arg(long, default_value_t = 60)]
+    frames: u32,
+    /// Simulated time from one picture to the next, s; rounded to whole steps.
+    #[arg(long, default_value_t = 0.1)]
+    every: f64,
+    /// Skips that much of what would be seen, s.
+    #[arg(long, default_value_t = 0.0)]
+    skip: f64,
+    /// Says what is on that pixel of the first picture: X,Y from the top left.
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 2)]
+    ask: Vec<u32>,
+    /// Films to a GIF [default: out/view.gif, unless another film is asked for].
+    #[arg(long, value_name = "FILE.gif")]
+    gif: Option<PathBuf>,
+    /// Films to a folder of PNG files.
+    #[arg(long, value_name = "DIR")]
+    png: Option<PathBuf>,
+    /// Films to a video; needs the feature `mp4` and the program ffmpeg.
+    #[arg(long, value_name = "FILE.mp4")]
+    mp4: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    let mut arguments = Arguments::parse();
+    if arguments.gif.is_none() && arguments.png.is_none() && arguments.mp4.is_none() {
+        arguments.gif = Some(PathBuf::from("out/view.gif"));
+    }
+    exit_code(job(&arguments))
+}
+
+fn job(arguments: &Arguments) -> Outcome<()> {
+    check(arguments)?;
+    let mut stage = if let Some(folder) = &arguments.replay {
+        Stage::of_recording(folder)?
+    } else {
+        let city = make(&Source::saved_or_small(arguments.city.as_ref()), Seed(arguments.seed))?.city;
+        Stage::of_city(&city, arguments.vehicles, arguments.pedestrians, Seed(arguments.seed))?
+    };
+    for _ in 0..(arguments.skip / stage.dt()).round() as u64 {
+        if stage.step()? == Going::Ended {
+            return Err(format!("--skip {} leaves nothing of the recorded run", arguments.skip).into());
+        }
+    }
+    let follow = match &arguments.follow {
+        Some(name) => {
+            let kind = EntityKind::from_name(name)
+                .ok_or_else(|| format!("--follow {name}: there is no such kind"))?;
+            Some(
+                stage
+                    .liveliest(Some(kind))
+                    .ok_or_else(|| format!("--follow {name}: nobody of that kind moves here"))?,
+            )
+        }
+        None => stage.hero(),
+    };
+    let settings = ViewerSettings {
+        width: arguments.width,
+        height: arguments.height,
+        panes: arguments.panes,
+        layers: arguments.show.iter().copied().collect(),
+        follow,
+    };
+    let mut viewer = Viewer::new(stage, &settings)?;
+    film(&mut viewer, films(arguments)?, arguments)?;
+    println!("{} pictures, drawn on {}", arguments.frames, viewer.adapter());
+    for path in [&arguments.gif, &arguments.png, &arguments.mp4].into_iter().flatten() {
+        println!("written to {}", path.display());
+    }
+    Ok(())
+}
+
+fn check(arguments: &Arguments) -> Outcome<()> {
+    if !(0.01..=60.0).contains(&arguments.every) {
+        return Err(format!("--every {}: give 0.01 to 60 s", arguments.every).into());
+    }
+    if !(0.0..=1e5).contains(&arguments.skip) {
+        return Err(format!("--skip {}: give 0 to 100000 s", arguments.skip).into());
+    }
+    if arguments.frames == 0 {
+        return Err("--frames 0: give at least one".into());
+    }
+    Ok(())
+}
+
+/// The films that are asked for.
+fn films(arguments: &Arguments) -> Outcome<Vec<Film>> {
+    let mut films = Vec::new();
+    for path in [&arguments.gif, &arguments.mp4].into_iter().flatten() {
+        make_folder(path.parent().unwrap_or(Path::new(".")))?;
+    }
+    if let Some(path) = &arguments.gif {
+        films.push(Film::gif(path, arguments.every));
+    }
+    if let Some(folder) = &arguments.png {
+        films.push(Film::pngs(folder)?);
+    }
+    if let Some(path) = &arguments.mp4 {
+        films.push(video(path, arguments.every)?);
+    }
+    Ok(films)
+}
+
+#[cfg(feature = "mp4")]
+#[expect(clippy::unnecessary_wraps, reason = "without the feature it fails")]
+fn video(path: &Path, seconds: f64) -> Outcome<Film> {
+    Ok(Film::mp4(path, seconds))
+}
+
+#[cfg(not(feature = "mp4"))]
+fn video(_: &Path, _: f64) -> Outcome<Film> {
+    Err("--mp4 needs the feature mp4: `cargo run --release --example view --features mp4`, and the program ffmpeg".into())
+}
+
+/// Takes the pictures, and shows how far it has come.
+fn film(viewer: &mut Viewer, mut films: Vec<Film>, arguments: &Arguments) -> Outcome<()> {
+    let steps = (arguments.every / viewer.stage.dt()).round().max(1.0) as u32;
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} pictures, {eta} left")?;
+    let bar = ProgressBar::new(u64::from(arguments.frames)).with_style(style);
+    for picture in 0..arguments.frames {
+        viewer.draw()?;
+        if let ([x, y], 0) = (&arguments.ask[..], picture) {
+            println!("on ({x}, {y}): {}", viewer.pick(*x, *y).as_deref().unwrap_or("the sky"));
+        }
+        for film in &mut films {
+            film.take(viewer.canvas())?;
+        }
+        for _ in 0..steps {
+            viewer.step()?;
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    for film in films {
+        film.finish()?;
+    }
+    Ok(())
+}
