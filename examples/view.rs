@@ -39,8 +39,8 @@ struct Arguments {
     #[arg(long, default_value_t = 200)]
     pedestrians: u32,
     /// Follows whoever of that kind has most others around it: car, bus, person ...
-    #[arg(long, value_name = "KIND")]
-    follow: Option<String>,
+    #[arg(long, value_name = "KIND", value_parser = kind)]
+    follow: Option<EntityKind>,
     /// Layers over the picture: lanes, waypoints, paths, ids.
     #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
     show: Vec<Layer>,
@@ -97,16 +97,12 @@ fn job(arguments: &Arguments) -> Outcome<()> {
             return Err(format!("--skip {} leaves nothing of the recorded run", arguments.skip).into());
         }
     }
-    let follow = match &arguments.follow {
-        Some(name) => {
-            let kind = EntityKind::from_name(name)
-                .ok_or_else(|| format!("--follow {name}: there is no such kind"))?;
-            Some(
-                stage
-                    .liveliest(Some(kind))
-                    .ok_or_else(|| format!("--follow {name}: nobody of that kind moves here"))?,
-            )
-        }
+    let follow = match arguments.follow {
+        Some(kind) => Some(
+            stage
+                .liveliest(Some(kind))
+                .ok_or_else(|| format!("--follow {kind}: nobody of that kind moves here"))?,
+        ),
         None => stage.hero(),
     };
     let settings = ViewerSettings {
@@ -117,12 +113,19 @@ fn job(arguments: &Arguments) -> Outcome<()> {
         follow,
     };
     let mut viewer = Viewer::new(stage, &settings)?;
-    film(&mut viewer, films(arguments)?, arguments)?;
-    println!("{} pictures, drawn on {}", arguments.frames, viewer.adapter());
+    let taken = film(&mut viewer, films(arguments)?, arguments)?;
+    if taken < arguments.frames {
+        println!("the recorded run has come to its end");
+    }
+    println!("{taken} pictures, drawn on {}", viewer.adapter());
     for path in [&arguments.gif, &arguments.png, &arguments.mp4].into_iter().flatten() {
         println!("written to {}", path.display());
     }
     Ok(())
+}
+
+fn kind(name: &str) -> Result<EntityKind, String> {
+    EntityKind::from_name(name).ok_or_else(|| "there is no such kind".to_owned())
 }
 
 fn check(arguments: &Arguments) -> Outcome<()> {
@@ -134,6 +137,12 @@ fn check(arguments: &Arguments) -> Outcome<()> {
     }
     if arguments.frames == 0 {
         return Err("--frames 0: give at least one".into());
+    }
+    if let [x, y] = arguments.ask[..]
+        && (x >= arguments.width || y >= arguments.height)
+    {
+        let (width, height) = (arguments.width, arguments.height);
+        return Err(format!("--ask {x},{y}: the picture has {width} x {height} pixels").into());
     }
     Ok(())
 }
@@ -167,21 +176,24 @@ fn video(_: &Path, _: f64) -> Outcome<Film> {
     Err("--mp4 needs the feature mp4: `cargo run --release --example view --features mp4`, and the program ffmpeg".into())
 }
 
-/// Takes the pictures, and shows how far it has come.
-fn film(viewer: &mut Viewer, mut films: Vec<Film>, arguments: &Arguments) -> Outcome<()> {
+/// Takes the pictures, as many as are wanted or a recorded run has, and shows how far it has come; returns how many.
+fn film(viewer: &mut Viewer, mut films: Vec<Film>, arguments: &Arguments) -> Outcome<u32> {
     let steps = (arguments.every / viewer.stage.dt()).round().max(1.0) as u32;
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} pictures, {eta} left")?;
     let bar = ProgressBar::new(u64::from(arguments.frames)).with_style(style);
-    for picture in 0..arguments.frames {
+    let mut taken = 0;
+    let mut going = Going::On;
+    while taken < arguments.frames && going == Going::On {
         viewer.draw()?;
-        if let ([x, y], 0) = (&arguments.ask[..], picture) {
+        if let ([x, y], 0) = (&arguments.ask[..], taken) {
             println!("on ({x}, {y}): {}", viewer.pick(*x, *y).as_deref().unwrap_or("the sky"));
         }
         for film in &mut films {
             film.take(viewer.canvas())?;
         }
+        taken += 1;
         for _ in 0..steps {
-            viewer.step()?;
+            going = viewer.step()?;
         }
         bar.inc(1);
     }
@@ -189,5 +201,5 @@ fn film(viewer: &mut Viewer, mut films: Vec<Film>, arguments: &Arguments) -> Out
     for film in films {
         film.finish()?;
     }
-    Ok(())
+    Ok(taken)
 }
