@@ -63,7 +63,7 @@ struct Arguments {
     #[arg(long, default_value_t = 0.0)]
     skip: f64,
     /// Says what is on that pixel of the first picture: X,Y from the top left.
-    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 2)]
+    #[arg(long, value_name = "X,Y", value_delimiter = ',')]
     ask: Vec<u32>,
     /// Films to a GIF [default: out/view.gif, unless another film is asked for].
     #[arg(long, value_name = "FILE.gif")]
@@ -137,6 +137,9 @@ fn check(arguments: &Arguments) -> Outcome<()> {
     }
     if arguments.frames == 0 {
         return Err("--frames 0: give at least one".into());
+    }
+    if !matches!(arguments.ask.len(), 0 | 2) {
+        return Err("--ask: give X,Y".into());
     }
     if let [x, y] = arguments.ask[..]
         && (x >= arguments.width || y >= arguments.height)

@@ -3,10 +3,10 @@
 use font8x8::legacy::BASIC_LEGACY;
 
 /// A colour, sRGB.
-pub type Ink = [u8; 3];
+pub(super) type Ink = [u8; 3];
 
 /// Side of a letter, pixels.
-pub const LETTER: usize = 8;
+pub(super) const LETTER: usize = 8;
 
 /// A picture.
 #[derive(Clone, Debug, Default)]
