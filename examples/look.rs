@@ -33,7 +33,7 @@ struct Arguments {
     /// Seed of the generated city, of its traffic and of its people.
     #[arg(long, default_value_t = 7)]
     seed: u64,
-    /// Weather by its name, with or without a time of day: clear, rain, snow, fog, CloudySunset, HardRainNight, ...
+    /// Weather by its name, with or without a time of day: clear, rain, snow, fog, `CloudySunset`, `HardRainNight`, ...
     #[arg(long, value_name = "NAME", default_value = "wet")]
     weather: Preset,
     /// Time by the sun, such as 19:30; 12:00 is when it stands highest.

@@ -3,7 +3,7 @@
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point2, Point3, direction};
 use simworld_core::net::{RoadNetwork, polyline};
-use simworld_core::scene::{EntityKind, Scene, World};
+use simworld_core::scene::{EntityKind, World};
 
 /// How far what is counted may stand from where the camera looks, m.
 const NEAR: f64 = 35.0;

@@ -21,12 +21,15 @@ fn far() -> Stage {
 }
 
 /// A stage where everything is, and one where nothing is, set up alike.
-fn both(set_up: impl Fn(&mut Stage) -> EntityId) -> [(Stage, EntityId); 2] {
-    [Stage::new(), far()].map(|mut stage| {
+fn both(set_up: impl Fn(&mut Stage) -> EntityId) -> [(Box<Stage>, EntityId); 2] {
+    [Box::new(Stage::new()), Box::new(far())].map(|mut stage| {
         let who = set_up(&mut stage);
         (stage, who)
     })
 }
+
+/// What it is called, and what stands in the way.
+type Walk = (&'static str, fn(&mut Stage));
 
 fn heading_east(stage: &mut Stage, x: f64, speed: f64) -> EntityId {
     let who = stage.person(at(x, 0.0, 0.0));
@@ -72,7 +75,7 @@ fn who_comes_near_goes_on_without_a_jump() {
 
 #[test]
 fn far_and_near_lead_to_the_same_places() {
-    let walks: [(&str, fn(&mut Stage)); 4] = [
+    let walks: [Walk; 4] = [
         ("level", |_| {}),
         ("a kerb", |stage| {
             stage.building(6.0, 0.0, (4.0, 6.0, 0.15));
