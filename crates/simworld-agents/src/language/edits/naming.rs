@@ -36,8 +36,14 @@ const IS_NOW: &[&str] = &[
 impl Reader<'_> {
     pub(super) fn name(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
-        // The shortest thing that is one: the rest is the name.
-        for cut in start + 1..end {
+        // "Rename Rose Park to ..." is about no shorter name; else it is the shortest thing that is one, and the rest is the name.
+        const NEARBY: &[&str] = &["closest", "nearest", "next", "close", "closer", "nearer"];
+        let before_to = (start + 1..end).filter(|at| {
+            self.quoted(*at).is_none()
+                && longest_phrase(&self.lexemes[*at..end], &["to", "as", "into"]).is_some()
+                && !self.word(at - 1).is_some_and(|word| NEARBY.contains(&word))
+        });
+        for cut in before_to.chain(start + 1..end) {
             let Ok(what) = self.one_of(start, cut) else { continue };
             // "Call that a tree? It should be ..." names nothing.
             if self.lexemes[cut].token == Token::Break
@@ -109,8 +115,27 @@ impl Reader<'_> {
             && longest_phrase(
                 &self.lexemes[at + 1..end],
                 &[
-                    "he", "she", "it", "its", "they", "hes", "shes", "theyre", "that", "this", "because",
-                    "since", "i", "we",
+                    "he",
+                    "she",
+                    "it",
+                    "its",
+                    "they",
+                    "hes",
+                    "shes",
+                    "theyre",
+                    "that",
+                    "this",
+                    "because",
+                    "since",
+                    "i",
+                    "we",
+                    "the",
+                    "my",
+                    "our",
+                    "so",
+                    "everybody",
+                    "everyone",
+                    "people",
                 ],
             )
             .is_some()

@@ -17,7 +17,7 @@ use crate::city::City;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-pub(crate) const SETS: [&str; 9] = [
+pub(crate) const SETS: [&str; 11] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -27,6 +27,8 @@ pub(crate) const SETS: [&str; 9] = [
     "seventh.edits",
     "eighth.edits",
     "ninth.edits",
+    "tenth.edits",
+    "eleventh.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
