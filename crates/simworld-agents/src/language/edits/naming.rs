@@ -33,11 +33,13 @@ const IS_NOW: &[&str] = &[
     "it is called",
 ];
 
+/// Behind these a place goes on with "to".
+const NEARBY: &[&str] = &["closest", "nearest", "next", "close", "closer", "nearer"];
+
 impl Reader<'_> {
     pub(super) fn name(&mut self, end: usize) -> Result<Vec<Vec<Wish>>, PlanError> {
         let start = self.at;
         // "Rename Rose Park to ..." is about no shorter name; else it is the shortest thing that is one, and the rest is the name.
-        const NEARBY: &[&str] = &["closest", "nearest", "next", "close", "closer", "nearer"];
         let before_to = (start + 1..end).filter(|at| {
             self.quoted(*at).is_none()
                 && longest_phrase(&self.lexemes[*at..end], &["to", "as", "into"]).is_some()
