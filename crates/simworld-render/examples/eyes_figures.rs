@@ -74,73 +74,58 @@ fn main() -> Result<(), Failure> {
     let adapter = renderers[0].1.adapter();
     let is_cpu =
         adapter.contains("llvmpipe") || adapter.contains("lavapipe") || adapter.contains("SwiftShader");
-    let fits = |asked: Option<u32>, gpu: u32, cpu: u32| asked.unwrap_or(if is_cpu { cpu } else { gpu });
     println!("adapter: {adapter}; full look, shadows, 7 to 12 bytes a pixel\n");
     println!("{:58} {:>12} {:>14}", "what", "a second", "views a second");
-    let mut rows = 0;
+    let mut is_empty = true;
     for (name, renderer) in &mut renderers {
-        let mut row = |what: &str, result: Row| {
+        for (what, measured) in rows(&settings, is_cpu) {
             let what = format!("{name}: {what}");
             if what.contains(&settings.only) {
-                rows += 1;
-                let (rate, views) = result(renderer)?;
+                is_empty = false;
+                let (rate, views) = measured(renderer)?;
                 println!("{what:58} {rate:>12.1} {:>14.0}", rate * views as f64);
             }
-            Ok::<(), Failure>(())
-        };
-        let seconds = settings.seconds;
-        for (factor, size) in [(1, "a city"), (10, "a city ten times as large")] {
-            let things = settings.things * factor;
-            row(
-                &format!("640 x 480 of {size}, on host"),
-                Box::new(move |renderer| {
-                    let mut world = city(things)?.0;
-                    measure(
-                        renderer,
-                        &mut world,
-                        &[],
-                        &street_views(1, 640, 480)?,
-                        Results::OnHost(ViewOptions::default()),
-                        seconds,
-                    )
-                }),
-            )?;
-            let views = fits(settings.views, 1024, 16);
-            let kinds = [
-                ("on device", Results::OnDevice),
-                ("on host", Results::OnHost(ViewOptions::default())),
-                ("on host, compact", Results::OnHost(ViewOptions::compact())),
-            ];
-            for (place, results) in kinds {
-                row(
-                    &format!("{views} of 128 x 128 of {size}, {place}"),
-                    Box::new(move |renderer| {
-                        let mut world = city(things)?.0;
-                        measure(renderer, &mut world, &[], &street_views(views, 128, 128)?, results, seconds)
-                    }),
-                )?;
-            }
         }
-        let (agents, bodies) = (fits(settings.agents, 1000, 20), fits(settings.bodies, 10_000, 1000));
-        let things = settings.things.max(bodies * 4);
-        row(
-            &format!("{agents} agents of 128 x 128 among {bodies} that move, on host"),
-            Box::new(move |renderer| {
-                let (mut world, mut movers) = city(things)?;
-                movers.truncate(bodies as usize);
-                let requests = street_views(agents, 128, 128)?;
-                measure(
-                    renderer,
-                    &mut world,
-                    &movers,
-                    &requests,
-                    Results::OnHost(ViewOptions::default()),
-                    seconds,
-                )
-            }),
-        )?;
     }
-    if rows == 0 { Err(format!("no row holds the text {:?}", settings.only).into()) } else { Ok(()) }
+    if is_empty { Err(format!("no row holds the text {:?}", settings.only).into()) } else { Ok(()) }
+}
+
+/// The rows of one backend, each with what measures it.
+fn rows(settings: &Settings, is_cpu: bool) -> Vec<(String, Row)> {
+    let fits = |asked: Option<u32>, gpu: u32, cpu: u32| asked.unwrap_or(if is_cpu { cpu } else { gpu });
+    let on_host = Results::OnHost(ViewOptions::default());
+    let seconds = settings.seconds;
+    let mut rows = Vec::new();
+    for (factor, size) in [(1, "a city"), (10, "a city ten times as large")] {
+        let still = |count, width, height, results| {
+            still(settings.things * factor, (count, width, height), results, seconds)
+        };
+        rows.push((format!("640 x 480 of {size}, on host"), still(1, 640, 480, on_host)));
+        let views = fits(settings.views, 1024, 16);
+        let compact = Results::OnHost(ViewOptions::compact());
+        let kinds = [("on device", Results::OnDevice), ("on host", on_host), ("on host, compact", compact)];
+        for (place, results) in kinds {
+            let what = format!("{views} of 128 x 128 of {size}, {place}");
+            rows.push((what, still(views, 128, 128, results)));
+        }
+    }
+    let (agents, bodies) = (fits(settings.agents, 1000, 20), fits(settings.bodies, 10_000, 1000));
+    let things = settings.things.max(bodies * 4);
+    let moving: Row = Box::new(move |renderer| {
+        let (mut world, mut movers) = city(things)?;
+        movers.truncate(bodies as usize);
+        measure(renderer, &mut world, &movers, &street_views(agents, 128, 128)?, on_host, seconds)
+    });
+    rows.push((format!("{agents} agents of 128 x 128 among {bodies} that move, on host"), moving));
+    rows
+}
+
+/// A row of a city in which nothing moves: so many views of a width and height.
+fn still(things: u32, (count, width, height): (u32, u32, u32), results: Results, seconds: f64) -> Row {
+    Box::new(move |renderer| {
+        let mut world = city(things)?.0;
+        measure(renderer, &mut world, &[], &street_views(count, width, height)?, results, seconds)
+    })
 }
 
 fn settings() -> Result<Option<Settings>, Failure> {
