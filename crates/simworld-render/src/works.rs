@@ -112,18 +112,21 @@ impl Works {
         if self.residents.names.len() > MOST_SLOTS {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
-        let (globals, features) = self.send(scene, &sight)?;
+        let in_color = options.channels.contains(Channels::RGB);
+        let (globals, features) = self.send(scene, &sight, in_color)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         if self.casts(config, options, requests, &layout) {
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
             let (views, min_pixels) = (&sight.views[..], config.min_pixels);
             let look = Look { views, globals: &globals, requests, layout: &layout, min_pixels };
             raycast.hold(&self.gpu, scene, &self.residents, &look)?;
-            raycast.prepare(&self.gpu, features, options.channels);
+            raycast.prepare(&self.gpu, in_color.then_some(features));
             raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight)?;
-            self.raster.prepare(&self.gpu, features);
+            if in_color {
+                self.raster.prepare(&self.gpu, features);
+            }
             self.raster.hold(&self.gpu, layout.largest)?;
             let shaded: Vec<bool> = sight.shadows.iter().map(Option::is_some).collect();
             let job = Job {
@@ -221,13 +224,19 @@ impl Works {
     }
 
     /// Sends what every view is drawn from, and what changed of the instances; gives the globals, and what the pictures
-    /// need.
-    fn send(&mut self, scene: &dyn Scene, sight: &Sight) -> Result<(Vec<Globals>, Features), RenderError> {
+    /// need. Lamps are looked for where there is colour that they could light.
+    fn send(
+        &mut self,
+        scene: &dyn Scene,
+        sight: &Sight,
+        in_color: bool,
+    ) -> Result<(Vec<Globals>, Features), RenderError> {
         let (light, mut lamps) = (&sight.light, LampGrids::default());
         let views = sight.views.iter().zip(&sight.shadows).zip(&sight.falling);
         let globals: Vec<Globals> = views
             .map(|((view, shadow), falling)| {
-                let place = lamps.around(scene, view.eye, light, light.sky.len());
+                let place =
+                    if in_color { lamps.around(scene, view.eye, light, light.sky.len()) } else { None };
                 Globals::new(view, light, falling, shadow.as_ref(), place.as_ref())
             })
             .collect();

@@ -82,21 +82,6 @@ struct Variant<'a> {
 }
 
 impl Pipelines {
-    /// Makes what a picture of these features is drawn with, the first time that one is wanted.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
-        let recipe = Recipe { gpu, module: &self.forward, layout: &self.forward_layout };
-        self.picture.entry(features).or_insert_with(|| {
-            Pattern::ALL.map(|pattern| recipe.picture(pattern, features, self.smooth)).into()
-        });
-    }
-
-    /// The pipeline of a pattern, if it was [prepared](Self::prepare).
-    pub(crate) fn picture(&self, features: Features, pattern: Pattern) -> Option<&wgpu::RenderPipeline> {
-        self.picture.get(&features).and_then(|pipelines| pipelines.get(pattern as usize))
-    }
-}
-
-impl Pipelines {
     pub(crate) fn new(gpu: &Gpu, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
         let device = &gpu.device;
         let scenery = scenery_layout(device);
@@ -140,6 +125,19 @@ impl Pipelines {
             shadow_inputs,
             shadow_map,
         }
+    }
+
+    /// Makes what a picture of these features is drawn with, the first time that one is wanted.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
+        let recipe = Recipe { gpu, module: &self.forward, layout: &self.forward_layout };
+        self.picture.entry(features).or_insert_with(|| {
+            Pattern::ALL.map(|pattern| recipe.picture(pattern, features, self.smooth)).into()
+        });
+    }
+
+    /// The pipeline of a pattern, if it was [prepared](Self::prepare).
+    pub(crate) fn picture(&self, features: Features, pattern: Pattern) -> Option<&wgpu::RenderPipeline> {
+        self.picture.get(&features).and_then(|pipelines| pipelines.get(pattern as usize))
     }
 }
 

@@ -15,7 +15,7 @@ use shape::Shapes;
 use simworld_core::scene::Scene;
 
 use crate::RenderError;
-use crate::batch::{Channels, Layout, ViewRequest};
+use crate::batch::{Layout, ViewRequest};
 use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, raycast_source};
 use crate::resident::Residents;
 use crate::view::View;
@@ -178,10 +178,10 @@ impl Raycast {
         (0..look.views.len()).map(one).collect()
     }
 
-    /// Makes ready what pictures of these features are cast with.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features, channels: Channels) {
-        self.prepared = channels.contains(Channels::RGB).then_some(features);
-        let (module, layout, wanted) = (&self.module, &self.pipeline_layout, self.prepared);
+    /// Makes ready what pictures of these features are cast with, or depth and ids without colour.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, wanted: Option<Features>) {
+        self.prepared = wanted;
+        let (module, layout) = (&self.module, &self.pipeline_layout);
         self.pipelines.entry(wanted).or_insert_with(|| {
             let bits = wanted.map_or(0, Features::bits);
             let constants =
