@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use crate::common::{draw, looking_east, put, renderer};
+use crate::common::{draw, looking_east, put, renderer, square_with_walker};
 use simworld_core::camera::Intrinsics;
 use simworld_core::scene::{EntityKind, Scene, Shape, World};
 use simworld_core::testing::check_observer;
@@ -89,14 +89,7 @@ fn what_reaches_out_of_the_picture_is_truncated_by_that_much() {
 fn boxes_are_an_observation() {
     let Some(renderer) = renderer(&RenderConfig::default()) else { return };
     let renderer = Arc::new(Mutex::new(renderer));
-    let mut world = crate::common::square(0.0);
-    let walker = put(
-        &mut world,
-        EntityKind::Person,
-        [1.0, 2.0, 0.0],
-        0.1,
-        Shape::Capsule { radius: 0.25, height: 1.75 },
-    );
+    let (world, walker) = square_with_walker();
     let intrinsics = Intrinsics::from_fov(96, 64, 1.4).expect("a size in range");
     let make = || -> Box<dyn simworld_core::seam::Observer<Observation = Vec<simworld_render::EntityBox>>> {
         let camera = CameraSensor::sharing(Arc::clone(&renderer), intrinsics);

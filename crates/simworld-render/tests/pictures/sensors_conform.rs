@@ -2,26 +2,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use crate::common::{put, renderer};
+use crate::common::{renderer, square_with_walker};
 use simworld_core::camera::Intrinsics;
 use simworld_core::geometry::Pose;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{EntityKind, Shape, World};
 use simworld_core::seam::{ObserveError, Observer};
 use simworld_core::testing::check_observer;
 use simworld_render::{CameraSensor, Frame, RenderConfig, Renderer};
-
-fn place() -> (World, EntityId) {
-    let mut world = crate::common::square(0.0);
-    let walker = put(
-        &mut world,
-        EntityKind::Person,
-        [1.0, 2.0, 0.0],
-        0.1,
-        Shape::Capsule { radius: 0.25, height: 1.75 },
-    );
-    (world, walker)
-}
 
 fn shared() -> Option<Arc<Mutex<Renderer>>> {
     renderer(&RenderConfig::default()).map(|renderer| Arc::new(Mutex::new(renderer)))
@@ -34,7 +21,7 @@ fn small() -> Intrinsics {
 #[test]
 fn a_camera_is_an_observer() {
     let Some(renderer) = shared() else { return };
-    let (world, walker) = place();
+    let (world, walker) = square_with_walker();
     let make = || -> Box<dyn Observer<Observation = Frame>> {
         Box::new(CameraSensor::sharing(Arc::clone(&renderer), small()))
     };
@@ -44,7 +31,7 @@ fn a_camera_is_an_observer() {
 #[test]
 fn people_see_from_eye_height_and_not_themselves() {
     let Some(renderer) = shared() else { return };
-    let (world, walker) = place();
+    let (world, walker) = square_with_walker();
     let mut eyes = CameraSensor::sharing(Arc::clone(&renderer), small());
     let camera = eyes.camera(&world, walker).expect("the walker is there");
     assert!((camera.world_from_optical.translation.z - 1.6).abs() < 1e-9);
@@ -62,7 +49,7 @@ fn people_see_from_eye_height_and_not_themselves() {
 #[test]
 fn nobody_sees_nothing() {
     let Some(renderer) = shared() else { return };
-    let (world, _) = place();
+    let (world, _) = square_with_walker();
     let nobody = EntityId::new(9999, 0);
     let outcome = CameraSensor::sharing(renderer, small()).observe(&world, nobody, &mut Frame::new());
     assert_eq!(outcome, Err(ObserveError::Missing { id: nobody }));

@@ -1,8 +1,7 @@
 //! The notation of `tests/edits`, and the judge of what a sentence did.
 
+mod asked;
 mod ground;
-
-use std::collections::BTreeMap;
 
 use simworld_agents::editing::{Difference, Edit, EditError, Edited, SceneEditor, Stand, faults};
 use simworld_core::asset::Catalogue;
@@ -13,32 +12,9 @@ use simworld_core::scene::{EntityRef, Relation, Scene, World};
 use simworld_core::seed::Seed;
 use simworld_core::traffic::RoadLeg;
 
+pub(crate) use asked::{Asked, CITIES, asked_in};
+
 use crate::city::City;
-
-pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
-/// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-pub(crate) const SETS: [&str; 11] = [
-    "edits",
-    "later.edits",
-    "third.edits",
-    "fourth.edits",
-    "fifth.edits",
-    "sixth.edits",
-    "seventh.edits",
-    "eighth.edits",
-    "ninth.edits",
-    "tenth.edits",
-    "eleventh.edits",
-];
-
-/// One thing that is asked, and what must then be true.
-pub(crate) struct Asked {
-    /// Which of [`SETS`] it is of.
-    pub(crate) set: &'static str,
-    pub(crate) family: String,
-    pub(crate) words: String,
-    pub(crate) meaning: String,
-}
 
 /// What came of a sentence.
 #[derive(Debug, PartialEq)]
@@ -48,30 +24,6 @@ pub(crate) enum Verdict {
     WrongEdit(String),
     /// Another answer than was due, and nothing changed.
     WrongAnswer(String),
-}
-
-/// What is asked in a city: in its own file, and in those that came later, if it has them.
-pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
-    let folder = format!("{}/tests/edits", env!("CARGO_MANIFEST_DIR"));
-    let mut asked = Vec::new();
-    for set in SETS {
-        let path = format!("{folder}/{city}.{set}.toml");
-        if !std::path::Path::new(&path).exists() {
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-        let families: BTreeMap<String, BTreeMap<String, String>> =
-            toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-        asked.extend(families.into_iter().flat_map(|(family, lines)| {
-            lines.into_iter().map(move |(words, meaning)| Asked {
-                set,
-                family: family.clone(),
-                words,
-                meaning,
-            })
-        }));
-    }
-    asked
 }
 
 /// Carries a sentence out in a copy of the city, and judges.

@@ -83,3 +83,16 @@ pub(crate) fn difference(a: &[u8], b: &[u8], limit: u8) -> (f64, f64) {
     }
     (sum as f64 / a.len() as f64, count as f64 / a.len() as f64)
 }
+
+/// The square, and somebody on it.
+pub(crate) fn square_with_walker() -> (World, EntityId) {
+    let mut world = square(0.0);
+    let walker = put(
+        &mut world,
+        EntityKind::Person,
+        [1.0, 2.0, 0.0],
+        0.1,
+        Shape::Capsule { radius: 0.25, height: 1.75 },
+    );
+    (world, walker)
+}

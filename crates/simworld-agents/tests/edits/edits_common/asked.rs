@@ -1,0 +1,52 @@
+//! The sets of sentences, read from their files.
+
+use std::collections::BTreeMap;
+
+pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
+/// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
+const SETS: [&str; 11] = [
+    "edits",
+    "later.edits",
+    "third.edits",
+    "fourth.edits",
+    "fifth.edits",
+    "sixth.edits",
+    "seventh.edits",
+    "eighth.edits",
+    "ninth.edits",
+    "tenth.edits",
+    "eleventh.edits",
+];
+
+/// One thing that is asked, and what must then be true.
+pub(crate) struct Asked {
+    /// Which of [`SETS`] it is of.
+    pub(crate) set: &'static str,
+    pub(crate) family: String,
+    pub(crate) words: String,
+    pub(crate) meaning: String,
+}
+
+/// What is asked in a city: in its own file, and in those that came later, if it has them.
+pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
+    let folder = format!("{}/tests/edits", env!("CARGO_MANIFEST_DIR"));
+    let mut asked = Vec::new();
+    for set in SETS {
+        let path = format!("{folder}/{city}.{set}.toml");
+        if !std::path::Path::new(&path).exists() {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let families: BTreeMap<String, BTreeMap<String, String>> =
+            toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+        asked.extend(families.into_iter().flat_map(|(family, lines)| {
+            lines.into_iter().map(move |(words, meaning)| Asked {
+                set,
+                family: family.clone(),
+                words,
+                meaning,
+            })
+        }));
+    }
+    asked
+}
