@@ -3,6 +3,7 @@
 
 mod bonds;
 mod error;
+mod gestures;
 mod journal;
 mod read;
 mod slots;
@@ -23,7 +24,7 @@ use super::{
 };
 use crate::action::Action;
 use crate::asset::{Asset, AssetError, Catalogue};
-use crate::clock::Clock;
+use crate::clock::{Clock, Tick};
 use crate::environment::Environment;
 use crate::event::{Event, EventKind};
 use crate::geometry::{Aabb, Pose, Twist};
@@ -69,6 +70,8 @@ pub struct World {
     free: Vec<u32>,
     /// How people hold their limbs; no part of what is saved.
     joints: BTreeMap<EntityId, JointAngles>,
+    /// Who moves its arms to say something, and in which tick that ends; follows from the attributes.
+    gestures: BTreeMap<EntityId, Tick>,
     /// Slots with a bond, ascending.
     bonded: Vec<u32>,
     tree: Quadtree,
@@ -365,6 +368,7 @@ impl World {
     /// The action is impossible, with the reason.
     pub fn actuate(&mut self, who: EntityId, action: Action) -> Result<(), super::InteractionError> {
         self.interact(who, &action)?;
+        self.gesticulate(who, &action);
         let body = self.driven_by(who, &action).unwrap_or(who);
         self.actuations.push((body, action));
         Ok(())
@@ -395,6 +399,7 @@ impl World {
     /// Ends the step: carried things follow their carriers, digests are renewed, the clock advances.
     pub fn finish_step(&mut self) {
         self.follow_carriers();
+        self.end_gestures();
         self.renew_digests();
         self.actuations.clear();
         self.intents.clear();

@@ -3,10 +3,11 @@
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::hash::StateHash;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{
-    EntityDesc, EntityKind, InteractionError, LOCKED, OPEN, Place, Role, SELLS, Scene, Shape, World,
-    check_action,
+    EntityDesc, EntityKind, GESTURE, Gesture, InteractionError, LOCKED, OPEN, Place, Role, SELLS, Scene,
+    Shape, World, check_action,
 };
 use simworld_core::value::Value;
 
@@ -87,6 +88,77 @@ fn who_is_spoken_to_is_near_and_hears_the_words() {
     world.actuate(me, Action::Argue { with: near }).unwrap();
     let argued = EventKind::Gesture { who: me, gesture: ActionKind::Argue, to: Some(near), heading: None };
     assert!(world.events().iter().any(|event| event.kind == argued));
+}
+
+/// Steps until somebody's arms are still again; how many that were.
+fn steps_of_gesture(world: &mut World, who: EntityId) -> u32 {
+    let mut steps = 0;
+    while world.entity(who).unwrap().gesture().is_some() {
+        world.finish_step();
+        world.begin_step();
+        steps += 1;
+        assert!(steps < 1000, "it never ends");
+    }
+    steps
+}
+
+#[test]
+fn gestures_are_seen_and_end() {
+    let mut world = World::new();
+    let (me, other) = (person(&mut world, 0.0), person(&mut world, 3.0));
+    let say = |words: &str| Action::Converse { with: other, words: words.to_owned() };
+    let before = world.entity(me).unwrap().info.clone();
+    for (action, gesture, seconds) in [
+        (Action::WaveHand { to: other }, Gesture::Wave, 2.5),
+        (Action::PointDirection { heading: 2.0 }, Gesture::Point, 2.5),
+        (Action::Argue { with: other }, Gesture::Argue, 4.0),
+        (say("yes"), Gesture::Talk, 1.5),
+        (say(&"word ".repeat(20)), Gesture::Talk, 8.0),
+    ] {
+        let steps = u32::try_from(world.clock().ticks_in(seconds)).unwrap();
+        world.actuate(me, action.clone()).unwrap();
+        let entity = world.entity(me).unwrap();
+        assert_eq!(entity.gesture(), Some(gesture), "{action:?}");
+        assert_eq!(entity.pointing(), (gesture == Gesture::Point).then_some(2.0), "{action:?}");
+        assert_eq!(steps_of_gesture(&mut world, me), steps, "{action:?}");
+        assert_eq!(world.entity(me).unwrap().info, &before, "nothing is left of {action:?}");
+    }
+}
+
+#[test]
+fn a_gesture_ends_with_the_next_that_needs_the_arms() {
+    let mut world = World::new();
+    let (me, other) = (person(&mut world, 0.0), person(&mut world, 3.0));
+    let parcel = put(&mut world, thing(EntityKind::Parcel, 0.5));
+    let gesture = |world: &World| world.entity(me).unwrap().gesture();
+    world.actuate(me, Action::WaveHand { to: other }).unwrap();
+    world.actuate(me, Action::MoveForward { speed: 1.0 }).unwrap();
+    assert_eq!(gesture(&world), Some(Gesture::Wave), "one waves while one walks");
+    world.actuate(me, Action::Argue { with: other }).unwrap();
+    assert_eq!(gesture(&world), Some(Gesture::Argue));
+    assert!(world.actuate(me, Action::DropOff).is_err());
+    assert_eq!(gesture(&world), Some(Gesture::Argue), "what is refused ends nothing");
+    world.actuate(me, Action::PickUp { item: parcel }).unwrap();
+    assert_eq!(gesture(&world), None);
+    // One that somebody sets by hand has no end.
+    world.set_attribute(me, GESTURE, Some(Gesture::Point.as_str().into())).unwrap();
+    for _ in 0..100 {
+        world.finish_step();
+    }
+    assert_eq!(gesture(&world), Some(Gesture::Point));
+}
+
+#[test]
+fn a_saved_gesture_ends_when_it_would_have_ended() {
+    let mut world = World::new();
+    let (me, other) = (person(&mut world, 0.0), person(&mut world, 3.0));
+    world.actuate(me, Action::WaveHand { to: other }).unwrap();
+    for _ in 0..10 {
+        world.finish_step();
+    }
+    let mut resumed = World::restore(world.snapshot()).unwrap();
+    assert_eq!(steps_of_gesture(&mut resumed, me), steps_of_gesture(&mut world, me));
+    assert_eq!(resumed.digest(), world.digest());
 }
 
 #[test]

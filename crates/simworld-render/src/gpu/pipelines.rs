@@ -17,6 +17,7 @@ const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
 const MATERIALS: &str = include_str!("../shaders/materials.wgsl");
 const HIT: &str = include_str!("../shaders/hit.wgsl");
 const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
+const ROADS: &str = include_str!("../shaders/roads.wgsl");
 const LAMPS: &str = include_str!("../shaders/lamps.wgsl");
 const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
@@ -103,7 +104,7 @@ impl Pipelines {
         let plain = layout(&[Some(&scenery)]);
         let forward = module(
             "forward",
-            &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, LAMPS, SUNLIT, FORWARD],
+            &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT, FORWARD],
         );
         let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
         let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, PRECIPITATION]);
@@ -143,7 +144,7 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, SHADING, LAMPS, RAYCAST].concat()
+    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, RAYCAST].concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]

@@ -5,6 +5,7 @@ mod creatures;
 mod people;
 mod posture;
 mod riders;
+mod street;
 mod things;
 mod trees;
 mod vehicles;
@@ -17,6 +18,8 @@ use simworld_core::seed::{Seed, Stream};
 use crate::mesh::{Drawn, MeshId};
 use crate::models::model_of;
 use crate::resident;
+use street::Streets;
+pub(crate) use street::mark_layer;
 
 /// How much of an entity is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,9 +90,9 @@ pub(crate) struct Look {
     /// A number of its own, in [0, 1).
     pub seed: f32,
     /// Signals: 1 red, 2 yellow, 3 green, 0 dark. Buildings: 1 with a shop front, 2 with a
-    /// pitched roof.
+    /// pitched roof. Roads: 1 if the network says what is painted on them; marks on roads: see `street`.
     pub state: f32,
-    /// Buildings: storeys.
+    /// Buildings: storeys. Marks on roads: see `street`.
     pub param: f32,
 }
 
@@ -98,11 +101,19 @@ const LEAVES: [[f32; 3]; 5] =
 /// Draws the variation of entities: the same id looks the same in every picture.
 pub(crate) struct Looks {
     variation: Stream,
+    streets: Streets,
+}
+
+impl Default for Looks {
+    fn default() -> Self {
+        Self { variation: Seed(0).stream("render/variation"), streets: Streets::default() }
+    }
 }
 
 impl Looks {
-    pub(crate) fn new() -> Self {
-        Self { variation: Seed(0).stream("render/variation") }
+    /// Follows what a scene says of its streets; true if that is something else than before.
+    pub(crate) fn follow(&mut self, scene: &dyn Scene) -> bool {
+        self.streets.follow(scene)
     }
 
     /// Dresses an entity: its rigid parts at every level of detail. What is the same at several stands there once.
@@ -124,7 +135,11 @@ impl Looks {
                     let second = pick(&people::CLOTHES, bits >> 12);
                     look = Look { mesh, second, ..metric(&look) };
                 }
-                return out.push(whole(Drawn::Own(look.mesh), look));
+                let surface = out.len();
+                out.push(whole(Drawn::Own(look.mesh), look));
+                self.streets.dress(entity, scene, &mut look, out);
+                out[surface].look = look;
+                return;
             }
         };
         let plain = self.plain(entity);
@@ -334,7 +349,7 @@ mod tests {
     fn look_of(desc: EntityDesc, signals: &[Aspect]) -> Look {
         let mut world = World::new();
         let id = world.spawn(desc).unwrap();
-        Looks::new().of(&world.entity(id).unwrap(), signals)
+        Looks::default().of(&world.entity(id).unwrap(), signals)
     }
 
     fn at_origin(kind: EntityKind, shape: Shape) -> EntityDesc {
@@ -356,7 +371,7 @@ mod tests {
         let mut world = World::new();
         let id = world.spawn(at_origin(kind, shape)).unwrap();
         let mut parts = Vec::new();
-        Looks::new().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
         parts
     }
 

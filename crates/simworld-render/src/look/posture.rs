@@ -4,7 +4,7 @@
 //! angles the phase of the gait is the way along the heading, so that feet go where the ground goes, whatever the clock says.
 
 use nalgebra::UnitQuaternion;
-use simworld_core::geometry::{Pose, Vector3};
+use simworld_core::geometry::{Pose, Vector3, yaw_of};
 use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, EntityRef, Gesture, Role, Scene};
@@ -282,7 +282,12 @@ fn gesticulate(posture: &mut Posture, entity: &EntityRef<'_>, scene: &dyn Scene,
     let at = |x: f64, y: f64, z: f64| Vector3::new(x, y, z) * height;
     match gesture {
         Gesture::Wave => posture.reach(1, &at(0.08, -0.24 - 0.07 * beat(1.6), 1.06), height),
-        Gesture::Point => posture.reach(1, &at(0.42, -0.12, 0.83), height),
+        Gesture::Point => {
+            // As far round as an arm goes.
+            let aside = entity.pointing().map_or(0.0, |to| ops::wrap_angle(to - yaw_of(entity.pose)));
+            let (sin, cos) = ops::sin_cos(aside.clamp(-1.9, 0.9));
+            posture.reach(1, &at(0.42 * cos, 0.42 * sin - 0.12, 0.83), height);
+        }
         Gesture::Talk => {
             posture.reach(1, &at(0.2, -0.1 - 0.03 * beat(0.9), 0.68 + 0.04 * beat(1.3)), height);
             posture.gaze += 0.05 * beat(0.7);

@@ -229,6 +229,7 @@ meshes! {
     Willow = Foliage, species::willow();
     Palm = Foliage, species::palm();
     Shrub = Foliage, nature::shrub();
+    Mark = Road, primitives::top();
     Sidewalk = Sidewalk, primitives::cuboid();
     Crosswalk = Crosswalk, primitives::cuboid();
     Road = Road, primitives::cuboid();

@@ -16,6 +16,14 @@ pub(crate) fn cuboid() -> Builder {
     mesh
 }
 
+/// The top of a box alone.
+pub(crate) fn top() -> Builder {
+    let mut mesh = Builder::new([1.0; 3], 1.0);
+    let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+    mesh.quad(corners.map(|[x, y]| share(x, y, 1.0)), Material::Body);
+    mesh
+}
+
 /// Offsets in radii.
 pub(crate) fn cylinder() -> Builder {
     let mut mesh = Builder::new([2.0, 2.0, 2.0], 1.0);

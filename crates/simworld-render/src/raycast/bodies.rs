@@ -240,10 +240,11 @@ impl Bodies {
             whole = whole.grown(Box3 { low: moved(-1.0), high: moved(1.0) });
         }
         self.boxes[index] = whole;
-        let order = match card.mesh {
+        let rank = match card.mesh {
             Drawn::Model(_) => 0,
             Drawn::Own(mesh) => 1 + mesh as u32,
         };
+        let order = rank << 8 | instance.layer(card.mesh);
         self.placed[index] = Placed {
             center: [center.x as f32, center.y as f32, center.z as f32],
             radius: ball.radius as f32,

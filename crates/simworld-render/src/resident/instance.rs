@@ -2,13 +2,17 @@
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::{Quaternion, UnitQuaternion};
-use simworld_core::geometry::{Pose, Vector3};
+use simworld_core::geometry::{Obb, Pose, Vector3};
 use simworld_core::id::EntityId;
 
 use crate::look::Look;
+use crate::mesh::{Drawn, MeshId};
 
 /// Slots that fit beside the class in [`Instance::who`].
 pub(crate) const MOST_SLOTS: usize = (1 << 24) - 1;
+
+/// Layers of what is painted on surfaces, which lies over them; see `mark_layer` in shaders/roads.wgsl.
+const PAINT_LAYERS: u8 = 3;
 
 /// A mesh at a place: vertex = anchor * scale + offset * unit, turned and moved; the twin of `Instance` in shaders/globals.wgsl.
 ///
@@ -57,6 +61,28 @@ impl Instance {
     pub(crate) fn turn(&self) -> UnitQuaternion<f64> {
         let [i, j, k, w] = self.rotation.map(f64::from);
         UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k))
+    }
+
+    /// The body's box; like that of core it is told by its middle.
+    pub(crate) fn solid(&self) -> Obb {
+        let ([x, y, z], _) = self.measure();
+        let half_extents = Vector3::new(f64::from(x), f64::from(y), f64::from(z)) * 0.5;
+        let middle = self.place() + self.turn() * Vector3::new(0.0, 0.0, half_extents.z);
+        Obb { pose: Pose::from_parts(middle.into(), self.turn()), half_extents }
+    }
+
+    /// Puts a surface into a layer below what is painted on it. As its parameter is none of its look, that is less than zero:
+    /// the layer, negated.
+    pub(crate) fn put_in_layer(&mut self, layer: u8) {
+        self.second[3] = -f32::from(PAINT_LAYERS + layer);
+    }
+
+    /// The layer in which a part lies among those in its plane, with the mesh that it has; 0, the uppermost, of what is no surface.
+    pub(crate) fn layer(&self, mesh: Drawn) -> u32 {
+        if mesh == Drawn::Own(MeshId::Mark) {
+            return crate::look::mark_layer(self.color[3]);
+        }
+        (-self.second[3]).max(0.0) as u32
     }
 
     /// The body's box, and the unit of offsets.

@@ -5,8 +5,9 @@
 
 mod grid;
 mod instance;
+mod layers;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -75,6 +76,11 @@ pub(crate) struct Residents {
     restless: BTreeSet<u32>,
     tick: Tick,
     parts: Vec<Part>,
+    looks: Looks,
+    /// By slot, in which layer its surface lies; see [`layers`].
+    layers: BTreeMap<u32, u8>,
+    /// Whether a surface came, went or moved since its layers were found.
+    resurfaced: bool,
     /// Whether every view draws the finest level, however small it is.
     pub finest: bool,
 }
@@ -82,12 +88,10 @@ pub(crate) struct Residents {
 impl Residents {
     /// Follows the scene; `region` is what is looked at of scenes that keep no account of what changes.
     pub(crate) fn follow(&mut self, scene: &dyn Scene, region: &Aabb) {
-        let looks = Looks::new();
+        let repainted = self.looks.follow(scene);
         let mark = scene.mark();
         let known = match self.mark {
-            Some(since) => {
-                scene.visit_changes(since, &mut |slot, entity| self.look_at(scene, &looks, slot, entity))
-            }
+            Some(since) => scene.visit_changes(since, &mut |slot, entity| self.look_at(scene, slot, entity)),
             None => false,
         };
         if !known {
@@ -95,23 +99,49 @@ impl Residents {
             let everywhere = Aabb::around(simworld_core::geometry::Point3::origin(), Vector3::repeat(1e9));
             let region = if mark.is_some() { &everywhere } else { region };
             let _ = scene.visit(region, &mut |entity| {
-                self.look_at(scene, &looks, entity.id.index(), Some(entity));
+                self.look_at(scene, entity.id.index(), Some(entity));
                 ControlFlow::Continue(())
             });
         }
         self.mark = mark;
+        if known && repainted {
+            // What is painted on a surface depends on roads elsewhere too.
+            for slot in self.layers.keys().copied().collect::<Vec<_>>() {
+                let id = self.names[slot as usize];
+                self.look_at(scene, slot as usize, scene.entity(id));
+            }
+        }
         if self.tick != scene.clock().tick() {
             self.tick = scene.clock().tick();
             for slot in self.restless.clone() {
                 let id = self.names[slot as usize];
-                self.look_at(scene, &looks, slot as usize, scene.entity(id));
+                self.look_at(scene, slot as usize, scene.entity(id));
             }
         }
         if self.signals != scene.signals() {
             self.signals = scene.signals().to_vec();
             for slot in self.signalling.clone() {
                 let id = self.names[slot as usize];
-                self.look_at(scene, &looks, slot as usize, scene.entity(id));
+                self.look_at(scene, slot as usize, scene.entity(id));
+            }
+        }
+        if std::mem::take(&mut self.resurfaced) {
+            self.lay_out_surfaces();
+        }
+    }
+
+    /// Finds the layers of all surfaces anew.
+    fn lay_out_surfaces(&mut self) {
+        let numbers: Vec<u32> = self.layers.keys().map(|slot| self.heads[*slot as usize]).collect();
+        let surface = |number: &u32| {
+            let mesh = self.cards[*number as usize].mesh;
+            layers::Surface { mesh, solid: self.instances[*number as usize].solid() }
+        };
+        let layers = layers::layers_of(&numbers.iter().map(surface).collect::<Vec<_>>());
+        for ((known, layer), number) in self.layers.values_mut().zip(layers).zip(numbers) {
+            if std::mem::replace(known, layer) != layer {
+                self.instances[number as usize].put_in_layer(layer);
+                self.changed.push(number);
             }
         }
     }
@@ -129,13 +159,14 @@ impl Residents {
         self.changed.clear();
         self.signalling.clear();
         self.restless.clear();
+        self.layers.clear();
         self.names = Arc::default();
         self.free = NONE;
         self.epoch += 1;
     }
 
     /// Dresses who is in a slot now.
-    fn look_at(&mut self, scene: &dyn Scene, looks: &Looks, slot: usize, entity: Option<EntityRef<'_>>) {
+    fn look_at(&mut self, scene: &dyn Scene, slot: usize, entity: Option<EntityRef<'_>>) {
         if slot >= self.heads.len() {
             self.heads.resize(slot + 1, NONE);
         }
@@ -158,14 +189,28 @@ impl Residents {
             } else {
                 self.restless.remove(&(slot as u32));
             }
-            looks.dress(&entity, scene, &mut parts);
+            self.looks.dress(&entity, scene, &mut parts);
+            self.file_surface(slot as u32, parts.first());
             self.fill(slot, &entity, &parts);
         } else {
+            self.file_surface(slot as u32, None);
             self.signalling.remove(&(slot as u32));
             self.restless.remove(&(slot as u32));
             self.cut(slot, NONE);
         }
         self.parts = parts;
+    }
+
+    /// Notes whether the first part of who is in a slot is a surface that may lie over another.
+    fn file_surface(&mut self, slot: u32, first: Option<&Part>) {
+        if first.is_some_and(|part| part.mesh.pattern().is_flat()) {
+            if let std::collections::btree_map::Entry::Vacant(place) = self.layers.entry(slot) {
+                place.insert(0);
+                self.resurfaced = true;
+            }
+        } else if self.layers.remove(&slot).is_some() {
+            self.resurfaced = true;
+        }
     }
 
     /// Gives the parts the numbers that the slot has, and more or fewer if there are more or fewer of them.
@@ -182,7 +227,11 @@ impl Residents {
             }
             let next = self.cards[number as usize].next;
             let casts = casts(entity.kind);
-            let instance = Instance::new(&part.pose, &part.look, entity.id, class_of(entity.kind));
+            let mut instance = Instance::new(&part.pose, &part.look, entity.id, class_of(entity.kind));
+            let is_surface = index == 0 && part.mesh.pattern().is_flat();
+            if let (true, Some(layer)) = (is_surface, self.layers.get(&(slot as u32))) {
+                instance.put_in_layer(*layer);
+            }
             let card = &mut self.cards[number as usize];
             let is_same = self.instances[number as usize] == instance
                 && card.mesh == part.mesh
@@ -199,6 +248,7 @@ impl Residents {
             if !is_same {
                 self.instances[number as usize] = instance;
                 self.changed.push(number);
+                self.resurfaced |= is_surface;
             }
             self.grid.place(number, ball_of(entity));
             (last, number) = (number, next);

@@ -110,3 +110,19 @@ fn body_point(in: VertexIn) -> vec3f {
 fn relative_point(in: VertexIn) -> vec3f {
     return in.translation.xyz + rotate(in.rotation, body_point(in));
 }
+
+// How far below the top of what lies in its plane a surface counts as lying: the uppermost layer is 0. Those of surfaces stand
+// negated where others have their parameter. Their edges are below all of them, or they would show through the plane.
+fn layer_of(in: VertexIn) -> f32 {
+    let layer = max(-in.second.w, 0.0);
+    return select(layer, layer + 20.0, layer > 0.0 && in.normal.z < 0.5);
+}
+
+// Clip space of a vertex. Of surfaces in one plane that of the lower layer is to be seen, though rounding makes their z differ
+// from row to row: so their z, and nothing else of them, is that of planes a hair below one another.
+fn clip_of(relative: vec3f, layer: f32) -> vec4f {
+    var clip = globals.clip_from_relative * vec4f(relative, 1.0);
+    let height = max(abs(relative.z), 0.05);
+    clip.z *= height / (height + layer * (0.0004 + 2e-6 * height));
+    return clip;
+}

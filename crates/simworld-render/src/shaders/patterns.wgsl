@@ -189,47 +189,6 @@ fn glazing(hit: Hit, base: Surface, w: Wall, window: vec4f, opening: f32, kind: 
     return s;
 }
 
-fn asphalt(p: vec2f, albedo: vec3f) -> vec3f {
-    let near = noise2(p * 14.0);
-    let patches = noise2(p * 0.23) * 0.6 + noise2(p * 1.1 + 7.0) * 0.4;
-    return albedo * (0.78 + 0.22 * near + 0.28 * patches);
-}
-
-fn road(hit: Hit, base: Surface) -> Surface {
-    var s = base;
-    let length = hit.size.x;
-    let width = hit.size.y;
-    let p = hit.body.xy;
-    let dx = hit.footprint.x;
-    let dy = hit.footprint.y;
-    if (hit.body_normal.z < 0.5) {
-        return s;
-    }
-    s.albedo = asphalt(p, s.albedo);
-    let lanes = 2.0 * max(1.0, floor(width / 6.0 + 0.25));
-    let lane = width / lanes;
-    // Wheel tracks are polished darker.
-    let track = abs(fract((p.y + width * 0.5) / lane * 2.0) - 0.5);
-    s.albedo *= 0.92 + 0.12 * smoothstep(0.1, 0.4, track);
-    // Markings end where other roads may come in: a width before the ends, and a crossing.
-    let ends = band(abs(p.x), -1.0, length * 0.5 - width - 6.0, dx);
-    let dash = bands(p.x / 9.0, 0.0, 0.36, dx / 9.0);
-    let line = 0.07;
-    var paint = 0.0;
-    if (lanes > 3.0) {
-        paint = band(abs(abs(p.y) - 0.15), -1.0, line, dy);
-        let k = round(p.y / lane);
-        let separator = band(abs(p.y - k * lane), -1.0, line, dy) * dash;
-        paint = max(paint, separator * f32(abs(k) > 0.5 && abs(k) < lanes * 0.5 - 0.5));
-    } else {
-        paint = band(abs(p.y), -1.0, line, dy) * dash;
-    }
-    // Thin lines far away cover a part of a pixel.
-    paint *= ends * min(1.0, 2.5 * line / max(dy, 1e-6));
-    s.albedo = mix(s.albedo, vec3f(0.62) * (0.75 + 0.25 * noise2(p * 6.0)), paint * 0.9);
-    return s;
-}
-
 fn crosswalk(hit: Hit, base: Surface) -> Surface {
     var s = base;
     let p = hit.body.xy;

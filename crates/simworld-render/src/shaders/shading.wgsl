@@ -31,7 +31,7 @@ fn wetted(hit: Hit, surface: Surface) -> Surface {
     s.roughness = mix(s.roughness, 0.3, wet * 0.8);
     let flat = hit.pattern >= 2u && hit.pattern <= 5u;
     if (flat) {
-        let p = hit.body.xy;
+        let p = on_surface(hit);
         let hollow = noise2(p * 0.22 + 3.7) * 0.65 + noise2(p * 0.9) * 0.35;
         let edge = mix(0.85, 0.47, globals.cover.y);
         let water = smoothstep(edge, edge + 0.06, hollow) * level * f32(globals.cover.y > 0.0);
@@ -48,7 +48,7 @@ fn wetted(hit: Hit, surface: Surface) -> Surface {
 // Snow lies on what faces up, in drifts first.
 fn snowed(hit: Hit, surface: Surface) -> Surface {
     var s = surface;
-    let p = hit.body.xy;
+    let p = on_surface(hit);
     let drift = noise2(p * 0.7 + hit.size.w * 31.0) * 0.6 + noise2(p * 3.1) * 0.4;
     let depth = saturate(globals.cover.z * 12.0);
     // It slides off smooth things unless they are level.

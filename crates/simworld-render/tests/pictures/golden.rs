@@ -5,7 +5,7 @@
 
 use std::path::PathBuf;
 
-use crate::common::{difference, draw, renderer, square, square_camera};
+use crate::common::{crossroads, difference, draw, renderer, square, square_camera};
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::environment::Preset;
 use simworld_core::geometry::Point3;
@@ -76,6 +76,20 @@ fn a_square_from_above_with_smooth_edges() {
     let intrinsics = Intrinsics::from_fov(160, 120, 1.0).expect("a size in range");
     let camera = Camera::looking_at(Point3::new(-14.0, -26.0, 30.0), Point3::new(18.0, 0.0, 0.0), intrinsics);
     check("above", &draw(&mut renderer, &square(0.0), &camera));
+}
+
+/// Lanes, stop lines, arrows, cycle lanes, crossings and kerbs, from over the street and from the height of eyes.
+#[test]
+fn a_crossroads_with_all_that_is_painted_on_it() {
+    let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
+    let intrinsics = Intrinsics::from_fov(320, 240, 1.2).expect("a size in range");
+    for (name, eye, target) in [
+        ("crossroads-above", Point3::new(-38.0, -20.0, 22.0), Point3::new(-8.0, 0.0, 0.0)),
+        ("crossroads", Point3::new(-36.0, -4.0, 1.7), Point3::new(0.0, 0.0, 0.6)),
+        ("kerb", Point3::new(-17.0, -7.0, 1.6), Point3::new(-11.5, -10.5, 0.0)),
+    ] {
+        check(name, &draw(&mut renderer, &crossroads(), &Camera::looking_at(eye, target, intrinsics)));
+    }
 }
 
 /// The tolerance notices a missing thing: a picture without the bus is another one.

@@ -22,3 +22,4 @@ mod pictures_repeat;
 mod pixels_follow_the_camera;
 mod scans_meet_the_solids;
 mod sensors_conform;
+mod streets_are_painted_by_their_lanes;

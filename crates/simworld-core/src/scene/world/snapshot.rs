@@ -129,6 +129,7 @@ impl World {
                 world.place(child, pose);
             }
         }
+        world.resume_gestures();
         world.renew_digests();
         world.revision = snapshot.revision;
         Ok(world)

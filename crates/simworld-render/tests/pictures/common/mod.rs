@@ -1,9 +1,12 @@
 //! What the tests of the renderer share.
 #![allow(unreachable_pub, reason = "a helper of tests")]
 
+use std::sync::Arc;
+
 use simworld_core::camera::{Camera, Intrinsics};
-use simworld_core::geometry::{Point3, pose_facing};
+use simworld_core::geometry::{Point2, Point3, heading, pose_facing};
 use simworld_core::id::EntityId;
+use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
 use simworld_render::{Frame, RenderConfig, RenderError, Renderer};
 
@@ -63,6 +66,41 @@ pub(crate) fn square(shift: f64) -> World {
     place(EntityKind::Bench, [8.5, 4.2, 0.0], -quarter, Shape::cuboid(0.6, 1.8, 0.85));
     place(EntityKind::Prop, [6.0, -1.2, 0.0], 0.4, Shape::cuboid(0.8, 0.8, 0.8));
     world
+}
+
+/// Surfaces of a network as a city lays them: boxes along its roads, which cover their junctions, its crossings and sidewalks.
+pub(crate) fn streets(network: RoadNetwork) -> World {
+    let mut world = World::new();
+    put(&mut world, EntityKind::Ground, [0.0, 0.0, -0.08], 0.0, Shape::cuboid(400.0, 400.0, 0.05));
+    let mut along = |kind, path: &[Point2], half: f64, beyond: f64, top: f64| {
+        for ends in path.windows(2) {
+            let (way, middle) = (ends[1] - ends[0], nalgebra::center(&ends[0], &ends[1]));
+            let shape = Shape::cuboid(way.norm() + 2.0 * beyond, 2.0 * half, 0.05);
+            put(&mut world, kind, [middle.x, middle.y, top - 0.05], heading(&way), shape);
+        }
+    };
+    for road in &network.roads {
+        let half = road.left_kerb.max(road.right_kerb);
+        along(EntityKind::Road, &road.centerline, half, half, -0.02);
+    }
+    for crossing in &network.crossings {
+        along(EntityKind::Crosswalk, &[crossing.start, crossing.end], crossing.width * 0.5, 0.0, -0.01);
+    }
+    for walk in &network.sidewalks {
+        along(EntityKind::Sidewalk, &walk.path, walk.width * 0.5, 0.0, 0.0);
+    }
+    for corner in network.intersections.iter().flat_map(|place| &place.corners) {
+        along(EntityKind::Sidewalk, corner, 1.5, 0.0, 0.0);
+    }
+    world.set_roads(Arc::new(network));
+    world
+}
+
+/// Where two streets of two lanes each way cross, with signals, cycle lanes and places to park.
+pub(crate) fn crossroads() -> World {
+    let mut plan = StreetPlan::crossroads(90.0);
+    plan.sections[0] = CrossSection::two_way(2, 2).with_cycle_lanes(1.8).with_parking(2.2);
+    streets(RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("a sound plan"))
 }
 
 /// The camera of [`square`].
