@@ -31,6 +31,10 @@ bench:
     cargo bench --workspace
     cargo run --release --example figures
 
+# A city in a window.
+view:
+    cargo run --release --example view --features window -- --window
+
 # The main job, with its pictures.
 look:
     cargo run --release --example delivery -- --out out/look

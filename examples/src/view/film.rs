@@ -1,15 +1,15 @@
-//! Films without a window: an animated GIF, a folder of PNG files, or (feature `mp4`) a video by an installed `ffmpeg`.
+//! Films without a window: an animated GIF, a folder of PNG files, or (feature `mp4`) a video.
 
 use std::fs::File;
 use std::io::BufWriter;
-#[cfg(feature = "mp4")]
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use simworld_render::{Frame, RenderError};
 use thiserror::Error;
 
 use super::Canvas;
+#[cfg(feature = "mp4")]
+use super::video::Video;
 use crate::folder::{FolderError, make_folder};
 
 /// Why there is no film.
@@ -41,19 +41,10 @@ pub enum FilmError {
     /// The PNG cannot be written.
     #[error(transparent)]
     Png(#[from] RenderError),
-    /// There is no ffmpeg.
-    #[error(
-        "videos need the program ffmpeg, and it cannot be started ({source}): install it (Debian: `apt-get install ffmpeg`), or \
-         take --gif or --png"
-    )]
-    NoFfmpeg {
+    /// The video cannot be made.
+    #[error("the video cannot be made: {reason}; take --gif or --png, or another --width and --height")]
+    Video {
         /// Why.
-        source: std::io::Error,
-    },
-    /// ffmpeg failed.
-    #[error("ffmpeg did not finish the video: {reason}")]
-    Ffmpeg {
-        /// What is known of it.
         reason: String,
     },
 }
@@ -76,15 +67,15 @@ pub enum Film {
         /// How many there are.
         taken: usize,
     },
-    /// A video in H.264.
+    /// A video: AV1 in MP4.
     #[cfg(feature = "mp4")]
     Mp4 {
         /// Where to.
         path: PathBuf,
-        /// Pictures a second.
-        rate: f64,
+        /// Seconds a picture.
+        seconds: f64,
         /// Begins with the first picture.
-        ffmpeg: Option<std::process::Child>,
+        video: Option<Box<Video>>,
     },
 }
 
@@ -107,7 +98,7 @@ impl Film {
     /// A video with that many seconds a picture, which replaces the file.
     #[cfg(feature = "mp4")]
     pub fn mp4(path: &Path, seconds: f64) -> Self {
-        Self::Mp4 { path: path.to_owned(), rate: 1.0 / seconds, ffmpeg: None }
+        Self::Mp4 { path: path.to_owned(), seconds, video: None }
     }
 
     /// Takes a picture.
@@ -136,13 +127,12 @@ impl Film {
                 *taken += 1;
             }
             #[cfg(feature = "mp4")]
-            Self::Mp4 { path, rate, ffmpeg } => {
-                if ffmpeg.is_none() {
-                    *ffmpeg = Some(begin_mp4(path, *rate, canvas)?);
-                }
-                let pipe = ffmpeg.as_mut().and_then(|child| child.stdin.as_mut());
-                let written = pipe.map_or(Ok(()), |pipe| pipe.write_all(&canvas.rgb));
-                written.map_err(|error| FilmError::Ffmpeg { reason: error.to_string() })?;
+            Self::Mp4 { path, seconds, video } => {
+                let video = match video {
+                    Some(video) => video,
+                    None => video.insert(Box::new(Video::begin(path, *seconds, canvas)?)),
+                };
+                video.take(canvas)?;
             }
         }
         Ok(())
@@ -151,15 +141,11 @@ impl Film {
     /// Ends the film.
     ///
     /// # Errors
-    /// ffmpeg failed.
+    /// The rest of a video cannot be written.
     pub fn finish(self) -> Result<(), FilmError> {
         #[cfg(feature = "mp4")]
-        if let Self::Mp4 { ffmpeg: Some(child), .. } = self {
-            let fault = |reason| FilmError::Ffmpeg { reason };
-            let ended = child.wait_with_output().map_err(|error| fault(error.to_string()))?;
-            if !ended.status.success() {
-                return Err(fault(String::from_utf8_lossy(&ended.stderr).trim().to_owned()));
-            }
+        if let Self::Mp4 { video: Some(video), .. } = self {
+            video.finish()?;
         }
         Ok(())
     }
@@ -181,25 +167,6 @@ fn begin_gif(path: &Path, width: u16, height: u16) -> Result<gif::Encoder<BufWri
     let mut encoder = gif::Encoder::new(BufWriter::new(file), width, height, &[])?;
     encoder.set_repeat(gif::Repeat::Infinite)?;
     Ok(encoder)
-}
-
-#[cfg(feature = "mp4")]
-fn begin_mp4(path: &Path, rate: f64, canvas: &Canvas) -> Result<std::process::Child, FilmError> {
-    use std::process::{Command, Stdio};
-    let size = format!("{}x{}", canvas.width, canvas.height);
-    let rate = rate.to_string();
-    // H.264 wants an even number of pixels each way.
-    let even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
-    let raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", &size, "-r", &rate, "-i", "-"];
-    Command::new("ffmpeg")
-        .args(["-y", "-loglevel", "error"])
-        .args(raw)
-        .args(["-vf", even, "-pix_fmt", "yuv420p"])
-        .arg(path)
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(|source| FilmError::NoFfmpeg { source })
 }
 
 #[cfg(test)]

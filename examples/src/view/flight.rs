@@ -35,7 +35,7 @@ impl Flight {
     }
 
     /// Turns to the left and up, radians.
-    fn turn(&mut self, left: f64, up: f64) {
+    pub fn turn(&mut self, left: f64, up: f64) {
         self.yaw += left;
         self.pitch = (self.pitch + up).clamp(-1.5, 1.5);
     }

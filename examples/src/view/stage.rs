@@ -7,7 +7,7 @@ use simworld_core::clock::Clock;
 use simworld_core::geometry::{Point2, Point3, direction};
 use simworld_core::id::EntityId;
 use simworld_core::net::polyline;
-use simworld_core::scene::{EntityKind, Scene, World};
+use simworld_core::scene::{EntityKind, EntityRef, Scene, World};
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
@@ -121,12 +121,16 @@ impl Stage {
         }
     }
 
-    /// Whoever of that kind has most others around it.
+    /// Whoever of that kind has most others around it, before all of those that move just now.
     pub fn liveliest(&self, kind: Option<EntityKind>) -> Option<EntityId> {
         let bodies: Vec<_> = self.world().iter().filter(|body| body.kind.is_mobile()).collect();
         let around = |at: Point2| bodies.iter().filter(|other| (other.planar() - at).norm() < LIVELY).count();
         let wanted = bodies.iter().filter(|body| kind.is_none_or(|kind| body.kind == kind));
-        wanted.map(|body| (around(body.planar()), std::cmp::Reverse(body.id))).max().map(|(_, id)| id.0)
+        let rank = |body: &&EntityRef<'_>| {
+            let moves = body.twist.ground_speed() > 0.5;
+            (moves, around(body.planar()), std::cmp::Reverse(body.id))
+        };
+        wanted.map(|body| rank(&body)).max().map(|(.., id)| id.0)
     }
 
     /// A place over the street where most is going on, from which one sees it.
