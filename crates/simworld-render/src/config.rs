@@ -44,8 +44,8 @@ pub enum Backend {
     Auto,
     /// Triangles, view by view: what CPUs and single large pictures are best at.
     Raster,
-    /// Rays, all views at once; shadows by rays too, and edges are never smoothed. Batches with normals or parallel projections are
-    /// drawn by triangles all the same, and everything is where the adapter binds fewer than nine storage buffers a stage.
+    /// Rays, all views at once; shadows by rays too, and edges are never smoothed. Where the adapter binds fewer than nine storage
+    /// buffers a stage everything is drawn by triangles all the same.
     Raycast,
 }
 

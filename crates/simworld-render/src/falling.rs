@@ -1,6 +1,6 @@
 //! Rain and snow in the air around the eye: how much, where it has fallen to by the clock, and how clouds have drifted.
 
-use simworld_core::environment::Environment;
+use simworld_core::environment::{Environment, Weather};
 use simworld_core::geometry::{Point3, Vector3};
 
 /// Side of the box that drops and flakes fill around the eye, m; BOX of shaders/precipitation.wgsl.
@@ -34,16 +34,16 @@ pub(crate) struct Falling {
     pub clouds: [f64; 2],
 }
 
+/// How much rain and snow come down, mm/h of water: below 2 °C snow stays snow, above it melts on its way.
+pub(crate) fn amounts(weather: &Weather) -> (f64, f64) {
+    if weather.temperature > 2.0 { (weather.rain + weather.snow, 0.0) } else { (weather.rain, weather.snow) }
+}
+
 impl Falling {
     /// What falls around an eye at a time in s.
     pub(crate) fn of(environment: &Environment, eye: &Point3, seconds: f64) -> Self {
         let weather = &environment.weather;
-        // Below 2 °C snow stays snow; above it melts on its way.
-        let (rain, snow) = if weather.temperature > 2.0 {
-            (weather.rain + weather.snow, 0.0)
-        } else {
-            (weather.rain, weather.snow)
-        };
+        let (rain, snow) = amounts(weather);
         let kind = if snow > rain { Precipitation::Snow } else { Precipitation::Rain };
         let (count, speed) = match kind {
             Precipitation::Snow => (1800.0 * snow, SNOW_SPEED),

@@ -33,7 +33,7 @@ pub use export::PNG_DEPTH_LIMIT;
 pub use frame::{Frame, SKY_DEPTH};
 pub use renderer::{DeviceViews, Renderer, Ticket};
 pub use sensor::{
-    Beam, BeamTable, BoxSensor, CameraSensor, EntityBox, Lidar, LidarConfig, LidarPoint, LidarWeather,
-    MapSensor, MapView, OpticalFlow, Photo, PhotoRoll, PixelBox, PointCloud, boxes_of,
+    Beam, BeamTable, BoxSensor, CameraSensor, EntityBox, Lidar, LidarConfig, LidarMethod, LidarPoint,
+    LidarWeather, MapSensor, MapView, OpticalFlow, Photo, PhotoRoll, PixelBox, PointCloud, boxes_of,
 };
 pub use wgpu;

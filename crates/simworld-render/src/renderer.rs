@@ -114,7 +114,8 @@ impl Renderer {
     ///
     /// # Errors
     /// A camera that cannot exist or is too large, more entities than the adapter holds, or a failing adapter. The
-    /// frame is then unspecified. After the loss of the device the next call has a new one.
+    /// frame is then unspecified. After the loss of the device the next call has a new one; when its memory ran out, all that
+    /// was held for larger pictures is given back.
     pub fn render(
         &mut self,
         scene: &dyn Scene,
@@ -222,12 +223,39 @@ impl Renderer {
         }
         let outcome = match self.works.gpu.lost() {
             Some(reason) => Err(RenderError::Lost { reason }),
-            None => self.works.draw(&self.config, scene, requests, options),
+            None => self.works.draw(&self.config, scene, requests, options, None),
         };
         self.mended(outcome)
     }
 
-    /// The outcome; where it is an error of the device that follows from its loss, that, and a new device for the next call.
+    /// Whether [`cast`](Self::cast) may be asked for.
+    pub(crate) fn casts_tables(&self) -> bool {
+        self.works.can_cast()
+    }
+
+    /// Casts the rays of a table from the eye of a camera: directions of length one in its optical frame, row by row of its picture. Depth
+    /// is the range along each, m.
+    pub(crate) fn cast(
+        &mut self,
+        scene: &dyn Scene,
+        request: &ViewRequest,
+        rays: &[[f32; 4]],
+        options: ViewOptions,
+        views: &mut Views,
+    ) -> Result<(), RenderError> {
+        let outcome = match self.works.gpu.lost() {
+            Some(reason) => Err(RenderError::Lost { reason }),
+            None => self.works.draw(&self.config, scene, &[*request], options, Some(rays)),
+        };
+        let (encoder, layout) = self.mended(outcome)?;
+        let outcome = self.works.submit(encoder, layout, options);
+        let pending = self.mended(outcome)?;
+        let outcome = self.works.take(pending, views);
+        self.mended(outcome)
+    }
+
+    /// The outcome; where it is an error of the device that follows from its loss, that, and a new device for the next call. After
+    /// other errors of the device, such as a lack of memory, the next call has buffers of its own size.
     fn mended<T>(&mut self, outcome: Result<T, RenderError>) -> Result<T, RenderError> {
         if let Err(RenderError::Device(_) | RenderError::OutOfMemory | RenderError::Lost { .. }) = &outcome {
             // The loss is told when nothing is under way any more; an error of waiting is that of the outcome.
@@ -237,6 +265,7 @@ impl Renderer {
                 self.works = Works::new(&self.config)?;
                 return Err(RenderError::Lost { reason });
             }
+            self.works.relieve(&self.config);
         }
         outcome
     }

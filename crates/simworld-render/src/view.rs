@@ -21,6 +21,8 @@ pub(crate) struct View {
     pub near: f64,
     pub far: f64,
     pub projection: Projection,
+    /// Whether it sees to all sides, as a table of rays does.
+    all_round: bool,
     /// Inward normals of the four sides of what is seen, optical frame, and how far inside of each the eye is, m.
     sides: [(Vector3, f64); 4],
 }
@@ -44,6 +46,7 @@ impl View {
             near,
             far,
             projection: Projection::Pinhole,
+            all_round: false,
             sides: sides.map(|side| (side.normalize(), 0.0)),
         })
     }
@@ -61,6 +64,11 @@ impl View {
             ];
         }
         Self { projection, ..self }
+    }
+
+    /// The same eye, that sees to all sides.
+    pub(crate) fn all_round(self) -> Self {
+        Self { all_round: true, ..self }
     }
 
     /// Clip space from camera-relative world axes.
@@ -136,6 +144,10 @@ impl View {
 
     /// A box around everything on the picture as far as `far`.
     pub(crate) fn region(&self) -> Aabb {
+        let reach = Aabb::around(self.eye, Vector3::repeat(self.far));
+        if self.all_round {
+            return reach;
+        }
         let k = &self.intrinsics;
         let (width, height) = (f64::from(k.width), f64::from(k.height));
         let mut region = Aabb::around(self.eye, Vector3::zeros());
@@ -154,7 +166,6 @@ impl View {
                 region = region.union(&Aabb { min: corner, max: corner });
             }
         }
-        let reach = Aabb::around(self.eye, Vector3::repeat(self.far));
         Aabb { min: region.min.sup(&reach.min), max: region.max.inf(&reach.max) }
     }
 }

@@ -15,7 +15,7 @@ use crate::gpu::{Features, Globals, Gpu, Planes, Readback, Readbacks, Scenery, p
 use crate::lamps::LampGrids;
 use crate::light::Light;
 use crate::raster::{Job, Raster};
-use crate::raycast::{BUFFERS, Look, MOST_VIEWS, Raycast};
+use crate::raycast::{BUFFERS, Cast, Look, MOST_VIEWS, Raycast};
 use crate::resident::{MOST_SLOTS, Residents};
 use crate::shadow::ShadowView;
 use crate::view::View;
@@ -82,15 +82,36 @@ impl Works {
         })
     }
 
-    /// Draws a batch into the planes; the commands are recorded, and not handed in yet.
+    /// Gives back what grew with pictures and scenes, and begins anew with it: after an error of the device buffers that were asked for in
+    /// vain cannot be told from others. Batches under way have buffers of their own, and stay.
+    pub(crate) fn relieve(&mut self, config: &RenderConfig) {
+        self.planes = Planes::new(&self.gpu);
+        (self.readbacks, self.raycast) = (Readbacks::default(), None);
+        // What was held is free when the device has seen that; if it fails again the next call says so.
+        let _ = self.gpu.wait();
+        self.raster = Raster::new(&self.gpu, self.shadow_resolution, config.anti_aliasing);
+        self.scenery = Scenery::new(&self.gpu, &self.raster.pipelines.scenery);
+        self.residents = Residents::default();
+        self.residents.finest = config.level_of_detail == LevelOfDetail::Finest;
+        let _ = self.gpu.check();
+    }
+
+    /// Whether this device binds what rays need.
+    pub(crate) fn can_cast(&self) -> bool {
+        self.gpu.device.limits().max_storage_buffers_per_shader_stage >= BUFFERS
+    }
+
+    /// Draws a batch into the planes; the commands are recorded, and not handed in yet. With a table of rays the only view is cast by
+    /// these, and depth is their range.
     pub(crate) fn draw(
         &mut self,
         config: &RenderConfig,
         scene: &dyn Scene,
         requests: &[ViewRequest],
         options: ViewOptions,
+        table: Option<&[[f32; 4]]>,
     ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
-        let outcome = self.try_draw(config, scene, requests, options);
+        let outcome = self.try_draw(config, scene, requests, options, table);
         if outcome.is_err() {
             // What of the scene came to the device is not known.
             self.residents.forget();
@@ -104,8 +125,13 @@ impl Works {
         scene: &dyn Scene,
         requests: &[ViewRequest],
         options: ViewOptions,
+        table: Option<&[[f32; 4]]>,
     ) -> Result<(wgpu::CommandEncoder, Layout), RenderError> {
-        let sight = self.look(config, scene, requests)?;
+        let mut sight = self.look(config, scene, requests)?;
+        if table.is_some() {
+            sight.views = sight.views.into_iter().map(View::all_round).collect();
+            sight.region = sight.views.iter().fold(sight.region, |all, view| all.union(&view.region()));
+        }
         let layout = Layout::of(requests.iter().map(|request| &request.camera.intrinsics));
         self.planes.hold(&self.gpu, &layout, options)?;
         self.residents.follow(scene, &sight.region);
@@ -115,12 +141,20 @@ impl Works {
         let in_color = options.channels.contains(Channels::RGB);
         let (globals, features) = self.send(scene, &sight, in_color)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if self.casts(config, options, requests, &layout) {
+        if table.is_some() || self.casts(config, options, requests, &layout) {
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
-            let (views, min_pixels) = (&sight.views[..], config.min_pixels);
-            let look = Look { views, globals: &globals, requests, layout: &layout, min_pixels };
+            // A ray of a table is no pixel that something could be smaller than.
+            let min_pixels = if table.is_some() { 0.0 } else { config.min_pixels };
+            let views = &sight.views[..];
+            let look = Look { views, globals: &globals, requests, layout: &layout, min_pixels, table };
             raycast.hold(&self.gpu, scene, &self.residents, &look)?;
-            raycast.prepare(&self.gpu, in_color.then_some(features));
+            let color = in_color.then_some(Cast::Color(features));
+            let normals = options.channels.contains(Channels::NORMALS).then_some(Cast::Normals);
+            let mut casts: Vec<Cast> = color.into_iter().chain(normals).collect();
+            if casts.is_empty() {
+                casts.push(Cast::Alone);
+            }
+            raycast.prepare(&self.gpu, &casts, table.is_some());
             raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight)?;
@@ -188,11 +222,7 @@ impl Works {
         requests: &[ViewRequest],
         layout: &Layout,
     ) -> bool {
-        let is_parallel = requests.iter().any(|request| request.projection == Projection::Parallel);
-        if is_parallel || options.channels.contains(Channels::NORMALS) || requests.len() > MOST_VIEWS {
-            return false;
-        }
-        if self.gpu.device.limits().max_storage_buffers_per_shader_stage < BUFFERS {
+        if requests.len() > MOST_VIEWS || !self.can_cast() {
             return false;
         }
         match config.backend {

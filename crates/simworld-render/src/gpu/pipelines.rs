@@ -23,6 +23,7 @@ const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
 const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
 const FORWARD: &str = include_str!("../shaders/forward.wgsl");
+const OCTAHEDRAL: &str = include_str!("../shaders/octahedral.wgsl");
 const NORMALS: &str = include_str!("../shaders/normals.wgsl");
 const SHADOW: &str = include_str!("../shaders/shadow.wgsl");
 
@@ -109,7 +110,7 @@ impl Pipelines {
         let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
         let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, PRECIPITATION]);
         let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
-        let normals = module("normals", &[COMMON, BINDINGS, NORMALS]);
+        let normals = module("normals", &[COMMON, BINDINGS, OCTAHEDRAL, NORMALS]);
 
         let smooth = smoothing == AntiAliasing::Msaa4;
         Self {
@@ -144,7 +145,7 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, RAYCAST].concat()
+    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, OCTAHEDRAL, RAYCAST].concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]

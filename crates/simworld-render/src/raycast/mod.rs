@@ -15,7 +15,7 @@ use shape::Shapes;
 use simworld_core::scene::Scene;
 
 use crate::RenderError;
-use crate::batch::{Layout, ViewRequest};
+use crate::batch::{Layout, Projection, ViewRequest};
 use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, raycast_source};
 use crate::resident::Residents;
 use crate::view::View;
@@ -26,6 +26,17 @@ const TILE: u32 = 8;
 pub(crate) const BUFFERS: u32 = 9;
 /// Views that one dispatch takes.
 pub(crate) const MOST_VIEWS: usize = 65_535;
+
+/// What one dispatch finds besides depth and ids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Cast {
+    /// Colour, of pictures that need these.
+    Color(Features),
+    /// Normals.
+    Normals,
+    /// Nothing.
+    Alone,
+}
 
 /// The twin of `View` in raycast.wgsl.
 #[repr(C)]
@@ -47,10 +58,12 @@ pub(crate) struct Raycast {
     layout: wgpu::BindGroupLayout,
     module: wgpu::ShaderModule,
     pipeline_layout: wgpu::PipelineLayout,
-    /// By what a picture needs; without colour it needs nothing.
-    pipelines: BTreeMap<Option<Features>, wgpu::ComputePipeline>,
-    /// That of the batch at hand.
-    prepared: Option<Features>,
+    /// By what is found, and whether the rays are those of a table.
+    pipelines: BTreeMap<(Cast, bool), wgpu::ComputePipeline>,
+    /// Those of the batch at hand.
+    prepared: Vec<(Cast, bool)>,
+    /// The table of rays of the batch at hand: directions of length one, optical frame.
+    rays: wgpu::Buffer,
     views: wgpu::Buffer,
     nodes: wgpu::Buffer,
     placed: wgpu::Buffer,
@@ -66,6 +79,8 @@ pub(crate) struct Look<'a> {
     pub requests: &'a [ViewRequest],
     pub layout: &'a Layout,
     pub min_pixels: f64,
+    /// The rays of the only view, where they are those of a table: directions of length one in the optical frame.
+    pub table: Option<&'a [[f32; 4]]>,
 }
 
 impl Raycast {
@@ -102,7 +117,8 @@ impl Raycast {
             module,
             pipeline_layout,
             pipelines: BTreeMap::new(),
-            prepared: None,
+            prepared: Vec::new(),
+            rays: buffer(1024),
             layout,
             views: buffer(1024),
             nodes: buffer(1024),
@@ -153,6 +169,10 @@ impl Raycast {
             );
             self.sent = self.shapes.pieces.len();
         }
+        if let Some(rays) = look.table {
+            ensure(gpu, &mut self.rays, rays)?;
+            gpu.queue.write_buffer(&self.rays, 0, bytemuck::cast_slice(rays));
+        }
         let eyes = self.eyes(look);
         ensure(gpu, &mut self.views, &eyes)?;
         gpu.queue.write_buffer(&self.views, 0, bytemuck::cast_slice(&eyes));
@@ -172,35 +192,47 @@ impl Raycast {
                 place: crate::view::vec4(&eye, view.near),
                 limits: [view.far as f32, look.min_pixels as f32, focal as f32, 0.0],
                 span: [span.first as u32, span.pitch, span.width, span.height],
-                hidden: [hidden, self.bodies.second, only, 0],
+                hidden: [
+                    hidden,
+                    self.bodies.second,
+                    only,
+                    u32::from(request.projection == Projection::Parallel),
+                ],
             }
         };
         (0..look.views.len()).map(one).collect()
     }
 
-    /// Makes ready what pictures of these features are cast with, or depth and ids without colour.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, wanted: Option<Features>) {
-        self.prepared = wanted;
-        let (module, layout) = (&self.module, &self.pipeline_layout);
-        self.pipelines.entry(wanted).or_insert_with(|| {
-            let bits = wanted.map_or(0, Features::bits);
-            let constants =
-                [("SHADED", f64::from(u8::from(wanted.is_some()))), ("FEATURES", f64::from(bits))];
-            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("raycast"),
-                layout: Some(layout),
-                module,
-                entry_point: Some("cast_views"),
-                compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: &constants,
-                    ..Default::default()
-                },
-                cache: None,
-            })
-        });
+    /// Makes ready what a batch is cast with, a dispatch for each of these.
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], by_table: bool) {
+        self.prepared = casts.iter().map(|cast| (*cast, by_table)).collect();
+        for (cast, by_table) in &self.prepared {
+            let (module, layout) = (&self.module, &self.pipeline_layout);
+            self.pipelines.entry((*cast, *by_table)).or_insert_with(|| {
+                let bits = if let Cast::Color(features) = cast { features.bits() } else { 0 };
+                let flag = |is: bool| f64::from(u8::from(is));
+                let constants = [
+                    ("SHADED", flag(matches!(cast, Cast::Color(_)))),
+                    ("FACING", flag(*cast == Cast::Normals)),
+                    ("TABLE", flag(*by_table)),
+                    ("FEATURES", f64::from(bits)),
+                ];
+                gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some("raycast"),
+                    layout: Some(layout),
+                    module,
+                    entry_point: Some("cast_views"),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: &constants,
+                        ..Default::default()
+                    },
+                    cache: None,
+                })
+            });
+        }
     }
 
-    /// Records the dispatch of a batch; does nothing before it was [prepared](Self::prepare).
+    /// Records the dispatches of a batch; does nothing before they were [prepared](Self::prepare).
     pub(crate) fn draw(
         &self,
         gpu: &Gpu,
@@ -209,25 +241,33 @@ impl Raycast {
         planes: &Planes,
         layout: &Layout,
     ) {
-        let Some(pipeline) = self.pipelines.get(&self.prepared) else { return };
-        let [color, depth, who] = &planes.raw;
-        let trees = [&self.nodes, &self.placed, &self.pieces];
-        let buffers = [&self.views, &scenery.instances].into_iter().chain(trees);
-        let buffers = buffers.chain([color, depth, who, &scenery.lights]);
-        let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-            .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("raycast"),
-            layout: &self.layout,
-            entries: &entries,
-        });
         let [width, height] = layout.largest;
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), layout.spans.len() as u32);
+        for (cast, by_table) in &self.prepared {
+            let Some(pipeline) = self.pipelines.get(&(*cast, *by_table)) else { return };
+            let [color, depth, who] = &planes.raw;
+            // Each of them takes the place of what is not needed beside it.
+            let first = if *cast == Cast::Normals { &planes.normals } else { color };
+            let last = if *by_table { &self.rays } else { &scenery.lights };
+            let trees = [&self.nodes, &self.placed, &self.pieces];
+            let buffers = [&self.views, &scenery.instances].into_iter().chain(trees);
+            let buffers = buffers.chain([first, depth, who, last]);
+            let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
+                .zip(buffers)
+                .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: buffer.as_entire_binding(),
+                })
+                .collect();
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("raycast"),
+                layout: &self.layout,
+                entries: &entries,
+            });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), layout.spans.len() as u32);
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod boxes;
 mod camera;
+mod drops;
 mod flow;
 mod lidar;
 mod map;
@@ -14,6 +15,6 @@ mod photo;
 pub use boxes::{BoxSensor, EntityBox, PixelBox, boxes_of};
 pub use camera::CameraSensor;
 pub use flow::OpticalFlow;
-pub use lidar::{Beam, BeamTable, Lidar, LidarConfig, LidarPoint, LidarWeather, PointCloud};
+pub use lidar::{Beam, BeamTable, Lidar, LidarConfig, LidarMethod, LidarPoint, LidarWeather, PointCloud};
 pub use map::{MapSensor, MapView};
 pub use photo::{Photo, PhotoRoll};

@@ -22,10 +22,9 @@ struct Hit {
 }
 
 // The footprint of a pixel on the plane through a point, for backends without derivatives: as the view ray moves by a
-// pixel, depth * (axis - ray * (normal . axis) / (normal . ray)), ray and axis of planar depth one, turned into the body.
-fn footprint_of(relative: vec3f, normal: vec3f, rotation: vec4f) -> vec3f {
-    let depth = max(dot(relative, globals.forward.xyz), 1e-6);
-    let ray = relative / depth;
+// pixel, depth * (axis - ray * (normal . axis) / (normal . ray)), ray and axis of planar depth one, turned into the body. Parallel rays
+// spread no further with depth: theirs is one.
+fn footprint_of(ray: vec3f, depth: f32, normal: vec3f, rotation: vec4f) -> vec3f {
     let slant = dot(normal, ray);
     let steep = select(min(slant, -1e-4), max(slant, 1e-4), slant > 0.0);
     let across = (globals.right.xyz - ray * (dot(normal, globals.right.xyz) / steep)) * (depth / globals.intrinsics.x);

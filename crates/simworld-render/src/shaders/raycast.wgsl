@@ -8,7 +8,8 @@ struct View {
     limits: vec4f,
     // First pixel, pitch, width, height.
     span: vec4u,
-    // Slot plus one of who is hidden; the root of the tree of what moves; slot plus one of who alone is seen, or 0.
+    // Slot plus one of who is hidden; the root of the tree of what moves; slot plus one of who alone is seen, or 0; 1 if rays are
+    // parallel.
     hidden: vec4u,
 }
 
@@ -48,6 +49,7 @@ var<private> limits: vec4f;
 var<private> hidden: u32;
 var<private> second: u32;
 var<private> only: u32;
+var<private> parallel: bool;
 
 const NOTHING: u32 = 0xffffffffu;
 const IS_LEAF: u32 = 0x80000000u;
@@ -212,7 +214,7 @@ fn is_shown(number: u32) -> bool {
     }
     let distance = length(placed[number].center - eye);
     let radius = placed[number].radius;
-    let pixels = 2.0 * radius * limits.z / max(max(distance, radius), 1e-9);
+    let pixels = 2.0 * radius * limits.z / select(max(max(distance, radius), 1e-9), 1.0, parallel);
     return distance - radius <= limits.x && pixels >= limits.y;
 }
 
@@ -282,30 +284,40 @@ fn sunlit(relative: vec3f, normal: vec3f) -> f32 {
     return select(0.0, 1.0, trace(start, globals.sun_direction.xyz, 1e-3, true).number == NOTHING);
 }
 
-fn hit_of(found: Found, direction: vec3f) -> Hit {
+// The normals at the corners of a triangle, body frame.
+fn corner_normals(triangle: u32, scale: vec3f) -> mat3x3f {
+    let a = f32s(triangle + 6u);
+    let b = f32s(triangle + 7u);
+    let c = f32s(triangle + 8u);
+    if (is_model(pieces[triangle].w)) {
+        return mat3x3f(normalize(a / scale), normalize(b / scale), normalize(c / scale));
+    }
+    return mat3x3f(a, b, c);
+}
+
+// The normal where a ray met a triangle, world axes.
+fn normal_of(found: Found, normals: mat3x3f) -> vec3f {
+    let mean = normals * vec3f(1.0 - found.u - found.v, found.u, found.v);
+    return normalize(rotate(instances[found.number].rotation, mean));
+}
+
+fn hit_of(found: Found, origin: vec3f, direction: vec3f) -> Hit {
     let i = instances[found.number];
     let inverse = vec4f(-i.rotation.xyz, i.rotation.w);
     let scale = i.scale.xyz;
     let unit = i.place.w;
-    let relative = direction * found.t;
+    let relative = origin + direction * found.t;
     let body = rotate(inverse, relative - from_eye(found.number));
     let material = pieces[found.triangle].w;
-    let a = f32s(found.triangle + 6u);
-    let b = f32s(found.triangle + 7u);
-    let c = f32s(found.triangle + 8u);
-    var first = a;
-    var smooth_normal = a * (1.0 - found.u - found.v) + b * found.u + c * found.v;
-    if (is_model(material)) {
-        first = normalize(a / scale);
-        smooth_normal = first * (1.0 - found.u - found.v) + normalize(b / scale) * found.u + normalize(c / scale) * found.v;
-    }
+    let normals = corner_normals(found.triangle, scale);
     let corner = corner_of(found.triangle, scale, unit);
     let plane = cross(corner_of(found.triangle + 2u, scale, unit) - corner, corner_of(found.triangle + 4u, scale, unit) - corner);
-    let footprint = footprint_of(relative, rotate(i.rotation, normalize(plane)), i.rotation);
+    let depth = max(dot(relative, globals.forward.xyz), 1e-6);
+    let ray = select(relative / depth, direction, parallel);
+    let footprint = footprint_of(ray, select(depth, 1.0, parallel), rotate(i.rotation, normalize(plane)), i.rotation);
     let finish = finish_of(material, i.color, i.second, i.scale.w);
-    let normal = normalize(rotate(i.rotation, smooth_normal));
     let extra = vec2f(i.color.w, i.second.w);
-    return Hit(relative, normal, body, first, finish, i.scale, extra, f32(material != 0u), placed[found.number].pattern, footprint);
+    return Hit(relative, normal_of(found, normals), body, normals[0], finish, i.scale, extra, f32(material != 0u), placed[found.number].pattern, footprint);
 }
 
 fn encoded(color: vec3f) -> u32 {
@@ -316,6 +328,11 @@ fn encoded(color: vec3f) -> u32 {
 
 // Whether colour is wanted.
 override SHADED: bool = true;
+// Without colour: whether normals are wanted where colour would be.
+override FACING: bool = false;
+// Without colour: whether the rays are those of a table, which lies where lights would be. Its rays have length one in the
+// optical frame, so that what is depth elsewhere is a range.
+override TABLE: bool = false;
 
 @compute @workgroup_size(8, 8)
 fn cast_views(@builtin(global_invocation_id) at: vec3u) {
@@ -329,23 +346,35 @@ fn cast_views(@builtin(global_invocation_id) at: vec3u) {
     hidden = views[at.z].hidden.x;
     second = views[at.z].hidden.y;
     only = views[at.z].hidden.z;
+    parallel = views[at.z].hidden.w == 1u;
     let k = globals.intrinsics;
-    let across = (f32(at.x) + 0.5 - k.z) / k.x;
-    let down = (f32(at.y) + 0.5 - k.w) / k.y;
-    let direction = globals.forward.xyz + across * globals.right.xyz + down * globals.down.xyz;
-    let found = trace(vec3f(0.0), direction, views[at.z].eye.w, false);
+    var optical = vec3f((f32(at.x) + 0.5 - k.z) / k.x, (f32(at.y) + 0.5 - k.w) / k.y, 1.0);
+    if (TABLE) {
+        optical = lights[at.y * span.z + at.x].xyz;
+    }
+    let aside = optical.x * globals.right.xyz + optical.y * globals.down.xyz;
+    let sight = optical.z * globals.forward.xyz + aside;
+    let origin = select(vec3f(0.0), aside, parallel);
+    let direction = select(sight, globals.forward.xyz, parallel);
+    let found = trace(origin, direction, views[at.z].eye.w, false);
     let pixel = span.x + at.y * span.y + at.x;
-    if (found.number == NOTHING) {
+    // Parallel rays end at the far plane, as clip space does there.
+    if (found.number == NOTHING || (parallel && found.t > limits.x)) {
         out_who[pixel] = 0u;
         out_depth[pixel] = 0.0;
         if (SHADED) {
-            out_color[pixel] = encoded(tone_map(sky_with_clouds(normalize(direction))));
+            out_color[pixel] = encoded(tone_map(sky_with_clouds(normalize(sight))));
+        } else if (FACING) {
+            out_color[pixel] = 0u;
         }
         return;
     }
     out_who[pixel] = instances[found.number].who;
     out_depth[pixel] = found.t;
     if (SHADED) {
-        out_color[pixel] = encoded(shade(hit_of(found, direction)));
+        out_color[pixel] = encoded(shade(hit_of(found, origin, direction)));
+    } else if (FACING) {
+        let scale = instances[found.number].scale.xyz;
+        out_color[pixel] = packed_normal(normal_of(found, corner_normals(found.triangle, scale)));
     }
 }

@@ -15,6 +15,7 @@ mod ids_and_classes_name_what_is_there;
 mod light_and_weather;
 mod look;
 mod maps_have_one_scale;
+mod memory_runs_out;
 mod models_are_drawn;
 mod normals_are_those_of_the_solids;
 mod only_changes_are_sent;

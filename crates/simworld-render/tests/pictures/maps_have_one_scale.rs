@@ -2,15 +2,21 @@
 
 use std::sync::{Arc, Mutex};
 
-use crate::common::{put, renderer, square};
+use crate::common::{difference, put, renderer, square};
 use simworld_core::geometry::{Point2, Point3};
 use simworld_core::scene::{EntityKind, Scene, Shape, World};
 use simworld_core::testing::check_observer;
-use simworld_render::{Frame, MapSensor, MapView, RenderConfig};
+use simworld_render::{Backend, Frame, LevelOfDetail, MapSensor, MapView, RenderConfig};
 
 #[test]
 fn roofs_and_ground_fall_where_they_are_at_any_height() {
-    let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
+    for backend in [Backend::Raster, Backend::Raycast] {
+        roofs_and_ground_fall_right(backend);
+    }
+}
+
+fn roofs_and_ground_fall_right(backend: Backend) {
+    let Some(mut renderer) = renderer(&RenderConfig { backend, ..RenderConfig::default() }) else { return };
     let mut world = World::new();
     put(&mut world, EntityKind::Ground, [0.0, 0.0, -1.0], 0.0, Shape::cuboid(300.0, 300.0, 1.0));
     // Low and high boxes far from the middle: parallel rays see no wall.
@@ -41,6 +47,36 @@ fn roofs_and_ground_fall_where_they_are_at_any_height() {
         .collect();
     assert_eq!(pixels.len(), 32);
     assert!(pixels.iter().all(|(x, y)| (94..102).contains(x) && (30..34).contains(y)), "{pixels:?}");
+}
+
+/// Colours, ids and depth of a map are those of either backend.
+#[test]
+fn triangles_and_rays_draw_the_same_map() {
+    let map = MapView {
+        center: Point2::new(14.0, 0.0),
+        top: 40.0,
+        metres_per_pixel: 0.25,
+        width: 192,
+        height: 128,
+    };
+    let world = square(0.0);
+    let mut drawn = Vec::new();
+    for backend in [Backend::Raster, Backend::Raycast] {
+        let config =
+            RenderConfig { backend, level_of_detail: LevelOfDetail::Finest, ..RenderConfig::default() };
+        let Some(mut renderer) = renderer(&config) else { return };
+        let mut frame = Frame::new();
+        map.draw(&mut renderer, &world, &mut frame).expect("drawn");
+        drawn.push(frame);
+    }
+    let [raster, rays] = &drawn[..] else { panic!("two frames") };
+    let pixels = raster.ids.len() as f64;
+    let apart = raster.ids.iter().zip(&rays.ids).filter(|(a, b)| a != b).count() as f64 / pixels;
+    let deep = raster.depth.iter().zip(&rays.depth).filter(|(a, b)| (*a - *b).abs() > 1e-3 * **a).count();
+    let (mean, differing) = difference(&raster.rgb, &rays.rgb, 24);
+    println!("ids differ on {apart}, depth on {deep} pixels, colours by {mean}, {differing}");
+    assert!(apart <= 2e-3 && deep as f64 / pixels <= 2e-3, "{apart} {deep}");
+    assert!(mean < 1.5 && differing < 0.02, "colours differ by {mean}, {differing}");
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use crate::common::{looking_east, put, renderer};
 use simworld_core::scene::{EntityKind, Scene, Shape, World};
-use simworld_render::{Channels, Frame, RenderConfig, ViewOptions, ViewRequest, Views};
+use simworld_render::{Backend, Channels, Frame, RenderConfig, ViewOptions, ViewRequest, Views};
 
-fn normals(world: &World) -> Option<(Frame, simworld_core::camera::Camera)> {
-    let mut renderer = renderer(&RenderConfig::default())?;
+fn normals(world: &World, backend: Backend) -> Option<(Frame, simworld_core::camera::Camera)> {
+    let mut renderer = renderer(&RenderConfig { backend, ..RenderConfig::default() })?;
     let camera = looking_east(1.7, 128, 96);
     let options = ViewOptions {
         channels: ViewOptions::default().channels | Channels::NORMALS,
@@ -23,6 +23,12 @@ fn normals(world: &World) -> Option<(Frame, simworld_core::camera::Camera)> {
 
 #[test]
 fn boxes_and_balls_have_the_normals_of_their_surfaces() {
+    for backend in [Backend::Raster, Backend::Raycast] {
+        normals_are_right(backend);
+    }
+}
+
+fn normals_are_right(backend: Backend) {
     let mut world = World::new();
     put(&mut world, EntityKind::Ground, [0.0, 0.0, -1.0], 0.0, Shape::cuboid(300.0, 300.0, 1.0));
     for k in 0..6 {
@@ -30,7 +36,7 @@ fn boxes_and_balls_have_the_normals_of_their_surfaces() {
         put(&mut world, EntityKind::Prop, [9.0 + t, 1.6 * t - 6.0, 0.1 * t], t, Shape::cuboid(1.0, 1.2, 1.1));
     }
     let ball = put(&mut world, EntityKind::Prop, [6.0, 2.0, 0.6], 0.3, Shape::Sphere { radius: 1.0 });
-    let Some((frame, camera)) = normals(&world) else { return };
+    let Some((frame, camera)) = normals(&world, backend) else { return };
     let (mut flat, mut round) = (0, 0);
     for (index, normal) in frame.normals.iter().enumerate() {
         let (x, y) = (index as u32 % 128, index as u32 / 128);
@@ -57,5 +63,5 @@ fn boxes_and_balls_have_the_normals_of_their_surfaces() {
         assert!(own[axis] * local[axis] > 0.0, "it looks outward");
         flat += 1;
     }
-    assert!(flat > 5000 && round > 100, "{flat} {round}");
+    assert!(flat > 5000 && round > 100, "{backend:?}: {flat} {round}");
 }

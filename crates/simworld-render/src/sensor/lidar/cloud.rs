@@ -17,9 +17,9 @@ pub struct LidarPoint {
     pub azimuth: f32,
     /// The row of the beam.
     pub ring: u16,
-    /// Class: a Cityscapes label id.
+    /// Class: a Cityscapes label id; 0 (unlabeled) for a drop or a flake.
     pub class: u8,
-    /// Instance: [`EntityId::index`](simworld_core::id::EntityId::index) plus one.
+    /// Instance: [`EntityId::index`](simworld_core::id::EntityId::index) plus one; 0 for a drop or a flake.
     pub id: u32,
 }
 

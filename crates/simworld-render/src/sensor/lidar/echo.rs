@@ -7,7 +7,7 @@ use simworld_core::scene::{EntityKind, EntityRef, Scene};
 /// Contrast falls to this share over the meteorological visibility: ln of 0.02, negated (Koschmieder 1924).
 const KOSCHMIEDER: f64 = 3.912;
 /// A surface that reflects this share is just seen at the greatest range, as data sheets say it.
-const DARK: f64 = 0.1;
+pub(in crate::sensor) const DARK: f64 = 0.1;
 
 /// How much of a beam is lost a metre, 1/m: fog by visibility, and rain by 1.076 R^0.67 dB/km at R mm/h (Carbonneau and Wisely 1998, as in
 /// ITU-R P.1814).

@@ -1,31 +1,50 @@
 //! Scanners of ranges.
 //!
-//! A scan is drawn as up to four views of a quarter turn each, in one submission: depth, ids and normals. Each beam reads the pixel
-//! that it goes through, and meets the plane of the surface there; so its range on flat surfaces is exact, on round ones to
-//! the square of a pixel's angle, and at an outline it may belong to the other side by half a pixel.
+//! A scan is cast as a table of rays, one for each beam, where the adapter allows that. Otherwise it is drawn as up to four views of a quarter
+//! turn each, in one submission: depth, ids and normals. Each beam then reads the pixel that it goes through, and meets the plane of
+//! the surface there; so its range on flat surfaces is exact, on round ones to the square of a pixel's angle, and at an
+//! outline it may belong to the other side by half a pixel.
 
 mod beams;
 mod cloud;
 mod echo;
+mod face;
+mod rays;
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub use beams::{Beam, BeamTable};
 pub use cloud::{LidarPoint, PointCloud};
-use nalgebra::UnitQuaternion;
+pub(super) use echo::DARK;
+use face::Face;
+use rays::Rays;
 use serde::{Deserialize, Serialize};
-use simworld_core::camera::{Camera, Intrinsics};
-use simworld_core::geometry::{Point2, Point3, Pose, Vector3};
+use simworld_core::geometry::Pose;
 use simworld_core::id::EntityId;
-use simworld_core::ops;
 use simworld_core::scene::Scene;
 use simworld_core::seam::{ObserveError, Observer};
 use simworld_core::seed::{Seed, Stream};
 
 use super::CameraSensor;
+use super::drops::{Clutter, Struck};
 use crate::classes::class_of;
-use crate::{Channels, PixelFormat, RenderError, Renderer, ViewOptions, ViewRequest, Views};
+use crate::{Backend, Channels, PixelFormat, RenderError, Renderer, ViewOptions, Views};
+
+/// The class of what is no entity, as Cityscapes has it.
+const UNLABELED: u8 = 0;
+
+/// How beams meet what is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LidarMethod {
+    /// As [`Rays`](Self::Rays), unless the renderer is to draw by triangles alone.
+    #[default]
+    Auto,
+    /// They read views.
+    Views,
+    /// They are cast as they are, where the adapter binds nine storage buffers a stage; otherwise they read views.
+    Rays,
+}
 
 /// Whether the weather takes from the beams.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,6 +55,9 @@ pub enum LidarWeather {
     Ignored,
     /// Fog and rain weaken echoes, and those that are too weak are lost.
     Felt,
+    /// As felt; and drops and flakes give echoes of their own, without an id, where they are stronger than what is behind them: by the sizes of drops after Marshall and
+    /// Palmer and of flakes after Gunn and Marshall, drawn by beam, tick and wearer.
+    Seen,
 }
 
 /// Settings of a [`Lidar`].
@@ -48,9 +70,11 @@ pub struct LidarConfig {
     pub greatest_range: f64,
     /// Standard deviation of ranges, m, from 0 to 10.
     pub range_noise: f64,
+    /// How beams meet what is there.
+    pub method: LidarMethod,
     /// Whether the weather takes from the beams.
     pub weather: LidarWeather,
-    /// Pixels of a quarter turn, from 64 to 8192: the finer, the nearer to an outline a beam is right.
+    /// Pixels of a quarter turn where beams read views, from 64 to 8192: the finer, the nearer to an outline a beam is right.
     pub resolution: u32,
     /// Seed of the noise, which is drawn by beam, tick and wearer.
     pub seed: u64,
@@ -62,6 +86,7 @@ impl Default for LidarConfig {
             least_range: 0.5,
             greatest_range: 120.0,
             range_noise: 0.0,
+            method: LidarMethod::Auto,
             weather: LidarWeather::Ignored,
             resolution: 1024,
             seed: 0,
@@ -119,18 +144,23 @@ pub struct Lidar {
     beams: BeamTable,
     config: LidarConfig,
     mount: Option<Pose>,
-    faces: Vec<Face>,
+    means: Means,
     views: Views,
 }
 
-/// A quarter turn, and the beams in it.
+/// What beams are found by.
 #[derive(Clone, Debug)]
-struct Face {
-    /// Sensor from the frame of the quarter.
-    turned: Pose,
-    intrinsics: Intrinsics,
-    /// Beams with the pixel that each goes through.
-    beams: Vec<(u32, u32, u32)>,
+enum Means {
+    Views(Vec<Face>),
+    Rays(Rays),
+}
+
+/// What a beam met: whose slot, how far off, at which cosine of the angle.
+#[derive(Clone, Copy)]
+struct Met {
+    id: u32,
+    range: f64,
+    cosine: f64,
 }
 
 impl Lidar {
@@ -144,8 +174,22 @@ impl Lidar {
         config: LidarConfig,
     ) -> Result<Self, RenderError> {
         config.validate()?;
-        let faces = (0..4).filter_map(|quarter| Face::new(&beams, quarter, config.resolution)).collect();
-        Ok(Self { renderer, beams, config, mount: None, faces, views: Views::new() })
+        let by_rays = {
+            let renderer = renderer.lock().unwrap_or_else(PoisonError::into_inner);
+            renderer.casts_tables()
+                && match config.method {
+                    LidarMethod::Auto => renderer.config().backend != Backend::Raster,
+                    LidarMethod::Views => false,
+                    LidarMethod::Rays => true,
+                }
+        };
+        let means = if by_rays {
+            Means::Rays(Rays::new(&beams))
+        } else {
+            let faces = (0..4).filter_map(|quarter| Face::new(&beams, quarter, config.resolution));
+            Means::Views(faces.collect())
+        };
+        Ok(Self { renderer, beams, config, mount: None, means, views: Views::new() })
     }
 
     /// Mounted at a pose in the wearer's body frame (x forward, y left, z up), instead of 0.3 m above its top.
@@ -160,102 +204,45 @@ impl Lidar {
         self.beams.beams()
     }
 
+    /// What each beam meets.
     fn scan(
         &mut self,
         scene: &dyn Scene,
         who: EntityId,
         world_from_sensor: &Pose,
-    ) -> Result<(), RenderError> {
-        let requests: Vec<ViewRequest> = self
-            .faces
-            .iter()
-            .map(|face| ViewRequest {
-                hidden: Some(who),
-                ..ViewRequest::from(Camera::looking_along(
-                    &(world_from_sensor * face.turned),
-                    face.intrinsics,
-                ))
-            })
-            .collect();
+    ) -> Result<Vec<Option<Met>>, RenderError> {
         let channels = Channels::DEPTH | Channels::IDS | Channels::NORMALS;
         let options = ViewOptions { channels, format: PixelFormat::Full };
         let mut renderer = self.renderer.lock().unwrap_or_else(PoisonError::into_inner);
-        renderer.render_views(scene, &requests, &options, &mut self.views)
-    }
-
-    /// The range at which a beam meets what is on its pixel, and the cosine of the angle there.
-    fn meet(
-        &self,
-        face: &Face,
-        pixel: (u32, u32),
-        index: usize,
-        rotation: &UnitQuaternion<f64>,
-        beam: &Beam,
-    ) -> Option<(f64, f64)> {
-        let depth = f64::from(*self.views.depth.get(index)?);
-        if !depth.is_finite() {
-            return None;
-        }
-        let middle = Point2::new(f64::from(pixel.0) + 0.5, f64::from(pixel.1) + 0.5);
-        let in_optical = face.intrinsics.unproject(&middle, depth);
-        // The face's frame is the body's of its camera: forward, left, up.
-        let in_sensor: Point3 = face.turned * Point3::new(in_optical.z, -in_optical.x, -in_optical.y);
-        let normal = Vector3::from(self.views.normals.get(index)?.map(f64::from));
-        let normal = rotation.inverse() * normal;
-        let direction = beam.direction();
-        let slant = direction.dot(&normal);
-        let there = in_sensor.coords.norm();
-        let range = in_sensor.coords.dot(&normal) / slant;
-        // A surface that is seen edgewise has no plane to meet.
-        let sound = slant.abs() > 1e-3 && (range - there).abs() < 0.2 * there;
-        Some((if sound { range } else { there }, slant.abs().min(1.0)))
-    }
-}
-
-impl Face {
-    fn new(table: &BeamTable, quarter: u32, resolution: u32) -> Option<Self> {
-        let turn = f64::from(quarter) * FRAC_PI_2;
-        let focal = f64::from(resolution) * 0.5;
-        let mut found: Vec<(u32, f64, f64)> = Vec::new();
-        for (index, beam) in (0..).zip(table.beams()) {
-            let aside = ops::atan2(ops::sin(beam.azimuth - turn), ops::cos(beam.azimuth - turn));
-            // The end of one quarter is the beginning of the next.
-            if (-FRAC_PI_4..FRAC_PI_4).contains(&aside) {
-                let across = -ops::tan(aside) * focal;
-                found.push((index, across, -ops::tan(beam.elevation) / ops::cos(aside) * focal));
+        let (views, beams) = (&mut self.views, self.beams.beams());
+        let mut met = vec![None; beams.len()];
+        match &self.means {
+            Means::Rays(rays) => {
+                let request = rays.request(world_from_sensor, who);
+                renderer.cast(scene, &request, &rays.table, options, views)?;
+                for (number, (beam, met)) in beams.iter().zip(&mut met).enumerate() {
+                    let found = Rays::meet(views, number, world_from_sensor, beam);
+                    *met = found.map(|(range, cosine)| Met { id: views.ids[number], range, cosine });
+                }
+            }
+            Means::Views(faces) => {
+                let requests: Vec<_> =
+                    faces.iter().map(|face| face.request(world_from_sensor, who)).collect();
+                renderer.render_views(scene, &requests, &options, views)?;
+                let rotation = world_from_sensor.rotation;
+                for (view, face) in faces.iter().enumerate() {
+                    let first = views.pixels(view).start;
+                    for (number, x, y) in &face.beams {
+                        let index = first + *y as usize * face.intrinsics.width as usize + *x as usize;
+                        let number = *number as usize;
+                        let found = face.meet(views, (*x, *y), index, &rotation, &beams[number]);
+                        met[number] =
+                            found.map(|(range, cosine)| Met { id: views.ids[index], range, cosine });
+                    }
+                }
             }
         }
-        let (first, last) =
-            found.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (.., down)| {
-                (low.min(*down), high.max(*down))
-            });
-        if found.is_empty() {
-            return None;
-        }
-        // A pixel to spare on each side.
-        let (top, bottom) = (first.floor() - 1.0, last.floor() + 2.0);
-        let intrinsics = Intrinsics {
-            width: resolution + 2,
-            height: (bottom - top) as u32,
-            fx: focal,
-            fy: focal,
-            cx: focal + 1.0,
-            cy: -top,
-        };
-        let place = |(index, across, down): (u32, f64, f64)| {
-            let (x, y) = ((across + intrinsics.cx).floor(), (down + intrinsics.cy).floor());
-            (
-                index,
-                (x.max(0.0) as u32).min(intrinsics.width - 1),
-                (y.max(0.0) as u32).min(intrinsics.height - 1),
-            )
-        };
-        let rotation = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
-        Some(Self {
-            turned: Pose::from_parts(nalgebra::Translation3::identity(), rotation),
-            intrinsics,
-            beams: found.into_iter().map(place).collect(),
-        })
+        Ok(met)
     }
 }
 
@@ -271,67 +258,71 @@ impl Observer for Lidar {
         let wearer = scene.entity(who).ok_or(ObserveError::Missing { id: who })?;
         let above = Pose::translation(0.0, 0.0, wearer.info.shape.size().z + 0.3);
         out.world_from_sensor = wearer.pose * self.mount.unwrap_or(above);
-        self.scan(scene, who, &out.world_from_sensor)
+        let met = self
+            .scan(scene, who, &out.world_from_sensor)
             .map_err(|error| ObserveError::Sensor(error.to_string()))?;
-        let noise =
-            Seed(self.config.seed).stream("lidar").indexed(scene.clock().tick().0).indexed(who.into());
-        let mut echoes: Vec<(u32, LidarPoint)> = Vec::new();
-        for (view, face) in self.faces.iter().enumerate() {
-            let first = self.views.pixels(view).start;
-            for (number, x, y) in &face.beams {
-                let index = first + *y as usize * face.intrinsics.width as usize + *x as usize;
-                let beam = self.beams.beams()[*number as usize];
-                let rotation = out.world_from_sensor.rotation;
-                let Some(met) = self.meet(face, (*x, *y), index, &rotation, &beam) else { continue };
-                let id = self.views.ids[index];
-                let echo = self.echo(scene, id, &beam, met, noise.indexed(u64::from(*number)));
-                echoes.extend(echo.map(|echo| (*number, echo)));
-            }
-        }
-        echoes.sort_unstable_by_key(|(number, _)| *number);
+        let config = &self.config;
+        let of = |name| Seed(config.seed).stream(name).indexed(scene.clock().tick().0).indexed(who.into());
+        let (noise, falling) = (of("lidar"), of("lidar/drops"));
+        let weather = &scene.environment().weather;
+        let extinction = match config.weather {
+            LidarWeather::Ignored => 0.0,
+            LidarWeather::Felt | LidarWeather::Seen => echo::extinction(weather),
+        };
+        let clutter = (config.weather == LidarWeather::Seen)
+            .then(|| Clutter::new(weather, config.least_range, config.greatest_range, extinction))
+            .flatten();
         out.points.clear();
-        out.points.extend(echoes.into_iter().map(|(_, echo)| echo));
+        for (number, (beam, met)) in (0_u64..).zip(self.beams.beams().iter().zip(met)) {
+            let noise = noise.indexed(number);
+            let struck = clutter.as_ref().and_then(|clutter| clutter.strike(falling.indexed(number)));
+            let echo = met.and_then(|met| self.echo(scene, met, extinction));
+            // Of several echoes the strongest is reported.
+            let falls = struck.filter(|struck| echo.is_none_or(|(_, _, met)| struck.power() > met.power()));
+            let strongest = falls.map(|struck| (UNLABELED, 0, struck)).or(echo);
+            let echo = strongest.map(|(class, id, struck)| self.point(beam, class, id, struck, noise));
+            out.points.extend(echo);
+        }
         Ok(())
     }
 }
 
 impl Lidar {
+    /// Class, instance and echo of what a beam met, if it is heard.
     fn echo(
         &self,
         scene: &dyn Scene,
-        id: u32,
-        beam: &Beam,
-        (range, cosine): (f64, f64),
-        noise: Stream,
-    ) -> Option<LidarPoint> {
+        Met { id, range, cosine }: Met,
+        extinction: f64,
+    ) -> Option<(u8, u32, Struck)> {
         let config = &self.config;
         if !(config.least_range..=config.greatest_range).contains(&range) {
             return None;
         }
         let entity = scene.entity(self.views.entity(id)?)?;
-        let extinction = match config.weather {
-            LidarWeather::Ignored => 0.0,
-            LidarWeather::Felt => echo::extinction(&scene.environment().weather),
-        };
         let intensity = echo::intensity(echo::reflectance(scene, &entity), cosine, range, extinction);
-        if config.weather == LidarWeather::Felt && !echo::is_heard(intensity, range, config.greatest_range) {
-            return None;
-        }
-        let range = if config.range_noise > 0.0 {
-            noise.rng().normal(range, config.range_noise).max(0.0)
+        let is_heard = config.weather == LidarWeather::Ignored
+            || echo::is_heard(intensity, range, config.greatest_range);
+        is_heard.then(|| (class_of(entity.kind), id, Struck { range, intensity }))
+    }
+
+    fn point(&self, beam: &Beam, class: u8, id: u32, struck: Struck, noise: Stream) -> LidarPoint {
+        let Struck { range, intensity } = struck;
+        let range = if self.config.range_noise > 0.0 {
+            noise.rng().normal(range, self.config.range_noise).max(0.0)
         } else {
             range
         };
         let place = beam.direction() * range;
-        Some(LidarPoint {
+        LidarPoint {
             position: [place.x as f32, place.y as f32, place.z as f32],
             range: range as f32,
             intensity: intensity as f32,
             azimuth: beam.azimuth as f32,
             ring: beam.ring,
-            class: class_of(entity.kind),
+            class,
             id,
-        })
+        }
     }
 }
 
