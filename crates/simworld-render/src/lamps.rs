@@ -34,6 +34,12 @@ const LEAST_LUX: f64 = 0.12;
 /// A street lamp without attributes: lumens and kelvins of LED lamps of residential streets.
 const STREET_LUMEN: f64 = 4200.0;
 const STREET_KELVIN: f64 = 3500.0;
+/// A lantern on a post of a park, lumens all round.
+const LANTERN_LUMEN: f64 = 2500.0;
+/// A floodlight on a mast: lumens, half the angle of its beam, and how far down it looks, radians.
+const FLOOD_LUMEN: f64 = 60_000.0;
+const FLOOD_HALF: f64 = 0.6;
+const FLOOD_DOWN: f64 = 0.5;
 /// Low beams of a vehicle together, candela along the axis (UN Regulation 112: 6,000 to 13,000 below the cut-off), and their
 /// colour.
 const HEADLIGHT_CANDELA: f64 = 7000.0;
@@ -148,10 +154,13 @@ fn gather(scene: &dyn Scene, middle: Point3, corner: Point3, half: f64, light: &
     let region = Aabb::around(middle, Vector3::new(half, half, 80.0));
     let mut found: Vec<(f64, u64, Lamp)> = Vec::new();
     let _ = scene.visit(&region, &mut |entity| {
-        if entity.is_visible()
-            && let Some(lamp) = lamp_of(&entity, signals, corner, light)
-        {
-            found.push(((entity.position() - middle).norm_squared(), entity.id.into(), lamp));
+        if entity.is_visible() {
+            let key = ((entity.position() - middle).norm_squared(), entity.id.into());
+            if entity.kind == EntityKind::StreetLamp {
+                found.extend(post_lamps(&entity, scene, corner, light).map(|lamp| (key.0, key.1, lamp)));
+            } else if let Some(lamp) = lamp_of(&entity, signals, corner, light) {
+                found.push((key.0, key.1, lamp));
+            }
         }
         ControlFlow::Continue(())
     });
@@ -173,22 +182,66 @@ fn candela(lumen: f64, half_angle: f64) -> f64 {
     lumen / (std::f64::consts::TAU * (1.0 - ops::cos(half_angle)))
 }
 
+/// Makes a lamp of an entity: where it is and what it aims at in the body frame, candela on its axis, its cone, and how far it
+/// reaches at most.
+fn made(
+    entity: &EntityRef<'_>,
+    corner: Point3,
+    [at, aim]: [Vector3; 2],
+    color: V<f64>,
+    cone: [f64; 2],
+    farthest: f64,
+) -> Lamp {
+    let turn = |v: Vector3| entity.pose.rotation * v;
+    let range = (color.max() / LEAST_LUX).sqrt().clamp(1.0, farthest);
+    Lamp { place: entity.position() + turn(at) - corner, color, aim: turn(aim), cone, range }
+}
+
+/// The lamps of a post, by what its asset is called: one on an arm, two, a lantern, a floodlight.
+fn post_lamps(
+    entity: &EntityRef<'_>,
+    scene: &dyn Scene,
+    corner: Point3,
+    light: &Light,
+) -> impl Iterator<Item = Lamp> + use<> {
+    /// Most of it falls within 60° of straight down, and nothing beyond 85°.
+    const DOWNWARD: [f64; 2] = [0.09, 0.75];
+    let name = crate::look::asset_name(entity, scene).unwrap_or_default();
+    let height = entity.info.shape.size().z;
+    let said = number(entity, "light_lumen").map(|lumen| lumen.clamp(0.0, 1e7));
+    let color = kelvin(number(entity, "light_kelvin").unwrap_or(STREET_KELVIN));
+    let lit = |usual: f64, share: f64, half: f64| {
+        color * (candela(said.unwrap_or(usual), half) * share * light.night)
+    };
+    let (reach, head, down) = (0.85 * f64::from(LAMP_REACH), height - 0.1, -Vector3::z());
+    let arm = |x: f64, color| made(entity, corner, [Vector3::new(x, 0.0, head), down], color, DOWNWARD, 45.0);
+    let wide = 60.0_f64.to_radians();
+    let lamps = if name.contains("double_street_lamp") {
+        // Each as bright as one alone; what is said of the whole is shared.
+        let color = lit(2.0 * STREET_LUMEN, 0.5, wide);
+        vec![arm(reach, color), arm(-reach, color)]
+    } else if name.contains("lantern") {
+        let glass = Vector3::new(0.0, 0.0, (height - 0.35).max(0.0));
+        let color = lit(LANTERN_LUMEN, 1.0, std::f64::consts::PI);
+        vec![made(entity, corner, [glass, down], color, [-3.0, -2.0], 25.0)]
+    } else if name.contains("floodlight") {
+        let (sin, cos) = ops::sin_cos(FLOOD_DOWN);
+        let edge = ops::cos(FLOOD_HALF);
+        let places = [Vector3::new(0.5, 0.0, head), Vector3::new(cos, 0.0, -sin)];
+        let color = lit(FLOOD_LUMEN, 1.0, FLOOD_HALF);
+        vec![made(entity, corner, places, color, [edge, edge + 0.3 * (1.0 - edge)], 90.0)]
+    } else {
+        vec![arm(reach, lit(STREET_LUMEN, 1.0, wide))]
+    };
+    lamps.into_iter().filter(|lamp| lamp.color.sum() > 0.0)
+}
+
 fn lamp_of(entity: &EntityRef<'_>, signals: &[Aspect], corner: Point3, light: &Light) -> Option<Lamp> {
     let size = entity.info.shape.size();
-    let turn = |v: Vector3| entity.pose.rotation * v;
     let made = |at: Vector3, aim: Vector3, color: V<f64>, cone: [f64; 2], farthest: f64| {
-        let range = (color.max() / LEAST_LUX).sqrt().clamp(1.0, farthest);
-        Lamp { place: entity.position() + turn(at) - corner, color, aim: turn(aim), cone, range }
+        made(entity, corner, [at, aim], color, cone, farthest)
     };
     let lumen = number(entity, "light_lumen").map(|lumen| lumen.clamp(0.0, 1e7));
-    if entity.kind == EntityKind::StreetLamp {
-        let lumen = lumen.unwrap_or(STREET_LUMEN) * light.night;
-        let color = kelvin(number(entity, "light_kelvin").unwrap_or(STREET_KELVIN));
-        let head = Vector3::new(0.85 * f64::from(LAMP_REACH), 0.0, size.z - 0.1);
-        // Most of it falls within 60° of straight down, and nothing beyond 85°.
-        let strength = candela(lumen, 60.0_f64.to_radians());
-        return (lumen > 0.0).then(|| made(head, -Vector3::z(), color * strength, [0.09, 0.75], 45.0));
-    }
     if let Some(lumen) = lumen {
         let color = kelvin(number(entity, "light_kelvin").unwrap_or(4000.0));
         let top = Vector3::new(0.0, 0.0, size.z);
@@ -281,6 +334,38 @@ mod tests {
     fn a_street_lamp_gives_the_light_it_is_said_to() {
         let lux = candela(4200.0, 60.0_f64.to_radians()) / (5.9 * 5.9);
         assert!((lux - 38.4).abs() < 0.5, "{lux}");
+    }
+
+    /// The light on the ground from a post of the library at the origin that looks east, lux, at a place.
+    fn lux_of(name: &str, at: [f64; 2]) -> f64 {
+        let mut world = World::new();
+        let library = simworld_core::asset::Catalogue::library();
+        let asset = library.iter().find(|(_, asset)| asset.name == name).unwrap().1.clone();
+        let id = world.add_asset(asset.clone()).unwrap();
+        let post = world.spawn(asset.at(id, pose_facing(Point3::origin(), 0.0))).unwrap();
+        let light = night();
+        let lamps = post_lamps(&world.entity(post).unwrap(), &world, Point3::origin(), &light);
+        let lux = |lamp: Lamp| {
+            let way = Vector3::new(at[0], at[1], 0.0) - lamp.place;
+            let cosine = way.normalize().dot(&lamp.aim.normalize());
+            let share = ((cosine - lamp.cone[0]) / (lamp.cone[1] - lamp.cone[0])).clamp(0.0, 1.0);
+            lamp.color.max() * share * -way.z / (way.norm_squared() * way.norm())
+        };
+        lamps.map(lux).sum()
+    }
+
+    #[test]
+    fn posts_cast_the_light_of_what_they_are() {
+        let (ahead, behind) = ([6.0, 0.0], [-6.0, 0.0]);
+        let double = [ahead, behind].map(|at| lux_of("double_street_lamp", at));
+        assert!((double[0] - double[1]).abs() < 1e-9 && double[0] > 1.0, "an arm to each side: {double:?}");
+        let lantern = [[3.0, 0.0], [-3.0, 0.0], [0.0, 3.0]].map(|at| lux_of("park_lantern", at));
+        assert!(
+            lantern.iter().all(|lux| (lux - lantern[0]).abs() < 1e-9 && *lux > 1.0),
+            "all round: {lantern:?}"
+        );
+        let flood = [[20.0, 0.0], [-20.0, 0.0]].map(|at| lux_of("floodlight", at));
+        assert!(flood[0] > 20.0 && flood[1] == 0.0, "ahead alone, and far: {flood:?}");
     }
 
     #[test]

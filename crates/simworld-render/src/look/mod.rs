@@ -214,7 +214,7 @@ fn primitive(shape: &Shape) -> MeshId {
 }
 
 /// What the asset of an entity is called, if it has one.
-fn asset_name<'a>(entity: &EntityRef<'_>, scene: &'a dyn Scene) -> Option<&'a str> {
+pub(crate) fn asset_name<'a>(entity: &EntityRef<'_>, scene: &'a dyn Scene) -> Option<&'a str> {
     Some(&scene.assets()?.get(entity.info.asset?)?.name)
 }
 
