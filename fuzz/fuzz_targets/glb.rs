@@ -3,10 +3,13 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use simworld_agents::assets::{GlbLimits, ImportConfig, Thing, import_glb, read_glb};
+use simworld_agents::assets::{GlbLimits, ImportConfig, Moment, Thing, import_glb, read_glb, read_glb_at};
 
 fuzz_target!(|data: &[u8]| {
     let limits = GlbLimits { triangles: 400, vertices: 1200, nodes: 100, pixels: 1 << 12, ..GlbLimits::default() };
+    if let Ok(posed) = read_glb_at(data, &limits, Some(Moment { animation: 0, seconds: 1.0 })) {
+        assert!(posed.points.iter().all(|point| point.iter().all(|number| number.is_finite())));
+    }
     let Ok(surface) = read_glb(data, &limits) else { return };
     assert!(!surface.triangles.is_empty() && surface.triangles.len() <= 400);
     assert!(surface.points.iter().all(|point| point.iter().all(|number| number.is_finite())));

@@ -9,7 +9,9 @@ use std::path::{Component, Path};
 use std::time::{Duration, Instant};
 
 use crate::assets_common::{container, plain_model};
-use simworld_agents::assets::{GlbLimits, ImportConfig, Thing, export_glb, import_glb, read_glb};
+use simworld_agents::assets::{
+    GlbLimits, ImportConfig, Moment, Thing, export_glb, import_glb, read_glb, read_glb_at,
+};
 use simworld_agents::library::Manifest;
 
 /// Runs of each body if no time is named.
@@ -122,9 +124,17 @@ fn models_of_strangers_are_surfaces_or_refused() {
     .collect();
     let mut seeds: Vec<Vec<u8>> = plain.iter().map(|(document, bytes)| container(document, bytes)).collect();
     seeds.push(export_glb(&crate::assets_common::table()));
+    seeds.extend(["LINEAR", "CUBICSPLINE"].map(|curve| {
+        let (document, bytes) = crate::assets_common::bending_bar(curve);
+        container(&document, &bytes)
+    }));
     run("glb", &seeds, |data| {
         let limits =
             GlbLimits { triangles: 400, vertices: 1200, nodes: 100, pixels: 1 << 12, ..GlbLimits::default() };
+        let moment = Some(Moment { animation: 0, seconds: 2.0 });
+        if let Ok(posed) = read_glb_at(data, &limits, moment) {
+            assert!(posed.points.iter().all(|point| point.iter().all(|number| number.is_finite())));
+        }
         let Ok(surface) = read_glb(data, &limits) else { return false };
         assert!(!surface.triangles.is_empty() && surface.triangles.len() <= 400);
         assert!(surface.points.iter().all(|point| point.iter().all(|number| number.is_finite())));

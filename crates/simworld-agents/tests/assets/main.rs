@@ -9,4 +9,5 @@ mod generators_survive_servers;
 mod hostile_models_are_refused;
 mod loaders_survive_mutations;
 mod models_are_imported;
+mod models_are_posed;
 mod things_are_made_from_words;

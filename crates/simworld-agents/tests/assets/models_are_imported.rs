@@ -145,7 +145,7 @@ fn edges_are_sharp_and_bends_are_smooth_where_no_normals_are_given() {
 }
 
 /// A slab whose left half looks at the left half of a picture, as one mesh of two boxes that share no vertex.
-fn painted(picture: &[u8]) -> Vec<u8> {
+fn painted_document(picture: &[u8]) -> (Value, Vec<u8>) {
     let slab =
         together(&[cuboid([0.0, 0.0, 0.0], [0.5, 0.6, 0.5]), cuboid([0.0, 0.7, 0.0], [0.5, 1.3, 0.5])]);
     let (mut document, mut bytes) = plain_model(&slab);
@@ -172,15 +172,48 @@ fn painted(picture: &[u8]) -> Vec<u8> {
         "baseColorFactor": [0.5, 1.0, 1.0, 1.0], "baseColorTexture": {"index": 0}}}]);
     document["textures"] = json!([{"source": 0}]);
     document["images"] = json!([{"bufferView": 3, "mimeType": "image/png"}]);
+    (document, bytes)
+}
+
+/// The same as a file.
+fn painted(picture: &[u8]) -> Vec<u8> {
+    let (document, bytes) = painted_document(picture);
     container(&document, &bytes)
 }
 
-#[test]
-fn textures_become_colours_of_vertices() {
+/// Red on the left, and sRGB 188 of blue on the right.
+fn halves() -> Vec<u8> {
     let mut png = Vec::new();
     let mut encoder = png::Encoder::new(&mut png, 2, 1);
     encoder.set_color(png::ColorType::Rgb);
     encoder.write_header().unwrap().write_image_data(&[255, 0, 0, 0, 0, 188]).unwrap();
+    png
+}
+
+#[test]
+fn textures_lie_where_the_file_shifts_and_turns_them() {
+    let colors = |transform: Value| {
+        let (mut document, bytes) = painted_document(&halves());
+        document["extensionsRequired"] = json!(["KHR_texture_transform"]);
+        let texture = &mut document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+        texture["extensions"] = json!({"KHR_texture_transform": transform});
+        let surface = read_glb(&container(&document, &bytes), &GlbLimits::default()).unwrap();
+        [surface.colors[0], surface.colors[8]].map(|[red, _, blue]| (red > 0.4, blue > 0.4))
+    };
+    let (red, blue) = ((true, false), (false, true));
+    // The coordinates are (0.25, 0.5) and (0.75, 0.5).
+    assert_eq!(colors(json!({})), [red, blue]);
+    assert_eq!(colors(json!({"offset": [0.5, 0.0]})), [blue, red], "it repeats");
+    assert_eq!(colors(json!({"scale": [0.2, 1.0]})), [red, red]);
+    // Half a turn: -0.25 and -0.75 are 0.75 and 0.25.
+    assert_eq!(colors(json!({"rotation": std::f64::consts::PI})), [blue, red]);
+    // A quarter: u becomes v, 0.5, and shifted by 0.25 that is on the right for both.
+    assert_eq!(colors(json!({"rotation": std::f64::consts::FRAC_PI_2, "offset": [0.25, 0.0]})), [blue, blue]);
+}
+
+#[test]
+fn textures_become_colours_of_vertices() {
+    let png = halves();
     // Left half red, right half (0, 0, 188), 16 by 8.
     let jpeg = include_bytes!("assets_common/halves.jpg");
     for (picture, tolerance) in [(png.as_slice(), 1e-3), (jpeg.as_slice(), 0.03)] {

@@ -15,6 +15,7 @@ pub(super) struct Column<'a> {
     bytes: &'a [u8],
     stride: usize,
     number: Number,
+    normalized: Normalized,
     wide: usize,
     pub(super) count: usize,
 }
@@ -23,7 +24,9 @@ pub(super) struct Column<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
     F32,
+    I8,
     U8,
+    I16,
     U16,
     U32,
 }
@@ -31,14 +34,19 @@ pub(super) enum Number {
 impl Number {
     const fn size(self) -> usize {
         match self {
-            Self::U8 => 1,
-            Self::U16 => 2,
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
             Self::F32 | Self::U32 => 4,
         }
     }
 }
 
 impl<'a> Data<'a> {
+    /// Whether positions, normals and coordinates of textures may be whole numbers.
+    pub(super) fn is_quantized(&self) -> bool {
+        self.document.extensions_required.iter().any(|name| name == "KHR_mesh_quantization")
+    }
+
     /// The bytes of a view.
     pub(super) fn view(&self, index: usize) -> Result<&'a [u8], GlbError> {
         let view = get("buffer view", &self.document.buffer_views, index)?;
@@ -69,6 +77,8 @@ impl<'a> Data<'a> {
         let view_index = accessor.buffer_view.ok_or_else(|| refused("it has no buffer view"))?;
         let number = match accessor.component_type {
             5126 => Number::F32,
+            5120 => Number::I8,
+            5122 => Number::I16,
             5121 => Number::U8,
             5123 => Number::U16,
             5125 => Number::U32,
@@ -96,6 +106,7 @@ impl<'a> Data<'a> {
             bytes: &view[accessor.byte_offset as usize..end as usize],
             stride: stride as usize,
             number,
+            normalized,
             wide: *wide,
             count: accessor.count as usize,
         })
@@ -110,15 +121,19 @@ pub(super) enum Normalized {
 }
 
 impl Column<'_> {
-    /// A number of a row; whole numbers but indices stand for [0, 1].
+    /// A number of a row; normalized ones stand for [0, 1], or for [-1, 1] where they have a sign.
     pub(super) fn real(&self, row: usize, which: usize) -> f64 {
         let at = self.at(row, which);
-        match self.number {
-            Number::F32 => f64::from(f32::from_le_bytes(self.array(at))),
-            Number::U8 => f64::from(self.bytes[at]) / 255.0,
-            Number::U16 => f64::from(u16::from_le_bytes(self.array(at))) / 65_535.0,
-            Number::U32 => f64::from(u32::from_le_bytes(self.array(at))),
-        }
+        let (number, most) = match self.number {
+            Number::F32 => return f64::from(f32::from_le_bytes(self.array(at))),
+            Number::I8 => (f64::from(i8::from_le_bytes(self.array(at))), 127.0),
+            Number::U8 => (f64::from(self.bytes[at]), 255.0),
+            Number::I16 => (f64::from(i16::from_le_bytes(self.array(at))), 32_767.0),
+            Number::U16 => (f64::from(u16::from_le_bytes(self.array(at))), 65_535.0),
+            Number::U32 => (f64::from(u32::from_le_bytes(self.array(at))), f64::from(u32::MAX)),
+        };
+        // The least of a sign has no counterpart: it is -1 too.
+        if self.normalized == Normalized::Yes { (number / most).max(-1.0) } else { number }
     }
 
     /// The first numbers of a row.
@@ -128,10 +143,15 @@ impl Column<'_> {
 
     /// An index.
     pub(super) fn index(&self, row: usize) -> u32 {
-        let at = self.at(row, 0);
+        self.whole(row, 0)
+    }
+
+    /// A whole number of a row.
+    pub(super) fn whole(&self, row: usize, which: usize) -> u32 {
+        let at = self.at(row, which);
         match self.number {
-            Number::U8 => u32::from(self.bytes[at]),
-            Number::U16 => u32::from(u16::from_le_bytes(self.array(at))),
+            Number::U8 | Number::I8 => u32::from(self.bytes[at]),
+            Number::U16 | Number::I16 => u32::from(u16::from_le_bytes(self.array(at))),
             Number::U32 | Number::F32 => u32::from_le_bytes(self.array(at)),
         }
     }

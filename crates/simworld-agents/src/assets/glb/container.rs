@@ -8,6 +8,9 @@ const MAGIC: u32 = 0x4654_6C67;
 const JSON: u32 = 0x4E4F_534A;
 const BIN: u32 = 0x004E_4942;
 
+/// Extensions that a file may require. Whoever looks at a model lights it, so that what is to be unlit is only not shiny.
+const SERVED: [&str; 3] = ["KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit"];
+
 /// The document and the bytes that it refers to.
 pub(super) fn open<'a>(bytes: &'a [u8], limits: &GlbLimits) -> Result<(Document, &'a [u8]), GlbError> {
     let too_many = |what, got: usize, most: u64| {
@@ -52,13 +55,9 @@ fn check(document: &Document, limits: &GlbLimits) -> Result<(), GlbError> {
         let shown: String = document.asset.version.chars().take(20).collect();
         return Err(GlbError::Json(format!("it is glTF {shown}, not 2.0")));
     }
-    if let Some(name) = document.extensions_required.first() {
-        let name: String = name.chars().take(60).collect();
-        return Err(GlbError::Unsupported {
-            what: "extension",
-            index: 0,
-            reason: format!("the file requires {name}: export it without compression and extensions"),
-        });
+    let is_served = |name: &&String| SERVED.contains(&name.as_str());
+    if let Some(name) = document.extensions_required.iter().find(|name| !is_served(name)) {
+        return Err(GlbError::Extension { name: name.chars().take(60).collect() });
     }
     for (index, buffer) in document.buffers.iter().enumerate() {
         if let Some(uri) = &buffer.uri {

@@ -34,6 +34,48 @@ pub(super) struct Document {
     pub(super) buffer_views: Vec<View>,
     #[serde(default)]
     pub(super) buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub(super) skins: Vec<Skin>,
+    #[serde(default)]
+    pub(super) animations: Vec<Animation>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Skin {
+    pub(super) inverse_bind_matrices: Option<usize>,
+    pub(super) joints: Vec<usize>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Animation {
+    pub(super) channels: Vec<Channel>,
+    pub(super) samplers: Vec<Curve>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Channel {
+    pub(super) sampler: usize,
+    pub(super) target: Target,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Target {
+    pub(super) node: Option<usize>,
+    pub(super) path: String,
+}
+
+/// A sampler of an animation: times and what is there at each.
+#[derive(Debug, Deserialize)]
+pub(super) struct Curve {
+    pub(super) input: usize,
+    pub(super) output: usize,
+    #[serde(default = "linear")]
+    pub(super) interpolation: String,
+}
+
+fn linear() -> String {
+    "LINEAR".to_owned()
 }
 
 #[derive(Debug, Deserialize)]
@@ -74,6 +116,8 @@ pub(super) struct Primitive {
     pub(super) material: Option<usize>,
     #[serde(default = "triangles")]
     pub(super) mode: u32,
+    #[serde(default)]
+    pub(super) targets: Vec<serde::de::IgnoredAny>,
 }
 
 /// The mode of separate triangles.
@@ -103,6 +147,32 @@ pub(super) struct TextureInfo {
     pub(super) index: usize,
     #[serde(default)]
     pub(super) tex_coord: u32,
+    #[serde(default)]
+    pub(super) extensions: TextureExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct TextureExtensions {
+    #[serde(rename = "KHR_texture_transform")]
+    pub(super) transform: Option<TextureTransform>,
+}
+
+/// Where a texture lies on a surface: coordinates are scaled, turned and shifted, in this order.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct TextureTransform {
+    pub(super) offset: [f64; 2],
+    /// Radians, counter-clockwise.
+    pub(super) rotation: f64,
+    pub(super) scale: [f64; 2],
+    /// Goes before that of the texture.
+    pub(super) tex_coord: Option<u32>,
+}
+
+impl Default for TextureTransform {
+    fn default() -> Self {
+        Self { offset: [0.0; 2], rotation: 0.0, scale: [1.0; 2], tex_coord: None }
+    }
 }
 
 #[derive(Debug, Deserialize)]

@@ -82,6 +82,12 @@ pub enum GlbError {
         /// Why, and how to mend it.
         reason: String,
     },
+    /// It cannot be read without an extension of glTF that is not served.
+    #[error("it requires the extension {name}: export it without compression and extensions")]
+    Extension {
+        /// Its name.
+        name: String,
+    },
     /// A picture in it cannot be decoded.
     #[error("image {index} cannot be decoded: {reason}")]
     Picture {

@@ -2,9 +2,11 @@
 //!
 //! Files come from strangers. Everything must stand in the one file: no address is followed, and no other file is opened.
 //! Lengths, counts, indices and depths are checked before memory is taken for them. What is read: the triangles of one scene,
-//! where its nodes put them, with normals, and colours from materials, PNG or JPEG textures and vertices. Skins, sparse accessors,
-//! compressed meshes and everything but separate triangles are refused; cameras, lights, animations, morphs, transparency
-//! and all of a material but its base colour are passed over.
+//! where its nodes put them, or its skins' joints, at rest or at a moment of an animation; with normals, and colours from
+//! materials, PNG or JPEG textures and vertices; and the extensions `KHR_texture_transform`, `KHR_mesh_quantization` and
+//! `KHR_materials_unlit`. Sparse accessors, morph targets, compressed meshes, other extensions that a file requires, and
+//! everything but separate triangles are refused; cameras, lights, transparency and all of a material but its base colour are
+//! passed over.
 
 mod accessor;
 mod container;
@@ -13,11 +15,13 @@ mod error;
 mod limits;
 mod paint;
 mod picture;
+mod pose;
 mod scene;
 mod write;
 
 pub use error::GlbError;
 pub use limits::GlbLimits;
+pub use pose::Moment;
 pub use write::export_glb;
 
 use super::surface::Surface;
@@ -28,6 +32,14 @@ use super::surface::Surface;
 /// The bytes are no such file, hold more than the limits allow, refer to what is not there or stands elsewhere, or use what is
 /// not read; see [`GlbError`].
 pub fn read_glb(bytes: &[u8], limits: &GlbLimits) -> Result<Surface, GlbError> {
+    read_glb_at(bytes, limits, None)
+}
+
+/// As [`read_glb`], at a moment of one of the file's animations; at rest without one.
+///
+/// # Errors
+/// As there; also an animation that is not there, or is damaged.
+pub fn read_glb_at(bytes: &[u8], limits: &GlbLimits, moment: Option<Moment>) -> Result<Surface, GlbError> {
     let (document, bytes) = container::open(bytes, limits)?;
-    scene::surface(accessor::Data { document: &document, bytes }, limits)
+    scene::surface(accessor::Data { document: &document, bytes }, limits, moment)
 }

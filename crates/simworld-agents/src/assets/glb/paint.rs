@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use simworld_core::ops;
 
 use super::accessor::{Column, Data, Normalized, Number, get};
-use super::document::{Material, Primitive, Sampler, TextureInfo};
+use super::document::{Material, Primitive, Sampler, TextureInfo, TextureTransform};
 use super::error::GlbError;
 use super::picture::{Picture, Undecoded};
 
@@ -91,7 +91,8 @@ impl<'a> Painter<'a> {
         colors: &mut [[f32; 3]],
     ) -> Result<(), GlbError> {
         const INWARD: f64 = 0.2;
-        let name = format!("TEXCOORD_{}", info.tex_coord);
+        let transform = info.extensions.transform.unwrap_or_default();
+        let name = format!("TEXCOORD_{}", transform.tex_coord.unwrap_or(info.tex_coord));
         let Some(index) = primitive.attributes.get(&name) else {
             return Err(GlbError::Unsupported {
                 what: "texture",
@@ -99,7 +100,9 @@ impl<'a> Painter<'a> {
                 reason: format!("its vertices have no {name}: export the file with texture coordinates"),
             });
         };
-        let places = self.data.column(*index, &[("VEC2", 2)], is_share)?;
+        let places = self.data.column(*index, &[("VEC2", 2)], |number, normalized| {
+            is_share(number, normalized) || (number != Number::U32 && self.data.is_quantized())
+        })?;
         same_length(*index, places.count, colors.len())?;
         let texture = get("texture", &self.data.document.textures, info.index)?;
         let sampler = match texture.sampler {
@@ -115,7 +118,7 @@ impl<'a> Painter<'a> {
         let (picture, linear) = (&self.pictures[&image], &self.linear);
         let mut sums = vec![([0.0f32; 3], 0u32); colors.len()];
         for triangle in triangles {
-            let corners = triangle.map(|vertex| places.reals::<2>(vertex as usize));
+            let corners = triangle.map(|vertex| transform.of(places.reals::<2>(vertex as usize)));
             let middle: [f64; 2] =
                 std::array::from_fn(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
             for (vertex, corner) in triangle.iter().zip(corners) {
@@ -153,13 +156,18 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Real numbers, or whole ones that stand for [0, 1].
-fn is_share(number: Number, normalized: Normalized) -> bool {
-    match number {
-        Number::F32 => true,
-        Number::U8 | Number::U16 => normalized == Normalized::Yes,
-        Number::U32 => false,
+impl TextureTransform {
+    /// Where a texture is looked up: scaled, then turned, then shifted (`KHR_texture_transform`).
+    fn of(self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = ops::sin_cos(self.rotation);
+        let [u, v] = [u * self.scale[0], v * self.scale[1]];
+        [cos * u + sin * v + self.offset[0], cos * v - sin * u + self.offset[1]]
     }
+}
+
+/// Real numbers, or whole ones that stand for shares.
+pub(super) fn is_share(number: Number, normalized: Normalized) -> bool {
+    number == Number::F32 || (number != Number::U32 && normalized == Normalized::Yes)
 }
 
 /// Columns of one primitive have a row for each vertex.

@@ -1,6 +1,6 @@
 //! The tree of a scene: every mesh where its nodes put it, as one surface.
 
-use nalgebra::{Matrix3, Matrix4, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, Matrix4};
 use simworld_core::asset::{ModelPart, Paint};
 use simworld_core::geometry::{Point3, Vector3};
 
@@ -8,7 +8,8 @@ use super::accessor::{Data, Number, get, unsupported};
 use super::document::{Node, Primitive, TRIANGLES};
 use super::error::GlbError;
 use super::limits::GlbLimits;
-use super::paint::{Painter, Says, same_length};
+use super::paint::{Painter, Says, is_share, same_length};
+use super::pose::{Bearing, Moment, joints, moved, places};
 use crate::assets::surface::Surface;
 
 /// The farthest that a point may be from the origin, in units of the file.
@@ -17,52 +18,32 @@ const FARTHEST: f64 = 1e9;
 /// The longest name of a part that is kept, characters.
 const LONGEST_NAME: usize = 64;
 
-/// Everything that the scene of a file shows.
-pub(super) fn surface(data: Data<'_>, limits: &GlbLimits) -> Result<Surface, GlbError> {
+/// Everything that the scene of a file shows, at rest or at a moment of an animation.
+pub(super) fn surface(
+    data: Data<'_>,
+    limits: &GlbLimits,
+    moment: Option<Moment>,
+) -> Result<Surface, GlbError> {
     let document = data.document;
     let scene = get("scene", &document.scenes, document.scene.unwrap_or(0))?;
+    let places = places(data, limits, moment)?;
     let mut gatherer =
         Gatherer { data, limits, painter: Painter::new(data, limits.pixels), surface: Surface::default() };
     let mut seen = vec![false; document.nodes.len()];
-    let mut open: Vec<(usize, Matrix4<f64>, usize)> =
-        scene.nodes.iter().rev().map(|node| (*node, Matrix4::identity(), 1)).collect();
-    while let Some((index, above, depth)) = open.pop() {
+    let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
+    while let Some(index) = open.pop() {
         let node = get("node", &document.nodes, index)?;
-        let wrong = |how| GlbError::Tree { node: index, how, deepest: limits.depth };
         if std::mem::replace(&mut seen[index], true) {
-            return Err(wrong("hangs in two places, or below itself"));
+            let how = "hangs in two places, or below itself";
+            return Err(GlbError::Tree { node: index, how, deepest: limits.depth });
         }
-        if depth > limits.depth {
-            return Err(wrong("lies too deep"));
-        }
-        let here = above * local(node, index)?;
         if let Some(mesh) = node.mesh {
-            if node.skin.is_some() {
-                return Err(unsupported("node", index, "its mesh has a skin: export the file without bones"));
-            }
-            gatherer.mesh(mesh, node, &here)?;
+            let joints = node.skin.map(|skin| joints(data, skin, &places)).transpose()?;
+            gatherer.mesh(mesh, node, &places[index], joints.as_deref())?;
         }
-        open.extend(node.children.iter().rev().map(|child| (*child, here, depth + 1)));
+        open.extend(node.children.iter().rev());
     }
     if gatherer.surface.triangles.is_empty() { Err(GlbError::Empty) } else { Ok(gatherer.surface) }
-}
-
-fn local(node: &Node, index: usize) -> Result<Matrix4<f64>, GlbError> {
-    let matrix = if let Some(columns) = node.matrix {
-        Matrix4::from_column_slice(&columns)
-    } else {
-        let [x, y, z, w] = node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]);
-        let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
-            .ok_or(GlbError::Number { what: "node", index })?;
-        let shift = Translation3::from(node.translation.unwrap_or_default());
-        let scale = Vector3::from(node.scale.unwrap_or([1.0; 3]));
-        shift.to_homogeneous() * turn.to_homogeneous() * Matrix4::new_nonuniform_scaling(&scale)
-    };
-    if matrix.iter().all(|number| number.is_finite()) {
-        Ok(matrix)
-    } else {
-        Err(GlbError::Number { what: "node", index })
-    }
 }
 
 struct Gatherer<'a> {
@@ -73,7 +54,13 @@ struct Gatherer<'a> {
 }
 
 impl Gatherer<'_> {
-    fn mesh(&mut self, index: usize, node: &Node, here: &Matrix4<f64>) -> Result<(), GlbError> {
+    fn mesh(
+        &mut self,
+        index: usize,
+        node: &Node,
+        here: &Matrix4<f64>,
+        joints: Option<&[Matrix4<f64>]>,
+    ) -> Result<(), GlbError> {
         let mesh = get("mesh", &self.data.document.meshes, index)?;
         for primitive in &mesh.primitives {
             if primitive.mode != TRIANGLES {
@@ -83,10 +70,17 @@ impl Gatherer<'_> {
                     "it has points, lines, strips or fans: export triangles",
                 ));
             }
+            if !primitive.targets.is_empty() {
+                return Err(unsupported(
+                    "mesh",
+                    index,
+                    "it has morph targets: export the file without shape keys",
+                ));
+            }
             let material =
                 primitive.material.and_then(|index| self.data.document.materials.get(index)?.name.as_ref());
             let name = node.name.as_ref().or(mesh.name.as_ref()).or(material);
-            self.primitive(index, primitive, name.map_or("", String::as_str), here)?;
+            self.primitive(index, primitive, name.map_or("", String::as_str), here, joints)?;
         }
         Ok(())
     }
@@ -97,19 +91,23 @@ impl Gatherer<'_> {
         primitive: &Primitive,
         name: &str,
         here: &Matrix4<f64>,
+        joints: Option<&[Matrix4<f64>]>,
     ) -> Result<(), GlbError> {
         let column = |name: &str| primitive.attributes.get(name).copied();
         let Some(index) = column("POSITION") else {
             return Err(unsupported("mesh", mesh, "it has no positions: export the file again"));
         };
-        let positions = self.data.column(index, &[("VEC3", 3)], |number, _| number == Number::F32)?;
+        let positions = self.data.column(index, &[("VEC3", 3)], |number, _| {
+            number == Number::F32 || (number != Number::U32 && self.data.is_quantized())
+        })?;
         afford("vertices", self.surface.points.len(), positions.count, self.limits.vertices)?;
         let triangles = self.triangles(mesh, primitive, positions.count)?;
 
-        let map = Map::new(here);
+        let maps = self.maps(primitive, positions.count, here, joints)?;
+        let map = |row: usize| maps.get(row).unwrap_or(&maps[0]);
         let first = self.surface.points.len() as u32;
         for row in 0..positions.count {
-            let point = map.point(positions.reals(row));
+            let point = map(row).point(positions.reals(row));
             if !point.iter().all(|number| number.is_finite() && number.abs() <= FARTHEST) {
                 return Err(GlbError::Number { what: "accessor", index });
             }
@@ -117,9 +115,12 @@ impl Gatherer<'_> {
         }
         match column("NORMAL") {
             Some(index) => {
-                let normals = self.data.column(index, &[("VEC3", 3)], |number, _| number == Number::F32)?;
+                let normals = self.data.column(index, &[("VEC3", 3)], |number, normalized| {
+                    number == Number::F32 || (self.data.is_quantized() && is_share(number, normalized))
+                })?;
                 same_length(index, normals.count, positions.count)?;
-                self.surface.normals.extend((0..normals.count).map(|row| map.normal(normals.reals(row))));
+                let normals = (0..normals.count).map(|row| map(row).normal(normals.reals(row)));
+                self.surface.normals.extend(normals);
             }
             None => self.surface.normals.resize(self.surface.points.len(), Vector3::zeros()),
         }
@@ -130,9 +131,24 @@ impl Gatherer<'_> {
         self.surface.parts.push(ModelPart { name, triangles: triangles.len() as u32, paint });
         self.surface.triangles.extend(triangles.iter().map(|[a, b, c]| {
             let [a, b, c] = [first + a, first + b, first + c];
-            if map.mirrors { [a, c, b] } else { [a, b, c] }
+            if map((a - first) as usize).mirrors { [a, c, b] } else { [a, b, c] }
         }));
         Ok(())
+    }
+
+    /// From the mesh to the body for each vertex of a primitive that joints bear; for all of them alike without joints.
+    fn maps(
+        &self,
+        primitive: &Primitive,
+        vertices: usize,
+        here: &Matrix4<f64>,
+        joints: Option<&[Matrix4<f64>]>,
+    ) -> Result<Vec<Map>, GlbError> {
+        let Some(joints) = joints else { return Ok(vec![Map::new(here)]) };
+        let bearing = Bearing::new(self.data, &primitive.attributes, vertices, joints)?;
+        // What no joint bears stays with its node.
+        let map = |row| Ok(Map::new(&bearing.of(row)?.unwrap_or(*here)));
+        (0..vertices).map(map).collect()
     }
 
     fn triangles(
@@ -189,8 +205,7 @@ impl Map {
     }
 
     fn point(&self, point: [f64; 3]) -> Point3 {
-        let [x, y, z] = point;
-        let point = self.matrix * nalgebra::Vector4::new(x, y, z, 1.0);
+        let point = moved(&self.matrix, point);
         Point3::new(point.z, point.x, point.y)
     }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::error::ImportError;
-use crate::assets::glb::GlbLimits;
+use crate::assets::glb::{GlbLimits, Moment};
 
 /// How files become assets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,6 +11,8 @@ use crate::assets::glb::GlbLimits;
 pub struct ImportConfig {
     /// How much a file may hold.
     pub limits: GlbLimits,
+    /// The moment of an animation in which it is taken; at rest without one.
+    pub moment: Option<Moment>,
     /// What its numbers are.
     pub unit: Unit,
     /// Which way it looks.
@@ -32,6 +34,7 @@ impl Default for ImportConfig {
     fn default() -> Self {
         Self {
             limits: GlbLimits::default(),
+            moment: None,
             unit: Unit::Guess,
             facing: Facing::AsGiven,
             hulls: 32,

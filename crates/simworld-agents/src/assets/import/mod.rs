@@ -21,7 +21,7 @@ use simworld_core::scene::{EntityKind, Shape};
 
 use self::decompose::{Fineness, Solid, decompose};
 use self::measure::{Bulk, enclosed};
-use super::glb::read_glb;
+use super::glb::read_glb_at;
 use super::prior::SizePrior;
 use super::surface::Surface;
 use crate::generation::SizeHint;
@@ -101,7 +101,7 @@ pub struct ImportReport {
 /// things have, or one without volume; see [`ImportError`].
 pub fn import_glb(bytes: &[u8], thing: &Thing, config: &ImportConfig) -> Result<Imported, ImportError> {
     let config = config.checked()?;
-    let mut surface = read_glb(bytes, &config.limits)?;
+    let mut surface = read_glb_at(bytes, &config.limits, config.moment)?;
     let mut repair = mend(&mut surface, &config)?;
     let class = SizePrior::of(&thing.words);
     let (scale, quarter_turned) = place(&mut surface, thing, class.as_ref(), &config)?;

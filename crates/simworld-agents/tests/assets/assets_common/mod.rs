@@ -139,3 +139,56 @@ pub fn thing(words: &str) -> Thing {
 pub fn import(bytes: &[u8], words: &str) -> Result<Imported, ImportError> {
     import_glb(bytes, &thing(words), &ImportConfig::default())
 }
+
+/// The JSON and the bytes of a bar of two bones that bends: 0.4 by 0.4 and 2 m high in the axes of glTF (y up), its foot on one
+/// joint, its head on another at 1 m, which an animation turns by a quarter about z from second 1 to second 3.
+pub fn bending_bar(interpolation: &str) -> (Value, Vec<u8>) {
+    let mut bar = plain_model(&cuboid([-0.2, -0.2, 0.0], [0.2, 0.2, 2.0]));
+    let heads: Vec<u8> = cuboid([-0.2, -0.2, 0.0], [0.2, 0.2, 2.0])
+        .vertices
+        .iter()
+        .map(|vertex| u8::from(vertex.position[2] > 1.0))
+        .collect();
+    let floats = |numbers: &[f32]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let unit =
+        |shift: f32| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, shift, 0.0, 1.0];
+    let (rest, turned) = ([0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.5f32.sqrt(), 0.5f32.sqrt()]);
+    let flat = [0.0; 4];
+    let keys: Vec<[f32; 4]> = match interpolation {
+        "CUBICSPLINE" => vec![flat, rest, flat, flat, turned, flat],
+        _ => vec![rest, turned],
+    };
+    let columns: [(Vec<u8>, u32, usize, &str); 5] = [
+        (heads.iter().flat_map(|joint| [*joint, 0, 0, 0]).collect(), 5121, 8, "VEC4"),
+        (floats(&[1.0, 0.0, 0.0, 0.0].repeat(8)), 5126, 8, "VEC4"),
+        (floats(&[unit(0.0), unit(-1.0)].concat()), 5126, 2, "MAT4"),
+        (floats(&[1.0, 3.0]), 5126, 2, "SCALAR"),
+        (floats(keys.as_flattened()), 5126, keys.len(), "VEC4"),
+    ];
+    for (column, (more, kind, count, shape)) in columns.into_iter().enumerate() {
+        let (document, bytes) = (&mut bar.0, &mut bar.1);
+        let view = json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": more.len()});
+        document["bufferViews"].as_array_mut().unwrap().push(view);
+        let accessor =
+            json!({"bufferView": column + 2, "componentType": kind, "count": count, "type": shape});
+        document["accessors"].as_array_mut().unwrap().push(accessor);
+        bytes.extend(more);
+        document["buffers"][0]["byteLength"] = json!(bytes.len());
+    }
+    let document = &mut bar.0;
+    document["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = json!(2);
+    document["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = json!(3);
+    // Where the node of a skin stands is nothing to it.
+    document["nodes"] = json!([
+        {"mesh": 0, "skin": 0, "translation": [50.0, 0.0, 0.0]},
+        {"children": [2]},
+        {"translation": [0.0, 1.0, 0.0]},
+    ]);
+    document["scenes"] = json!([{"nodes": [0, 1]}]);
+    document["skins"] = json!([{"joints": [1, 2], "inverseBindMatrices": 4}]);
+    document["animations"] = json!([{
+        "channels": [{"sampler": 0, "target": {"node": 2, "path": "rotation"}}],
+        "samplers": [{"input": 5, "output": 6, "interpolation": interpolation}],
+    }]);
+    bar
+}
