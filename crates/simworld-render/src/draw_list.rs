@@ -5,8 +5,11 @@ use std::ops::Range;
 use simworld_core::geometry::Vector3;
 use simworld_core::id::EntityId;
 
+use crate::batch::Projection;
+use crate::gpu::Casters;
 use crate::look::Detail;
-use crate::mesh::Drawn;
+use crate::mesh::{Drawn, Extent};
+use crate::occlusion::Occlusion;
 use crate::resident::{Ball, Residents};
 use crate::shadow::ShadowView;
 use crate::view::View;
@@ -25,7 +28,23 @@ type Entry = (Drawn, u32, u32, u32, u32);
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ViewBatches {
     pub visible: Vec<Batch>,
-    pub casters: Vec<Batch>,
+    /// What throws shadows; none where there are none, or the map is known to be right.
+    pub shadows: Option<ShadowList>,
+}
+
+impl ViewBatches {
+    /// Those of the picture and of its shadow map.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &[Batch]> {
+        let shadows = self.shadows.iter().flat_map(|shadows| shadows.batches.iter().map(Vec::as_slice));
+        std::iter::once(&self.visible[..]).chain(shadows)
+    }
+}
+
+/// What throws shadows into a map: what stands still, then what moves.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ShadowList {
+    pub batches: [Vec<Batch>; 2],
+    pub casters: [Casters; 2],
 }
 
 /// The numbers of instances in the order in which they are drawn, view by view.
@@ -35,15 +54,28 @@ pub(crate) struct DrawList {
     pub views: Vec<ViewBatches>,
     seen: Vec<Entry>,
     shading: Vec<Entry>,
+    occlusion: Occlusion,
+    /// Blocks that may hide something, with their rank, slot and number.
+    blocks: Vec<(u32, u32, u32)>,
+    extents: Vec<Extent>,
 }
 
+/// As many blocks, the nearest of them, hide what is behind them.
+const MOST_BLOCKS: usize = 192;
+/// Blocks of fewer pixels across hide nothing.
+const LEAST_BLOCK: f64 = 24.0;
+
 impl DrawList {
+    pub(crate) fn new(extents: &[Extent]) -> Self {
+        Self { extents: extents.to_vec(), ..Self::default() }
+    }
+
     pub(crate) fn clear(&mut self) {
         self.picks.clear();
         self.views.clear();
     }
 
-    /// Adds what a view sees, and what throws shadows on it; `hidden` is left out of the picture, and everybody but `only`.
+    /// Adds what a view sees, and what throws shadows into a map that is to be looked at; `hidden` is left out of the picture, and everybody but `only`.
     pub(crate) fn add(
         &mut self,
         residents: &Residents,
@@ -56,47 +88,119 @@ impl DrawList {
         self.shading.clear();
         let [hidden, only] = [hidden, only].map(|id| id.map(|id| id.index() as u32));
         let from_eye = |ball: &Ball| ball.center - view.eye;
-        let detail = |ball: &Ball| {
-            if residents.finest {
-                return Detail::Near.bit();
-            }
-            let distance = from_eye(ball).norm().max(ball.radius);
-            Detail::of(ball.radius, view.pixels(ball.radius, distance)).bit()
-        };
-        let sees =
-            |cell: &Ball, largest: f64| view.sees_some(&from_eye(cell), cell.radius, largest, min_pixels);
-        let entry = |number: u32, rank: u32| {
-            let card = &residents.cards[number as usize];
-            (card.mesh, rank, card.slot, card.part, number)
+        let pixels = |ball: &Ball| view.pixels(ball.radius, from_eye(ball).norm().max(ball.radius));
+        self.find_blocks(residents, view, min_pixels, hidden, only);
+        let (occlusion, extents) = (&self.occlusion, &self.extents);
+        let hides = |ball: &Ball| occlusion.hides(view, &from_eye(ball), ball.radius);
+        let sees = |cell: &Ball, largest: f64| {
+            view.sees_some(&from_eye(cell), cell.radius, largest, min_pixels) && !hides(cell)
         };
         residents.grid.visit(sees, |number, ball| {
             let center = from_eye(ball);
             let card = &residents.cards[number as usize];
+            let (detail, mesh) = if residents.finest {
+                (Detail::Near, card.mesh)
+            } else {
+                let pixels = pixels(ball);
+                (Detail::of(ball.radius, pixels), card.mesh.at_pixels(pixels))
+            };
             let wanted = hidden != Some(card.slot)
                 && only.is_none_or(|slot| slot == card.slot)
-                && card.details & detail(ball) != 0;
-            if wanted && view.sees(&center, ball.radius, min_pixels) {
-                self.seen.push(entry(number, rank(card.mesh, &center)));
+                && card.details & detail.bit() != 0;
+            if wanted
+                && view.sees(&center, ball.radius, min_pixels)
+                && !hides(ball)
+                && !body_ball(residents, extents, number).is_some_and(|ball| hides(&ball))
+            {
+                self.seen.push((mesh, rank(mesh, &center), card.slot, card.part, number));
             }
         });
-        if let Some(shadow) = shadow {
-            let reaches = |ball: &Ball| shadow.reaches(&from_eye(ball), ball.radius);
-            residents.grid.visit(
-                |cell, _| reaches(cell),
-                |number, ball| {
-                    let card = &residents.cards[number as usize];
-                    if card.casts && card.details & detail(ball) != 0 && reaches(ball) {
-                        self.shading.push(entry(number, 0));
-                    }
-                },
-            );
-        }
         self.seen.sort_unstable();
-        self.shading.sort_unstable();
         let visible = batches(&self.seen, &mut self.picks);
-        let casters = batches(&self.shading, &mut self.picks);
-        self.views.push(ViewBatches { visible, casters });
+        let shadows = shadow.map(|shadow| self.shadows(residents, shadow));
+        self.views.push(ViewBatches { visible, shadows });
     }
+
+    /// What throws shadows into a map, as finely as its texels show: the same for every eye.
+    fn shadows(&mut self, residents: &Residents, shadow: &ShadowView) -> ShadowList {
+        let detail = |ball: &Ball| {
+            let texels = 2.0 * ball.radius / shadow.texel;
+            if residents.finest { Detail::Near } else { Detail::of(ball.radius, texels) }.bit()
+        };
+        let reaches = |ball: &Ball| shadow.reaches(&ball.center, ball.radius);
+        let mut layers = [std::mem::take(&mut self.seen), std::mem::take(&mut self.shading)];
+        layers.iter_mut().for_each(Vec::clear);
+        residents.grid.visit(
+            |cell, _| reaches(cell),
+            |number, ball| {
+                let card = &residents.cards[number as usize];
+                if card.casts && card.details & detail(ball) != 0 && reaches(ball) {
+                    let entry = (card.mesh, 0, card.slot, card.part, number);
+                    layers[usize::from(card.mobile)].push(entry);
+                }
+            },
+        );
+        for layer in &mut layers {
+            layer.sort_unstable();
+        }
+        let casters = layers.each_ref().map(|layer| {
+            layer.iter().map(|(.., number)| (*number, residents.stamps[*number as usize])).collect()
+        });
+        let batches = layers.each_ref().map(|layer| batches(layer, &mut self.picks));
+        [self.seen, self.shading] = layers;
+        ShadowList { batches, casters }
+    }
+
+    /// Finds the walls that hide what is behind them from the view.
+    fn find_blocks(
+        &mut self,
+        residents: &Residents,
+        view: &View,
+        min_pixels: f64,
+        hidden: Option<u32>,
+        only: Option<u32>,
+    ) {
+        self.occlusion.begin(view);
+        if only.is_some() || view.projection != Projection::Pinhole {
+            return;
+        }
+        self.blocks.clear();
+        let least = LEAST_BLOCK.max(min_pixels);
+        residents.walls.visit(
+            |cell, largest| view.sees_some(&(cell.center - view.eye), cell.radius, largest, least),
+            |number, ball| {
+                let center = ball.center - view.eye;
+                let slot = residents.cards[number as usize].slot;
+                if hidden != Some(slot) && view.sees(&center, ball.radius, least) {
+                    self.blocks.push(((center.norm() as f32).to_bits(), slot, number));
+                }
+            },
+        );
+        self.blocks.sort_unstable();
+        // Levels of detail of one building are one block.
+        self.blocks.dedup_by_key(|(_, slot, _)| *slot);
+        self.blocks.truncate(MOST_BLOCKS);
+        for (.., number) in &self.blocks {
+            if let Some(block) = residents.block(*number, &view.eye) {
+                self.occlusion.cover(view, &block);
+            }
+        }
+    }
+}
+
+/// The ball around the mesh of an instance, which may be much smaller than that of its entity; none for models of assets.
+fn body_ball(residents: &Residents, extents: &[Extent], number: u32) -> Option<Ball> {
+    let Drawn::Own(mesh) = residents.cards[number as usize].mesh else { return None };
+    let Extent { anchors, offsets } = extents.get(mesh as usize)?;
+    let instance = &residents.instances[number as usize];
+    let (scale, unit) = instance.measure();
+    let point = |side: usize| {
+        Vector3::from_fn(|axis, _| f64::from(anchors[side][axis] * scale[axis] + offsets[side][axis] * unit))
+    };
+    let (low, high) = (point(0), point(1));
+    // What floats lose is made up for.
+    let radius = (high - low).norm() * 0.5 + 1e-3;
+    Some(Ball { center: instance.at(&((low + high) * 0.5)).into(), radius })
 }
 
 fn batches(sorted: &[Entry], picks: &mut Vec<u32>) -> Vec<Batch> {

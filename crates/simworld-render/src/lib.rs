@@ -17,6 +17,7 @@ mod look;
 mod mesh;
 mod models;
 mod npy;
+mod occlusion;
 mod raster;
 mod raycast;
 mod renderer;

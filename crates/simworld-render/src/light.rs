@@ -14,6 +14,8 @@ use crate::atmosphere::{Atmosphere, Scattered, phase};
 /// Nodes of the table of the sky: by the sine of half the azimuth from the source, and by the root of the sine of elevation.
 pub(crate) const SKY_ACROSS: usize = 9;
 pub(crate) const SKY_UP: usize = 16;
+/// Nodes of the table, as in shaders/bindings.wgsl.
+pub(crate) const SKY_NODES: usize = SKY_ACROSS * SKY_UP;
 
 /// Everything the shaders know of light; radiances are exposed already.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,7 +119,7 @@ struct Sky {
 impl Sky {
     fn of(air: &Atmosphere, height: f64) -> Self {
         let across = (1.0 - height * height).max(0.0).sqrt();
-        let mut nodes = Vec::with_capacity(SKY_ACROSS * SKY_UP);
+        let mut nodes = Vec::with_capacity(SKY_NODES);
         for row in 0..SKY_UP {
             let share = row as f64 / (SKY_UP - 1) as f64;
             // The lowest row lies a little above the horizon, beyond which no ray leaves the air.

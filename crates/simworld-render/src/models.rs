@@ -33,13 +33,20 @@ struct Held {
 }
 
 impl Models {
-    /// Uploads the models of a list that are not on the device yet, and lets go of those that no scene has any more.
+    /// Whether there are none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.held.is_empty()
+    }
+
+    /// Uploads the models of a list that are not on the device yet, and lets go of those that no scene has any more. True if there
+    /// were any of the first.
     pub(crate) fn hold(
         &mut self,
         gpu: &Gpu,
         scene: &dyn Scene,
         batches: &[&[Batch]],
-    ) -> Result<(), RenderError> {
+    ) -> Result<bool, RenderError> {
+        let mut is_new = false;
         self.held.retain(|_, held| Arc::strong_count(&held.model) > 1);
         for batch in batches.iter().copied().flatten() {
             let Drawn::Model(id) = batch.mesh else { continue };
@@ -49,8 +56,9 @@ impl Models {
             }
             let held = Held::upload(gpu, asset, model)?;
             self.held.insert(id, held);
+            is_new = true;
         }
-        Ok(())
+        Ok(is_new)
     }
 
     /// Draws a batch of a model.

@@ -3,17 +3,19 @@
 use crate::RenderError;
 use crate::batch::{Channels, Layout, Span};
 use crate::config::AntiAliasing;
-use crate::draw_list::{Batch, DrawList, ViewBatches};
+use crate::draw_list::{Batch, DrawList, ShadowList, ViewBatches};
 use crate::falling::Falling;
-use crate::gpu::{Features, Gpu, Pipelines, Planes, Scenery, Targets};
-use crate::mesh::{Drawn, MeshLibrary, Pattern};
+use crate::gpu::{Features, Gpu, Pipelines, Planes, Redraw, Scenery, ShadowMaps, Targets};
+use crate::mesh::{Drawn, Extent, MeshLibrary, Pattern};
 use crate::models::Models;
+use crate::shadow::{ShadowKey, ShadowView};
 
 /// Pipelines, meshes and textures of the raster backend.
 pub(crate) struct Raster {
     pub pipelines: Pipelines,
     meshes: Meshes,
     pub models: Models,
+    pub shadows: ShadowMaps,
     targets: Option<Targets>,
     smoothing: AntiAliasing,
 }
@@ -23,6 +25,7 @@ struct Meshes {
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     ranges: Vec<std::ops::Range<u32>>,
+    extents: Vec<Extent>,
 }
 
 /// What is drawn, and from what.
@@ -31,8 +34,11 @@ pub(crate) struct Job<'a> {
     pub list: &'a DrawList,
     pub layout: &'a Layout,
     pub channels: Channels,
-    /// By view, whether the sun throws shadows.
-    pub shaded: &'a [bool],
+    pub gpu: &'a Gpu,
+    /// By view, where the sun throws shadows.
+    pub shadows: &'a [Option<ShadowView>],
+    /// Of the residents.
+    pub version: u64,
     /// What the pictures need; [prepared](Raster::prepare).
     pub features: Features,
     /// By view, what falls before it.
@@ -50,9 +56,15 @@ enum Painting<'a> {
 
 impl Raster {
     pub(crate) fn new(gpu: &Gpu, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
-        let pipelines = Pipelines::new(gpu, shadow_resolution, smoothing);
+        let shadows = ShadowMaps::new(gpu, shadow_resolution.max(1));
+        let pipelines = Pipelines::new(gpu, shadows.layout(), smoothing);
         let meshes = Meshes::upload(gpu, MeshLibrary::build());
-        Self { pipelines, meshes, models: Models::default(), targets: None, smoothing }
+        Self { pipelines, meshes, models: Models::default(), shadows, targets: None, smoothing }
+    }
+
+    /// The boxes of the meshes.
+    pub(crate) fn extents(&self) -> &[Extent] {
+        &self.meshes.extents
     }
 
     /// Makes room for the largest view of a batch.
@@ -74,13 +86,15 @@ impl Raster {
     }
 
     /// Records every view of a batch.
-    pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, planes: &Planes, job: &Job<'_>) {
-        let Some(targets) = &self.targets else { return };
+    pub(crate) fn draw(&mut self, encoder: &mut wgpu::CommandEncoder, planes: &Planes, job: &Job<'_>) {
         for (view, (span, batches)) in job.layout.spans.iter().zip(&job.list.views).enumerate() {
-            if job.shaded[view] && job.channels.contains(Channels::RGB) {
-                self.draw_shadows(encoder, job.scenery, view, &batches.casters);
+            let in_color = job.channels.contains(Channels::RGB);
+            let key = job.shadows[view].as_ref().filter(|_| in_color).map(|shadow| shadow.key);
+            if let (Some(key), Some(list)) = (&key, &batches.shadows) {
+                self.draw_shadows(encoder, job, view, key, list);
             }
-            let one = View { job, index: view, span, batches };
+            let Some(targets) = &self.targets else { return };
+            let one = View { job, index: view, span, batches, shadows: self.shadows.group(key.as_ref()) };
             self.draw_view(encoder, targets, &one, job.channels);
             targets.copy(encoder, planes, span, job.channels);
             if job.channels.contains(Channels::NORMALS) {
@@ -96,16 +110,47 @@ impl Raster {
         }
     }
 
+    /// Brings a shadow map up to date: nothing is drawn while nothing changed in it.
     fn draw_shadows(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        job: &Job<'_>,
+        view: usize,
+        key: &ShadowKey,
+        list: &ShadowList,
+    ) {
+        let [still, moving] = &list.batches;
+        let view = job.layout.spans.len() + view;
+        let clear = wgpu::LoadOp::Clear(1.0);
+        match self.shadows.plan(job.gpu, key, job.version, &list.casters) {
+            Redraw::Nothing => {}
+            Redraw::Whole => {
+                self.draw_layer(encoder, job.scenery, view, self.shadows.target(key, false), still, clear);
+            }
+            Redraw::Layers { stale } => {
+                if stale {
+                    self.draw_layer(encoder, job.scenery, view, self.shadows.target(key, true), still, clear);
+                }
+                self.shadows.copy(encoder, key);
+                let whole = self.shadows.target(key, false);
+                self.draw_layer(encoder, job.scenery, view, whole, moving, wgpu::LoadOp::Load);
+            }
+        }
+    }
+
+    fn draw_layer(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         scenery: &Scenery,
         view: usize,
+        target: Option<&wgpu::TextureView>,
         casters: &[Batch],
+        load: wgpu::LoadOp<f32>,
     ) {
+        let Some(target) = target else { return };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadow"),
-            depth_stencil_attachment: Some(depth_attachment(&self.pipelines.shadow_map, 1.0)),
+            depth_stencil_attachment: Some(depth_attachment(target, load)),
             ..Default::default()
         });
         pass.set_pipeline(&self.pipelines.shadow);
@@ -145,7 +190,7 @@ impl Raster {
     /// Draws every batch.
     fn draw_entities(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>, painting: Painting<'_>) {
         one.job.scenery.bind(pass, one.index);
-        pass.set_bind_group(1, &self.pipelines.shadow_inputs, &[]);
+        pass.set_bind_group(1, one.shadows, &[]);
         self.draw_batches(pass, &one.batches.visible, |pass, pattern| {
             let pipeline = match painting {
                 Painting::Picture(features) => self.pipelines.picture(features, pattern),
@@ -206,6 +251,8 @@ struct View<'a> {
     index: usize,
     span: &'a Span,
     batches: &'a ViewBatches,
+    /// Its shadow map.
+    shadows: &'a wgpu::BindGroup,
 }
 
 impl Meshes {
@@ -215,6 +262,7 @@ impl Meshes {
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&library.vertices)),
             indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&library.indices)),
             ranges: library.ranges,
+            extents: library.extents,
         }
     }
 }
@@ -233,10 +281,13 @@ fn attachment<'a>(view: &'a wgpu::TextureView, resolve: Option<&'a wgpu::Texture
     })
 }
 
-fn depth_attachment(view: &wgpu::TextureView, start: f32) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+fn depth_attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<f32>,
+) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     wgpu::RenderPassDepthStencilAttachment {
         view,
-        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(start), store: wgpu::StoreOp::Store }),
+        depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
         stencil_ops: None,
     }
 }
@@ -251,7 +302,7 @@ fn begin<'a>(
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("picture"),
         color_attachments: colors,
-        depth_stencil_attachment: Some(depth_attachment(z, 0.0)),
+        depth_stencil_attachment: Some(depth_attachment(z, wgpu::LoadOp::Clear(0.0))),
         ..Default::default()
     });
     pass.set_viewport(0.0, 0.0, span.width as f32, span.height as f32, 0.0, 1.0);

@@ -9,9 +9,9 @@ use simworld_core::scene::Scene;
 
 use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
 use crate::config::{AntiAliasing, Backend, LevelOfDetail};
-use crate::draw_list::DrawList;
+use crate::draw_list::{DrawList, ViewBatches};
 use crate::falling::Falling;
-use crate::gpu::{Features, Globals, Gpu, Planes, Readback, Readbacks, Scenery, place};
+use crate::gpu::{Features, Globals, Gpu, MOST_MAPS, Planes, Readback, Readbacks, Scenery, place};
 use crate::lamps::LampGrids;
 use crate::light::Light;
 use crate::raster::{Job, Raster};
@@ -65,7 +65,7 @@ impl Works {
         let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
         let planes = Planes::new(&gpu);
         gpu.check()?;
-        let (readbacks, list) = (Readbacks::default(), DrawList::default());
+        let (readbacks, list) = (Readbacks::default(), DrawList::new(raster.extents()));
         let mut residents = Residents::default();
         residents.finest = config.level_of_detail == LevelOfDetail::Finest;
         Ok(Self {
@@ -115,6 +115,7 @@ impl Works {
         if outcome.is_err() {
             // What of the scene came to the device is not known.
             self.residents.forget();
+            self.raster.shadows.forget();
         }
         outcome
     }
@@ -139,9 +140,10 @@ impl Works {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
         let in_color = options.channels.contains(Channels::RGB);
-        let (globals, features) = self.send(scene, &sight, in_color)?;
+        let is_cast = table.is_some() || self.casts(config, options, requests, &layout);
+        let (globals, features) = self.send(scene, &sight, in_color, is_cast)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if table.is_some() || self.casts(config, options, requests, &layout) {
+        if is_cast {
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
             // A ray of a table is no pixel that something could be smaller than.
             let min_pixels = if table.is_some() { 0.0 } else { config.min_pixels };
@@ -157,18 +159,19 @@ impl Works {
             raycast.prepare(&self.gpu, &casts, table.is_some());
             raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout);
         } else {
-            self.list(config, scene, requests, &sight)?;
+            self.list(config, scene, requests, &sight, in_color)?;
             if in_color {
                 self.raster.prepare(&self.gpu, features);
             }
             self.raster.hold(&self.gpu, layout.largest)?;
-            let shaded: Vec<bool> = sight.shadows.iter().map(Option::is_some).collect();
             let job = Job {
+                gpu: &self.gpu,
+                version: self.residents.version,
                 scenery: &self.scenery,
                 list: &self.list,
                 layout: &layout,
                 channels: options.channels,
-                shaded: &shaded,
+                shadows: &sight.shadows,
                 features,
                 falling: &sight.falling,
             };
@@ -260,10 +263,11 @@ impl Works {
         scene: &dyn Scene,
         sight: &Sight,
         in_color: bool,
+        is_cast: bool,
     ) -> Result<(Vec<Globals>, Features), RenderError> {
         let (light, mut lamps) = (&sight.light, LampGrids::default());
         let views = sight.views.iter().zip(&sight.shadows).zip(&sight.falling);
-        let globals: Vec<Globals> = views
+        let mut globals: Vec<Globals> = views
             .map(|((view, shadow), falling)| {
                 let place =
                     if in_color { lamps.around(scene, view.eye, light, light.sky.len()) } else { None };
@@ -272,6 +276,11 @@ impl Works {
             .collect();
         if let Some(raycast) = &mut self.raycast {
             raycast.note(&self.residents.changed);
+        }
+        if in_color && !is_cast && sight.shadows.iter().any(Option::is_some) {
+            // Behind those of the views, those of their shadow maps.
+            let of = |shadow: &Option<ShadowView>| shadow.as_ref().map_or(globals[0], Globals::of_shadow);
+            globals.extend(sight.shadows.iter().map(of).collect::<Vec<_>>());
         }
         self.scenery.send(&self.gpu, &globals, [&light.sky, &lamps.entries], &mut self.residents)?;
         let cover = &light.cover;
@@ -290,17 +299,27 @@ impl Works {
         scene: &dyn Scene,
         requests: &[ViewRequest],
         sight: &Sight,
+        in_color: bool,
     ) -> Result<(), RenderError> {
         let pairs = sight.views.iter().zip(&sight.shadows);
         self.list.clear();
+        self.raster.shadows.begin();
+        // Maps of a larger batch are given away while it is drawn, and a model may change where no instance does.
+        let may_stay = in_color && requests.len() <= MOST_MAPS && self.raster.models.is_empty();
+        let version = self.residents.version;
         for ((view, shadow), request) in pairs.zip(requests) {
             let left_out = [request.hidden, request.only];
-            self.list.add(&self.residents, view, shadow.as_ref(), config.min_pixels, left_out);
+            let shadow = shadow.as_ref().filter(|shadow| {
+                in_color && !(may_stay && self.raster.shadows.is_current(&shadow.key, version))
+            });
+            self.list.add(&self.residents, view, shadow, config.min_pixels, left_out);
         }
-        self.scenery.send_picks(&self.gpu, &self.list.picks)?;
+        self.scenery.send_picks(&self.gpu, &self.list.picks, &self.residents)?;
         let batches: Vec<&[crate::draw_list::Batch]> =
-            self.list.views.iter().flat_map(|view| [&view.visible[..], &view.casters[..]]).collect();
-        self.raster.models.hold(&self.gpu, scene, &batches)?;
+            self.list.views.iter().flat_map(ViewBatches::all).collect();
+        if self.raster.models.hold(&self.gpu, scene, &batches)? {
+            self.raster.shadows.forget();
+        }
         Ok(())
     }
 

@@ -38,6 +38,18 @@ pub(crate) struct Globals {
 }
 
 impl Globals {
+    /// What a shadow map is drawn with: from its own middle, not from an eye, so that it is the same for all of them.
+    pub(crate) fn of_shadow(shadow: &ShadowView) -> Self {
+        let (eye, eye_rest) = split(&shadow.center.coords);
+        let with_zero = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
+        Self {
+            shadow_from_relative: columns(&shadow.clip_from_relative(&shadow.center)),
+            eye: with_zero(eye),
+            eye_rest: with_zero(eye_rest),
+            ..Self::zeroed()
+        }
+    }
+
     pub(crate) fn new(
         view: &View,
         light: &Light,
@@ -51,7 +63,7 @@ impl Globals {
         let with_zero = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
         let (cover, flat) = (&light.cover, light.flat());
         let shadow_from_relative =
-            shadow.map_or_else(nalgebra::Matrix4::identity, ShadowView::clip_from_relative);
+            shadow.map_or_else(nalgebra::Matrix4::identity, |shadow| shadow.clip_from_relative(&view.eye));
         Self {
             clip_from_relative: columns(&view.clip_from_relative()),
             shadow_from_relative: columns(&shadow_from_relative),

@@ -6,6 +6,7 @@ mod pipelines;
 mod planes;
 mod readback;
 mod scenery;
+mod shadow_maps;
 mod targets;
 
 pub(crate) use device::Gpu;
@@ -14,4 +15,5 @@ pub(crate) use pipelines::{Features, Pipelines, raycast_source};
 pub(crate) use planes::Planes;
 pub(crate) use readback::{Readback, Readbacks, place};
 pub(crate) use scenery::Scenery;
+pub(crate) use shadow_maps::{Casters, MOST_MAPS, Redraw, ShadowMaps};
 pub(crate) use targets::Targets;

@@ -7,6 +7,7 @@ use super::device::Gpu;
 use super::targets::{COLOR, DEPTH, ID, SAMPLES, Z};
 use crate::config::AntiAliasing;
 use crate::mesh::{Pattern, Vertex};
+use crate::resident::Instance;
 
 const COMMON: &str = include_str!("../shaders/globals.wgsl");
 const BINDINGS: &str = include_str!("../shaders/bindings.wgsl");
@@ -42,11 +43,8 @@ pub(crate) struct Pipelines {
     /// Rain and snow over the picture.
     pub precipitation: wgpu::RenderPipeline,
     pub shadow: wgpu::RenderPipeline,
-    /// The layout of [`Scenery`](super::Scenery): globals of a view, and the instances.
+    /// The layout of [`Scenery`](super::Scenery): globals of a view, and its light.
     pub scenery: wgpu::BindGroupLayout,
-    pub shadow_inputs: wgpu::BindGroup,
-    /// The shadow map as a target.
-    pub shadow_map: wgpu::TextureView,
 }
 
 /// What a picture needs beyond sun and sky; the bits of FEATURES in shaders/shading.wgsl.
@@ -84,10 +82,9 @@ struct Variant<'a> {
 }
 
 impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
+    pub(crate) fn new(gpu: &Gpu, shadows: &wgpu::BindGroupLayout, smoothing: AntiAliasing) -> Self {
         let device = &gpu.device;
         let scenery = scenery_layout(device);
-        let (shadow_layout, shadow_inputs, shadow_map) = bind_shadow(device, shadow_resolution.max(1));
         let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
             device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: None,
@@ -101,7 +98,7 @@ impl Pipelines {
                 source: wgpu::ShaderSource::Wgsl(sources.concat().into()),
             })
         };
-        let full = layout(&[Some(&scenery), Some(&shadow_layout)]);
+        let full = layout(&[Some(&scenery), Some(shadows)]);
         let plain = layout(&[Some(&scenery)]);
         let forward = module(
             "forward",
@@ -124,8 +121,6 @@ impl Pipelines {
             sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
             shadow: Recipe { gpu, module: &shadow, layout: &plain }.shadow(),
             scenery,
-            shadow_inputs,
-            shadow_map,
         }
     }
 
@@ -262,7 +257,7 @@ impl Recipe<'_> {
 
     fn build(&self, variant: &Variant<'_>) -> wgpu::RenderPipeline {
         let options = wgpu::PipelineCompilationOptions { constants: variant.constants, ..Default::default() };
-        let buffers = [Some(vertex_layout()), Some(pick_layout())];
+        let buffers = [Some(vertex_layout()), Some(instance_layout())];
         self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(variant.label),
             layout: Some(self.layout),
@@ -300,11 +295,13 @@ fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
-/// The numbers of instances, one an instance drawn.
-fn pick_layout() -> wgpu::VertexBufferLayout<'static> {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![4 => Uint32];
+/// The instances that are drawn, one behind the other: a vertex finds its own without a look into a buffer.
+fn instance_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 7] = wgpu::vertex_attr_array![
+        4 => Float32x4, 5 => Float32x4, 6 => Float32x3, 7 => Uint32, 8 => Float32x4, 9 => Float32x4, 10 => Float32x4
+    ];
     wgpu::VertexBufferLayout {
-        array_stride: size_of::<u32>() as u64,
+        array_stride: size_of::<Instance>() as u64,
         step_mode: wgpu::VertexStepMode::Instance,
         attributes: &ATTRIBUTES,
     }
@@ -323,57 +320,9 @@ fn scenery_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         label: Some("scenery"),
         entries: &[
             entry(0, stages, wgpu::BufferBindingType::Uniform, true),
-            entry(1, wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE, data, false),
-            // The sky and the lamps.
-            entry(2, stages, data, false),
+            // The sky and the lamps, and the sky alone.
+            entry(1, stages, data, false),
+            entry(2, stages, wgpu::BufferBindingType::Uniform, false),
         ],
     })
-}
-
-fn bind_shadow(
-    device: &wgpu::Device,
-    side: u32,
-) -> (wgpu::BindGroupLayout, wgpu::BindGroup, wgpu::TextureView) {
-    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    };
-    let map = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Depth,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("shadow"),
-        entries: &[entry(0, map), entry(1, wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison))],
-    });
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("shadow map"),
-        size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: Z,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-    let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-        label: Some("shadow"),
-        mag_filter: wgpu::FilterMode::Linear,
-        min_filter: wgpu::FilterMode::Linear,
-        compare: Some(wgpu::CompareFunction::LessEqual),
-        ..Default::default()
-    });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("shadow"),
-        layout: &layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
-        ],
-    });
-    (layout, group, view)
 }

@@ -3,18 +3,24 @@
 use super::device::Gpu;
 use super::globals::Globals;
 use crate::RenderError;
+use crate::light::SKY_NODES;
 use crate::resident::{Instance, Residents};
 
 /// Changes less than this many instances apart are sent together.
 const LEAST_GAP: u32 = 64;
 /// More pieces than this are sent as fewer, larger ones.
 const MOST_PIECES: usize = 64;
+/// Lights are read whole, and the sky before them by itself as a uniform of so many bytes.
+const LIGHTS: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::UNIFORM);
+const SKY: u64 = (SKY_NODES * size_of::<[f32; 4]>()) as u64;
 
 /// The buffers of group 0.
 pub(crate) struct Scenery {
     globals: wgpu::Buffer,
     pub instances: wgpu::Buffer,
-    picks: wgpu::Buffer,
+    /// Those that are drawn, in their order.
+    drawn: wgpu::Buffer,
+    copies: Vec<Instance>,
     /// The sky and the grids of lamps.
     pub lights: wgpu::Buffer,
     group: wgpu::BindGroup,
@@ -31,10 +37,20 @@ impl Scenery {
         let globals = buffer(gpu, "globals", wgpu::BufferUsages::UNIFORM, stride);
         let instances =
             buffer(gpu, "instances", wgpu::BufferUsages::STORAGE, 1024 * size_of::<Instance>() as u64);
-        let picks = buffer(gpu, "picks", wgpu::BufferUsages::VERTEX, 4096);
-        let lights = buffer(gpu, "lights", wgpu::BufferUsages::STORAGE, 4096);
-        let group = bind(gpu, layout, &globals, &instances, &lights);
-        Self { globals, instances, picks, lights, group, layout: layout.clone(), stride, epoch: 0 }
+        let drawn = buffer(gpu, "drawn", wgpu::BufferUsages::VERTEX, 4096);
+        let lights = buffer(gpu, "lights", LIGHTS, 4096);
+        let group = bind(gpu, layout, &globals, &lights);
+        Self {
+            globals,
+            instances,
+            drawn,
+            copies: Vec::new(),
+            lights,
+            group,
+            layout: layout.clone(),
+            stride,
+            epoch: 0,
+        }
     }
 
     /// Sends the globals of the views, the sky with the lamps behind it, and what changed of the instances.
@@ -65,9 +81,9 @@ impl Scenery {
                 self.instances = buffer(gpu, "instances", wgpu::BufferUsages::STORAGE, roomy);
             }
             if lit > self.lights.size() {
-                self.lights = buffer(gpu, "lights", wgpu::BufferUsages::STORAGE, lit.next_power_of_two());
+                self.lights = buffer(gpu, "lights", LIGHTS, lit.next_power_of_two());
             }
-            self.group = bind(gpu, &self.layout, &self.globals, &self.instances, &self.lights);
+            self.group = bind(gpu, &self.layout, &self.globals, &self.lights);
             gpu.check()?;
         }
         gpu.queue.write_buffer(&self.lights, 0, sky);
@@ -88,26 +104,34 @@ impl Scenery {
         Ok(())
     }
 
-    /// Sends the numbers of the instances that are drawn.
-    pub(crate) fn send_picks(&mut self, gpu: &Gpu, picks: &[u32]) -> Result<(), RenderError> {
-        let long = size_of_val(picks) as u64;
+    /// Sends the instances that are drawn, by their numbers.
+    pub(crate) fn send_picks(
+        &mut self,
+        gpu: &Gpu,
+        picks: &[u32],
+        residents: &Residents,
+    ) -> Result<(), RenderError> {
+        let each = size_of::<Instance>() as u64;
+        let long = picks.len() as u64 * each;
         let limit = gpu.device.limits().max_buffer_size;
         if long > limit {
-            return Err(RenderError::TooMany { count: picks.len(), limit: (limit / 4) as usize });
+            return Err(RenderError::TooMany { count: picks.len(), limit: (limit / each) as usize });
         }
-        if long > self.picks.size() {
+        if long > self.drawn.size() {
             let roomy = long.next_power_of_two().min(limit);
-            self.picks = buffer(gpu, "picks", wgpu::BufferUsages::VERTEX, roomy);
+            self.drawn = buffer(gpu, "drawn", wgpu::BufferUsages::VERTEX, roomy);
             gpu.check()?;
         }
-        gpu.queue.write_buffer(&self.picks, 0, bytemuck::cast_slice(picks));
+        self.copies.clear();
+        self.copies.extend(picks.iter().map(|number| residents.instances[*number as usize]));
+        gpu.queue.write_buffer(&self.drawn, 0, bytemuck::cast_slice(&self.copies));
         Ok(())
     }
 
     /// Binds what the view of that index is drawn from.
     pub(crate) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, view: usize) {
         pass.set_bind_group(0, &self.group, &[(view as u64 * self.stride) as u32]);
-        pass.set_vertex_buffer(1, self.picks.slice(..));
+        pass.set_vertex_buffer(1, self.drawn.slice(..));
     }
 }
 
@@ -149,9 +173,9 @@ fn bind(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
     globals: &wgpu::Buffer,
-    instances: &wgpu::Buffer,
     lights: &wgpu::Buffer,
 ) -> wgpu::BindGroup {
+    let sky = wgpu::BufferBinding { buffer: lights, offset: 0, size: std::num::NonZeroU64::new(SKY) };
     let window = wgpu::BufferBinding {
         buffer: globals,
         offset: 0,
@@ -162,8 +186,8 @@ fn bind(
         layout,
         entries: &[
             wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(window) },
-            wgpu::BindGroupEntry { binding: 1, resource: instances.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 2, resource: lights.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: lights.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Buffer(sky) },
         ],
     })
 }

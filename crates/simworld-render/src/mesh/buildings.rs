@@ -4,7 +4,7 @@ use super::builder::{Builder, Material, P, share};
 use super::primitives::{BOTTOM, HIGH, LOW, TOP};
 
 /// Height and width of a parapet, m.
-const PARAPET: [f32; 2] = [0.7, 0.3];
+pub(super) const PARAPET: [f32; 2] = [0.7, 0.3];
 
 fn walls(mesh: &mut Builder, drop: f32) {
     let ring = |z: f32, dz: f32| {
@@ -39,7 +39,7 @@ pub(crate) fn block() -> Builder {
 }
 
 /// How far below the top the walls of a pitched roof end, and how far its eaves reach out, m.
-const RISE: f32 = 2.2;
+pub(super) const RISE: f32 = 2.2;
 const EAVES: f32 = 0.35;
 
 /// Where a ridge runs.

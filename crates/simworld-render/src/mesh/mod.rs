@@ -12,6 +12,7 @@ pub(crate) mod people;
 mod primitives;
 mod signs;
 mod species;
+mod specks;
 mod street;
 mod things;
 mod vehicles;
@@ -38,16 +39,26 @@ pub(crate) enum Pattern {
     Crosswalk = 4,
     Ground = 5,
     Foliage = 6,
+    /// What is painted on roads, which is much to ask of every pixel of them.
+    Mark = 7,
 }
 
 impl Pattern {
     /// Whether it paints surfaces that one walks and drives on.
     pub(crate) const fn is_flat(self) -> bool {
-        matches!(self, Self::Road | Self::Sidewalk | Self::Crosswalk | Self::Ground)
+        matches!(self, Self::Road | Self::Mark | Self::Sidewalk | Self::Crosswalk | Self::Ground)
     }
 
-    pub(crate) const ALL: [Self; 7] =
-        [Self::Plain, Self::Facade, Self::Road, Self::Sidewalk, Self::Crosswalk, Self::Ground, Self::Foliage];
+    pub(crate) const ALL: [Self; 8] = [
+        Self::Plain,
+        Self::Facade,
+        Self::Road,
+        Self::Sidewalk,
+        Self::Crosswalk,
+        Self::Ground,
+        Self::Foliage,
+        Self::Mark,
+    ];
 }
 
 macro_rules! meshes {
@@ -205,6 +216,13 @@ meshes! {
     Flag = Plain, signs::flag();
     Frame = Plain, things::frame();
     Boat = Plain, things::boat();
+    SpeckPerson = Plain, specks::person();
+    SpeckLamp = Plain, specks::lamp();
+    SpeckCar = Plain, specks::car();
+    SpeckWheel = Plain, specks::wheel();
+    SpeckBin = Plain, specks::bin();
+    SpeckBench = Plain, specks::bench();
+    SpeckUnit = Plain, specks::roof_unit();
     Bare = Plain, species::bare(2);
     CoarseBare = Plain, species::bare(1);
     Cuboid = Plain, primitives::cuboid();
@@ -222,6 +240,7 @@ meshes! {
     Slender = Foliage, nature::slender();
     MiddleCrown = Foliage, species::middle_crown();
     FarCrown = Foliage, species::far_crown(0.25, 0.32);
+    SpeckCrown = Foliage, specks::crown();
     Conifer = Foliage, species::conifer(1.0, 12);
     FarConifer = Foliage, species::conifer(1.0, 5);
     Column = Foliage, species::column(12);
@@ -229,7 +248,7 @@ meshes! {
     Willow = Foliage, species::willow();
     Palm = Foliage, species::palm();
     Shrub = Foliage, nature::shrub();
-    Mark = Road, primitives::top();
+    Mark = Mark, primitives::top();
     Sidewalk = Sidewalk, primitives::cuboid();
     Crosswalk = Crosswalk, primitives::cuboid();
     Road = Road, primitives::cuboid();
@@ -254,6 +273,22 @@ impl MeshId {
     }
 }
 
+impl MeshId {
+    /// How far below the top of its box a closed block ends that nobody looks through, in units, and whether that holds from above;
+    /// none for what has gaps.
+    pub(crate) const fn closed(self) -> Option<(f32, bool)> {
+        match self {
+            Self::Cuboid => Some((0.0, true)),
+            Self::Block | Self::FarBlock => Some((buildings::PARAPET[0], true)),
+            // Under the eaves one may look over the wall.
+            Self::House | Self::HouseAlong | Self::Hip | Self::HipAlong | Self::Shed => {
+                Some((buildings::RISE, false))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// What is drawn of an entity: a mesh of this crate, or the model of its asset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Drawn {
@@ -263,11 +298,43 @@ pub(crate) enum Drawn {
 }
 
 impl Drawn {
+    /// What stands for it where the ball around its entity is so many pixels across.
+    pub(crate) fn at_pixels(self, pixels: f64) -> Self {
+        match self {
+            Self::Model(_) => self,
+            Self::Own(mesh) => Self::Own(mesh.at_pixels(pixels)),
+        }
+    }
+
     pub(crate) const fn pattern(self) -> Pattern {
         match self {
             Self::Model(_) => Pattern::Plain,
             Self::Own(mesh) => mesh.pattern(),
         }
+    }
+}
+
+/// The box of a mesh: of its anchors, and of its offsets; with a scale and a unit both give the box of its points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// Least and greatest anchor.
+    pub anchors: [builder::V3; 2],
+    /// Least and greatest offset.
+    pub offsets: [builder::V3; 2],
+}
+
+impl Extent {
+    fn around(vertices: &[Vertex]) -> Self {
+        let bound = |of: fn(&Vertex) -> builder::V3| {
+            let start = vertices.first().map_or([0.0; 3], of);
+            vertices.iter().map(of).fold([start; 2], |[low, high], point| {
+                [
+                    std::array::from_fn(|axis| low[axis].min(point[axis])),
+                    std::array::from_fn(|axis| high[axis].max(point[axis])),
+                ]
+            })
+        };
+        Self { anchors: bound(|vertex| vertex.anchor), offsets: bound(|vertex| vertex.offset) }
     }
 }
 
@@ -277,15 +344,27 @@ pub(crate) struct MeshLibrary {
     pub indices: Vec<u32>,
     /// The indices of each mesh, in the order of [`MeshId::ALL`].
     pub ranges: Vec<Range<u32>>,
+    /// The boxes of the meshes, in the same order.
+    pub extents: Vec<Extent>,
 }
 
 impl MeshLibrary {
     pub(crate) fn build() -> Self {
-        let mut library = Self { vertices: Vec::new(), indices: Vec::new(), ranges: Vec::new() };
+        let mut library =
+            Self { vertices: Vec::new(), indices: Vec::new(), ranges: Vec::new(), extents: Vec::new() };
         for mesh in MeshId::ALL {
             let built = mesh.build();
             let (base, first) = (library.vertices.len() as u32, library.indices.len() as u32);
-            library.indices.extend(built.indices.iter().map(|index| base + index));
+            // Balls have rings of triangles without a surface, at their poles and where their halves meet.
+            let is_flat = |[a, b, c]: [u32; 3]| {
+                let [a, b, c] = [a, b, c].map(|index| &built.vertices[index as usize]);
+                let same = |p: &Vertex, q: &Vertex| p.anchor == q.anchor && p.offset == q.offset;
+                same(a, b) || same(b, c) || same(c, a)
+            };
+            let triangles = built.indices.chunks_exact(3).map(|three| [three[0], three[1], three[2]]);
+            let solid = triangles.filter(|three| !is_flat(*three));
+            library.indices.extend(solid.flatten().map(|index| base + index));
+            library.extents.push(Extent::around(&built.vertices));
             library.vertices.extend(built.vertices);
             library.ranges.push(first..library.indices.len() as u32);
         }

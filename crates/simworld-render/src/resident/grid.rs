@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use simworld_core::geometry::{Point3, Vector3};
 
 /// Largest radius and width of a cell of the least class, m.
-const LEAST: (f64, f64) = (1.5, 48.0);
+const LEAST: (f64, f64) = (1.5, 12.0);
 /// From class to class radii grow by this.
 const GROWTH: f64 = 4.0;
 /// The last class takes balls of any size.
@@ -37,12 +37,17 @@ struct Cell {
 /// Balls by the numbers that the caller gives them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Grid {
-    numbers: BTreeMap<(i32, i64, i64), u32>,
+    numbers: BTreeMap<Key, u32>,
     cells: Vec<Cell>,
     balls: Vec<Ball>,
     /// Cell and position in it; the cell is `u32::MAX` for numbers that are not in.
     homes: Vec<(u32, u32)>,
+    /// The cell that was looked up last: instances of one entity are filed one after the other, in one place.
+    last: Option<(Key, u32)>,
 }
+
+/// Class, and place west to east and south to north in cells of that class.
+type Key = (i32, i64, i64);
 
 const NOWHERE: (u32, u32) = (u32::MAX, 0);
 
@@ -65,13 +70,11 @@ impl Grid {
         }
         self.balls[index] = ball;
         let key = key_of(&ball);
-        let home = *self.numbers.entry(key).or_insert_with(|| {
-            let width = LEAST.1 * growth(key.0);
-            let corner = [key.1 as f64 * width, key.2 as f64 * width];
-            let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-            self.cells.push(Cell { corner, width, low, high, largest: 0.0, members: Vec::new() });
-            self.cells.len() as u32 - 1
-        });
+        let home = match self.last {
+            Some((known, home)) if known == key => home,
+            _ => self.home_of(key),
+        };
+        self.last = Some((key, home));
         if self.homes[index].0 != home {
             self.remove(number);
             let members = &mut self.cells[home as usize].members;
@@ -82,6 +85,17 @@ impl Grid {
         cell.low = cell.low.min(ball.center.z - ball.radius);
         cell.high = cell.high.max(ball.center.z + ball.radius);
         cell.largest = cell.largest.max(ball.radius);
+    }
+
+    /// The cell of a key, a new one if there is none yet.
+    fn home_of(&mut self, key: Key) -> u32 {
+        *self.numbers.entry(key).or_insert_with(|| {
+            let width = LEAST.1 * growth(key.0);
+            let corner = [key.1 as f64 * width, key.2 as f64 * width];
+            let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+            self.cells.push(Cell { corner, width, low, high, largest: 0.0, members: Vec::new() });
+            self.cells.len() as u32 - 1
+        })
     }
 
     /// Takes a ball out; nothing happens if it is not in.
@@ -122,7 +136,7 @@ fn growth(class: i32) -> f64 {
     (0..class).fold(1.0, |factor, _| factor * GROWTH)
 }
 
-fn key_of(ball: &Ball) -> (i32, i64, i64) {
+fn key_of(ball: &Ball) -> Key {
     let mut class = 0;
     while class < CLASSES && ball.radius > LEAST.0 * growth(class) {
         class += 1;

@@ -85,6 +85,11 @@ impl Instance {
         (-self.second[3]).max(0.0) as u32
     }
 
+    /// Where a point of the body is in the world.
+    pub(crate) fn at(&self, body: &Vector3) -> Vector3 {
+        self.place() + self.turn() * body
+    }
+
     /// The body's box, and the unit of offsets.
     pub(crate) const fn measure(&self) -> ([f32; 3], f32) {
         let [x, y, z, _] = self.scale;

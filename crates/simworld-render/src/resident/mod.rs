@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
 use simworld_core::clock::Tick;
-use simworld_core::geometry::{Aabb, Pose, Vector3};
+use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
 use simworld_core::id::EntityId;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
@@ -22,8 +22,11 @@ use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 use crate::classes::class_of;
 use crate::look::{Detail, Look, Looks, overhang};
 use crate::mesh::Drawn;
+use crate::occlusion::Block;
 
 const NONE: u32 = u32::MAX;
+/// What has a smaller ball hides little, m.
+const LEAST_WALL: f64 = 3.0;
 
 /// What is known of an instance beside what the shaders read.
 #[derive(Clone, Copy, Debug)]
@@ -59,12 +62,18 @@ pub(crate) struct Residents {
     pub instances: Vec<Instance>,
     pub cards: Vec<Card>,
     pub grid: Grid,
+    /// Of these, those that nobody looks through.
+    pub walls: Grid,
     /// Who is in each slot.
     pub names: Arc<Vec<EntityId>>,
     /// Numbers whose instances changed since the device had them; some may come twice.
     pub changed: Vec<u32>,
     /// Grows whenever everything was dressed anew.
     pub epoch: u64,
+    /// Grows with every change.
+    pub version: u64,
+    /// By number, the version at which the instance last changed.
+    pub stamps: Vec<u64>,
     /// By slot, the first instance of who is there.
     heads: Vec<u32>,
     free: u32,
@@ -96,7 +105,7 @@ impl Residents {
         };
         if !known {
             self.restart();
-            let everywhere = Aabb::around(simworld_core::geometry::Point3::origin(), Vector3::repeat(1e9));
+            let everywhere = Aabb::around(Point3::origin(), Vector3::repeat(1e9));
             let region = if mark.is_some() { &everywhere } else { region };
             let _ = scene.visit(region, &mut |entity| {
                 self.look_at(scene, entity.id.index(), Some(entity));
@@ -153,8 +162,11 @@ impl Residents {
 
     fn restart(&mut self) {
         self.instances.clear();
+        self.stamps.clear();
+        self.version += 1;
         self.cards.clear();
         self.grid.clear();
+        self.walls.clear();
         self.heads.clear();
         self.changed.clear();
         self.signalling.clear();
@@ -247,10 +259,16 @@ impl Residents {
             };
             if !is_same {
                 self.instances[number as usize] = instance;
-                self.changed.push(number);
+                self.note(number);
                 self.resurfaced |= is_surface;
             }
-            self.grid.place(number, ball_of(entity));
+            let ball = ball_of(entity);
+            self.grid.place(number, ball);
+            if ball.radius >= LEAST_WALL && is_closed(part.mesh) {
+                self.walls.place(number, ball);
+            } else {
+                self.walls.remove(number);
+            }
             (last, number) = (number, next);
         }
         self.cut(slot, last);
@@ -265,13 +283,34 @@ impl Residents {
         let mut number = start;
         while number != NONE {
             self.grid.remove(number);
-            self.changed.push(number);
+            self.walls.remove(number);
+            self.note(number);
             let card = &mut self.cards[number as usize];
             card.slot = NONE;
             let next = std::mem::replace(&mut card.next, self.free);
             self.free = number;
             number = next;
         }
+    }
+
+    /// The closed block that an instance is, if it hides what is behind it from an eye.
+    pub(crate) fn block(&self, number: u32, eye: &Point3) -> Option<Block> {
+        let Drawn::Own(mesh) = self.cards[number as usize].mesh else { return None };
+        let (drop, from_above) = mesh.closed()?;
+        let instance = &self.instances[number as usize];
+        let (scale, unit) = instance.measure();
+        let [x, y, z] = scale.map(f64::from);
+        let half = Vector3::new(x, y, z - f64::from(drop * unit)) * 0.5;
+        let turn = instance.turn();
+        let from_foot = turn.inverse() * (eye.coords - instance.place());
+        let fits = half.z > 0.0 && (from_above || from_foot.z < 2.0 * half.z);
+        fits.then(|| Block { center: instance.at(&Vector3::new(0.0, 0.0, half.z)).into(), half, turn })
+    }
+
+    fn note(&mut self, number: u32) {
+        self.version += 1;
+        self.stamps[number as usize] = self.version;
+        self.changed.push(number);
     }
 
     fn take_number(&mut self) -> u32 {
@@ -284,6 +323,7 @@ impl Residents {
         let card = Card { mesh, slot: NONE, part: 0, casts: false, mobile: false, details: 0, next: NONE };
         self.cards.push(card);
         self.instances.push(bytemuck::Zeroable::zeroed());
+        self.stamps.push(0);
         self.cards.len() as u32 - 1
     }
 }
@@ -293,6 +333,10 @@ impl Card {
     pub(crate) const fn is_met(&self) -> bool {
         self.slot != NONE && self.details & Detail::Near.bit() != 0
     }
+}
+
+fn is_closed(mesh: Drawn) -> bool {
+    matches!(mesh, Drawn::Own(mesh) if mesh.closed().is_some())
 }
 
 /// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them.

@@ -29,7 +29,7 @@ fn vertex_main(corner: Corner) -> Varyings {
     let finish = finish_of(in.material, in.color, in.second, in.scale.w);
     let relative = relative_point(in);
     var out: Varyings;
-    out.position = clip_of(relative, layer_of(in) + select(0.0, mark_layer(in.color.w), PATTERN == 2u));
+    out.position = clip_of(relative, layer_of(in) + select(0.0, mark_layer(in.color.w), PATTERN == 7u));
     out.relative = relative;
     let normal = body_normal(in);
     out.normal = rotate(in.rotation, normal);

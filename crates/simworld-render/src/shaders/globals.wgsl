@@ -54,15 +54,6 @@ struct Instance {
     second: vec4f,
 }
 
-struct Corner {
-    @location(0) anchor: vec3f,
-    @location(1) offset: vec3f,
-    @location(2) normal: vec3f,
-    @location(3) material: u32,
-    // The number of the instance.
-    @location(4) number: u32,
-}
-
 // A corner of a mesh, with the instance that it belongs to.
 struct VertexIn {
     anchor: vec3f,
@@ -76,14 +67,6 @@ struct VertexIn {
     color: vec4f,
     second: vec4f,
     who: u32,
-}
-
-fn vertex_of(corner: Corner) -> VertexIn {
-    let i = instances[corner.number];
-    // Part by part, so that nothing is lost far from the origin.
-    let from_eye = (i.place.xyz - globals.eye.xyz) + (i.rest - globals.eye_rest.xyz);
-    return VertexIn(corner.anchor, corner.offset, corner.normal, corner.material, i.rotation,
-        vec4f(from_eye, i.place.w), i.scale, i.color, i.second, i.who);
 }
 
 fn rotate(q: vec4f, v: vec3f) -> vec3f {

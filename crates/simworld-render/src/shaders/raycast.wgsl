@@ -43,6 +43,10 @@ struct Placed {
 @group(0) @binding(7) var<storage, read_write> out_who: array<u32>;
 @group(0) @binding(8) var<storage, read> lights: array<vec4f>;
 
+fn sky_node(index: u32) -> vec4f {
+    return lights[index];
+}
+
 var<private> globals: Globals;
 var<private> eye: vec3f;
 var<private> limits: vec4f;
@@ -50,6 +54,10 @@ var<private> hidden: u32;
 var<private> second: u32;
 var<private> only: u32;
 var<private> parallel: bool;
+// What is still to be looked at, in the tree of a mesh and in those of instances: here, and not in the functions that use them,
+// because there each call would set all of it to zero.
+var<private> mesh_stack: array<u32, 28>;
+var<private> tree_stack: array<u32, 36>;
 
 const NOTHING: u32 = 0xffffffffu;
 const IS_LEAF: u32 = 0x80000000u;
@@ -156,7 +164,6 @@ fn meet_instance(number: u32, origin: vec3f, direction: vec3f, start: f32, shado
     let ray = ray_of(rotate(inverse, origin - from_eye(number)), rotate(inverse, direction));
     let scale = instances[number].scale.xyz;
     let unit = instances[number].place.w;
-    var stack: array<u32, 28>;
     var height = 0;
     var node = placed[number].root;
     var met = false;
@@ -192,13 +199,13 @@ fn meet_instance(number: u32, origin: vec3f, direction: vec3f, start: f32, shado
         let far = select(codes.y, codes.x, swap);
         if (near != NOTHING) {
             if (far != NOTHING && height < 28) {
-                stack[height] = far;
+                mesh_stack[height] = far;
                 height++;
             }
             node = near;
         } else if (height > 0) {
             height--;
-            node = stack[height];
+            node = mesh_stack[height];
         } else {
             break;
         }
@@ -222,9 +229,8 @@ fn is_shown(number: u32) -> bool {
 fn trace(origin: vec3f, direction: vec3f, start: f32, shadow: bool) -> Found {
     var best = Found(FAR_AWAY * 0.1, NOTHING, 0u, 0.0, 0.0);
     let ray = ray_of(eye + origin, direction);
-    var stack: array<u32, 36>;
     var height = 1;
-    stack[0] = second;
+    tree_stack[0] = second;
     var node = 0u;
     loop {
         let n = tree[node];
@@ -248,7 +254,7 @@ fn trace(origin: vec3f, direction: vec3f, start: f32, shadow: bool) -> Found {
                 if (next == NOTHING) {
                     next = code;
                 } else if (height < 36) {
-                    stack[height] = code;
+                    tree_stack[height] = code;
                     height++;
                 }
                 continue;
@@ -266,7 +272,7 @@ fn trace(origin: vec3f, direction: vec3f, start: f32, shadow: bool) -> Found {
             node = next;
         } else if (height > 0) {
             height--;
-            node = stack[height];
+            node = tree_stack[height];
         } else {
             break;
         }

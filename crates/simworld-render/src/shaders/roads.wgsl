@@ -16,7 +16,7 @@ fn mark_layer(state: f32) -> f32 {
 
 // A point of a surface in its own frame; of marks in that of their road, so that they are weathered as what they lie on.
 fn on_surface(hit: Hit) -> vec2f {
-    if (hit.pattern != 2u || hit.extra.x < 32.0) {
+    if (hit.pattern != 7u) {
         return hit.body.xy;
     }
     let x = f32(u32(hit.extra.x) >> 5u) - 250000.0;
@@ -41,10 +41,7 @@ fn road(hit: Hit, base: Surface) -> Surface {
     if (hit.body_normal.z < 0.5) {
         return s;
     }
-    let p = on_surface(hit);
-    if (hit.extra.x >= 32.0) {
-        return mark(hit, s, p);
-    }
+    let p = hit.body.xy;
     let width = hit.size.y;
     let lanes = 2.0 * max(1.0, floor(width / 6.0 + 0.25));
     let lane = width / lanes;
@@ -54,6 +51,13 @@ fn road(hit: Hit, base: Surface) -> Surface {
         s.albedo = mix(s.albedo, white_paint(p), paint * 0.9);
     }
     return s;
+}
+
+fn marked(hit: Hit, base: Surface) -> Surface {
+    if (hit.body_normal.z < 0.5) {
+        return base;
+    }
+    return mark(hit, base, on_surface(hit));
 }
 
 fn white_paint(p: vec2f) -> vec3f {

@@ -17,6 +17,7 @@ fn surface_of(hit: Hit) -> Surface {
         case 4u: { return crosswalk(hit, base); }
         case 5u: { return ground(hit, base); }
         case 6u: { return foliage(hit, base); }
+        case 7u: { return marked(hit, base); }
         default: { return base; }
     }
 }
@@ -29,7 +30,7 @@ fn wetted(hit: Hit, surface: Surface) -> Surface {
     let wet = globals.cover.x * mix(0.45, 1.0, level) * (1.0 - s.metallic) * (1.0 - s.gloss);
     s.albedo *= mix(1.0, 0.55, wet * saturate(s.roughness * 1.2));
     s.roughness = mix(s.roughness, 0.3, wet * 0.8);
-    let flat = hit.pattern >= 2u && hit.pattern <= 5u;
+    let flat = (hit.pattern >= 2u && hit.pattern <= 5u) || hit.pattern == 7u;
     if (flat) {
         let p = on_surface(hit);
         let hollow = noise2(p * 0.22 + 3.7) * 0.65 + noise2(p * 0.9) * 0.35;
@@ -55,7 +56,7 @@ fn snowed(hit: Hit, surface: Surface) -> Surface {
     let lies = smoothstep(0.55 - 0.4 * depth, 0.9 - 0.35 * depth, s.normal.z * (0.75 + 0.5 * drift) - 0.4 * s.gloss);
     var amount = saturate(lies * smoothstep(0.0, 0.35, depth + 0.5 * drift - 0.4) * 1.3);
     // Wheels leave the road half bare in tracks along it.
-    if (hit.pattern == 2u || hit.pattern == 4u) {
+    if (hit.pattern == 2u || hit.pattern == 4u || hit.pattern == 7u) {
         let track = noise2(vec2f(p.x * 0.06, p.y * 1.5)) * 0.75 + noise2(p * 2.3) * 0.25;
         amount *= smoothstep(0.25, 0.6, track + 0.25 * depth - 0.1);
     }
@@ -100,17 +101,21 @@ fn irradiance(n: vec3f) -> vec3f {
 
 // What a surface mirrors of sky and street: sharp under a coat and on smooth ground, blurred on rough surfaces; the share
 // by B. Karis (Physically Based Shading on Mobile, 2014).
-fn mirrored(s: Surface, view: vec3f, ambient: vec3f) -> vec3f {
+fn mirrored(s: Surface, view: vec3f, ambient: vec3f, dull: bool) -> vec3f {
     let facing = saturate(dot(s.normal, view));
     let r = vec4f(-1.0, -0.0275, -0.572, 0.022) * s.roughness + vec4f(1.0, 0.0425, 1.04, -0.04);
     let a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
     let share = vec2f(-1.04, 1.04) * a + r.zw;
     let base = mix(vec3f(0.04), s.albedo, s.metallic);
+    if (dull) {
+        return ambient * (base * share.x + share.y);
+    }
     let ray = reflect(-view, s.normal);
     // Streets stand around: low rays meet walls as bright as the ground, not the horizon.
     let sky = mix(globals.bounce.rgb * 1.2 + ambient * 0.15, sky_gradient(ray), smoothstep(0.0, 0.45, ray.z));
     let blurred = mix(sky, ambient, smoothstep(0.15, 0.75, s.roughness));
-    let coat = s.gloss * (0.045 + 0.955 * pow(1.0 - facing, 5.0));
+    let grazing = 1.0 - facing;
+    let coat = s.gloss * (0.045 + 0.955 * (grazing * grazing) * (grazing * grazing) * grazing);
     return blurred * (base * share.x + share.y) * (1.0 - coat) + sky * coat;
 }
 
@@ -147,7 +152,9 @@ fn shade(hit: Hit) -> vec3f {
     // Nooks near the ground see less of the sky.
     let nook = mix(0.72, 1.0, smoothstep(0.0, 1.2, hit.body.z + 2.0 * abs(hit.body_normal.z)));
     let ambient = irradiance(s.normal) * nook;
-    color += s.albedo * (1.0 - s.metallic) * ambient + mirrored(s, -ray, ambient);
+    // Streets and leaves are too rough to mirror anything, unless they are wet.
+    let dull = hit.pattern >= 2u && hit.pattern <= 6u && (FEATURES & WITH_WATER) == 0u;
+    color += s.albedo * (1.0 - s.metallic) * ambient + mirrored(s, -ray, ambient, dull);
     if ((FEATURES & WITH_LAMPS) != 0u) {
         color += lamp_light(s, hit.relative, -ray);
     }

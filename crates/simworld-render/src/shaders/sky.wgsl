@@ -32,8 +32,8 @@ fn clear_sky(direction: vec3f) -> vec3f {
     let r = min(u32(row), UP - 2u);
     let right = column - f32(c);
     let k = r * ACROSS + c;
-    let low = mix(lights[k], lights[k + 1u], right);
-    let high = mix(lights[k + ACROSS], lights[k + ACROSS + 1u], right);
+    let low = mix(sky_node(k), sky_node(k + 1u), right);
+    let high = mix(sky_node(k + ACROSS), sky_node(k + ACROSS + 1u), right);
     return with_aerosol(mix(low, high, row - f32(r)), direction, row / f32(UP - 1u));
 }
 
@@ -51,7 +51,7 @@ fn haze(direction: vec3f) -> vec3f {
     let column = sky_column(direction);
     let c = min(u32(column), ACROSS - 2u);
     let flat = vec3f(direction.xy * inverseSqrt(max(dot(direction.xy, direction.xy), 1e-12)), 0.0);
-    let node = mix(lights[c], lights[c + 1u], column - f32(c));
+    let node = mix(sky_node(c), sky_node(c + 1u), column - f32(c));
     return mix(clouded(with_aerosol(node, flat, 0.0), 0.0), globals.fog.rgb, globals.fog.w);
 }
 

@@ -133,6 +133,36 @@ fn both_agree_with_double_precision() {
     }
 }
 
+/// Houses hide most of what stands behind them, and triangles that are left out for that are missed nowhere.
+#[test]
+fn behind_houses_nothing_is_missed() {
+    let Some([mut raster, mut raycast]) = backends() else { return };
+    let mut rng = Seed(5).stream("tests/houses").rng();
+    let mut world = World::new();
+    put(&mut world, EntityKind::Ground, [60.0, 0.0, -0.1], 0.0, Shape::cuboid(400.0, 400.0, 0.1));
+    for _ in 0..40 {
+        let at = [rng.uniform(8.0, 110.0), rng.uniform(-60.0, 60.0), 0.0];
+        let shape = Shape::cuboid(rng.uniform(6.0, 12.0), rng.uniform(6.0, 15.0), rng.uniform(4.0, 16.0));
+        put(&mut world, EntityKind::Building, at, rng.uniform(0.0, 6.0), shape);
+    }
+    for _ in 0..250 {
+        let at = [rng.uniform(4.0, 160.0), rng.uniform(-70.0, 70.0), 0.0];
+        let size = Shape::cuboid(rng.uniform(0.5, 3.0), rng.uniform(0.5, 3.0), rng.uniform(0.5, 6.0));
+        put(&mut world, EntityKind::Prop, at, rng.uniform(0.0, 6.0), size);
+    }
+    let requests = [1.7, 6.0, 25.0].map(|height| {
+        let eye = Point3::new(0.0, 0.0, height);
+        let intrinsics = Intrinsics::from_fov(160, 112, 1.3).expect("a size in range");
+        ViewRequest::from(Camera::looking_at(eye, Point3::new(60.0, 4.0, 2.0), intrinsics))
+    });
+    let (mut drawn, mut cast) = (Views::new(), Views::new());
+    raster.render_views(&world, &requests, &ViewOptions::default(), &mut drawn).expect("it is drawn");
+    raycast.render_views(&world, &requests, &ViewOptions::default(), &mut cast).expect("it is cast");
+    let (ids, depths) = apart(&drawn, &cast);
+    println!("ids differ on {:.3} %, depth on {:.3} %", ids * 100.0, depths * 100.0);
+    assert!(ids <= 5e-4 && depths <= 1e-3, "ids differ on {ids}, depth on {depths}");
+}
+
 /// What moves is refitted, what stood still and is moved leaves its tree, newcomers come: always as if seen for the first time.
 #[test]
 fn trees_follow_what_happens() {

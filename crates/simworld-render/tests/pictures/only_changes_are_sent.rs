@@ -83,3 +83,30 @@ fn worlds_do_not_mix() {
     assert!(turn(&mut renderer) == expected);
     assert_ne!(expected[0].ids, expected[1].ids);
 }
+
+/// Shadow maps are kept from picture to picture, and what walls hide is found anew for each: an eye that goes along a street where a
+/// car drives, and comes back, sees what one sees that was never anywhere else.
+#[test]
+fn pictures_do_not_depend_on_those_before() {
+    let Some(mut following) = renderer(&RenderConfig::default()) else { return };
+    let mut world = square(0.0);
+    let car = put(&mut world, EntityKind::Car, [20.0, -2.0, 0.0], 0.0, Shape::cuboid(4.5, 1.8, 1.5));
+    let mut pictures = Vec::new();
+    for step in [0, 1, 2, 3, 3, 2, 12, 30, 1, 0] {
+        let along = f64::from(step);
+        // At the third step only the eye has moved, at the fifth nothing.
+        if step != 2 {
+            let pose = pose_facing(Point3::new(20.0 + along, -2.0, 0.0), 0.0);
+            world.set_motion(car, pose, Twist::ZERO).expect("it lives");
+        }
+        world.finish_step();
+        let camera = square_camera(0.4 * along, 96, 64);
+        let Some(mut fresh) = renderer(&RenderConfig::default()) else { return };
+        let expected = draw(&mut fresh, &world.clone(), &camera);
+        let followed = draw(&mut following, &world, &camera);
+        assert!(followed == expected, "step {step} after {} pictures", pictures.len());
+        pictures.push(followed);
+    }
+    pictures.dedup();
+    assert!(pictures.len() > 7, "only {} pictures differ", pictures.len());
+}
