@@ -1,4 +1,4 @@
-//! How fast the eyes are on this adapter: a table of views a second, drawn by triangles and cast by rays, on the device and on the host.
+//! How fast the eyes are on this adapter: a table of views a second and of what each costs, drawn by triangles and cast by rays, on the device and on the host.
 //!
 //! ```sh
 //! cargo run --release -p simworld-render --example eyes_figures
@@ -31,8 +31,18 @@ Usage: eyes_figures [--only TEXT] [--seconds S] [--things N] [--views N] [--agen
 ";
 
 type Failure = Box<dyn std::error::Error>;
-/// Measures a row: batches a second, and the views in each.
-type Row = Box<dyn FnOnce(&mut Renderer) -> Result<(f64, usize), Failure>>;
+/// Measures a row.
+type Row = Box<dyn FnOnce(&mut Renderer) -> Result<Measured, Failure>>;
+
+/// What a row came to.
+struct Measured {
+    /// Batches a second.
+    rate: f64,
+    /// In each of them.
+    views: usize,
+    /// Seconds of all processors that a batch took, driver and all, where the system tells.
+    work: Option<f64>,
+}
 
 /// What was asked for.
 struct Settings {
@@ -75,19 +85,55 @@ fn main() -> Result<(), Failure> {
     let is_cpu =
         adapter.contains("llvmpipe") || adapter.contains("lavapipe") || adapter.contains("SwiftShader");
     println!("adapter: {adapter}; full look, shadows, 7 to 12 bytes a pixel\n");
-    println!("{:58} {:>12} {:>14}", "what", "a second", "views a second");
-    let mut is_empty = true;
+    println!("{:68} {:>9} {:>14} {:>20}", "what", "a second", "views a second", "ms of processor each");
+    let mut measured_rows: Vec<(String, f64)> = Vec::new();
     for (name, renderer) in &mut renderers {
         for (what, measured) in rows(&settings, is_cpu) {
             let what = format!("{name}: {what}");
             if what.contains(&settings.only) {
-                is_empty = false;
-                let (rate, views) = measured(renderer)?;
-                println!("{what:58} {rate:>12.1} {:>14.0}", rate * views as f64);
+                let Measured { rate, views, work } = measured(renderer)?;
+                let work = work.map_or_else(|| "-".to_owned(), |work| format!("{:.1}", work * 1e3));
+                println!("{what:68} {rate:>9.1} {:>14.0} {work:>20}", rate * views as f64);
+                measured_rows.push((what, rate));
             }
         }
     }
-    if is_empty { Err(format!("no row holds the text {:?}", settings.only).into()) } else { Ok(()) }
+    print_ratios(&measured_rows);
+    if measured_rows.is_empty() {
+        return Err(format!("no row holds the text {:?}", settings.only).into());
+    }
+    Ok(())
+}
+
+/// What of one picture in the small city, by triangles, the others are.
+fn print_ratios(rows: &[(String, f64)]) {
+    let rate = |what: &str| rows.iter().find(|(name, _)| name == what).map(|(_, rate)| *rate);
+    let (small, large) = ("640 x 480 of a city, on host", "640 x 480 of a city ten times as large, on host");
+    let Some(base) = rate(&format!("raster: {small}")) else { return };
+    println!();
+    for (name, other) in [
+        ("triangles over rays", rate(&format!("raycast: {small}"))),
+        ("a city over one ten times as large, by triangles", rate(&format!("raster: {large}"))),
+    ] {
+        if let Some(other) = other {
+            println!("{name}, 640 x 480: {:.2}", base / other);
+        }
+    }
+}
+
+/// Seconds that this process had of all processors; Linux tells them in hundredths.
+fn processor_seconds() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The name may hold spaces, and ends with the last bracket; user and system time are fields 14 and 15.
+    let ticks: Vec<f64> = stat
+        .rsplit_once(')')?
+        .1
+        .split_whitespace()
+        .skip(11)
+        .take(2)
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    (ticks.len() == 2).then(|| ticks.iter().sum::<f64>() / 100.0)
 }
 
 /// The rows of one backend, each with what measures it.
@@ -177,14 +223,14 @@ fn measure(
     requests: &[ViewRequest],
     results: Results,
     seconds: f64,
-) -> Result<(f64, usize), Failure> {
+) -> Result<Measured, Failure> {
     let mut views = Views::new();
     let mut under_way = None;
-    let (mut start, mut batches) = (Instant::now(), 0_u32);
+    let (mut start, mut work, mut batches) = (Instant::now(), processor_seconds(), 0_u32);
     // The first two are not counted: pipelines and buffers are made in them.
     for round in 0_u32.. {
         if round == 2 {
-            (start, batches) = (Instant::now(), 0);
+            (start, work, batches) = (Instant::now(), processor_seconds(), 0);
         }
         if round > 2 && start.elapsed().as_secs_f64() >= seconds {
             break;
@@ -210,7 +256,9 @@ fn measure(
     if let Some(last) = under_way {
         renderer.take(last, &mut views)?;
     }
-    Ok((f64::from(batches) / start.elapsed().as_secs_f64(), requests.len()))
+    let rate = f64::from(batches) / start.elapsed().as_secs_f64();
+    let work = work.zip(processor_seconds()).map(|(before, after)| (after - before) / f64::from(batches));
+    Ok(Measured { rate, views: requests.len(), work })
 }
 
 /// Streets every 100 m with what stands along them; what moves is given beside.
