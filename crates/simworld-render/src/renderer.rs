@@ -257,6 +257,9 @@ impl Renderer {
     /// The outcome; where it is an error of the device that follows from its loss, that, and a new device for the next call. After
     /// other errors of the device, such as a lack of memory, the next call has buffers of its own size.
     fn mended<T>(&mut self, outcome: Result<T, RenderError>) -> Result<T, RenderError> {
+        if outcome.is_err() {
+            self.works.distrust();
+        }
         if let Err(RenderError::Device(_) | RenderError::OutOfMemory | RenderError::Lost { .. }) = &outcome {
             // The loss is told when nothing is under way any more; an error of waiting is that of the outcome.
             let _ = self.works.gpu.wait();

@@ -115,7 +115,6 @@ impl Works {
         if outcome.is_err() {
             // What of the scene came to the device is not known.
             self.residents.forget();
-            self.raster.shadows.forget();
         }
         outcome
     }
@@ -321,6 +320,11 @@ impl Works {
             self.raster.shadows.forget();
         }
         Ok(())
+    }
+
+    /// Something failed: what was recorded may never have been drawn, and shadow maps are drawn anew.
+    pub(crate) fn distrust(&mut self) {
+        self.raster.shadows.forget();
     }
 
     /// Hands the commands in, and asks for what they draw.
