@@ -7,6 +7,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Vector3;
 use crate::id::EntityId;
 use crate::scene::EntityKind;
 
@@ -195,6 +196,25 @@ actions! {
         /// Where.
         from: EntityId,
     },
+    /// Throws what the hand or both arms hold. A body carries it out, with the strength of its arm.
+    Throw {
+        /// Velocity relative to the thrower, m/s, world frame, of at most 60 m/s.
+        velocity: Vector3,
+    },
+    /// Throws what the hand or both arms hold at somebody or something, as gently as it gets there. A body carries it out.
+    ThrowTo {
+        /// At whom or what.
+        to: EntityId,
+    },
+    /// Takes hold of something that can move, to push and pull it. A body carries it out.
+    Grasp {
+        /// What.
+        thing: EntityId,
+        /// Whether both hands hold, which turn what they hold; one lets it swing.
+        both_hands: bool,
+    },
+    /// Lets go of everything that was taken hold of.
+    LetGo,
 }
 
 impl fmt::Display for ActionKind {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::action::ActionKind;
 use crate::clock::Tick;
-use crate::geometry::Point3;
+use crate::geometry::{Point3, Vector3};
 use crate::id::EntityId;
 use crate::scene::FallCause;
 use crate::value::Value;
@@ -68,6 +68,15 @@ pub enum EventKind {
         thing: EntityId,
         /// What was asked of it, N, as far as the hand gave it.
         force: f64,
+    },
+    /// Somebody threw something.
+    Thrown {
+        /// Who.
+        who: EntityId,
+        /// What flies.
+        item: EntityId,
+        /// Its velocity, m/s, world frame.
+        velocity: Vector3,
     },
     /// A plan was carried out to its end.
     PlanDone {

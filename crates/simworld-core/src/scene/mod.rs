@@ -21,8 +21,8 @@ pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, MATERIAL, Role, 
 pub use footing::{FOOTING, FallCause, Footing};
 pub use gesture::{GESTURE, GESTURE_END, Gesture, POINTING};
 pub use interaction::{
-    ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, OPEN, SELLS,
-    check_action,
+    ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, MOST_THROWN,
+    OPEN, SELLS, check_action,
 };
 pub use kind::{EntityKind, Place};
 pub use naming::NameIndex;

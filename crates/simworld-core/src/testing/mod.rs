@@ -192,6 +192,10 @@ pub fn sample_action(kind: ActionKind, someone: EntityId) -> Action {
         ActionKind::Argue => Action::Argue { with: someone },
         ActionKind::CloseDoor => Action::CloseDoor { door: someone },
         ActionKind::Give => Action::Give { to: someone },
+        ActionKind::Throw => Action::Throw { velocity: crate::geometry::Vector3::new(3.0, 0.0, 2.0) },
+        ActionKind::ThrowTo => Action::ThrowTo { to: someone },
+        ActionKind::Grasp => Action::Grasp { thing: someone, both_hands: false },
+        ActionKind::LetGo => Action::LetGo,
         ActionKind::Buy => Action::Buy { goods: "tea".to_owned(), from: someone },
     }
 }

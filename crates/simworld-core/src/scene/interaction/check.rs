@@ -2,7 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use super::{ARM_REACH, CARRY, EARSHOT, InteractionError, LOCKED, PICK_UP, RIDE, SELLS, SIT, Use, entering};
+use super::{
+    ARM_REACH, CARRY, EARSHOT, InteractionError, LOCKED, MOST_THROWN, PICK_UP, RIDE, SELLS, SIT, Use,
+    entering,
+};
 use crate::action::{Action, ActionKind, ActionSet};
 use crate::asset::Affordance;
 use crate::id::EntityId;
@@ -31,6 +34,12 @@ pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result
         Action::OpenDoor { door } => turn_door(scene, who, *door, true),
         Action::CloseDoor { door } => turn_door(scene, who, *door, false),
         Action::Give { to } => give(scene, who, *to),
+        Action::Throw { velocity } => {
+            load(scene, who)?;
+            in_range(action.kind(), "velocity", velocity.norm(), 0.0..=MOST_THROWN, "at most 60 m/s")
+        }
+        Action::ThrowTo { to } => throw_to(scene, who, *to),
+        Action::Grasp { thing, .. } => grasp(scene, who, *thing),
         Action::Buy { goods, from } => buy(scene, who, goods, *from),
         Action::Converse { with, .. } => address(scene, who, *with, "talk to"),
         Action::Argue { with } => address(scene, who, *with, "argue with"),
@@ -65,7 +74,8 @@ fn able(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), Inte
 /// Hands, seats, vehicles and doors want somebody who stands; looking, talking and letting go do not.
 fn on_its_feet(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), InteractionError> {
     use ActionKind::{
-        Buy, CarryHeavy, CloseDoor, EnterCar, Give, OpenDoor, PickUp, RideScooter, SitDown, StandUp,
+        Buy, CarryHeavy, CloseDoor, EnterCar, Give, Grasp, OpenDoor, PickUp, RideScooter, SitDown, StandUp,
+        Throw, ThrowTo,
     };
     let needs_feet = ActionSet::of(&[
         PickUp,
@@ -78,6 +88,9 @@ fn on_its_feet(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(
         CloseDoor,
         Give,
         Buy,
+        Throw,
+        ThrowTo,
+        Grasp,
     ]);
     let footing = find(scene, who)?.footing();
     if footing == Footing::Upright || !needs_feet.contains(action) {
@@ -312,6 +325,35 @@ fn give(scene: &dyn Scene, who: EntityId, to: EntityId) -> Result<(), Interactio
         return Err(InteractionError::Busy { who: to, verb: "take it", state: "holding something" });
     }
     Ok(())
+}
+
+/// What the actor could throw.
+fn load(scene: &dyn Scene, who: EntityId) -> Result<EntityId, InteractionError> {
+    has(scene, who, Role::Held, "throw", "holding nothing")
+        .or_else(|nothing| scene.attached(who, Role::Carried).ok_or(nothing))
+}
+
+/// Nobody throws a thing at itself, nor at what it carries.
+fn throw_to(scene: &dyn Scene, who: EntityId, to: EntityId) -> Result<(), InteractionError> {
+    let item = load(scene, who)?;
+    let target = find(scene, to)?;
+    if to == item || hangs_on(scene, to, who) || hangs_on(scene, who, to) {
+        return Err(InteractionError::WrongKind { kind: target.kind, verb: "be thrown at by who is on it" });
+    }
+    Ok(())
+}
+
+/// What stands free can be taken hold of; whether it can move is known to the body alone.
+fn grasp(scene: &dyn Scene, who: EntityId, thing: EntityId) -> Result<(), InteractionError> {
+    let (actor, target) = (find(scene, who)?, find(scene, thing)?);
+    if let Some(bond) = target.attachment {
+        return Err(taken(&target, bond.parent));
+    }
+    if thing == who || hangs_on(scene, who, thing) {
+        return Err(InteractionError::WrongKind { kind: target.kind, verb: "be held by who is on it" });
+    }
+    within_reach(&actor, &target)?;
+    free_hand(scene, who, "take hold")
 }
 
 fn buy(scene: &dyn Scene, who: EntityId, goods: &str, from: EntityId) -> Result<(), InteractionError> {

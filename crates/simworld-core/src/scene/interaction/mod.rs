@@ -27,6 +27,8 @@ pub const EARSHOT: f64 = 10.0;
 pub const CARRY_LIMIT: f64 = 25.0;
 /// What one lifts with one hand at most, kg: the multiplier of EN 1005-2 for work with one hand is 0.6.
 pub const HAND_LIMIT: f64 = 15.0;
+/// Faster than this nothing is thrown, m/s: a little more than the fastest throws on record.
+pub const MOST_THROWN: f64 = 60.0;
 /// The attribute of somebody that holds the elevation of the gaze above the horizon, radians in [-π/2, π/2]; level without it.
 pub const GAZE: &str = "gaze";
 /// The attribute of somebody that holds the horizontal field of view it focuses on, radians; relaxed without it.
