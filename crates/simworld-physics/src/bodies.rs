@@ -142,10 +142,18 @@ impl PhysicsDynamics {
         self.physics.bodies[rigid].recompute_mass_properties_from_colliders(&self.physics.colliders);
         let (written, bonds, before) = (*entity.pose, bonds_of(id, world), Twist::ZERO);
         let (is_roaming, detail) = (false, Detail::Full);
-        let owned = Owned { id, body, rigid, written, bonds, is_roaming, before, detail };
+        let is_adopted = false;
+        let owned = Owned { id, body, rigid, written, bonds, is_adopted, is_roaming, before, detail };
         self.bodies.insert(place, owned);
         self.file_body(rigid);
         Ok(())
+    }
+
+    /// Notes that the physics gave an entity its body by itself.
+    pub(crate) fn mark_adopted(&mut self, id: EntityId) {
+        if let Ok(place) = self.position(id) {
+            self.bodies[place].is_adopted = true;
+        }
     }
 
     /// Takes the body away from an entity, which then stays where it is.

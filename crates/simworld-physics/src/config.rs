@@ -28,6 +28,10 @@ pub struct PhysicsConfig {
     pub ground: Material,
     /// Bodies farther than this from every point of interest move in reduced detail, m, 1 to 1e6.
     pub detail_radius: f64,
+    /// Where [points of interest](crate::PhysicsDynamics::set_interest) are named, fixed solids farther than this from all of them, in the
+    /// plane, and from every body leave the engine, m, 1 to 1e6; without it, or without points, all of them are in it. Bodies move the same way
+    /// either way.
+    pub streaming_radius: Option<f64>,
     /// The steepest slope a person walks up, radians, 0 to 1.4. The default of 45° is the usual limit of
     /// character controllers.
     pub max_slope: f64,
@@ -49,6 +53,7 @@ impl Default for PhysicsConfig {
             ground_half_extent: 1e5,
             ground: Material::Asphalt,
             detail_radius: 150.0,
+            streaming_radius: Some(250.0),
             max_slope: std::f64::consts::FRAC_PI_4,
             step_height: 0.25,
             mirror_radius: 15.0,
@@ -68,6 +73,7 @@ impl PhysicsConfig {
         check("gravity", self.gravity, 0.0..=100.0, "0 to 100 m/s²")?;
         check("ground_half_extent", self.ground_half_extent, 1.0..=1e6, "1 to 1e6 m")?;
         check("detail_radius", self.detail_radius, 1.0..=1e6, "1 to 1e6 m")?;
+        check("streaming_radius", self.streaming_radius.unwrap_or(1.0), 1.0..=1e6, "1 to 1e6 m")?;
         check("max_slope", self.max_slope, 0.0..=1.4, "0 to 1.4 rad")?;
         check("step_height", self.step_height, 0.0..=1.0, "0 to 1 m")?;
         check("mirror_radius", self.mirror_radius, 1.0..=1e4, "1 to 1e4 m")?;

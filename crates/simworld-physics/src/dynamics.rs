@@ -27,6 +27,7 @@ use crate::movers::Movers;
 use crate::roam::Roamers;
 use crate::slot_set::SlotSet;
 use crate::solid::Solids;
+use crate::stream::Districts;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
@@ -80,6 +81,8 @@ pub struct PhysicsDynamics {
     pub(crate) surface: Option<Arc<Ground>>,
     /// What the physics makes of each slot of the world.
     pub(crate) slots: Vec<Slot>,
+    /// Where fixed solids stand, while not all of them are in the engine.
+    pub(crate) districts: Option<Districts>,
     /// The slots of what others move.
     pub(crate) traffic: SlotSet,
     /// The slots to be looked at in the next step, beside those that the world says.
@@ -111,7 +114,7 @@ pub struct PhysicsDynamics {
     claims: Claims,
     /// Who pushed whom in the last substep.
     pub(crate) shoves: Vec<Shove>,
-    failures: Vec<EventKind>,
+    pub(crate) failures: Vec<EventKind>,
 }
 
 /// A body of this physics.
@@ -122,6 +125,8 @@ pub(crate) struct Owned {
     /// The pose that the physics wrote last; another one in the world means that somebody moved the entity.
     pub(crate) written: Pose,
     pub(crate) bonds: Bonds,
+    /// Whether the physics gave it its body by itself, and gives it again where a saved state has it.
+    pub(crate) is_adopted: bool,
     /// Whether it moves by itself, out of the engine.
     pub(crate) is_roaming: bool,
     /// Velocity at the start of the substep, for the closing speed of contacts.
@@ -154,6 +159,7 @@ impl PhysicsDynamics {
             ground,
             surface: None,
             slots: Vec::new(),
+            districts: None,
             traffic: SlotSet::default(),
             stale: SlotSet::default(),
             seen: None,
@@ -201,6 +207,7 @@ impl PhysicsDynamics {
 
     /// Passes on what bodies were told; what they refuse becomes an event.
     fn take_actions(&mut self, world: &mut World) {
+        self.grasp_as_told(world);
         for (who, action) in world.actuations() {
             let Ok(place) = self.position(*who) else { continue };
             if let Err(error) = self.bodies[place].body.apply(action) {
@@ -360,6 +367,7 @@ impl Dynamics for PhysicsDynamics {
             return Err(DynamicsError::Other(format!("physics cannot step by {dt} s: give a positive time")));
         }
         self.set_conditions(Conditions::of(&world.environment().weather));
+        self.throw_as_told(world);
         self.synchronise(world);
         self.choose_detail();
         self.take_actions(world);

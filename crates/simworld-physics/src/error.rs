@@ -57,6 +57,36 @@ pub enum PhysicsError {
         /// Who.
         id: EntityId,
     },
+    /// Somebody has hold of nothing.
+    #[error("{id} has hold of nothing to let go of")]
+    NoGrasp {
+        /// Who.
+        id: EntityId,
+    },
+    /// A throw that the arm does not give.
+    #[error(
+        "{who} cannot throw {item} at {speed:.1} m/s: with {mass:.1} kg in hand the arm gives {most:.1} m/s"
+    )]
+    Weak {
+        /// Who.
+        who: EntityId,
+        /// What.
+        item: EntityId,
+        /// Its mass, kg.
+        mass: f64,
+        /// The speed that was asked for, m/s.
+        speed: f64,
+        /// The greatest that there is, m/s.
+        most: f64,
+    },
+    /// A target that stands too near to be thrown at.
+    #[error("{to} is too near to {who} to be thrown at: give it, or step back")]
+    TooNear {
+        /// Who.
+        who: EntityId,
+        /// At whom.
+        to: EntityId,
+    },
     /// The world refuses what was to be done to it.
     #[error(transparent)]
     World(#[from] WorldError),

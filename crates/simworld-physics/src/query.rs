@@ -32,6 +32,7 @@ impl PhysicsDynamics {
                 out.push(mirror.id);
             }
         }
+        self.away_overlapping(shape, pose, out);
         let near = solid.compute_aabb(&world_from_solid);
         for roamer in self.roamers_in(&near) {
             if intersection_test(&world_from_solid, &*solid, &roamer.pose, &*roamer.solid)
@@ -105,6 +106,8 @@ impl RayCast for PhysicsDynamics {
                 let entity = BodyTag::from_user_data(self.physics.colliders[handle].user_data).entity()?;
                 Some(RayHit { entity, distance: hit.time_of_impact, normal: from_vector(hit.normal) })
             });
+        let reach = near.map_or(max_distance, |hit| hit.distance);
+        let near = self.cast_at_away(ray, reach, filter).or(near);
         let reach = near.map_or(max_distance, |hit| hit.distance);
         let first = self.cast_at_distant(ray, reach, filter).or(near)?;
         let inside = first.normal == Vector3::zeros();

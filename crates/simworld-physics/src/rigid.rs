@@ -9,7 +9,7 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
 use crate::body::{BodyContext, PhysicsBody};
 use crate::convert::{to_pose, to_vector};
-use crate::shape::collider_for;
+use crate::shape::{collider_for, shape_from};
 use crate::solid::with_solid;
 
 /// Density of things whose mass nobody gave, kg/m³: about that of seasoned softwood.
@@ -31,7 +31,7 @@ impl Rigid {
     /// weighs what softwood would, 500 kg/m³.
     pub fn of(entity: &EntityRef<'_>, material: Material) -> Self {
         let state = BodyState { pose: *entity.pose, twist: *entity.twist };
-        let mass = entity.info.mass.filter(|mass| mass.is_finite() && *mass > 0.0);
+        let mass = given_mass(entity);
         Self { state, shape: entity.info.shape, mass, material, solid: None }
     }
 
@@ -41,6 +41,16 @@ impl Rigid {
         self.solid = Some(solid);
         self
     }
+}
+
+fn given_mass(entity: &EntityRef<'_>) -> Option<f64> {
+    entity.info.mass.filter(|mass| mass.is_finite() && *mass > 0.0)
+}
+
+/// What an entity weighs as a free body, kg; by its shape where nobody gave it a mass.
+pub(crate) fn mass_of(entity: &EntityRef<'_>) -> f64 {
+    let by_shape = || shape_from(&entity.info.shape).0.mass_properties(DENSITY).mass();
+    given_mass(entity).unwrap_or_else(by_shape)
 }
 
 impl std::fmt::Debug for Rigid {

@@ -3,21 +3,27 @@
 //! They keep off what stands fixed and go past everything that moves. Rays and overlaps meet them by a tree of their own, which
 //! is made when somebody asks.
 
+use std::any::Any;
 use std::sync::OnceLock;
 
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::Ray as RapierRay;
-use rapier3d_f64::math::Pose as RapierPose;
-use rapier3d_f64::prelude::{Collider, SharedShape};
+use parry3d_f64::query::details::ShapeCastOptions;
+use rapier3d_f64::math::{Pose as RapierPose, Vector};
+use rapier3d_f64::prelude::{Collider, QueryFilter, SharedShape};
 use rayon::prelude::*;
 use simworld_core::geometry::Vector3;
 use simworld_core::id::EntityId;
-use simworld_core::seam::Embodiment;
+use simworld_core::seam::{BodyState, Embodiment};
 
 use crate::body::{Detail, Surroundings};
 use crate::convert::{from_vector, to_pose};
 use crate::dynamics::{Owned, PhysicsDynamics};
+use crate::humanoid::{Humanoid, SKIN};
 use crate::shape::body_from;
+
+/// Less than this the engine makes up for by itself, m.
+const LEAST_LIFT: f64 = 0.03;
 
 /// Who roams, where and in what form; made for the first question after a step.
 #[derive(Default)]
@@ -54,13 +60,40 @@ impl PhysicsDynamics {
 
     /// Puts a body that roamed into the engine where it has come to.
     pub(crate) fn take_back(&mut self, index: usize) {
+        let lift = self.lift_on_treads(&self.bodies[index]);
         let owned = &mut self.bodies[index];
+        if lift > 0.0 {
+            let BodyState { mut pose, twist } = owned.body.state();
+            pose.translation.vector.z += lift;
+            owned.body.settle(&BodyState { pose, twist });
+        }
         owned.is_roaming = false;
         let (rigid, pose) = (owned.rigid, to_pose(&owned.body.state().pose));
         let body = &mut self.physics.bodies[rigid];
         body.set_position(pose, true);
         body.set_next_kinematic_position(pose);
         self.set_solid(rigid, true);
+    }
+
+    /// How much higher somebody on foot stands in the engine, m: with all of its form on the highest tread below it, and not with its middle
+    /// on one. Otherwise the engine would push it out of the tread.
+    fn lift_on_treads(&self, owned: &Owned) -> f64 {
+        let form = || {
+            let handle = *self.physics.bodies.get(owned.rigid)?.colliders().first()?;
+            self.physics.colliders.get(handle)
+        };
+        let is_person = (&*owned.body as &dyn Any).is::<Humanoid>();
+        let Some(form) = form().filter(|_| is_person) else { return 0.0 };
+        let reach = self.config.step_height + SKIN;
+        let raised = RapierPose::from_translation(Vector::Z * reach);
+        let at = raised * to_pose(&owned.body.state().pose) * body_from(form);
+        let options = ShapeCastOptions { max_time_of_impact: reach, ..ShapeCastOptions::default() };
+        // The ground itself is stood on by its heights.
+        let filter = QueryFilter::only_fixed().exclude_collider(self.ground);
+        let queries = self.physics.query_pipeline_with_filter(filter);
+        let met = queries.cast_shape(&at, -Vector::Z, form.shape(), options);
+        let lift = met.map_or(0.0, |(_, hit)| reach - hit.time_of_impact);
+        if (LEAST_LIFT..=self.config.step_height).contains(&lift) { lift } else { 0.0 }
     }
 
     /// Moves everybody who roams on by a step of `dt` s; each alone, so the order and the thread do not matter.

@@ -18,12 +18,13 @@ use crate::grasp::{Grasp, Grasps};
 use crate::humanoid::Shove;
 use crate::roam::Roamers;
 use crate::slot_set::SlotSet;
+use crate::stream::Cell;
 use crate::surface::Conditions;
 use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// The mark of this crate's saved state and its version.
-const MARK: [u8; 8] = *b"swphys06";
+const MARK: [u8; 8] = *b"swphys07";
 
 /// What is written, by reference.
 #[derive(Serialize)]
@@ -33,6 +34,7 @@ struct Written<'a> {
     ground: ColliderHandle,
     surface: Option<u64>,
     slots: &'a [Slot],
+    loaded: Option<&'a [(Cell, u32)]>,
     touching: &'a [(EntityId, EntityId)],
     conditions: Conditions,
     interest: &'a [Point3],
@@ -50,6 +52,8 @@ struct Read {
     /// The digest of the surface that the ground is.
     surface: Option<u64>,
     slots: Vec<Slot>,
+    /// The cells whose solids are in the engine, if not all are.
+    loaded: Option<Vec<(Cell, u32)>>,
     touching: Vec<(EntityId, EntityId)>,
     conditions: Conditions,
     interest: Vec<Point3>,
@@ -64,6 +68,7 @@ struct SavedBody {
     rigid: RigidBodyHandle,
     written: Pose,
     detail: Detail,
+    is_adopted: bool,
     is_roaming: bool,
     pose: Pose,
     twist: Twist,
@@ -82,8 +87,18 @@ impl PhysicsDynamics {
     pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, PhysicsError> {
         let save = |owned: &Owned| {
             let BodyState { pose, twist } = owned.body.state();
-            let Owned { id, rigid, written, detail, is_roaming, .. } = *owned;
-            SavedBody { id, rigid, written, detail, is_roaming, pose, twist, inner: owned.body.save() }
+            let Owned { id, rigid, written, detail, is_adopted, is_roaming, .. } = *owned;
+            SavedBody {
+                id,
+                rigid,
+                written,
+                detail,
+                is_adopted,
+                is_roaming,
+                pose,
+                twist,
+                inner: owned.body.save(),
+            }
         };
         let written = Written {
             config: &self.config,
@@ -91,6 +106,7 @@ impl PhysicsDynamics {
             ground: self.ground,
             surface: self.surface_digest(),
             slots: &self.slots,
+            loaded: self.districts.as_ref().map(|districts| &*districts.loaded),
             touching: &self.contacts.touching,
             conditions: self.conditions,
             interest: &self.interest,
@@ -103,7 +119,8 @@ impl PhysicsDynamics {
     }
 
     /// Takes up a saved state. The entities must have bodies of the same kinds here; bodies that the saved state
-    /// does not know are dropped. On an error nothing but their inner state may have changed.
+    /// does not know are dropped, and those that the physics made by itself are made again. On an error nothing but those and their inner
+    /// state may have changed.
     pub(crate) fn take_up(&mut self, world: &World, saved: &[u8]) -> Result<(), PhysicsError> {
         let rest = saved.strip_prefix(&MARK).ok_or_else(|| saved_error("it is not this crate's"))?;
         let (sum, rest) = rest.split_at_checked(8).ok_or_else(|| saved_error("it is cut short"))?;
@@ -125,6 +142,9 @@ impl PhysicsDynamics {
             if world.entity(id).is_none() {
                 return Err(PhysicsError::Missing { id });
             }
+            if body.is_adopted && self.position(id).is_err() {
+                self.add_rigid(world, id)?;
+            }
             let place = self.position(id).map_err(|_| PhysicsError::Bodiless { id })?;
             let state = BodyState { pose: body.pose, twist: body.twist };
             if !self.bodies[place].body.restore(&state, &body.inner) {
@@ -138,11 +158,16 @@ impl PhysicsDynamics {
             owned.before = body.twist;
             owned.bonds = Bonds::default();
             (owned.detail, owned.is_roaming) = (body.detail, body.is_roaming);
+            owned.is_adopted = body.is_adopted;
         }
         self.physics = read.physics;
         self.roamers = Roamers::default();
         (self.ground, self.surface) = (read.ground, surface.cloned());
         self.slots = read.slots;
+        self.districts = None;
+        if let Some(loaded) = read.loaded {
+            self.survey(loaded, world);
+        }
         (self.traffic, self.stale, self.seen) = (SlotSet::default(), SlotSet::default(), None);
         let is_traffic = |slot: &usize| matches!(self.slots[*slot], Slot::Traffic(_));
         (0..self.slots.len()).filter(is_traffic).for_each(|slot| self.traffic.insert(slot));
@@ -187,6 +212,12 @@ impl PhysicsDynamics {
         hasher.u64(self.grasps.list.len() as u64);
         for grasp in &self.grasps.list {
             hasher.u64(grasp.who.into()).u64(grasp.thing.into()).f64(grasp.force);
+        }
+        if let Some(districts) = &self.districts {
+            hasher.u64(districts.loaded.len() as u64);
+            for ((x, y), idle) in &districts.loaded {
+                hasher.u64(*x as u64).u64(*y as u64).u64(u64::from(*idle));
+            }
         }
         hasher.u64(self.contacts.touching.len() as u64);
         for (a, b) in &self.contacts.touching {

@@ -11,7 +11,6 @@ use simworld_core::scene::{EntityRef, Role, Scene, Shape, World};
 use simworld_core::seam::BodyState;
 
 use crate::body::Bonds;
-use crate::convert::to_pose;
 use crate::dynamics::PhysicsDynamics;
 use crate::mirror::Mirror;
 use crate::shape::body_from;
@@ -23,8 +22,8 @@ pub(crate) enum Slot {
     /// Nothing: a free slot, or something that is not solid or is carried.
     #[default]
     Vacant,
-    /// A fixed collider.
-    Fixed { id: EntityId, asset: Option<AssetId>, shape: Shape, pose: Pose, collider: ColliderHandle },
+    /// A fixed solid, with its collider while it is in the engine.
+    Fixed { id: EntityId, asset: Option<AssetId>, shape: Shape, pose: Pose, collider: Option<ColliderHandle> },
     /// Something that others move.
     Traffic(Mirror),
     /// A body of this physics.
@@ -64,6 +63,7 @@ impl PhysicsDynamics {
             }
         }
         self.moving.clear();
+        self.stream(world);
         if self.slots.len() < world.slots() {
             self.slots.resize_with(world.slots(), Slot::default);
         }
@@ -145,14 +145,18 @@ impl PhysicsDynamics {
         }
     }
 
-    /// Makes a solid thing a fixed collider, in the place of what was in the slot.
+    /// Makes a solid thing a fixed one, in the place of what was in the slot: a collider, unless it is far from where solids are wanted.
     fn fix(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
         self.vacate(slot);
-        let collider = self.solids.collider(entity, world);
-        let world_from_solid = to_pose(entity.pose) * collider.position;
-        let collider = collider.position(world_from_solid);
-        let collider = self.physics.insert_collider(collider, None);
-        self.file(collider);
+        let mut is_wanted = true;
+        if self.districts.is_some() {
+            let (bounds, model) = (entity.info.shape.aabb(entity.pose), self.solids.of(entity, world));
+            if let Some(districts) = &mut self.districts {
+                districts.file(slot, &bounds, model);
+                is_wanted = districts.holds(&bounds);
+            }
+        }
+        let collider = is_wanted.then(|| self.harden(entity, world));
         let (id, asset, shape, pose) = (entity.id, entity.info.asset, entity.info.shape, *entity.pose);
         self.set_slot(slot, Slot::Fixed { id, asset, shape, pose, collider });
     }
@@ -161,8 +165,13 @@ impl PhysicsDynamics {
     pub(crate) fn vacate(&mut self, slot: usize) {
         match &self.slots[slot] {
             Slot::Vacant | Slot::Own { .. } => return,
-            Slot::Fixed { collider, .. } => {
-                self.physics.remove_collider(*collider);
+            Slot::Fixed { shape, pose, collider, .. } => {
+                if let Some(districts) = &mut self.districts {
+                    districts.unfile(slot, &shape.aabb(pose));
+                }
+                if let Some(collider) = collider {
+                    self.physics.remove_collider(*collider);
+                }
             }
             Slot::Traffic(mirror) => {
                 if let Some(rigid) = mirror.rigid {

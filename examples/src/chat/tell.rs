@@ -59,6 +59,8 @@ fn action_in_words(world: &World, action: &Action) -> String {
         | Action::WaveHand { to: id }
         | Action::Argue { with: id }
         | Action::Give { to: id }
+        | Action::ThrowTo { to: id }
+        | Action::Grasp { thing: id, .. }
         | Action::Converse { with: id, .. }
         | Action::Buy { from: id, .. } => Some(*id),
         _ => None,

@@ -17,7 +17,7 @@ const PERSON: fn(&Stage) -> EntityId = |stage| stage.me;
 const DOG: fn(&Stage) -> EntityId = |stage| stage.dog;
 const CAR: fn(&Stage) -> EntityId = |stage| stage.car;
 
-const ROWS: [Row; 41] = [
+const ROWS: [Row; 45] = [
     (PERSON, ActionKind::MoveForward, |stage| moving::forward(stage, stage.me)),
     (PERSON, ActionKind::Step, |stage| moving::step(stage, stage.me)),
     (PERSON, ActionKind::Rotate, |stage| moving::rotate(stage, stage.me)),
@@ -32,6 +32,10 @@ const ROWS: [Row; 41] = [
     (PERSON, ActionKind::CarryHeavy, things::carry_heavy),
     (PERSON, ActionKind::PutDownHeavy, things::put_down_heavy),
     (PERSON, ActionKind::Give, things::give),
+    (PERSON, ActionKind::Throw, things::throw),
+    (PERSON, ActionKind::ThrowTo, things::throw_to),
+    (PERSON, ActionKind::Grasp, things::grasp),
+    (PERSON, ActionKind::LetGo, things::let_go),
     (PERSON, ActionKind::Buy, things::buy),
     (PERSON, ActionKind::SitDown, things::sit_down),
     (PERSON, ActionKind::StandUp, things::stand_up),

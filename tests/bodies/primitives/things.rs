@@ -1,6 +1,7 @@
 //! Rows of the table: what is taken, sat on and opened.
 
-use simworld_core::action::Action;
+use simworld_core::action::{Action, StepDirection};
+use simworld_core::geometry::Vector3;
 use simworld_core::id::EntityId;
 use simworld_core::scene::{Role, Scene};
 
@@ -92,6 +93,67 @@ pub(crate) fn give(stage: &mut Stage) {
     stage.stand(other, stage.at(me).x, stage.at(me).y + 1.0, 0.0);
     stage.does(me, Action::Give { to: other });
     assert_eq!(stage.sees(parcel).bond, Some((other, Role::Held)));
+}
+
+pub(crate) fn throw(stage: &mut Stage) {
+    let (me, parcel) = (stage.me, stage.parcel);
+    let throw = |speed: f64| Action::Throw { velocity: Vector3::new(0.0, -speed, 0.0) };
+    stage.refuses(me, throw(6.0), "holding nothing");
+    beside(stage, me, parcel);
+    stage.does(me, Action::PickUp { item: parcel });
+    // Half (2 kg + 0.64 kg) v² is 200 J.
+    stage.refuses(me, throw(12.4), "the arm gives 12.3 m/s");
+    let from = stage.at(me);
+    stage.does(me, throw(6.0));
+    assert_eq!(stage.sees(parcel).bond, None);
+    stage.wait(0.3);
+    within(stage.sees(parcel).speed, 5.5..=6.5);
+    stage.wait(3.0);
+    within(from.y - stage.at(parcel).y, 2.0..=6.0);
+    within(stage.sees(parcel).speed, 0.0..=0.05);
+}
+
+pub(crate) fn throw_to(stage: &mut Stage) {
+    let (me, other, parcel) = (stage.me, stage.other, stage.parcel);
+    stage.refuses(me, Action::ThrowTo { to: other }, "holding nothing");
+    beside(stage, me, parcel);
+    stage.does(me, Action::PickUp { item: parcel });
+    stage.refuses(me, Action::ThrowTo { to: parcel }, "by who is on it");
+    stage.stand(other, stage.at(me).x, stage.at(me).y - 6.0, 1.57);
+    stage.does(me, Action::ThrowTo { to: other });
+    stage.wait(3.0);
+    assert_eq!(stage.sees(parcel).bond, None);
+    within((stage.at(parcel) - stage.at(other)).norm(), 0.2..=2.0);
+}
+
+pub(crate) fn grasp(stage: &mut Stage) {
+    let (me, parcel) = (stage.me, stage.parcel);
+    let grasp = |thing| Action::Grasp { thing, both_hands: true };
+    stage.refuses(me, grasp(stage.other), "the reach is 2 m");
+    beside(stage, me, parcel);
+    // What has no body of its own stands fixed.
+    stage.refuses(me, grasp(parcel), "has no body");
+    stage.does(me, Action::PickUp { item: parcel });
+    stage.does(me, Action::Throw { velocity: Vector3::new(0.0, 0.5, 0.0) });
+    stage.wait(2.0);
+    let at = stage.at(parcel);
+    stage.stand(me, at.x - 0.6, at.y, 0.0);
+    stage.does(me, grasp(parcel));
+    stage.refuses(me, grasp(parcel), "let go first");
+    stage.does(me, Action::Step { direction: StepDirection::Backward, distance: 1.0 });
+    stage.wait(2.0);
+    within(at.x - stage.at(parcel).x, 0.7..=1.3);
+}
+
+pub(crate) fn let_go(stage: &mut Stage) {
+    stage.refuses(stage.me, Action::LetGo, "has hold of nothing");
+    grasp(stage);
+    let (me, parcel) = (stage.me, stage.parcel);
+    let lies = stage.at(parcel);
+    stage.does(me, Action::LetGo);
+    stage.does(me, Action::Step { direction: StepDirection::Backward, distance: 1.0 });
+    stage.wait(2.0);
+    within((stage.at(parcel) - lies).norm(), 0.0..=0.2);
 }
 
 pub(crate) fn buy(stage: &mut Stage) {

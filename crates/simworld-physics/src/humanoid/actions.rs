@@ -62,8 +62,15 @@ impl Humanoid {
             Action::PointDirection { heading } => {
                 checked(kind, "heading", *heading, f64::MIN..=f64::MAX, "a finite angle")?;
             }
-            // Words and gestures move no limb that this body has.
-            Action::TakePhoto | Action::Converse { .. } | Action::WaveHand { .. } | Action::Argue { .. } => {}
+            // What hands do with things the physics carries out; words and gestures move no limb that this body has.
+            Action::Throw { .. }
+            | Action::ThrowTo { .. }
+            | Action::Grasp { .. }
+            | Action::LetGo
+            | Action::TakePhoto
+            | Action::Converse { .. }
+            | Action::WaveHand { .. }
+            | Action::Argue { .. } => {}
             other => return Err(EmbodimentError::unsupported(other.kind(), self.supports())),
         }
         Ok(())

@@ -25,13 +25,19 @@ const SIGHT: f64 = 8.0;
 /// After so long it looks anew, for things may have been put there, s.
 const MEMORY: f64 = 5.0;
 /// How far it may come off the line along which it looked, m.
-const ASIDE: f64 = 0.05;
+pub(super) const ASIDE: f64 = 0.05;
 /// After so long it no longer minds a wall, or tries once more where it could not go, s.
 const PATIENCE: f64 = 0.5;
 /// Who goes along a wall keeps off it by this share of its way.
 const SLANT: f64 = 0.05;
 /// Way between two looks at the ground, m: less than two treads.
 const TREAD: f64 = 0.4;
+/// The same on treads, m: less than one.
+const FOOTHOLD: f64 = 0.15;
+/// Treads are looked for where something is no farther ahead, m.
+const NEAR: f64 = 0.5;
+/// What lets one go on by less than this is no tread, m.
+const GAIN: f64 = 0.1;
 /// Flatter than this is a tread and no slope, as the upward part of its normal.
 const FLAT: f64 = 0.99;
 /// A rise or drop beyond this on flat ground is a step, m.
@@ -51,8 +57,11 @@ pub(super) struct Stroll {
     since: f64,
     /// The wall along which it goes, by its normal, and since when, s.
     along: Option<(Vector2, f64)>,
-    /// Way until the next look down, m.
+    /// Way from the last look down to the next, and until that, m.
+    between: f64,
     until: f64,
+    /// How far on there are treads, m.
+    treads: f64,
     /// Rise over way that it saw there, in the plane, and whether that was the ground itself.
     grade: Vector2,
     on_ground: bool,
@@ -67,7 +76,9 @@ impl Default for Stroll {
             aside: 0.0,
             since: 0.0,
             along: None,
+            between: TREAD,
             until: 0.0,
+            treads: 0.0,
             grade: Vector2::zeros(),
             on_ground: false,
         }
@@ -156,7 +167,7 @@ impl Humanoid {
             let ahead = way / length;
             (stroll.ahead, stroll.aside, stroll.since) = (ahead, 0.0, 0.0);
             (stroll.clear, stroll.wall) = match self.look_ahead(ahead, from, around) {
-                Some((distance, wall)) => (distance, Some(wall)),
+                Some((distance, wall)) => self.look_for_treads(stroll, distance, wall, from, around),
                 None => (SIGHT, None),
             };
         }
@@ -164,6 +175,30 @@ impl Humanoid {
         stroll.clear -= share * way.dot(&stroll.ahead);
         stroll.aside += share * cross(way, stroll.ahead).abs();
         (way * share, stroll.wall.filter(|_| share < 1.0))
+    }
+
+    /// What is free of the way ahead where something stops the form, if that is no more than treads to be taken, and the wall that ends
+    /// it.
+    fn look_for_treads(
+        &self,
+        stroll: &mut Stroll,
+        distance: f64,
+        wall: Vector2,
+        from: Vector2,
+        around: &Surroundings<'_>,
+    ) -> (f64, Option<Vector2>) {
+        // Where it goes along a wall in the same step it looks from beside its feet.
+        let clear = if from == Vector2::zeros() && distance < NEAR {
+            self.climb(stroll.ahead, distance, SIGHT, around)
+        } else {
+            distance
+        };
+        if clear <= distance + GAIN {
+            return (distance, Some(wall));
+        }
+        stroll.until = stroll.until.min(FOOTHOLD);
+        stroll.treads = clear;
+        (clear, (clear < SIGHT).then_some(wall))
     }
 
     /// How far it is to what stands fixed in a direction, m, and its face, by its normal in the plane.
@@ -209,7 +244,8 @@ impl Humanoid {
         let reach = around.config().step_height + SKIN;
         let top = self.feet() + Vector3::z() * reach;
         let ray = Ray::new(to_point(&top), -Vector::Z);
-        let met = around.queries_of_fixed().cast_ray_and_get_normal(&ray, 2.0 * reach, true);
+        // Down two risers, which may lie between two looks.
+        let met = around.queries_of_fixed().cast_ray_and_get_normal(&ray, 3.0 * reach, true);
         let Some((handle, hit)) = met.filter(|(_, hit)| hit.normal.z > 0.1) else {
             self.motion.grounded = false;
             return;
@@ -226,14 +262,19 @@ impl Humanoid {
         }
         let height = top.z - hit.time_of_impact;
         let rise = height - self.motion.feet.z;
-        let walked = (TREAD - stroll.until).min(2.0 * TREAD);
+        let walked = (stroll.between - stroll.until).min(2.0 * TREAD);
+        stroll.treads -= walked;
         match way.try_normalize(1e-9) {
-            Some(_) if normal.z > FLAT && rise.abs() > STEP => self.motion.pace.go(1e-3, rise),
+            Some(_) if normal.z > FLAT && rise.abs() > STEP => {
+                stroll.treads = stroll.treads.max(2.0 * TREAD);
+                self.motion.pace.go(1e-3, rise);
+            }
             Some(ahead) => self.motion.pace.go(walked, walked * grade.dot(&ahead)),
             None => {}
         }
         self.motion.feet.z = height;
-        (stroll.until, stroll.grade) = (TREAD, grade);
+        stroll.between = if stroll.treads > 0.0 { FOOTHOLD } else { TREAD };
+        (stroll.until, stroll.grade) = (stroll.between, grade);
         let ground = around.physics.colliders.get(handle);
         stroll.on_ground = ground.is_some_and(|it| BodyTag::from_user_data(it.user_data) == BodyTag::Ground);
     }

@@ -295,3 +295,106 @@ fn saved_far_away_it_goes_on_to_the_bit_on_any_number_of_threads() {
     assert!(straight == run(1, true), "saved and taken up");
     assert!(straight.0 == run(usize::MAX, false).0, "on one thread");
 }
+
+/// Ten stairs of 0.17 m that rise towards east from x = 6 m, with a landing, and as many down behind it.
+fn flight(stage: &mut Stage, tread: f64) -> f64 {
+    for index in 0..10 {
+        let height = 0.17 * f64::from(index + 1);
+        for x in [6.0 + tread * f64::from(index), 6.0 + tread * f64::from(23 - index) + 3.0] {
+            stage.building(x + 0.5 * tread, 0.0, (tread, 14.0, height));
+        }
+    }
+    stage.building(7.5 + 10.0 * tread + 2.0 * tread, 0.0, (3.0 + 4.0 * tread, 14.0, 1.7));
+    6.0 + 10.0 * tread
+}
+
+#[test]
+fn stairs_are_walked_up_and_down_and_what_is_no_stair_is_a_wall() {
+    for tread in [0.26, 0.3, 0.4] {
+        for aslant in [0.0, 0.25] {
+            let mut stage = far();
+            let top = flight(&mut stage, tread);
+            let who = stage.person(at(0.0, -1.5, aslant));
+            stage.tell(who, Action::MoveForward { speed: 1.34 });
+            let (mut highest, mut arrives) = (0.0_f64, None);
+            for step in 0..400 {
+                let from = stage.position(who);
+                stage.step();
+                let to = stage.position(who);
+                highest = highest.max(to.z);
+                assert!((to.z - from.z).abs() < 0.35, "treads of {tread} m: {from} to {to}");
+                if arrives.is_none() && to.x > top + 0.3 {
+                    arrives = Some(step);
+                }
+            }
+            let place = stage.position(who);
+            assert!(
+                (highest - 1.7).abs() < 0.02 && arrives.is_some(),
+                "treads of {tread} m: up to {highest} m, {place}"
+            );
+            assert!(place.z.abs() < 0.01 && place.x > top + 8.0, "treads of {tread} m: down again: {place}");
+            assert_eq!(stage.physics.detail(who), Some(Detail::Reduced));
+        }
+    }
+    // Risers of 0.3 m are no stairs, a shelf over the treads leaves no room, and neither does a wall at their end.
+    for (name, risers, ceiling) in [("risers", 0.3, false), ("a ceiling", 0.17, true)] {
+        let mut stage = far();
+        for index in 0..6 {
+            let height = risers * f64::from(index + 1);
+            stage.building(6.0 + 0.3 * f64::from(index), 0.0, (0.3, 14.0, height));
+        }
+        if ceiling {
+            let shelf = simworld_core::geometry::pose_facing(Point3::new(8.0, 0.0, 2.0), 0.0);
+            stage.spawn(EntityKind::Building, shelf, Shape::cuboid(3.6, 6.0, 0.3));
+        }
+        let who = heading_east(&mut stage, 0.0, 1.34);
+        stage.run(150);
+        let place = stage.position(who);
+        assert!(place.x < 6.5 && place.z < 0.55, "{name}: {place}");
+    }
+}
+
+#[test]
+fn who_goes_from_near_to_far_and_back_again_neither_jumps_nor_ends_up_in_something() {
+    for phase in [7, 13, 29] {
+        let mut stage = Stage::new();
+        flight(&mut stage, 0.3);
+        stage.building(3.0, 0.0, (1.0, 6.0, 0.15));
+        let walls = [stage.building(22.0, 2.4, (1.0, 3.0, 3.0)), stage.building(22.0, -2.6, (1.0, 3.0, 3.0))];
+        let people: Vec<EntityId> = [-2.0, -0.4, 1.0, 2.2]
+            .into_iter()
+            .map(|y| {
+                let who = stage.person(at(-0.4 * y, y, 0.03));
+                stage.tell(who, Action::MoveForward { speed: 1.4 });
+                who
+            })
+            .collect();
+        let mut changes = 0;
+        for step in 0..450 {
+            let is_near = (step / phase) % 2 == 0;
+            stage.physics.set_interest(&[if is_near { Point3::origin() } else { ELSEWHERE }]);
+            let before: Vec<(Point3, Option<Detail>)> =
+                people.iter().map(|who| (stage.position(*who), stage.physics.detail(*who))).collect();
+            stage.step();
+            for (who, (from, detail)) in people.iter().zip(before) {
+                let to = stage.position(*who);
+                changes += usize::from(detail != stage.physics.detail(*who));
+                assert!((to - from).xy().norm() < 0.23, "step {step}: {who} goes from {from} to {to}");
+                assert!((to.z - from.z).abs() < 0.36, "step {step}: {who} goes from {from} to {to}");
+                let mut met = Vec::new();
+                let pose = simworld_core::geometry::pose_facing(to + Vector3::z() * 0.4, 0.0);
+                stage.physics.overlapping(&Shape::Cylinder { radius: 0.2, height: 1.2 }, &pose, &mut met);
+                assert!(!met.iter().any(|id| walls.contains(id)), "step {step}: {who} is in a wall at {to}");
+            }
+        }
+        assert!(changes > 4 * 300 / phase, "{changes} times from one to the other");
+        assert!(
+            stage.events.iter().all(|event| !matches!(event, EventKind::Fell { .. })),
+            "{:?}",
+            stage.events
+        );
+        for who in &people {
+            assert!(stage.position(*who).x > 16.0, "everybody is over the stairs: {}", stage.position(*who));
+        }
+    }
+}
