@@ -200,25 +200,21 @@ fn memory() -> Option<f64> {
 /// A hundred bodies that move: half of them people, half crates.
 const ACTIVE: Crowd = Crowd { people: 50, dogs: 0, cars: 0, crates: 50 };
 
-/// Makes bodies of a city, of all of it or where somebody is interested in it, and steps it.
-fn million(blocks: usize, streams: bool, share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let side = |solids: f64| (solids * share / SOLIDS as f64).sqrt().ceil().max(1.0) as usize;
+    let blocks = side(1e6);
     let world = Quarter::world(blocks)?;
+    let solids = blocks * blocks * SOLIDS;
     let before = memory();
     let mut made = None;
     let building = cost(1, || {
         let quarter = made.insert(Quarter::new(world, 2, ACTIVE, Threads::One)?);
-        if streams {
-            quarter.physics.set_interest(&[Point3::new(80.0, 80.0, 0.0)]);
-        }
         quarter.step()
     })?;
     let Some(mut quarter) = made else { return Ok(()) };
     let grown = before.zip(memory()).map(|(before, after)| (after - before) / 1e6);
-    let (inside, solids) = quarter.physics.fixed_solids();
-    let streamed =
-        if streams { format!(", {inside} of them near one point of interest") } else { String::new() };
     rows.push([
-        format!("{solids} fixed solids{streamed}: to make bodies of them"),
+        format!("{solids} fixed solids: to make bodies of them"),
         format!(
             "{:.2} s of a core, {}",
             building.processor * 1e-3,
@@ -233,15 +229,7 @@ fn million(blocks: usize, streams: bool, share: f64, rows: &mut Rows) -> Result<
         format!("{:.2} ms", step.processor),
         "1 ms".into(),
     ]);
-    Ok(())
-}
-
-fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
-    let side = |solids: f64| (solids * share / SOLIDS as f64).sqrt().ceil().max(1.0) as usize;
-    for streams in [true, false] {
-        million(side(1e6), streams, share, rows)?;
-    }
-    let count = ACTIVE.people + ACTIVE.crates;
+    drop(quarter);
     let mut steps = Vec::new();
     for buildings in [1e3, 1e4, 1e5] {
         let blocks = side(buildings / BUILDINGS as f64 * SOLIDS as f64);

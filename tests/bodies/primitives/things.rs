@@ -106,8 +106,7 @@ pub(crate) fn throw(stage: &mut Stage) {
     let from = stage.at(me);
     stage.does(me, throw(6.0));
     assert_eq!(stage.sees(parcel).bond, None);
-    stage.wait(0.3);
-    within(stage.sees(parcel).speed, 5.5..=6.5);
+    within(stage.speed(parcel), 5.5..=6.5);
     stage.wait(3.0);
     within(from.y - stage.at(parcel).y, 2.0..=6.0);
     within(stage.sees(parcel).speed, 0.0..=0.05);

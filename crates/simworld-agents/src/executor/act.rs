@@ -117,6 +117,8 @@ fn is_visible(action: &Action) -> bool {
             | Action::OpenDoor { .. }
             | Action::CloseDoor { .. }
             | Action::Give { .. }
+            | Action::Throw { .. }
+            | Action::ThrowTo { .. }
             | Action::Buy { .. }
     )
 }
@@ -134,6 +136,9 @@ fn missing_effect(scene: &dyn Scene, who: EntityId, action: &Action) -> Option<S
         Action::RideScooter { scooter } => hangs_on_me(*scooter, Role::Ridden),
         Action::DropOff | Action::Give { .. } => scene.attached(who, Role::Held).is_none(),
         Action::PutDownHeavy => scene.attached(who, Role::Carried).is_none(),
+        Action::Throw { .. } | Action::ThrowTo { .. } => {
+            scene.attached(who, Role::Held).is_none() && scene.attached(who, Role::Carried).is_none()
+        }
         Action::GetOffScooter => scene.attached(who, Role::Ridden).is_none(),
         Action::SitDown { seat } => i_hang_on(Some(*seat), Role::Seated),
         Action::EnterCar { car } => i_hang_on(Some(*car), Role::Aboard),

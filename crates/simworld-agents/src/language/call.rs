@@ -19,7 +19,7 @@ use super::spelling::correct;
 #[rustfmt::skip]
 pub(super) const CALLS: &[(&str, &[&str])] = &[
     ("navigate", &["to?", "x?", "y?", "z?", "speed?", "within?"]), ("follow", &["whom"]), ("face", &["what"]),
-    ("pick_up", &["item"]), ("drop_off", &[]), ("put_down", &[]), ("give", &["to", "item?"]), ("buy", &["goods",
+    ("pick_up", &["item"]), ("drop_off", &[]), ("put_down", &[]), ("give", &["to", "item?"]), ("throw", &["to", "item?"]), ("buy", &["goods",
     "at?"]), ("sit_down", &["seat?"]), ("stand_up", &[]), ("stop", &[]), ("wait", &["seconds"]),
     ("ride_scooter", &["scooter"]), ("get_off_scooter", &[]), ("enter_car", &["car"]), ("exit_car", &[]),
     ("open_door", &["door?"]), ("close_door", &["door?"]), ("step", &["direction?", "distance?"]), ("turn",
@@ -100,6 +100,7 @@ impl Call<'_> {
             "face" => Clause::Face { what: self.thing("what")? },
             "pick_up" => Clause::Take { what: self.thing("item")?, to: None, grip: Grip::Lift },
             "give" => Clause::Give { what: self.optional_thing("item")?, to: self.thing("to")? },
+            "throw" => Clause::Throw { what: self.optional_thing("item")?, to: self.thing("to")? },
             "buy" => Clause::Buy {
                 goods: self.text("goods")?,
                 times: 1,

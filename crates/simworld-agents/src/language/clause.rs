@@ -34,6 +34,8 @@ pub(super) enum Clause {
     Drop { what: Option<Reference>, at: Option<Reference>, manner: Manner },
     /// Hands something over.
     Give { what: Option<Reference>, to: Reference },
+    /// Throws something at somebody.
+    Throw { what: Option<Reference>, to: Reference },
     /// Buys something, where it is sold or at a place, and gives it to somebody if one is named.
     Buy { goods: String, times: u32, at: Option<Reference>, whom: Option<Reference> },
     /// Speaks of something that later words stand for, and does nothing.
@@ -431,6 +433,7 @@ impl Clause {
         | Self::Follow { whom: what, .. }
         | Self::Drop { what: Some(what), .. }
         | Self::Give { what: Some(what), .. }
+        | Self::Throw { what: Some(what), .. }
         | Self::Door { what: Some(what), .. }
         | Self::Sit { on: Some(what) }
         | Self::Photo { of: Some(what), .. }) = self
@@ -448,7 +451,9 @@ impl Clause {
     /// The thing that is handed over or put down.
     pub(super) const fn handled(&self) -> Option<&Reference> {
         match self {
-            Self::Give { what: Some(what), .. } | Self::Drop { what: Some(what), .. } => Some(what),
+            Self::Give { what: Some(what), .. }
+            | Self::Throw { what: Some(what), .. }
+            | Self::Drop { what: Some(what), .. } => Some(what),
             _ => None,
         }
     }

@@ -149,6 +149,7 @@ impl<'a> Draft<'a> {
             Clause::Take { what, to, grip } => self.take_to(what, to.as_ref(), *grip),
             Clause::Drop { what, at, manner } => self.drop(what.as_ref(), at.as_ref(), *manner),
             Clause::Give { what, to } => self.give(what.as_ref(), to),
+            Clause::Throw { what, to } => self.throw(what.as_ref(), to),
             Clause::Buy { goods, times, at, whom } => self.buy(goods, *times, at.as_ref(), whom.as_ref()),
             Clause::Mention { what } => self.speak_of(what),
             Clause::Sit { on } => self.sit(on.as_ref()),

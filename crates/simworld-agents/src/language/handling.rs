@@ -7,6 +7,8 @@ use super::numbers;
 use super::orders::{BRINGS, PHOTOS};
 use super::parser::Parser;
 use super::phrases::Phrases;
+use super::resolve::Purpose;
+use simworld_core::scene::EntityKind;
 use simworld_core::seam::PlanError;
 
 /// Who is to be driven, before where to.
@@ -16,6 +18,8 @@ const ME_TO: &Phrases = &Phrases::of(&[
     "me up outside", "me at", "me to", "us to", "yourself to", "me over to", "us over to",
     "yourself over to",
 ]);
+/// Words for it, where nothing follows that makes it a way of dropping.
+const THROWS: &[&str] = &["throw", "toss", "sling", "chuck"];
 /// What is in hand, whatever it is.
 #[rustfmt::skip]
 const WHAT_YOU_HOLD: &Phrases = &Phrases::of(&[
@@ -301,6 +305,36 @@ impl Parser<'_> {
         let wave = Clause::Wave { to: to.clone() };
         let times = number.map_or(1, |(number, _)| number as u32);
         Some(vec![if times == 1 { wave } else { Clause::Repeat { times, body: vec![wave] } }])
+    }
+
+    /// "Throw the ball to Anna", "toss Anna the ball": only at somebody, since what is thrown anywhere else is dropped there.
+    pub(super) fn throw(&mut self, start: usize) -> Option<Clause> {
+        let behind = self.at;
+        let [Lexeme { token: Token::Word(said), lemma, .. }] = self.lexemes.get(start..behind)? else {
+            return None;
+        };
+        let is_throw = THROWS.contains(&lemma.as_deref().unwrap_or(said));
+        let clause = if is_throw { self.thrown() } else { None };
+        if clause.is_none() {
+            self.at = behind;
+        }
+        clause
+    }
+
+    fn thrown(&mut self) -> Option<Clause> {
+        let first = if self.eat_any(WHAT_YOU_HOLD) { None } else { Some(self.reference(0).ok()?) };
+        if self.eat_any(&["to", "over to", "across to", "back to", "at"]) {
+            let to = self.reference(0).ok()?;
+            return self.catches(&to).then_some(Clause::Throw { what: first, to });
+        }
+        let to = first.filter(|first| self.catches(first) && !self.ends_clause())?;
+        Some(Clause::Throw { what: Some(self.reference(0).ok()?), to })
+    }
+
+    /// Whether a phrase stands for somebody with hands.
+    fn catches(&self, who: &Reference) -> bool {
+        let found = self.view.find(who, Purpose::Any);
+        found.is_ok_and(|found| matches!(found.kind, EntityKind::Person | EntityKind::Robot))
     }
 
     pub(super) fn drop(&mut self, manner: Manner) -> Result<Vec<Clause>, PlanError> {

@@ -254,7 +254,10 @@ impl Parser<'_> {
             }
             Verb::Deliver => self.drop(Manner::Deliver),
             Verb::Give => self.give(),
-            Verb::Drop => self.drop(Manner::DropOff),
+            Verb::Drop => match self.throw(start) {
+                Some(clause) => one(clause),
+                None => self.drop(Manner::DropOff),
+            },
             Verb::PutDown => self.drop(Manner::PutDown),
             Verb::Buy => self.buy(),
             Verb::Sit if self.lies(start) => {

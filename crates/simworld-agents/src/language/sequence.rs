@@ -43,7 +43,7 @@ fn is_it(reference: &Reference) -> bool {
 /// Whether what "it" stands for is given or put somewhere.
 fn hands_over(clause: &Clause) -> bool {
     match clause {
-        Clause::Give { what, .. } => what.as_ref().is_none_or(is_it),
+        Clause::Give { what, .. } | Clause::Throw { what, .. } => what.as_ref().is_none_or(is_it),
         Clause::Drop { what, at, manner } => {
             *manner != Manner::Deliver && what.as_ref().is_none_or(is_it) && at.as_ref().is_none_or(is_it)
         }

@@ -3,7 +3,7 @@
 use simworld_core::action::{Action, ActionKind};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, EntityRef, SELLS};
-use simworld_core::seam::{PlanError, PlanStep};
+use simworld_core::seam::{Goal, PlanError, PlanStep};
 
 use super::clause::{Grip, Manner, Pace, Reference, Target, Vehicle};
 use super::draft::{Draft, Load, Posture};
@@ -196,6 +196,36 @@ impl<'a> Draft<'a> {
             return Err(self.nothing_in_hand("thing"));
         }
         self.bring(&to, Manner::DropOff)
+    }
+
+    /// Throws what is in hand, or is taken first, at somebody, from near enough.
+    pub(super) fn throw(&mut self, what: Option<&Reference>, to: &Reference) -> Result<(), PlanError> {
+        /// From so far an arm throws everything that a hand lifts, m, and what is light.
+        const REACHES: [f64; 2] = [2.5, 8.0];
+        /// The most that is light, kg.
+        const LIGHT: f64 = 2.0;
+        let receiver = self.view.find(to, Purpose::Any)?;
+        if !takes(&receiver) {
+            let near = format!("nothing is thrown at a {}: {}", receiver.kind, self.view.surroundings());
+            return Err(PlanError::NotFound { wanted: format!("{:?} to throw things to", to.text), near });
+        }
+        if let Some(what) = what.filter(|what| !self.is_in_hand(what)) {
+            self.take(what)?;
+        } else if self.held.is_none() && self.carried.is_none() {
+            return Err(self.nothing_in_hand("thing"));
+        }
+        let to = Reference::to(Target::Id(receiver.id), to.text.clone());
+        let load = self.held.take().or_else(|| self.carried.take().map(Load::Thing));
+        let mass = match load {
+            Some(Load::Thing(item)) => self.view.scene.entity(item).and_then(|it| it.mass(self.view.scene)),
+            _ => None,
+        };
+        let is_light = mass.is_some_and(|mass| mass <= LIGHT);
+        self.go(&to, None, Pace::Usual, Some(REACHES[usize::from(is_light)]))?;
+        self.beside = None; // it stands apart
+        self.push(PlanStep::Face { to: Goal::Entity(receiver.id) });
+        self.let_out(load, None);
+        self.act(Action::ThrowTo { to: receiver.id })
     }
 
     fn let_go(&mut self, manner: Manner) -> Result<(), PlanError> {

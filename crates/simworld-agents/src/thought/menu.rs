@@ -108,6 +108,13 @@ const ENTRIES: &[Entry] = &[
         says: "goes there and hands over what the hand holds",
     },
     Entry {
+        act: "throw",
+        call: "throw",
+        needs: &[A::ThrowTo],
+        args: &[("to", "to", Arg::Thing(Use::Receiver))],
+        says: "goes near enough and throws what the hand holds at somebody",
+    },
+    Entry {
         act: "buy",
         call: "buy",
         needs: &[A::Buy],

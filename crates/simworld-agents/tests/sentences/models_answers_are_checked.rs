@@ -54,6 +54,7 @@ fn check_plan(plan: &Plan, world: &World, who: EntityId, able: ActionSet) {
             | Action::PickUp { item: id }
             | Action::CarryHeavy { item: id }
             | Action::Give { to: id }
+            | Action::ThrowTo { to: id }
             | Action::Buy { from: id, .. }
             | Action::EnterCar { car: id }
             | Action::RideScooter { scooter: id }

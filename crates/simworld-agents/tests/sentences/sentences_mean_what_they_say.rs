@@ -61,6 +61,8 @@ fn show(plan: &Plan) -> String {
         PlanStep::Act(Action::WaveHand { to }) => format!("wave {to}"),
         PlanStep::Act(Action::Rotate { angle }) => format!("turn {:.0}", angle.to_degrees()),
         PlanStep::Act(Action::Step { direction, distance }) => format!("step {direction:?} {distance}"),
+        PlanStep::Act(Action::ThrowTo { to }) => format!("throw to {to}"),
+        PlanStep::Face { to: Goal::Entity(id) } => format!("face {id}"),
         PlanStep::Act(action) => action.kind().to_string(),
         PlanStep::Wait { seconds } => format!("wait {seconds}"),
         other => format!("{other:?}"),
@@ -109,6 +111,23 @@ fn verbs_have_their_steps() {
         ("wave at courier 3", "wave #14"),
         ("take a photo", "take photo"),
     ]);
+}
+
+#[test]
+fn things_are_thrown_at_people() {
+    let thrown = "go #4, take #4, go #14, face #14, throw to #14";
+    check(&[
+        ("throw the parcel to courier 3", thrown),
+        ("pick up the parcel and throw it to courier 3", thrown),
+        ("toss the parcel over to courier 3", thrown),
+        ("throw courier 3 the parcel", thrown),
+        (
+            "take the parcel, then chuck it at courier 3 and wait 2 s",
+            "go #4, take #4, go #14, face #14, throw to #14, wait 2",
+        ),
+    ]);
+    let error = plan("throw it to courier 3").unwrap_err().to_string();
+    assert!(error.contains("hand"), "{error}");
 }
 
 #[test]
@@ -227,6 +246,10 @@ fn calls_mean_the_same_as_words() {
         (Intent::call("agent_sit_down"), "go #2, sit #2"),
         (Intent::call("sit_down").arg("seat", chair), "go #1, sit #1"),
         (Intent::call("pick_up").arg("item", "parcel"), "go #4, take #4"),
+        (
+            Intent::call("throw").arg("to", "courier 3").arg("item", "parcel"),
+            "go #4, take #4, go #14, face #14, throw to #14",
+        ),
         (Intent::call("wait").arg("seconds", 2.5), "wait 2.5"),
         (Intent::call("stand_up"), "stand up"),
         (Intent::call("turn").arg("angle", 1.0), "turn 57"),

@@ -80,6 +80,7 @@ fn act(action: &Action, city: &City) -> String {
         Action::WaveHand { to } => format!("wave {}", key(to)),
         Action::Argue { with } => format!("argue {}", key(with)),
         Action::Give { to } => format!("give {}", key(to)),
+        Action::ThrowTo { to } => format!("throw {}", key(to)),
         Action::OpenDoor { door } => format!("open {}", key(door)),
         Action::CloseDoor { door } => format!("close {}", key(door)),
         Action::Buy { goods, .. } => format!("buy {goods}"),

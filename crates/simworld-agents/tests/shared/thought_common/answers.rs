@@ -68,6 +68,7 @@ fn act(action: &Action, scene: &dyn Scene) -> Option<Json> {
         Action::DropOff => json!({ "act": "drop_off" }),
         Action::PutDownHeavy => json!({ "act": "put_down" }),
         Action::Give { to } => json!({ "act": "give", "to": to.to_string() }),
+        Action::ThrowTo { to } => json!({ "act": "throw", "to": to.to_string() }),
         Action::Buy { goods, from } => {
             let Some(Value::Text(sells)) = scene.entity(*from)?.info.attributes.get(SELLS) else {
                 return None;
