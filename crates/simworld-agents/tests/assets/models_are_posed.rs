@@ -10,12 +10,13 @@ use simworld_agents::assets::{GlbError, GlbLimits, ImportConfig, Moment, import_
 use simworld_core::geometry::Point3;
 use simworld_core::ops;
 
-fn at(seconds: f64) -> Option<Moment> {
-    Some(Moment { animation: 0, seconds })
+fn at(seconds: f64) -> Moment {
+    Moment { animation: 0, seconds }
 }
 
 fn read(document: &Value, bytes: &[u8], seconds: f64) -> Result<Vec<Point3>, GlbError> {
-    read_glb_at(&container(document, bytes), &GlbLimits::default(), at(seconds)).map(|surface| surface.points)
+    read_glb_at(&container(document, bytes), &GlbLimits::default(), Some(at(seconds)))
+        .map(|surface| surface.points)
 }
 
 /// Where the bar's points are once its head is turned by an angle about z (glTF), in body axes.
@@ -70,7 +71,7 @@ fn an_asset_is_taken_at_its_moment() {
         let file = container(&document, &bytes);
         import_glb(&file, &thing("a crate"), &config).unwrap().asset.collider.size()
     };
-    let (upright, bent) = (size(None), size(at(3.0)));
+    let (upright, bent) = (size(None), size(Some(at(3.0))));
     assert!((upright.z - 2.0).abs() < 1e-3, "{upright}");
     assert!((bent.z - 1.2).abs() < 1e-3 && (bent.y - 1.2).abs() < 1e-3, "the head lies to the side: {bent}");
 }
