@@ -307,11 +307,13 @@ pub(super) struct Traits {
     /// An attribute of doors that is set or not.
     pub(super) state: Option<(&'static str, bool)>,
     /// What is sold there.
-    pub(super) sells: Option<String>,
+    pub(super) sells: Option<Box<str>>,
     /// Not the one spoken of last.
     pub(super) other: bool,
     /// More or, with `false`, less of a measure than this, in m and kg.
     pub(super) than: Option<(Measure, bool, f64)>,
+    /// The name of the asset that it is made of: "the beehive", "the oak".
+    pub(super) sort: Option<std::sync::Arc<String>>,
 }
 
 /// What a phrase names.

@@ -75,8 +75,9 @@ impl Draft<'_> {
     /// This thing, or any of its class if any will do; what is nearest by now is spoken of.
     fn which(&mut self, what: &Reference) -> Result<Which, PlanError> {
         let open = what.choice == Choice::Open && what.relation.is_none();
+        let is_plain = what.traits.paint.is_none() && what.traits.sort.is_none();
         match &what.target {
-            Target::Any(category) if what.indefinite && open && what.traits.paint.is_none() => {
+            Target::Any(category) if what.indefinite && open && is_plain => {
                 if let Ok(found) = self.view.find(what, Purpose::Any) {
                     self.mention(&found);
                 }

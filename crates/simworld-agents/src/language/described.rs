@@ -320,7 +320,7 @@ impl Parser<'_> {
         self.eat_any(&["a", "an", "some", "the"]);
         match self.names.goods(self.rest()) {
             Some((goods, words)) => {
-                reference.traits.sells = Some(goods);
+                reference.traits.sells = Some(goods.into());
                 self.at += words;
                 Ok(true)
             }

@@ -59,6 +59,7 @@ pub(crate) mod scenes;
 mod sequence;
 mod shopping;
 mod slips;
+mod sorts;
 mod speech;
 mod spelling;
 mod statements;

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::LazyLock;
 
+use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Aabb, Point2};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{NameIndex, Scene};
@@ -19,7 +20,7 @@ use super::spelling::{Letters, is_anagram};
 
 /// The names within range.
 pub(super) struct Names<'a> {
-    scene: &'a dyn Scene,
+    pub(super) scene: &'a dyn Scene,
     region: Aabb,
     /// Of a scene that keeps no index.
     own: OnceCell<NameIndex>,
@@ -27,6 +28,8 @@ pub(super) struct Names<'a> {
     sold: OnceCell<Vec<Goods>>,
     /// What was made of phrases so far: readings that are tried in turn ask for the same ones.
     guesses: RefCell<Vec<(String, (Guess, usize))>>,
+    /// What the sentence may make and speak of later: assets by name, of that catalogue.
+    pub(super) made: Option<(&'a Catalogue, Vec<String>)>,
 }
 
 struct Goods {
@@ -58,7 +61,7 @@ impl<'a> Names<'a> {
     pub(super) fn new(scene: &'a dyn Scene, around: Point2, range: f64) -> Self {
         let region = Aabb::column_around(around, range);
         let guesses = RefCell::default();
-        Self { scene, region, own: OnceCell::new(), sold: OnceCell::new(), guesses }
+        Self { scene, region, own: OnceCell::new(), sold: OnceCell::new(), guesses, made: None }
     }
 
     fn index(&self) -> &NameIndex {

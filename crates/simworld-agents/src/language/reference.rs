@@ -1,11 +1,13 @@
 //! Noun phrases: what an order is about.
 
+use std::sync::Arc;
+
 use simworld_core::scene::{LOCKED, OPEN};
 use simworld_core::seam::PlanError;
 
 use super::clause::{Choice, Reference, Side, Stands, Target, Traits};
 use super::lexer::{Lexeme, Token, written};
-use super::lexicon::{DETERMINERS, category, fits, fits_noun, longest_phrase};
+use super::lexicon::{Category, DETERMINERS, category, fits, fits_noun, longest_phrase};
 use super::names::Guess;
 use super::parser::{Parser, shortened};
 use super::phrases::Phrases;
@@ -62,7 +64,13 @@ impl Parser<'_> {
         let bare = self.spoken_of(&reference);
         reference.target = match bare {
             Some(target) => target,
-            None => self.noun(reference.choice != Choice::Open)?,
+            None => match self.sort() {
+                Some((class, asset)) => {
+                    reference.traits.sort = Some(asset);
+                    Target::Any(class)
+                }
+                None => self.noun(reference.choice != Choice::Open)?,
+            },
         };
         self.compound(&mut reference, text_at);
         self.by_name(&mut reference)?;
@@ -227,6 +235,21 @@ impl Parser<'_> {
     /// "Where you are" is a place of its own.
     fn peeks_place(&self) -> bool {
         longest_phrase(self.rest(), &["where you", "where we", "where i"]).is_some()
+    }
+
+    /// "The beehive", "both oaks": what an asset is called of which there are some, unless a name or a class says as much.
+    fn sort(&mut self) -> Option<(&'static Category, Arc<String>)> {
+        let sort = self.names.sort_of_asset(self.rest())?;
+        let class = category(self.rest());
+        let is_narrower = class.is_none_or(|(class, words)| {
+            let said = &self.rest()[..words];
+            words < sort.words || words == sort.words && fits_noun(said, class.words[0]).is_none()
+        });
+        if !is_narrower || self.names.exact(self.rest()).is_some_and(|(_, words)| words >= sort.words) {
+            return None;
+        }
+        self.at += sort.words;
+        Some((sort.class, sort.asset))
     }
 
     /// A name or a class of things; of two that fit, the longer.

@@ -377,6 +377,7 @@ impl<'a> View<'a> {
         let traits = &reference.traits;
         wanted
             && entity.id != self.who
+            && traits.sort.as_ref().is_none_or(|sort| self.is_made_of(entity, sort))
             && !(traits.other && (self.it == Some(entity.id) || self.them == Some(entity.id)))
             && traits.paint.is_none_or(|paint| entity.info.color.map(Paint::of) == Some(paint))
             && (traits.unlike.is_empty()
@@ -393,6 +394,11 @@ impl<'a> View<'a> {
             && (!traits.free || self.is_free(entity, Purpose::Seat) && self.is_free(entity, Purpose::Item))
             && self.is_free(entity, purpose)
             && !(purpose == Purpose::Item && self.gone.contains(&entity.id))
+    }
+
+    fn is_made_of(&self, entity: &EntityRef<'_>, asset: &str) -> bool {
+        let known = || self.scene.assets()?.get(entity.info.asset?);
+        known().is_some_and(|known| known.name == asset)
     }
 
     pub(super) fn distance(&self, entity: &EntityRef<'_>) -> f64 {

@@ -1,9 +1,9 @@
-//! Entities by what they are and what they are used as: what "the cafés" are, without a look at everything.
+//! Entities by what they are, what they are used as and what they are made of: what "the cafés" are, without a look at everything.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{EntityInfo, EntityKind, Place};
-use crate::id::EntityId;
+use crate::id::{AssetId, EntityId};
 
 /// Entities by kind and by use. A [`World`](super::World) keeps it as things come and go; it follows from them alone, so it is no part
 /// of a snapshot.
@@ -23,6 +23,8 @@ use crate::id::EntityId;
 pub struct ClassIndex {
     kinds: BTreeMap<EntityKind, BTreeSet<EntityId>>,
     places: BTreeMap<Place, BTreeSet<EntityId>>,
+    /// How many are made of an asset; who they are the kinds tell.
+    assets: BTreeMap<AssetId, u32>,
 }
 
 impl ClassIndex {
@@ -30,6 +32,9 @@ impl ClassIndex {
         self.kinds.entry(kind).or_default().insert(id);
         if let Some(place) = info.place {
             self.places.entry(place).or_default().insert(id);
+        }
+        if let Some(asset) = info.asset {
+            *self.assets.entry(asset).or_default() += 1;
         }
     }
 
@@ -40,11 +45,24 @@ impl ClassIndex {
         if let Some(of_place) = info.place.and_then(|place| self.places.get_mut(&place)) {
             of_place.remove(&id);
         }
+        if let Some(asset) = info.asset
+            && let Some(count) = self.assets.get_mut(&asset)
+        {
+            *count -= 1;
+            if *count == 0 {
+                self.assets.remove(&asset);
+            }
+        }
     }
 
     /// Those of a kind, ascending.
     pub fn of_kind(&self, kind: EntityKind) -> impl Iterator<Item = EntityId> {
         self.kinds.get(&kind).into_iter().flatten().copied()
+    }
+
+    /// How many are made of an asset of the scene's catalogue.
+    pub fn count_of(&self, asset: AssetId) -> usize {
+        self.assets.get(&asset).map_or(0, |count| *count as usize)
     }
 
     /// Those that are used so, ascending.

@@ -37,6 +37,7 @@ mod painted;
 mod parse;
 mod parts;
 mod passage;
+mod passing;
 mod places;
 mod plain;
 mod polite;
@@ -59,6 +60,7 @@ mod stated;
 mod supposed;
 mod things;
 mod turn;
+mod whole;
 mod wish;
 pub(super) mod words;
 
@@ -130,8 +132,11 @@ pub(crate) fn read(
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
+    whole::in_plain_words(&mut lexemes);
+    passing::leave_out(&mut lexemes);
     rows::on_both_sides(&mut lexemes, &focus.streets);
     repairs::put_right(&mut lexemes);
+    let names = names.with_made(&lexemes, &stock.catalogue);
     let first = nth::first_of(&mut lexemes);
     let memo = memo::Memo::default();
     let reader =
@@ -310,6 +315,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(shared::words())
         .chain(conditions::words())
         .chain(afterthoughts::words())
+        .chain(whole::words())
+        .chain(passing::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

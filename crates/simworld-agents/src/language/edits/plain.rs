@@ -173,7 +173,7 @@ const CALLED: &Phrases = &Phrases::of(&["right lads", "lads", "class", "kids", "
     "do you know what we need", "you know what i want", "you know what id like", "you know what i would like", "know what id like", "what else", "one more thing", "here goes", "quick one", "quick question", "next job", "next task", "small request",
     "tiny request", "request", "idea", "suggestion", "proposal", "thought", "new request", "another thing", "another request", "hear me out", "picture this", "imagine this", "check this out", "get this", "question", "morning", "evening", "afternoon",
     "cheers mate", "hiya", "howdy", "greetings", "good afternoon", "dear editor", "dear simulator", "hey you", "hey computer", "computer", "editor", "hi team", "hello team", "update", "change of heart", "good news", "bad news", "be a darling",
-    "be an angel", "be a sport", "if you ask me", "in my opinion", "in my view", "personally speaking", "between you and me", "no rush", "no hurry", "when you can", "when you get a sec", "when you get a minute", "urgent", "important", "reminder"]);
+    "be an angel", "be a sport", "if you ask me", "in my opinion", "in my view", "personally speaking", "between you and me", "no rush", "no hurry", "when you can", "when you get a sec", "when you get a minute", "urgent", "important", "reminder", "me"]);
 
 /// "Spot seven" is called Spot 7.
 fn numbered(lexemes: &mut [Lexeme], names: &Names<'_>) {

@@ -26,7 +26,7 @@ const SUBJECTS: &Phrases = &Phrases::of(&["i", "im", "ive", "id", "we", "were", 
 /// Verbs of what is so.
 #[rustfmt::skip]
 const STATES: &Phrases = &Phrases::of(&["is", "are", "was", "were", "am", "isnt", "arent", "wasnt", "werent",
-    "has", "have", "had", "hasnt", "havent", "ive", "weve", "theyve", "looks", "look", "looked", "feels", "feel", "seems", "seem", "keeps", "kept", "uses",
+    "has", "have", "had", "hasnt", "havent", "ive", "weve", "theyve", "looks", "look", "looked", "goes without", "go without", "comes later", "keep", "feels", "feel", "seems", "seem", "keeps", "kept", "uses",
     "use", "used", "likes", "love", "loves", "loved", "hate", "hates", "hated", "cant", "cannot", "couldnt", "dont", "doesnt", "didnt", "wont", "wouldnt", "gives",
     "give", "makes", "made", "blocks", "block", "bothers", "bother", "annoys", "annoy", "said", "says", "say", "told", "asked", "asks", "complained", "complain",
     "complains", "saw", "see", "sees", "seen", "heard", "noticed", "fell", "falls", "fall", "broke", "breaks", "stinks", "stink", "smells", "smell", "trip", "trips",
@@ -69,13 +69,17 @@ const CALLS: &Phrases = &Phrases::of(&["vroom", "beep", "boom", "wow", "ugh", "a
     "good day", "hello there", "hi there", "hey there", "you know", "you know what", "guess what", "tell you what", "thats it", "there we go", "there you go",
     "very well", "much better", "good job", "well done", "nice one", "no", "whoa", "woah", "zoom", "honk", "ding dong", "boo", "bah", "meh", "gosh", "blimey", "damn",
     "dammit", "bonjour", "hola", "ciao", "moin", "servus", "sigh", "lol", "btw", "fyi", "asap", "new idea", "change of plan", "change of plans", "one last thing", "last thing",
-    "one thing", "next thing", "first thing", "ok now", "alright then", "that said", "anyway", "anyhow", "still", "next", "too bad", "what a shame", "shame", "yuck", "eww", "ew", "the horror", "no way", "never mind"]);
+    "one thing", "next thing", "first thing", "ok now", "alright then", "that said", "anyway", "anyhow", "still", "next", "no rush", "no hurry", "take your time", "when you have time", "whenever you have time", "thats all", "that is all", "too bad", "what a shame", "shame", "yuck", "eww", "ew", "the horror", "no way", "never mind"]);
 
 impl Reader<'_> {
     /// Whether some words ask for nothing.
     pub(super) fn is_remark(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
-        if self.is_call(from, end) || self.is_named_alone(from, end) || self.dislikes(from, end) {
+        if self.is_call(from, end)
+            || self.is_named_alone(from, end)
+            || self.dislikes(from, end)
+            || self.praises(from, end)
+        {
             return true;
         }
         if longest(words, &VERBS)
@@ -109,6 +113,24 @@ impl Reader<'_> {
         let is_word = |at: usize| self.word(at).is_some_and(|word| CALLS.contains(word));
         longest_phrase(&self.lexemes[from..end], CALLS) == Some(end - from)
             || end - from <= 3 && (from..end).all(is_word)
+    }
+
+    /// "That would look nice": what somebody thinks of what was asked for.
+    fn praises(&self, from: usize, end: usize) -> bool {
+        #[rustfmt::skip]
+        const WOULD: &Phrases = &Phrases::of(&["that would look", "that would be", "it would look", "it would be", "that should look", "that should be", "that will look", "that will be", "this would look", "this would be", "that might be", "that might look", "thatd be", "thatd look",
+            "that would make me", "that would make us", "that would make everybody", "that would help", "that should do", "that should help"]);
+        #[rustfmt::skip]
+        const NICE: &[&str] = &["nice", "great", "good", "lovely", "perfect", "wonderful", "cool", "fine", "cute", "sweet", "pretty", "beautiful", "fun", "funny", "helpful", "useful", "happy", "awesome", "fantastic", "amazing", "ideal", "charming", "brilliant", "best", "enough", "better",
+            "us", "me", "everybody", "people", "it", "grand", "splendid", "fab", "kind"];
+        longest_phrase(&self.lexemes[from..end], WOULD).is_some_and(|words| {
+            let behind = &self.lexemes[from + words..end];
+            behind.len() <= 4
+                && (behind.is_empty()
+                    || behind.iter().any(
+                        |lexeme| matches!(&lexeme.token, Token::Word(word) if NICE.contains(&word.as_str())),
+                    ))
+        })
     }
 
     /// Things that are spoken of next: "the cone? I don't need it", "about the cars, paint ...".
@@ -338,8 +360,12 @@ impl Reader<'_> {
         ];
         !self.longs(from, end)
             && (from..end).any(|at| {
-                longest_phrase(&self.lexemes[at..end], ASKS).is_some()
+                // "The paint there is wet", "they distract each other".
+                let is_noun = at > from
+                    && matches!(self.word(at - 1), Some("the" | "this" | "that" | "our" | "my" | "its"));
+                longest_phrase(&self.lexemes[at..end], ASKS).is_some_and(|words| words > 1 || !is_noun)
                     && longest_phrase(&self.lexemes[at..end], SO).is_none()
+                    && longest_phrase(&self.lexemes[at..end], &["each other", "one another"]).is_none()
             })
     }
 

@@ -1,10 +1,12 @@
 //! Cities as data.
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use serde::Deserialize;
+use simworld_core::asset::Catalogue;
 use simworld_core::geometry::{Point3, pose_facing};
-use simworld_core::id::EntityId;
+use simworld_core::id::{AssetId, EntityId};
 use simworld_core::net::{NetworkConfig, RoadNetwork, StreetPlan};
 use simworld_core::scene::{EntityDesc, EntityKind, Place, Scene, Shape, World};
 
@@ -28,6 +30,8 @@ struct Thing {
     open: bool,
     signal_group: Option<i64>,
     area: Option<String>,
+    /// Of the library.
+    asset: Option<String>,
 }
 
 /// A city and what its things are called in the tables.
@@ -62,7 +66,9 @@ impl City {
         }
         let mut ids = BTreeMap::new();
         for (key, thing) in things {
-            let id = world.spawn(describe(&thing)).unwrap_or_else(|error| panic!("{key}: {error}"));
+            let mut desc = describe(&thing);
+            desc.info.asset = thing.asset.as_deref().map(|asset| stocked(&mut world, asset));
+            let id = world.spawn(desc).unwrap_or_else(|error| panic!("{key}: {error}"));
             ids.insert(key, id);
         }
         Self { world, me: ids["me"], ids }
@@ -134,6 +140,14 @@ fn close(world: &mut World, middle: [f64; 2]) {
     {
         world.set_passage((road, direction), simworld_core::passage::Passage::Closed).expect("it has lanes");
     }
+}
+
+/// The world's own copy of an asset of the library.
+fn stocked(world: &mut World, name: &str) -> AssetId {
+    static LIBRARY: LazyLock<Catalogue> = LazyLock::new(Catalogue::library);
+    let asset =
+        LIBRARY.find(name).and_then(|id| LIBRARY.get(id)).unwrap_or_else(|| panic!("no asset {name}"));
+    world.add_asset(asset.clone()).expect("the library is sound")
 }
 
 fn describe(thing: &Thing) -> EntityDesc {

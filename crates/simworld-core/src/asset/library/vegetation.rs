@@ -30,6 +30,7 @@ pub(super) const ROWS: &[Row] = &[
     fixed("oak", Tree, round(0.35, 18.0), Wood, [0.06, 0.25, 0.08], &["broadleaf", "large"]).through(LEAFY),
     fixed("birch", Tree, round(0.15, 15.0), Wood, [0.06, 0.25, 0.08], &["broadleaf", "slender", "white"]).through(LEAFY),
     fixed("maple", Tree, round(0.25, 13.0), Wood, [0.06, 0.25, 0.08], &["broadleaf"]).through(MAPLE),
+    fixed("lime", Tree, round(0.3, 16.0), Wood, [0.06, 0.25, 0.08], &["broadleaf", "linden", "avenue"]).through(LEAFY),
     fixed("beech", Tree, round(0.35, 20.0), Wood, [0.06, 0.25, 0.08], &["broadleaf", "large"]).through(LEAFY),
     fixed("chestnut", Tree, round(0.35, 17.0), Wood, [0.06, 0.25, 0.08], &["broadleaf", "large"]).through(LEAFY),
     fixed("cherry_tree", Tree, round(0.15, 6.0), Wood, [0.06, 0.25, 0.08], &["blossom", "fruit"]).through(BLOSSOM),

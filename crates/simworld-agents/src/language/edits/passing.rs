@@ -1,0 +1,68 @@
+//! Remarks that read like wishes, and are none: "any car will do", and behind a request "spring is coming".
+
+use super::super::lexer::Lexeme;
+use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
+use super::parts::is_mark;
+
+/// Which one is left to who places it: before it, and behind it.
+const ANY: &Phrases = &Phrases::of(&["any", "whichever", "whatever", "either", "anything", "anywhere"]);
+#[rustfmt::skip]
+const WILL_DO: &Phrases = &Phrases::of(&["will do", "would do", "is fine", "is okay", "is ok", "is good", "is good enough", "works", "does", "does it", "suffices", "is alright", "is all right", "will do nicely", "would be fine", "is fine with me", "is fine by me"]);
+#[rustfmt::skip]
+const SEASONS: &Phrases = &Phrases::of(&["spring", "summer", "autumn", "fall", "winter", "christmas", "easter", "halloween", "the holidays", "the season", "the festival", "the rain", "the snow", "rain", "snow"]);
+/// Why something is wished for, and no order to turn the season.
+#[rustfmt::skip]
+const COMES: &Phrases = &Phrases::of(&["is coming", "is coming soon", "is near", "is nearly here", "is almost here", "is around the corner", "is on its way", "is here", "is approaching", "will be here soon", "starts soon", "begins soon", "is not far off"]);
+
+/// Leaves them out, unless nothing else is said.
+pub(super) fn leave_out(lexemes: &mut Vec<Lexeme>) {
+    let mut from = 0;
+    while from < lexemes.len() {
+        let end = lexemes[from..].iter().position(is_mark).map_or(lexemes.len(), |mark| from + mark);
+        if from > 0 && is_passing(&lexemes[from..end]) {
+            // With the mark before it.
+            lexemes.drain(from - 1..end);
+            from = from.saturating_sub(1);
+        }
+        from += lexemes[from..].iter().position(is_mark).map_or(lexemes.len(), |mark| mark + 1);
+    }
+}
+
+fn is_passing(words: &[Lexeme]) -> bool {
+    let because = longest_phrase(words, &["as", "since", "because", "for", "now that"]).unwrap_or(0);
+    let words = words.get(because..).unwrap_or_default();
+    let ends = |phrases: &Phrases, at: usize| longest_phrase(&words[at..], phrases) == Some(words.len() - at);
+    let leaves_open = longest_phrase(words, ANY).is_some() && (1..words.len()).any(|at| ends(WILL_DO, at));
+    let is_season =
+        longest_phrase(words, SEASONS).is_some_and(|said| said < words.len() && ends(COMES, said));
+    leaves_open || is_season
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    [ANY, WILL_DO, SEASONS, COMES].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::lexer::{Token, lex};
+    use super::*;
+
+    #[test]
+    fn what_is_said_in_passing_is_left_out_unless_it_is_all() {
+        let plain = |said: &str| {
+            let mut lexemes = lex(said);
+            leave_out(&mut lexemes);
+            let words = lexemes.iter().filter_map(|lexeme| match &lexeme.token {
+                Token::Word(word) => Some(word.clone()),
+                _ => None,
+            });
+            words.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(plain("park a car here. Any car will do."), "park a car here");
+        assert_eq!(plain("two beds, spring is coming, and a bench"), "two beds and a bench");
+        assert_eq!(plain("any car will do"), "any car will do");
+        assert_eq!(plain("make it snow, winter is here to stay"), "make it snow winter is here to stay");
+    }
+}

@@ -1,0 +1,183 @@
+//! What is said of the whole scene and of places in figures, put as it is read: "if there is a hydrant anywhere on campus" is "if there is a
+//! hydrant", "how many cars does the old town have" is "how many cars are there", and "at x = -5, y = 3" is "at (-5, 3)".
+
+use super::super::lexer::{Lexeme, Token};
+use super::super::lexicon::longest_phrase;
+use super::super::phrases::Phrases;
+use super::forms::{word_at, words_at};
+use super::parts::is_mark;
+
+/// What begins a question or a condition on what there is.
+#[rustfmt::skip]
+const IS_THERE: &Phrases = &Phrases::of(&["if there is", "if there are", "if theres", "if there isnt", "if there arent", "unless there is", "unless there are", "unless theres", "if we have", "unless we have", "is there", "are there",
+    "how many", "if you find", "if you see", "if there happens to be", "in case there is"]);
+/// All of the scene.
+#[rustfmt::skip]
+const WHOLE: &[&str] = &["campus", "quarter", "harbour", "harbor", "town", "city", "scene", "map", "simulation", "world", "neighbourhood", "neighborhood", "district", "village", "environment"];
+/// Before it.
+#[rustfmt::skip]
+const BEFORE_WHOLE: &Phrases = &Phrases::of(&["in", "on", "around", "across", "within", "throughout", "about", "all over", "anywhere in", "anywhere on", "anywhere around", "somewhere in", "somewhere on", "anywhere across", "left in", "left on", "already in",
+    "already on", "to be found in", "to be found on"]);
+/// Between those and it.
+#[rustfmt::skip]
+const ARTICLE: &Phrases = &Phrases::of(&["the", "this", "our", "the whole", "the entire", "this whole", "all of the", "the old", "this old", "my", "the current", "our little"]);
+/// When it is asked, which is always now.
+#[rustfmt::skip]
+const NOW: &Phrases = &Phrases::of(&["at the moment", "right now", "currently", "at present", "as of now", "just now", "in total", "altogether", "all in all", "all together", "so far", "overall"]);
+/// Asks what is known of a thing.
+#[rustfmt::skip]
+const KNOWN_OF: &Phrases = &Phrases::of(&["what do we know about", "what do you know about", "what is known about", "whats known about", "what can you tell me about", "what can you say about", "what can you tell us about", "what information is there on", "what information do we have on",
+    "what do you have on", "what do we have on", "do you know anything about", "give me the details of", "give me details of", "give me details about", "give me some information on", "give me some information about", "give me information about",
+    "show me the details of", "show me details of", "i would like to know more about", "id like to know more about", "i want to know more about", "tell me more about"]);
+/// Behind that.
+#[rustfmt::skip]
+const TELL_ME: &Phrases = &Phrases::of(&["tell me", "please tell me", "tell us", "do tell", "to me", "for me", "to us"]);
+
+/// Puts the words of a sentence so.
+pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    coordinates(lexemes);
+    asked_of_topic(lexemes);
+    how_many_has(lexemes);
+    everywhere(lexemes);
+    known_of(lexemes);
+}
+
+fn is_word(lexemes: &[Lexeme], at: usize, word: &str) -> bool {
+    matches!(lexemes.get(at).map(|lexeme| &lexeme.token), Some(Token::Word(own)) if own == word)
+}
+
+/// "X = -5, y = 3" is (-5, 3).
+fn coordinates(lexemes: &mut Vec<Lexeme>) {
+    let figure = |from: usize, axis: &str| {
+        if !is_word(lexemes, from, axis) {
+            return None;
+        }
+        let by = 1 + usize::from(is_word(lexemes, from + 1, "=") || is_word(lexemes, from + 1, "is"));
+        let by =
+            by + usize::from(matches!(lexemes.get(from + by).map(|next| &next.token), Some(Token::Break)));
+        match lexemes.get(from + by)?.token {
+            Token::Number(_) => Some(from + by),
+            _ => None,
+        }
+    };
+    let found = (0..lexemes.len()).find_map(|at| {
+        let x = figure(at, "x")?;
+        let joint = lexemes[x + 1..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        let joint = x + 1 + joint;
+        let y = figure(joint + usize::from(is_word(lexemes, joint, "and")), "y")?;
+        Some((at, x, y))
+    });
+    let Some((at, x, y)) = found else { return };
+    let mark = |token: Token| Lexeme { token, ..lexemes[at].clone() };
+    let point =
+        [mark(Token::Open), lexemes[x].clone(), mark(Token::Comma), lexemes[y].clone(), mark(Token::Close)];
+    lexemes.splice(at..=y, point);
+}
+
+/// "Dogs, how many of them do we have?" is "how many dogs are there".
+fn asked_of_topic(lexemes: &mut Vec<Lexeme>) {
+    const OF_THEM: &Phrases =
+        &Phrases::of(&["how many of them", "how many of those", "how many of these", "how many"]);
+    #[rustfmt::skip]
+    const HAVE: &Phrases = &Phrases::of(&["we have", "do we have", "are there", "there are", "have we", "have we got", "are here", "you have", "do you see", "do you count", "exist"]);
+    /// "The red cars, how many are there?"
+    const LONGEST_TOPIC: usize = 5;
+    let Some(mark) = lexemes.iter().position(is_mark).filter(|mark| (1..=LONGEST_TOPIC).contains(mark))
+    else {
+        return;
+    };
+    let Some(asks) = longest_phrase(&lexemes[mark + 1..], OF_THEM) else { return };
+    let tail = mark + 1 + asks;
+    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+    if tail >= end || longest_phrase(&lexemes[tail..end], HAVE) != Some(end - tail) {
+        return;
+    }
+    let place = lexemes[mark].clone();
+    let topic: Vec<Lexeme> = lexemes[..mark]
+        .iter()
+        .filter(|lexeme| !matches!(&lexeme.token, Token::Word(word) if word == "the"))
+        .cloned()
+        .collect();
+    let plain: Vec<Lexeme> =
+        words_at(&place, "how many").chain(topic).chain(words_at(&place, "are there")).collect();
+    lexemes.splice(..end, plain);
+}
+
+/// "How many lamps does the scene have" asks how many there are.
+fn how_many_has(lexemes: &mut Vec<Lexeme>) {
+    let Some(asks) = (0..lexemes.len()).find(|at| longest_phrase(&lexemes[*at..], &["how many"]).is_some())
+    else {
+        return;
+    };
+    let whole = |from: usize| {
+        let article = longest_phrase(&lexemes[from..], ARTICLE).unwrap_or(0);
+        let is_whole = WHOLE.iter().any(|word| is_word(lexemes, from + article, word));
+        is_whole.then_some(from + article + 1)
+    };
+    let found = (asks + 3..lexemes.len()).find_map(|at| {
+        if is_word(lexemes, at, "does") {
+            let has = whole(at + 1)?;
+            let words =
+                longest_phrase(lexemes.get(has..)?, &["have", "contain", "hold", "include", "have got"])?;
+            return Some((at, has + words));
+        }
+        let are = longest_phrase(&lexemes[at..], &["are", "is", "stand", "exist", "can be found"])?;
+        let before = longest_phrase(lexemes.get(at + are..)?, BEFORE_WHOLE)?;
+        Some((at, whole(at + are + before)?))
+    });
+    if let Some((at, after)) = found {
+        let place = lexemes[at].clone();
+        lexemes.splice(at..after, words_at(&place, "are there"));
+    }
+}
+
+/// "If there is a hydrant anywhere on campus": where else.
+fn everywhere(lexemes: &mut Vec<Lexeme>) {
+    let mut asked = false;
+    let mut at = 0;
+    while at < lexemes.len() {
+        if let Some(words) = longest_phrase(&lexemes[at..], IS_THERE) {
+            asked = true;
+            if is_word(lexemes, at + words, "already") {
+                lexemes.remove(at + words);
+            }
+        } else if is_mark(&lexemes[at]) {
+            asked = false;
+        }
+        let before = longest_phrase(&lexemes[at..], BEFORE_WHOLE).filter(|_| asked);
+        let whole = before.and_then(|before| {
+            let article = at + before + longest_phrase(lexemes.get(at + before..)?, ARTICLE).unwrap_or(0);
+            let ends = lexemes.get(article + 1).is_none_or(is_mark)
+                || longest_phrase(&lexemes[article + 1..], NOW).is_some()
+                || is_word(lexemes, article + 1, "then");
+            (ends && WHOLE.iter().any(|word| is_word(lexemes, article, word))).then_some(article + 1)
+        });
+        let now = longest_phrase(&lexemes[at..], NOW).filter(|_| asked).map(|words| at + words);
+        match whole.or(now) {
+            Some(after) => drop(lexemes.drain(at..after)),
+            None => at += 1,
+        }
+    }
+}
+
+/// "What do we know about the diner? Tell me" is "describe the diner".
+fn known_of(lexemes: &mut Vec<Lexeme>) {
+    let Some(words) = longest_phrase(lexemes, KNOWN_OF) else { return };
+    lexemes.splice(..words, [word_at(&lexemes[0].clone(), "describe")]);
+    let end =
+        |lexemes: &[Lexeme]| lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+    let stop = end(lexemes);
+    if let Some(tell) = (2..stop).find(|at| longest_phrase(&lexemes[*at..stop], TELL_ME) == Some(stop - at)) {
+        lexemes.truncate(tell);
+        lexemes.truncate(end(lexemes));
+    }
+}
+
+/// Every word of these tables, for the spelling.
+pub(super) fn words() -> impl Iterator<Item = &'static str> {
+    [IS_THERE, BEFORE_WHOLE, ARTICLE, NOW, KNOWN_OF, TELL_ME]
+        .into_iter()
+        .flatten()
+        .flat_map(|phrase| phrase.split(' '))
+        .chain(WHOLE.iter().copied())
+}

@@ -1,0 +1,155 @@
+//! What things are called after what they are made of: "the beehive", "both oaks", "the police cars".
+//!
+//! The classes of the lexicon are few, the assets of a catalogue are many. A thing that was made of an asset is known by the asset's
+//! name as long as one of them is there, or as the sentence itself makes one.
+
+use std::sync::Arc;
+
+use simworld_core::asset::{Asset, Catalogue};
+use simworld_core::scene::EntityKind;
+
+use super::lexer::{Lexeme, Token};
+use super::lexicon::{CATEGORIES, Category, fits_noun};
+use super::names::Names;
+
+/// The name of an asset has no more words than that.
+const LONGEST_NAME: usize = 4;
+/// "The two big red oaks".
+const FARTHEST_DETERMINER: usize = 4;
+
+/// A sort of things that a phrase begins with.
+#[derive(Clone, Debug)]
+pub(super) struct Sort {
+    /// What things of the sort are.
+    pub(super) class: &'static Category,
+    /// The asset's name.
+    pub(super) asset: Arc<String>,
+    /// How many words say it.
+    pub(super) words: usize,
+}
+
+impl<'a> Names<'a> {
+    /// The longest name of an asset at the start of a phrase, in the singular or the plural: of one that is there, or that the
+    /// sentence makes.
+    pub(super) fn sort_of_asset(&self, phrase: &[Lexeme]) -> Option<Sort> {
+        let is_there = |catalogue: &Catalogue, asset: &Asset| {
+            let id = catalogue.find(&asset.name)?;
+            self.scene.classes().filter(|classes| classes.count_of(id) > 0)
+        };
+        let there = || {
+            let catalogue = self.scene.assets()?;
+            asset_at(phrase, catalogue).filter(|(asset, _)| is_there(catalogue, asset).is_some())
+        };
+        let made = || {
+            let (catalogue, made) = self.made.as_ref()?;
+            asset_at(phrase, catalogue).filter(|(asset, _)| made.contains(&asset.name))
+        };
+        let (asset, words) = there().or_else(made)?;
+        let class = class_of(asset)?;
+        // "The oak tree".
+        let again = class.words.iter().find_map(|word| fits_noun(&phrase[words..], word)).unwrap_or(0);
+        Some(Sort { class, asset: Arc::new(asset.name.clone()), words: words + again })
+    }
+
+    /// As it is, in a sentence that may make what it speaks of later: "a beehive by the lake, and paint the beehive red".
+    pub(super) fn with_made(mut self, lexemes: &[Lexeme], catalogue: &'a Catalogue) -> Self {
+        let (mut new, mut made) = (Vec::new(), Vec::new());
+        let mut at = 0;
+        while at < lexemes.len() {
+            let Some((asset, words)) = asset_at(&lexemes[at..], catalogue) else {
+                at += 1;
+                continue;
+            };
+            let is_known = new.contains(&asset.name);
+            match (is_definite(&lexemes[..at]), is_known) {
+                (true, true) => made.push(asset.name.clone()),
+                (false, false) => new.push(asset.name.clone()),
+                _ => {}
+            }
+            at += words;
+        }
+        self.made = (!made.is_empty()).then_some((catalogue, made));
+        self
+    }
+}
+
+/// Whether what follows these words is spoken of as known: the last determiner says so.
+fn is_definite(before: &[Lexeme]) -> bool {
+    const KNOWN: &[&str] = &["the", "this", "that", "these", "those", "both", "all"];
+    const NEW: &[&str] =
+        &["a", "an", "one", "another", "some", "new", "two", "three", "four", "five", "six", "several"];
+    let determiner = before.iter().rev().take(FARTHEST_DETERMINER).find_map(|lexeme| match &lexeme.token {
+        Token::Word(word) if KNOWN.contains(&word.as_str()) => Some(true),
+        Token::Word(word) if NEW.contains(&word.as_str()) => Some(false),
+        Token::Word(_) => None,
+        _ => Some(false),
+    });
+    determiner == Some(true)
+}
+
+/// The asset whose name begins the phrase, of several the longest, and how many words that are.
+fn asset_at<'a>(phrase: &[Lexeme], catalogue: &'a Catalogue) -> Option<(&'a Asset, usize)> {
+    let words: Vec<&str> = phrase
+        .iter()
+        .take(LONGEST_NAME)
+        .map_while(|lexeme| if let Token::Word(word) = &lexeme.token { Some(word.as_str()) } else { None })
+        .collect();
+    (1..=words.len()).rev().find_map(|count| {
+        let (last, head) = words[..count].split_last()?;
+        let named = |last: &str| {
+            let name = head.iter().copied().chain([last]).collect::<Vec<_>>().join("_");
+            catalogue.get(catalogue.find(&name)?)
+        };
+        singulars(last).find_map(|last| named(&last)).map(|asset| (asset, count))
+    })
+}
+
+/// What a word may be the plural of, and itself first.
+fn singulars(word: &str) -> impl Iterator<Item = String> {
+    const ENDINGS: [(&str, &str); 5] = [("ies", "y"), ("ves", "f"), ("ves", "fe"), ("es", ""), ("s", "")];
+    let stems = ENDINGS
+        .into_iter()
+        .filter_map(|(ending, singular)| Some(format!("{}{singular}", word.strip_suffix(ending)?)))
+        .filter(|stem| stem.len() > 2);
+    std::iter::once(word.to_owned()).chain(stems.collect::<Vec<_>>())
+}
+
+/// The class of what an asset is.
+fn class_of(asset: &Asset) -> Option<&'static Category> {
+    let by_use = asset.place.and_then(|place| CATEGORIES.iter().find(|class| class.place() == Some(place)));
+    let by_kind = || {
+        let is_plain = |class: &&Category| class.kinds() == [asset.kind] && asset.kind != EntityKind::Ground;
+        CATEGORIES.iter().find(is_plain)
+    };
+    by_use.or_else(by_kind)
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::geometry::{Point2, Pose};
+    use simworld_core::scene::World;
+
+    use super::super::lexer::lex;
+    use super::*;
+
+    #[test]
+    fn a_sort_is_known_while_one_is_there_or_is_made() {
+        let catalogue = Catalogue::library();
+        let mut world = World::new();
+        let hive = catalogue.get(catalogue.find("beehive").unwrap()).unwrap();
+        let id = world.add_asset(hive.clone()).unwrap();
+        let names = |world: &World, words: &str| {
+            let names = Names::new(world, Point2::origin(), 100.0);
+            names.sort_of_asset(&lex(words)).map(|sort| (sort.asset.to_string(), sort.words))
+        };
+        assert_eq!(names(&world, "beehives by the lake"), None);
+        let hive = world.spawn(hive.at(id, Pose::identity())).unwrap();
+        assert_eq!(names(&world, "beehives by the lake"), Some(("beehive".to_owned(), 1)));
+        assert_eq!(names(&world, "police cars"), None);
+        let made = Names::new(&world, Point2::origin(), 100.0)
+            .with_made(&lex("two police cars by the lake and paint the police cars red"), &catalogue);
+        assert!(made.sort_of_asset(&lex("police cars")).is_some_and(|sort| sort.words == 2));
+        world.despawn(hive).unwrap();
+        assert_eq!(names(&world, "beehives by the lake"), None);
+    }
+}
