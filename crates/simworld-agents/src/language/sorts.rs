@@ -105,7 +105,7 @@ fn asset_at<'a>(phrase: &[Lexeme], catalogue: &'a Catalogue) -> Option<(&'a Asse
 }
 
 /// What a word may be the plural of, and itself first.
-fn singulars(word: &str) -> impl Iterator<Item = String> {
+pub(super) fn singulars(word: &str) -> impl Iterator<Item = String> {
     const ENDINGS: [(&str, &str); 5] = [("ies", "y"), ("ves", "f"), ("ves", "fe"), ("es", ""), ("s", "")];
     let stems = ENDINGS
         .into_iter()

@@ -4,6 +4,7 @@ use simworld_core::asset::{Asset, Season};
 
 use super::super::lexer::lex;
 use super::super::lexicon::category;
+use super::super::sorts::singulars;
 use super::wish::NewThing;
 use super::words::HARMLESS;
 use crate::editing::{EditError, Make, Stock};
@@ -53,9 +54,13 @@ impl NewThing {
     /// "A small cone" is one of those that are called so.
     fn called_by_size<'a>(&self, words: &[&str], stock: &'a Stock) -> Option<&'a Asset> {
         let sized = |size: &&&str| self.words_of_size().any(|word| word == ***size);
-        ["small", "big", "large", "tiny", "mini", "giant", "huge", "little"].iter().filter(sized).find_map(
-            |size| stock.catalogue.get(stock.catalogue.find(&format!("{size}_{}", words.join("_")))?),
-        )
+        let (last, head) = words.split_last()?;
+        let named = |size: &str, last: &str| {
+            let name = [&[size], head, &[last]].concat().join("_");
+            stock.catalogue.get(stock.catalogue.find(&name)?)
+        };
+        let sizes = ["small", "big", "large", "tiny", "mini", "giant", "huge", "little"];
+        sizes.iter().filter(sized).find_map(|size| singulars(last).find_map(|last| named(size, &last)))
     }
 
     /// The asset whose name or kind is the noun and which answers to all other words, and its scale; else the words to which none of
@@ -178,7 +183,7 @@ fn near(hits: &[Hit]) -> String {
 /// The assets that a noun of all these words may mean, the plainest first.
 fn assets_called<'a>(stock: &'a Stock, noun: &[&str]) -> Vec<&'a Asset> {
     let catalogue = &stock.catalogue;
-    let spellings = singulars(&noun.join("_"));
+    let spellings: Vec<String> = singulars(&noun.join("_")).collect();
     let found = spellings.iter().filter_map(|name| catalogue.get(catalogue.find(name)?));
     let mut found: Vec<&Asset> = found.collect();
     let lexemes = lex(&noun.join(" "));
@@ -203,13 +208,4 @@ fn assets_called<'a>(stock: &'a Stock, noun: &[&str]) -> Vec<&'a Asset> {
         found.extend(of_kind);
     }
     found
-}
-
-/// A word and what it may be the plural of.
-fn singulars(word: &str) -> Vec<String> {
-    let mut all = vec![word.to_owned()];
-    all.extend(word.strip_suffix('s').map(str::to_owned));
-    all.extend(word.strip_suffix("es").map(str::to_owned));
-    all.extend(word.strip_suffix("ies").map(|stem| format!("{stem}y")));
-    all
 }

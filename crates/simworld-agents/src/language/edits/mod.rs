@@ -22,6 +22,7 @@ mod frames;
 mod given;
 mod goodbye;
 mod ground;
+mod idle;
 mod make;
 mod measures;
 mod memo;
@@ -317,6 +318,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(afterthoughts::words())
         .chain(whole::words())
         .chain(passing::words())
+        .chain(idle::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

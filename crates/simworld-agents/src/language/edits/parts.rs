@@ -119,7 +119,8 @@ impl Reader<'_> {
             let asks_nothing = is_heading
                 || self.is_said_twice(said, from, end)
                 || self.is_remark(from, end)
-                || self.is_remark(remark.min(from), end);
+                || self.is_remark(remark.min(from), end)
+                || said.wish.is_some() && self.is_idle(from, end);
             if !asks_nothing {
                 return None;
             }
@@ -157,7 +158,11 @@ impl Reader<'_> {
         {
             return vec![near.clone()];
         }
-        let mut things = self.spoken_of(from, end);
+        // "There is a crane in the park": the crane, and not the park.
+        let there = longest_phrase(&self.lexemes[from..end], &["there is", "theres", "there are"]);
+        let stop =
+            there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
+        let mut things = self.spoken_of(from, stop);
         // "It is for Anna": what was spoken of before stays the first.
         let again =
             longest_phrase(&self.lexemes[from..end], &["it", "its", "it is", "they", "theyre", "they are"]);

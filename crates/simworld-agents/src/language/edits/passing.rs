@@ -15,6 +15,11 @@ const SEASONS: &Phrases = &Phrases::of(&["spring", "summer", "autumn", "fall", "
 #[rustfmt::skip]
 const COMES: &Phrases = &Phrases::of(&["is coming", "is coming soon", "is near", "is nearly here", "is almost here", "is around the corner", "is on its way", "is here", "is approaching", "will be here soon", "starts soon", "begins soon", "is not far off"]);
 
+/// For what room is made, which is nothing that is to be made.
+#[rustfmt::skip]
+const NEED_ROOM: &Phrases = &Phrases::of(&["we need the floor", "we need the space", "we need the room", "we need the spot", "we need the place", "i need the floor", "i need the space", "i need the room", "i need the spot", "they need the space", "they need the room", "we need that space", "i need that space",
+    "we need that spot"]);
+
 /// Leaves them out, unless nothing else is said.
 pub(super) fn leave_out(lexemes: &mut Vec<Lexeme>) {
     let mut from = 0;
@@ -36,12 +41,12 @@ fn is_passing(words: &[Lexeme]) -> bool {
     let leaves_open = longest_phrase(words, ANY).is_some() && (1..words.len()).any(|at| ends(WILL_DO, at));
     let is_season =
         longest_phrase(words, SEASONS).is_some_and(|said| said < words.len() && ends(COMES, said));
-    leaves_open || is_season
+    leaves_open || is_season || longest_phrase(words, NEED_ROOM).is_some()
 }
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    [ANY, WILL_DO, SEASONS, COMES].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
+    [ANY, WILL_DO, SEASONS, COMES, NEED_ROOM].into_iter().flatten().flat_map(|phrase| phrase.split(' '))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! hydrant", "how many cars does the old town have" is "how many cars are there", and "at x = -5, y = 3" is "at (-5, 3)".
 
 use super::super::lexer::{Lexeme, Token};
-use super::super::lexicon::longest_phrase;
+use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
 use super::parts::is_mark;
@@ -33,8 +33,25 @@ const KNOWN_OF: &Phrases = &Phrases::of(&["what do we know about", "what do you 
 #[rustfmt::skip]
 const TELL_ME: &Phrases = &Phrases::of(&["tell me", "please tell me", "tell us", "do tell", "to me", "for me", "to us"]);
 
+/// Speaks of a sky as if it were so.
+#[rustfmt::skip]
+const PRETEND: &Phrases = &Phrases::of(&["lets pretend it is", "lets pretend its", "pretend it is", "pretend its", "imagine it is", "imagine its", "lets say it is", "lets say its", "lets imagine it is", "lets assume it is", "assume it is", "act as if it is", "we simulate", "simulate", "lets simulate",
+    "we want to simulate", "i want to simulate", "pretend that it is", "suppose it is"]);
+/// Says behind a thing that is to be moved, or copied, where it is to be.
+#[rustfmt::skip]
+const IT_SHOULD_BE: &Phrases = &Phrases::of(&["it should be", "it should go", "it should stand", "it belongs", "it goes", "it has to be", "it has to go", "it must be", "it must go", "it is to be", "it is to go", "it needs to be", "it needs to go", "the copy goes", "the copy should go", "the copy should be",
+    "the copy belongs", "the copy is to go", "the copy has to go", "the copy stands", "the new one goes", "the new one should go", "the new one should be", "they should be", "they should go", "they belong", "they go", "he should be", "he should stand", "she should be", "she should stand"]);
+/// Begins such an order.
+#[rustfmt::skip]
+const MOVES: &Phrases = &Phrases::of(&["move", "shift", "relocate", "please move", "please shift", "copy", "duplicate", "clone", "please copy", "please duplicate", "bring", "push"]);
+
 /// Puts the words of a sentence so.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    pretended(lexemes);
+    put_by_hand(lexemes);
+    sides_behind(lexemes);
+    told_behind(lexemes);
+    nearby(lexemes);
     coordinates(lexemes);
     asked_of_topic(lexemes);
     how_many_has(lexemes);
@@ -44,6 +61,104 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
 
 fn is_word(lexemes: &[Lexeme], at: usize, word: &str) -> bool {
     matches!(lexemes.get(at).map(|lexeme| &lexeme.token), Some(Token::Word(own)) if own == word)
+}
+
+/// "Let's pretend it is nine in the evening" makes it nine.
+fn pretended(lexemes: &mut Vec<Lexeme>) {
+    let Some(words) = longest_phrase(lexemes, PRETEND).filter(|words| *words < lexemes.len()) else { return };
+    let place = lexemes[0].clone();
+    lexemes.splice(..words, words_at(&place, "make it"));
+}
+
+/// "Shove a bin behind the hall" puts a new one there, and "I'm after a bin" wants one.
+fn put_by_hand(lexemes: &mut Vec<Lexeme>) {
+    const NEW: &[&str] = &["a", "an", "another", "some", "two", "three", "four", "five"];
+    let is_new = |lexemes: &[Lexeme], at: usize| NEW.iter().any(|word| is_word(lexemes, at, word));
+    if ["shove", "bung", "slap", "whack", "plonk"].iter().any(|verb| is_word(lexemes, 0, verb))
+        && is_new(lexemes, 1)
+    {
+        lexemes[0] = word_at(&lexemes[0].clone(), "put");
+    }
+    let after = (0..lexemes.len()).find_map(|at| {
+        let words =
+            longest_phrase(&lexemes[at..], &["im after", "i am after", "we are after", "were after"])?;
+        is_new(lexemes, at + words).then_some((at, words))
+    });
+    if let Some((at, words)) = after {
+        let place = lexemes[at].clone();
+        lexemes.splice(at..at + words, words_at(&place, "i want"));
+    }
+}
+
+/// "..., on both sides" belongs to the row before it, and "on one side only" is what a row does anyway.
+fn sides_behind(lexemes: &mut Vec<Lexeme>) {
+    const BOTH: &Phrases = &Phrases::of(&["on both sides", "both sides", "on either side", "on each side"]);
+    const ONE: &Phrases = &Phrases::of(&[
+        "on one side only",
+        "one side only",
+        "on one side",
+        "only on one side",
+        "just on one side",
+        "just one side",
+    ]);
+    let Some(mark) = (1..lexemes.len()).find(|at| {
+        let behind = &lexemes[at + 1..];
+        let ends = |words: usize| behind.get(words).is_none_or(is_mark);
+        is_mark(&lexemes[*at])
+            && (longest_phrase(behind, BOTH).is_some_and(ends)
+                || longest_phrase(behind, ONE).is_some_and(ends))
+    }) else {
+        return;
+    };
+    match longest_phrase(&lexemes[mark + 1..], ONE) {
+        Some(words) => drop(lexemes.drain(mark..=mark + words)),
+        None => drop(lexemes.remove(mark)),
+    }
+}
+
+/// "Move the bench, it should be beside the hall" moves it there.
+fn told_behind(lexemes: &mut Vec<Lexeme>) {
+    if longest_phrase(lexemes, MOVES).is_none() {
+        return;
+    }
+    let Some(mark) = lexemes.iter().position(is_mark) else { return };
+    let moved = longest_phrase(&lexemes[mark + 1..], IT_SHOULD_BE).filter(|words| {
+        longest(lexemes.get(mark + 1 + words..).unwrap_or_default(), &super::words::WAYS).is_some()
+    });
+    let placed = lexemes[..mark]
+        .iter()
+        .enumerate()
+        .any(|(at, _)| at > 1 && longest(&lexemes[at..mark], &super::words::WAYS).is_some());
+    if let Some(words) = moved.filter(|_| !placed) {
+        lexemes.drain(mark..=mark + words);
+    }
+}
+
+/// "To a point five metres west of the mailbox" is five metres west of it, and "to within two metres" within them.
+fn nearby(lexemes: &mut Vec<Lexeme>) {
+    const POINT: &Phrases = &Phrases::of(&[
+        "to a point",
+        "to a spot",
+        "to a place",
+        "at a point",
+        "at a spot",
+        "to a position",
+        "at a position",
+        "to the point",
+        "to the spot",
+    ]);
+    let found = (1..lexemes.len()).find_map(|at| {
+        if is_word(lexemes, at, "to") && is_word(lexemes, at + 1, "within") {
+            return Some((at, 1));
+        }
+        let words = longest_phrase(&lexemes[at..], POINT)?;
+        let rest = lexemes.get(at + words..)?;
+        (super::super::numbers::number(rest).is_some() || matches!(rest.first()?.token, Token::Number(_)))
+            .then_some((at, words))
+    });
+    if let Some((at, words)) = found {
+        lexemes.drain(at..at + words);
+    }
 }
 
 /// "X = -5, y = 3" is (-5, 3).
@@ -175,7 +290,7 @@ fn known_of(lexemes: &mut Vec<Lexeme>) {
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    [IS_THERE, BEFORE_WHOLE, ARTICLE, NOW, KNOWN_OF, TELL_ME]
+    [IS_THERE, BEFORE_WHOLE, ARTICLE, NOW, KNOWN_OF, TELL_ME, PRETEND, IT_SHOULD_BE, MOVES]
         .into_iter()
         .flatten()
         .flat_map(|phrase| phrase.split(' '))

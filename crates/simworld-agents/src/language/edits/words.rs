@@ -234,7 +234,7 @@ const WAY_ROWS: &[(&[&str], Way)] = &[
         "in that place"], Way::There),
     (&["in its place", "in its stead", "instead", "in its spot", "where it was", "where it stood",
         "in that very spot", "there instead", "in the same place", "at the same place", "in the same spot",
-        "at its place", "in place of it", "instead of it", "exactly there", "just there", "in the very same spot", "at same spot", "at the same spot", "on the same spot", "on its spot", "in its very place", "in their place", "where it is", "where it is now", "where it stands", "in that same spot", "on the very same spot"], Way::InItsPlace),
+        "at its place", "in place of it", "instead of it", "exactly there", "just there", "in the very same spot", "at same spot", "at the same spot", "on the same spot", "on its spot", "in its very place", "in their place", "where it is", "where it is now", "where it stands", "where it lay", "where it had been", "where it used to be", "at the spot where it lay", "at the spot where it was", "at the spot where it stood", "at the place where it was", "at the place where it stood", "on the spot where it was", "on the spot where it stood", "in that same spot", "on the very same spot"], Way::InItsPlace),
     (&["somewhere", "anywhere", "wherever", "wherever you like", "anywhere you like", "somewhere else", "someplace",
         "anywhere at all", "somewhere in the city", "anywhere in the city", "somewhere in town", "in the city",
         "in the scene", "in town", "anywhere in town", "to the scene", "to the city", "to the world",

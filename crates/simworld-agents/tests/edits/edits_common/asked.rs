@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 11] = [
+const SETS: [&str; 13] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -16,6 +16,8 @@ const SETS: [&str; 11] = [
     "ninth.edits",
     "tenth.edits",
     "eleventh.edits",
+    "twelfth.edits",
+    "thirteenth.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
