@@ -140,6 +140,15 @@ const SENTENCES: &[&str] = &[
     "put a sign near the museum closest to a school",
 ];
 
+/// What no grammar reads, and all parts of which are tried before that is said.
+const NOT_UNDERSTOOD: &[&str] = &[
+    "the council would be over the moon about something along the lines of what they have in Vienna",
+    "we promised the neighbours that whatever stands between the school and the museum gets what it deserves, and soon",
+    "so the thing that's in the way near the bench yeah you know what to do about it, and the other one as well",
+    "customers never know where to put their bikes, so sort that in the way that the shop on the corner did, only bluer",
+    "could the bench be less of a bench and more of an idea, and the car next to the tree what it was last week",
+];
+
 /// Sentences to committed commands in a city of so many things.
 fn edits(least: usize, table: &mut Table) -> Outcome<()> {
     let mut world = World::new();
@@ -177,6 +186,31 @@ fn edits(least: usize, table: &mut Table) -> Outcome<()> {
             micros(filed)
         ),
         "2000 µs".to_owned(),
+    ]);
+    not_understood(&mut editor, &mut world, table)
+}
+
+/// How soon it is said that a sentence is not understood.
+fn not_understood(editor: &mut SceneEditor, world: &mut World, table: &mut Table) -> Outcome<()> {
+    let mut times = Vec::new();
+    for words in NOT_UNDERSTOOD {
+        let mut own = Vec::new();
+        for _ in 0..5 {
+            let (answer, time) = timed(|| editor.say(words, world));
+            if let Ok(edited) = answer {
+                return Err(format!("{words}: was understood as {:?}", edited.edits).into());
+            }
+            own.push(time);
+        }
+        own.sort_unstable();
+        println!("{:>10}  {words}", micros(own[own.len() / 2]));
+        times.push(own[own.len() / 2]);
+    }
+    times.sort_unstable();
+    table.add_row([
+        format!("a sentence that is not understood, median of {}", NOT_UNDERSTOOD.len()),
+        format!("{} (slowest {})", micros(times[times.len() / 2]), micros(times[times.len() - 1])),
+        "none".to_owned(),
     ]);
     Ok(())
 }

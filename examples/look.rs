@@ -15,13 +15,13 @@ use simworld_core::environment::{Environment, Moment, NamedTime, NamedWeather, P
 use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_core::seed::Seed;
-use simworld_examples::look::{Sheet, crowd, street};
+use simworld_examples::look::{Sheet, crowd, map_around, scan, street};
 use simworld_examples::{Outcome, exit_code, folder};
 use simworld_render::classes::class_by_id;
 use simworld_render::{AntiAliasing, Frame, RenderConfig, Renderer};
 use simworld_traffic::{TrafficConfig, TrafficDynamics};
 
-/// Draws a city in four weathers, at night, as colour, depth and classes, and its densest crowd.
+/// Draws a city in four weathers, at night, as colour, depth and classes, its densest crowd, and a place from above and as a scanner hears it.
 ///
 /// Writes sheet.png with all of them and a file for each. A view of --weather, --time, --date and --latitude is among them.
 #[derive(Parser)]
@@ -157,6 +157,7 @@ fn job(arguments: &Arguments) -> Outcome<()> {
     let asked = format!("as asked: {}", arguments.weather);
     studio.draw("asked", &asked, &along, wish)?;
     measures(&mut studio)?;
+    from_above(&mut studio, &along)?;
     let (across, down, bytes) = studio.sheet.draw();
     let path = arguments.out.join("sheet.png");
     write_png(&path, [across, down], &bytes)?;
@@ -176,6 +177,20 @@ fn measures(studio: &mut Studio<'_>) -> Outcome<()> {
         frame.classes.iter().flat_map(|id| class_by_id(*id).map_or([0; 3], |class| class.color)).collect();
     studio.sheet.add("its depth", &depth);
     studio.sheet.add("its classes", &classes);
+    Ok(())
+}
+
+/// The place from above at noon, and what a scanner on a car hears of it.
+fn from_above(studio: &mut Studio<'_>, along: &Camera) -> Outcome<()> {
+    let Some((map, car)) = map_around(&studio.world, along) else { return Ok(()) };
+    studio.world.set_environment(preset(NamedWeather::Clear, NamedTime::Noon))?;
+    map.draw(&mut studio.renderer, &studio.world, &mut studio.frame)?;
+    studio.frame.write_png(studio.out.join("map.png"))?;
+    studio.sheet.add("from above", &studio.frame.rgb);
+    let echoes = scan(&studio.world, &map, car)?;
+    let size = [map.width as usize, map.height as usize];
+    write_png(&studio.out.join("scan.png"), size, &echoes)?;
+    studio.sheet.add("a scan, by class", &echoes);
     Ok(())
 }
 

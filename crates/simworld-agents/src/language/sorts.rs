@@ -149,7 +149,7 @@ mod tests {
         let made = Names::new(&world, Point2::origin(), 100.0)
             .with_made(&lex("two police cars by the lake and paint the police cars red"), &catalogue);
         assert!(made.sort_of_asset(&lex("police cars")).is_some_and(|sort| sort.words == 2));
-        world.despawn(hive).unwrap();
+        world.remove(hive).unwrap();
         assert_eq!(names(&world, "beehives by the lake"), None);
     }
 }
