@@ -64,13 +64,7 @@ impl Parser<'_> {
         let bare = self.spoken_of(&reference);
         reference.target = match bare {
             Some(target) => target,
-            None => match self.sort() {
-                Some((class, asset)) => {
-                    reference.traits.sort = Some(asset);
-                    Target::Any(class)
-                }
-                None => self.noun(reference.choice != Choice::Open)?,
-            },
+            None => self.sort_or_noun(&mut reference)?,
         };
         self.compound(&mut reference, text_at);
         self.by_name(&mut reference)?;
@@ -235,6 +229,13 @@ impl Parser<'_> {
     /// "Where you are" is a place of its own.
     fn peeks_place(&self) -> bool {
         longest_phrase(self.rest(), &["where you", "where we", "where i"]).is_some()
+    }
+
+    /// What things are made of if that is said, or else a name or a class.
+    fn sort_or_noun(&mut self, reference: &mut Reference) -> Result<Target, PlanError> {
+        let Some((class, asset)) = self.sort() else { return self.noun(reference.choice != Choice::Open) };
+        reference.traits.sort = Some(asset);
+        Ok(Target::Any(class))
     }
 
     /// "The beehive", "both oaks": what an asset is called of which there are some, unless a name or a class says as much.

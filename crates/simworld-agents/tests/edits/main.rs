@@ -14,5 +14,6 @@ mod model_server;
 mod models_edit_scenes;
 mod scenes_are_read;
 mod things_are_found_by_words;
+mod things_are_known_by_what_they_are;
 #[path = "../shared/thought_common/mod.rs"]
 mod thought_common;
