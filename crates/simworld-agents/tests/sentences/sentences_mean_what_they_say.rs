@@ -127,7 +127,7 @@ fn things_are_thrown_at_people() {
         ),
     ]);
     let error = plan("throw it to courier 3").unwrap_err().to_string();
-    assert!(error.contains("hand"), "{error}");
+    assert!(error.contains("\"it\" could stand for"), "{error}");
 }
 
 #[test]
