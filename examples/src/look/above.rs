@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use simworld_core::camera::Camera;
 use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
-use simworld_core::scene::{Scene, World};
+use simworld_core::scene::World;
 use simworld_core::seam::Observer;
 use simworld_render::classes::class_by_id;
 use simworld_render::{BeamTable, Lidar, LidarConfig, MapView, PointCloud, RenderConfig, Renderer};

@@ -1,6 +1,7 @@
 //! What was put somewhere by a name is known by that name from then on; and what is said along changes nothing of a request.
 
 use simworld_agents::editing::{Edit, SceneEditor};
+use simworld_core::geometry::Point2;
 use simworld_core::scene::{Scene, World};
 use simworld_core::seed::Seed;
 
@@ -75,8 +76,8 @@ fn places_may_be_told_in_figures_and_the_whole_scene_by_its_name() {
     let (mut editor, mut world) = campus();
     editor.say("drop a cone at x = -5, y = -15", &mut world).unwrap();
     let [cone] = made_of(&world, "cone")[..] else { panic!("one was asked for") };
-    let at = world.entity(cone).unwrap().planar();
-    assert!((at.x + 5.0).hypot(at.y + 15.0) < 0.1, "{at}");
+    let away = (world.entity(cone).unwrap().planar() - Point2::new(-5.0, -15.0)).norm();
+    assert!(away < 0.1, "{away} m off");
     let nothing =
         editor.say("add a bench here unless there is already a truck anywhere on campus", &mut world);
     assert!(matches!(&nothing.unwrap().edits[..], [Edit::Leave { .. }]));
