@@ -5,6 +5,7 @@
 //! ```
 
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{Parser, ValueEnum};
 use comfy_table::Table;
@@ -172,9 +173,7 @@ fn edits(least: usize, table: &mut Table) -> Outcome<()> {
             editor.undo(&mut world)?;
             own.push(time);
         }
-        own.sort_unstable();
-        println!("{:>10}  {words}", micros(own[own.len() / 2]));
-        times.push(own[own.len() / 2]);
+        times.push(middle_of(words, own));
     }
     times.sort_unstable();
     table.add_row([
@@ -190,6 +189,14 @@ fn edits(least: usize, table: &mut Table) -> Outcome<()> {
     not_understood(&mut editor, &mut world, table)
 }
 
+/// The median of how long a sentence took, which is printed with it.
+fn middle_of(words: &str, mut times: Vec<Duration>) -> Duration {
+    times.sort_unstable();
+    let middle = times[times.len() / 2];
+    println!("{:>10}  {words}", micros(middle));
+    middle
+}
+
 /// How soon it is said that a sentence is not understood.
 fn not_understood(editor: &mut SceneEditor, world: &mut World, table: &mut Table) -> Outcome<()> {
     let mut times = Vec::new();
@@ -202,9 +209,7 @@ fn not_understood(editor: &mut SceneEditor, world: &mut World, table: &mut Table
             }
             own.push(time);
         }
-        own.sort_unstable();
-        println!("{:>10}  {words}", micros(own[own.len() / 2]));
-        times.push(own[own.len() / 2]);
+        times.push(middle_of(words, own));
     }
     times.sort_unstable();
     table.add_row([

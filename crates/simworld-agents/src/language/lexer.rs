@@ -33,6 +33,11 @@ pub(crate) struct Lexeme {
     pub(crate) end: usize,
 }
 
+/// Whether it is a comma or the end of a sentence.
+pub(super) const fn is_mark(lexeme: &Lexeme) -> bool {
+    matches!(lexeme.token, Token::Comma | Token::Break)
+}
+
 /// Reads the tokens of a text, in order.
 pub(crate) fn lex(text: &str) -> Vec<Lexeme> {
     let lexeme = |(token, start, end)| {

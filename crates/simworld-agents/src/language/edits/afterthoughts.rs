@@ -1,12 +1,11 @@
 //! What comes to mind a moment later, and is put where it belongs: "put a bench by the fountain, a red one", "add a lamp, and make
 //! it a tall one", "a stall on the square, in the middle"; and turns that are plain only at the start of an order.
 
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
-use super::parts::is_mark;
 use super::polite::CODA;
 use super::words::WAYS;
 

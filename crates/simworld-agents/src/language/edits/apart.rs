@@ -2,11 +2,10 @@
 //! bench", "only keep the white car".
 
 use super::super::clause::{Count, Reference, Target};
-use super::super::lexer::Lexeme;
+use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::parse::Reader;
-use super::parts::is_mark;
 use super::says::{DEEPEST, is_it};
 use super::wish::{NewThing, Wish};
 use super::words::{VERBS, Verb};

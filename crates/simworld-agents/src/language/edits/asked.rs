@@ -215,7 +215,7 @@ impl Reader<'_> {
         // What stands behind may say what is to be done instead.
         let words = longest_phrase(&self.lexemes[start..end], DENIES)?;
         let from = start + words;
-        let is_last = self.lexemes[end..].iter().all(super::parts::is_mark);
+        let is_last = self.lexemes[end..].iter().all(super::super::lexer::is_mark);
         let denies = longest_phrase(&self.lexemes[from..end], NO_DENIAL).is_none()
             && longest(&self.lexemes[from..end], &VERBS).is_some()
             && is_last;

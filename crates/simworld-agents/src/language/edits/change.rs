@@ -253,7 +253,7 @@ impl Reader<'_> {
                 && let [only] = &mut what[..]
             {
                 // "Paint every car white except the blue one".
-                let comma = usize::from(self.lexemes.get(next).is_some_and(super::parts::is_mark));
+                let comma = usize::from(self.lexemes.get(next).is_some_and(super::super::lexer::is_mark));
                 let mut parser = self.parser(next + comma, self.before_politeness(start, end));
                 self.except(&mut parser, only);
                 if parser.at > next + comma && only.except.is_some() {

@@ -3,11 +3,10 @@
 
 use simworld_core::seam::PlanError;
 
-use super::super::lexer::Token;
+use super::super::lexer::{Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::parse::Reader;
-use super::parts::is_mark;
 use super::wish::Wish;
 use super::words::VERBS;
 

@@ -2,11 +2,10 @@
 //! one another".
 
 use super::super::clause::{Reference, Target};
-use super::super::lexer::Lexeme;
+use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
-use super::parts::is_mark;
 use super::wish::{Anchor, Where, Wish};
 
 /// Before what is looked at, behind a place.

@@ -336,7 +336,7 @@ impl Reader<'_> {
         })?;
         let stop = (no..end)
             .find(|at| {
-                super::parts::is_mark(&self.lexemes[*at])
+                super::super::lexer::is_mark(&self.lexemes[*at])
                     || self.is_place(*at)
                     || matches!(
                         self.word(*at),

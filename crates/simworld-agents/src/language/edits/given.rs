@@ -226,7 +226,7 @@ impl Reader<'_> {
                 stop -= 1;
             }
             let mut next = at + words;
-            while next < end && super::parts::is_mark(&self.lexemes[next]) {
+            while next < end && super::super::lexer::is_mark(&self.lexemes[next]) {
                 next += 1;
             }
             return (stop, Some(next));

@@ -70,8 +70,10 @@ impl Reader<'_> {
         // "Farewell, green bench".
         if let Some(words) = longest_phrase(&self.lexemes[start..end], FAREWELL) {
             let from = start + words;
-            let marks =
-                self.lexemes[from..end].iter().take_while(|lexeme| super::parts::is_mark(lexeme)).count();
+            let marks = self.lexemes[from..end]
+                .iter()
+                .take_while(|lexeme| super::super::lexer::is_mark(lexeme))
+                .count();
             if marks > 0 {
                 return self.certain(from + marks, end).map(remove);
             }
@@ -85,7 +87,7 @@ impl Reader<'_> {
         }
         (start + 1..end).find_map(|cut| {
             let gone = longest_phrase(&self.lexemes[cut..end], GONE) == Some(end - cut);
-            let stop = cut - usize::from(super::parts::is_mark(&self.lexemes[cut - 1]));
+            let stop = cut - usize::from(super::super::lexer::is_mark(&self.lexemes[cut - 1]));
             if gone && stop > start && self.is_certain(start) {
                 self.certain(start, stop).map(remove)
             } else {
@@ -146,7 +148,7 @@ impl Reader<'_> {
                 ],
             ) == Some(end - at)
         })?;
-        let versa = versa - usize::from(super::parts::is_mark(&self.lexemes[versa - 1]));
+        let versa = versa - usize::from(super::super::lexer::is_mark(&self.lexemes[versa - 1]));
         let from = start
             + longest_phrase(
                 &self.lexemes[start..versa],

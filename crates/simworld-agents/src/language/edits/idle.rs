@@ -3,11 +3,11 @@
 //! Remarks are known by what they say. Of these only that is known which they do not say: nothing by which anything in the scene could be
 //! otherwise. They are passed over behind a request that was understood, and nowhere else.
 
+use super::super::lexer::is_mark;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::parse::Reader;
-use super::parts::is_mark;
 use super::words::VERBS;
 
 /// Words by which something may be asked for, or asked for otherwise.

@@ -172,7 +172,7 @@ impl Reader<'_> {
                 longest_phrase(&self.lexemes[at..end], &["if", "unless", "only if", "provided", "in case"])?;
             let unless = self.word(at) == Some("unless");
             let from = at + words;
-            let stop = (from..end).find(|at| super::parts::is_mark(&self.lexemes[*at])).unwrap_or(end);
+            let stop = (from..end).find(|at| super::super::lexer::is_mark(&self.lexemes[*at])).unwrap_or(end);
             let (one, extent, larger, next) = (from + 1..stop).find_map(|cut| {
                 let is =
                     longest_phrase(&self.lexemes[cut..stop], &["is", "is not", "isnt", "are", "stands"])?;

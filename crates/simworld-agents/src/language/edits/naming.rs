@@ -55,7 +55,7 @@ impl Reader<'_> {
             }
             let mut from = cut;
             // "Rename the dog, he is Rex from now on".
-            if super::parts::is_mark(&self.lexemes[cut - 1])
+            if super::super::lexer::is_mark(&self.lexemes[cut - 1])
                 && let Some(words) = longest_phrase(&self.lexemes[cut..end], IS_NOW)
             {
                 from += words;
@@ -64,7 +64,7 @@ impl Reader<'_> {
             let is_later = self.quoted(from.min(end - 1)).is_none()
                 && (from + 1..end).any(|at| self.quoted(at).is_some());
             if from >= end
-                || super::parts::is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
+                || super::super::lexer::is_mark(&self.lexemes[from]) && self.quoted(from + 1).is_none()
                 || is_later
                 || longest(&self.lexemes[from..end], &super::words::WAYS).is_some()
             {
@@ -102,7 +102,7 @@ impl Reader<'_> {
             }
             stop = self.without_thanks(from, stop);
         }
-        while stop > from + 1 && super::parts::is_mark(&self.lexemes[stop - 1]) {
+        while stop > from + 1 && super::super::lexer::is_mark(&self.lexemes[stop - 1]) {
             stop -= 1;
         }
         self.at = goes_on;
@@ -113,7 +113,7 @@ impl Reader<'_> {
 
     /// Whether a mark stands here and behind it what somebody says of a thing.
     fn begins_remark(&self, at: usize, end: usize) -> bool {
-        super::parts::is_mark(&self.lexemes[at])
+        super::super::lexer::is_mark(&self.lexemes[at])
             && longest_phrase(
                 &self.lexemes[at + 1..end],
                 &[

@@ -4,11 +4,10 @@ use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
 
 use super::super::clause::{Choice, Count, First, Reference};
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers;
 use super::super::phrases::Phrases;
-use super::parts::is_mark;
 use super::resolve::Finder;
 use super::wish::Wish;
 

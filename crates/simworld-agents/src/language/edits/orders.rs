@@ -172,7 +172,7 @@ impl Reader<'_> {
             let noun = self.last_noun(start, end)?;
             let (_, count) = category(&self.lexemes[start + words..end])?;
             let mut from = start + words + count;
-            from += usize::from(self.lexemes.get(from).is_some_and(super::parts::is_mark));
+            from += usize::from(self.lexemes.get(from).is_some_and(super::super::lexer::is_mark));
             let said = super::follow::Said { noun: Some(noun), ..super::follow::Said::default() };
             return self.with_noun(&said, from, end).and_then(|order| self.read_anew(&order));
         }
@@ -282,7 +282,8 @@ impl Reader<'_> {
     /// "Old Bakery, behind it, oak tree, two": a new thing, its place, how many, and what "it" is, in any order.
     fn told_in_pieces(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
         let end = self.before_politeness(start, end);
-        let marks: Vec<usize> = (start..end).filter(|at| super::parts::is_mark(&self.lexemes[*at])).collect();
+        let marks: Vec<usize> =
+            (start..end).filter(|at| super::super::lexer::is_mark(&self.lexemes[*at])).collect();
         if marks.is_empty() || marks.len() > 4 {
             return None;
         }
@@ -390,7 +391,7 @@ impl Reader<'_> {
                 let before = &self.lexemes[from..stop];
                 // What is made is not there yet.
                 let is_made = matches!(verb, Verb::Add | Verb::Put) && is_it_not(behind);
-                if before.iter().any(super::parts::is_mark) || is_made && self.is_certain(from) {
+                if before.iter().any(super::super::lexer::is_mark) || is_made && self.is_certain(from) {
                     return None;
                 }
                 let is_it = longest_phrase(
@@ -431,7 +432,7 @@ impl Reader<'_> {
             "shall", "do", "also", "then", "gladly",
         ];
         while end > start + 1
-            && (super::parts::is_mark(&self.lexemes[end - 1])
+            && (super::super::lexer::is_mark(&self.lexemes[end - 1])
                 || self.word(end - 1).is_some_and(|word| SMALL.contains(&word)))
         {
             end -= 1;
@@ -442,7 +443,7 @@ impl Reader<'_> {
     /// "..., so that people can rest": the wish before the reason.
     fn without_reason(&self, start: usize, end: usize) -> Option<Vec<Vec<Wish>>> {
         let cut = self.before_reason(start, end)?;
-        let stop = if super::parts::is_mark(&self.lexemes[cut - 1]) { cut - 1 } else { cut };
+        let stop = if super::super::lexer::is_mark(&self.lexemes[cut - 1]) { cut - 1 } else { cut };
         let mut reader = Reader { at: start, depth: self.depth + 1, ..self.up_to(stop) };
         let last = reader.before_politeness(start, stop);
         reader.wish(stop).ok().filter(|_| reader.at >= last)

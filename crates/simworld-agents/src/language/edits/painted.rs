@@ -37,7 +37,7 @@ impl Reader<'_> {
             at = next;
         }
         at += usize::from(
-            self.lexemes.get(at).is_some_and(super::parts::is_mark)
+            self.lexemes.get(at).is_some_and(super::super::lexer::is_mark)
                 && longest_phrase(self.lexemes.get(at + 1..end)?, IN_TURN).is_some(),
         );
         at += longest_phrase(self.lexemes.get(at..end)?, IN_TURN).unwrap_or(0);
@@ -92,7 +92,7 @@ impl Reader<'_> {
 
     /// "Three barrels in red, white and blue": as many as there are colours.
     pub(super) fn in_colours(&mut self, thing: &NewThing, end: usize) -> Option<Vec<NewThing>> {
-        let comma = usize::from(self.lexemes.get(self.at).is_some_and(super::parts::is_mark));
+        let comma = usize::from(self.lexemes.get(self.at).is_some_and(super::super::lexer::is_mark));
         let start = self.at + comma;
         let from = start
             + longest_phrase(
@@ -100,7 +100,7 @@ impl Reader<'_> {
                 &["in", "in the colours", "coloured", "painted", "one", "one in", "the first", "a"],
             )?;
         let (paints, mut after) = self.colours(from, end)?;
-        let marked = self.lexemes.get(after).is_some_and(super::parts::is_mark);
+        let marked = self.lexemes.get(after).is_some_and(super::super::lexer::is_mark);
         after += usize::from(marked && after + 1 < end && self.is_place(after + 1));
         if thing.paint.is_some() || !(thing.many || thing.count as usize == paints.len()) {
             return None;

@@ -6,7 +6,7 @@
 //! wish is passed over because its words are not understood.
 
 use super::super::clause::Reference;
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::is_mark;
 use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
 use super::follow::Said;
@@ -271,11 +271,6 @@ impl Reader<'_> {
             && self.word(at + 1).is_some()
             && !self.is_place(at)
     }
-}
-
-/// Whether a token is a mark.
-pub(super) const fn is_mark(lexeme: &Lexeme) -> bool {
-    matches!(lexeme.token, Token::Comma | Token::Break)
 }
 
 /// Every word of these tables, for the spelling.

@@ -1,9 +1,8 @@
 //! Remarks that read like wishes, and are none: "any car will do", and behind a request "spring is coming".
 
-use super::super::lexer::Lexeme;
+use super::super::lexer::{Lexeme, is_mark};
 use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
-use super::parts::is_mark;
 
 /// Which one is left to who places it: before it, and behind it.
 const ANY: &Phrases = &Phrases::of(&["any", "whichever", "whatever", "either", "anything", "anywhere"]);

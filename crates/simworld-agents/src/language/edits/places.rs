@@ -270,7 +270,7 @@ impl Reader<'_> {
             let thing = self.one_of(from, cut).ok()?;
             reader.at = cut;
             reader.eat_any(&[","]);
-            while reader.lexemes.get(reader.at).is_some_and(super::parts::is_mark) {
+            while reader.lexemes.get(reader.at).is_some_and(super::super::lexer::is_mark) {
                 reader.at += 1;
             }
             reader.eat_any(&["go", "walk", "take", "count", "measure", "and go", "its"]);

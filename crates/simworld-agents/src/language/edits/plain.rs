@@ -1,11 +1,10 @@
 //! Words that are put plainly before they are read: contractions, what is said twice, what makes a wish no other.
 
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, is_animate, longest, longest_phrase};
 use super::super::names::Names;
 use super::super::phrases::Phrases;
 use super::forms::word_at;
-use super::parts::is_mark;
 
 /// Words that make a wish stronger or weaker, and no other.
 #[rustfmt::skip]

@@ -1,11 +1,10 @@
 //! Remarks: parts of a sentence that ask for nothing. A remark says how things are or why somebody wants something. What begins as an
 //! order does is none, nor what says how something should be, so that no wish is passed over because its words are not understood.
 
-use super::super::lexer::Token;
+use super::super::lexer::{Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::parse::Reader;
-use super::parts::is_mark;
 use super::wish::Where;
 use super::words::{VERBS, Verb};
 

@@ -4,12 +4,11 @@
 //! What is put right is of the kind of what stands in its place: a number for a number, a colour for a colour, a place for a
 //! place, an order for an order, a thing for a thing.
 
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{category, longest, longest_phrase};
 use super::super::numbers::{self, NUMERALS};
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
-use super::parts::is_mark;
 use super::words::{SKIES, VERBS, WAYS, Way};
 
 /// That what follows is meant, and what stood before is not.

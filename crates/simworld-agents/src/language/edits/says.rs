@@ -317,7 +317,7 @@ impl<'a> Reader<'a> {
                 return None;
             }
             let what = self.things(from, cut).ok()?;
-            let mark = usize::from(super::parts::is_mark(&self.lexemes[cut]));
+            let mark = usize::from(super::super::lexer::is_mark(&self.lexemes[cut]));
             let rest = Reader { at: (cut + mark).min(end), ..self.up_to(end) };
 
             rest.predicate(&Subject::Things(what), (from, cut), end)

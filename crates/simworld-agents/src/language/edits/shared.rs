@@ -84,7 +84,7 @@ impl Reader<'_> {
             return None;
         }
         let mut at = vec![self.place(end).ok()?];
-        if self.lexemes.get(self.at).is_some_and(super::parts::is_mark) {
+        if self.lexemes.get(self.at).is_some_and(super::super::lexer::is_mark) {
             self.at += 1;
         }
         let stop = self.before_politeness(self.at, end);

@@ -2,12 +2,12 @@
 //! by the pine, one to its left and one to its right", "tents behind both cottages, two each", "cones round the hydrant, eight".
 
 use super::super::clause::Count;
+use super::super::lexer::is_mark;
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::numbers;
 use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::parse::{Reader, joint};
-use super::parts::is_mark;
 use super::wish::{Anchor, NewThing, Where, Wish};
 use simworld_core::scene::Relation;
 

@@ -167,7 +167,7 @@ impl Reader<'_> {
         (from + 1..end).find_map(|cut| {
             let words = longest_phrase(&self.lexemes[cut..end], NAME)?;
             let what = self.one_of(from, cut).ok()?;
-            let start = (cut + words..end).find(|at| !super::parts::is_mark(&self.lexemes[*at]))?;
+            let start = (cut + words..end).find(|at| !super::super::lexer::is_mark(&self.lexemes[*at]))?;
             let quoted = (start..end).find_map(|at| self.quoted(at));
             let name = quoted.unwrap_or_else(|| self.written(start, self.before_politeness(start, end)));
             (!name.is_empty()).then_some(Wish::Name { what, name })
@@ -197,7 +197,7 @@ impl Reader<'_> {
     /// "..., right beside him": a place behind a mark.
     fn aside_place(&self, end: usize, anchor: &Anchor) -> Option<Vec<Where>> {
         let mut reader = Reader { at: self.at, ..*self };
-        while reader.at < end && super::parts::is_mark(&self.lexemes[reader.at]) {
+        while reader.at < end && super::super::lexer::is_mark(&self.lexemes[reader.at]) {
             reader.at += 1;
         }
         if reader.at == self.at {

@@ -1,11 +1,10 @@
 //! Conditions that are told as a question, by the order of words, or without "if": "is there a horse? If not, put a dog by the
 //! school", "should a dog be on the square, take it off", "if a cone exists, ...".
 
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::longest_phrase;
 use super::super::phrases::Phrases;
 use super::forms::words_at;
-use super::parts::is_mark;
 
 /// Asks whether there is something.
 #[rustfmt::skip]

@@ -1,11 +1,10 @@
 //! What is said of the whole scene and of places in figures, put as it is read: "if there is a hydrant anywhere on campus" is "if there is a
 //! hydrant", "how many cars does the old town have" is "how many cars are there", and "at x = -5, y = 3" is "at (-5, 3)".
 
-use super::super::lexer::{Lexeme, Token};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
-use super::parts::is_mark;
 
 /// What begins a question or a condition on what there is.
 #[rustfmt::skip]
