@@ -387,7 +387,7 @@ impl Reader<'_> {
     }
 }
 
-/// The kind of tree that a word is, in the singular: of which kind the trees of a scene are is not known.
+/// The kind of tree that a word is, in the singular, whether or not a tree of the scene is known to be of it.
 pub(super) fn species(lexeme: &Lexeme) -> Option<&'static str> {
     const SPECIES: &[&str] = &[
         "oak", "lime", "birch", "pine", "maple", "elm", "ash", "willow", "cedar", "poplar", "chestnut",

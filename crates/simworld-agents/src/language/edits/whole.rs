@@ -160,6 +160,12 @@ fn nearby(lexemes: &mut Vec<Lexeme>) {
     }
 }
 
+/// Behind "the old town" and the like, if that is what begins there.
+fn whole_at(lexemes: &[Lexeme], from: usize) -> Option<usize> {
+    let whole = from + longest_phrase(lexemes.get(from..)?, ARTICLE).unwrap_or(0);
+    WHOLE.iter().any(|word| is_word(lexemes, whole, word)).then_some(whole + 1)
+}
+
 /// "X = -5, y = 3" is (-5, 3).
 fn coordinates(lexemes: &mut Vec<Lexeme>) {
     let figure = |from: usize, axis: &str| {
@@ -223,21 +229,16 @@ fn how_many_has(lexemes: &mut Vec<Lexeme>) {
     else {
         return;
     };
-    let whole = |from: usize| {
-        let article = longest_phrase(&lexemes[from..], ARTICLE).unwrap_or(0);
-        let is_whole = WHOLE.iter().any(|word| is_word(lexemes, from + article, word));
-        is_whole.then_some(from + article + 1)
-    };
     let found = (asks + 3..lexemes.len()).find_map(|at| {
         if is_word(lexemes, at, "does") {
-            let has = whole(at + 1)?;
+            let has = whole_at(lexemes, at + 1)?;
             let words =
                 longest_phrase(lexemes.get(has..)?, &["have", "contain", "hold", "include", "have got"])?;
             return Some((at, has + words));
         }
         let are = longest_phrase(&lexemes[at..], &["are", "is", "stand", "exist", "can be found"])?;
         let before = longest_phrase(lexemes.get(at + are..)?, BEFORE_WHOLE)?;
-        Some((at, whole(at + are + before)?))
+        Some((at, whole_at(lexemes, at + are + before)?))
     });
     if let Some((at, after)) = found {
         let place = lexemes[at].clone();
@@ -259,12 +260,11 @@ fn everywhere(lexemes: &mut Vec<Lexeme>) {
             asked = false;
         }
         let before = longest_phrase(&lexemes[at..], BEFORE_WHOLE).filter(|_| asked);
-        let whole = before.and_then(|before| {
-            let article = at + before + longest_phrase(lexemes.get(at + before..)?, ARTICLE).unwrap_or(0);
-            let ends = lexemes.get(article + 1).is_none_or(is_mark)
-                || longest_phrase(&lexemes[article + 1..], NOW).is_some()
-                || is_word(lexemes, article + 1, "then");
-            (ends && WHOLE.iter().any(|word| is_word(lexemes, article, word))).then_some(article + 1)
+        let whole = before.and_then(|before| whole_at(lexemes, at + before)).filter(|after| {
+            let rest = &lexemes[*after..];
+            rest.first().is_none_or(is_mark)
+                || longest_phrase(rest, NOW).is_some()
+                || is_word(rest, 0, "then")
         });
         let now = longest_phrase(&lexemes[at..], NOW).filter(|_| asked).map(|words| at + words);
         match whole.or(now) {
