@@ -105,6 +105,7 @@ pub(super) fn feedback_line(event: &Event, who: EntityId) -> Option<String> {
         EventKind::Fell { who: actor, cause } if *actor == who => match cause {
             FallCause::Tripped => "you tripped and fell".to_owned(),
             FallCause::Slipped => "you slipped and fell".to_owned(),
+            FallCause::Landed => "you came down hard and fell".to_owned(),
             _ => "you were run into and fell".to_owned(),
         },
         EventKind::GotUp { who: actor } if *actor == who => "you are on your feet again".to_owned(),

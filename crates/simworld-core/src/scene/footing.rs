@@ -61,6 +61,8 @@ pub enum FallCause {
     Slipped,
     /// Something ran into it.
     Struck,
+    /// It came down faster than legs take up.
+    Landed,
 }
 
 impl fmt::Display for FallCause {
@@ -69,6 +71,7 @@ impl fmt::Display for FallCause {
             Self::Tripped => "tripped",
             Self::Slipped => "slipped",
             Self::Struck => "struck",
+            Self::Landed => "landed hard",
         })
     }
 }

@@ -2,6 +2,7 @@
 //! dynamics.
 
 mod bonds;
+mod digests;
 mod error;
 mod gestures;
 mod journal;
@@ -12,10 +13,11 @@ mod snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use digests::Digests;
 pub use error::WorldError;
 use journal::Journal;
 pub use journal::Mark;
-use slots::{check_pose, check_twist, is_called};
+use slots::{check_pose, check_twist, is_called, is_same_motion};
 pub use snapshot::WorldSnapshot;
 
 use super::quadtree::Quadtree;
@@ -63,8 +65,7 @@ pub struct World {
     bounds: Vec<Aabb>,
     infos: Vec<Option<EntityInfo>>,
     bonds: Vec<Option<Attachment>>,
-    /// Digest of each slot, brought up to date at the end of a step for those that changed in it.
-    digests: Vec<u64>,
+    digests: Digests,
     journal: Journal,
     /// Free slots; the last is taken first.
     free: Vec<u32>,
@@ -233,15 +234,20 @@ impl World {
         Ok(desc)
     }
 
-    /// Sets where an entity is and how it moves: what dynamics call for every body, every step.
+    /// Sets where an entity is and how it moves: what dynamics call for every body, every step. Who stays as it was costs next
+    /// to nothing, and does not count as changed.
     ///
     /// # Errors
     /// No such entity, or numbers that are not finite.
     pub fn set_motion(&mut self, id: EntityId, pose: Pose, twist: Twist) -> Result<(), WorldError> {
         self.check_alive(id)?;
+        let slot = id.index();
+        if is_same_motion((&self.poses[slot], &self.twists[slot]), (&pose, &twist)) {
+            return Ok(());
+        }
         check_pose(&pose)?;
         check_twist(id, &twist)?;
-        self.twists[id.index()] = twist;
+        self.twists[slot] = twist;
         self.place(id, pose);
         Ok(())
     }
@@ -396,11 +402,11 @@ impl World {
         Ok(())
     }
 
-    /// Ends the step: carried things follow their carriers, digests are renewed, the clock advances.
+    /// Ends the step: carried things follow their carriers, the clock advances.
     pub fn finish_step(&mut self) {
         self.follow_carriers();
         self.end_gestures();
-        self.renew_digests();
+        self.turn_page();
         self.actuations.clear();
         self.intents.clear();
         for order in std::mem::take(&mut self.orders) {
@@ -414,23 +420,25 @@ impl World {
         self.events.clear();
     }
 
-    fn renew_digests(&mut self) {
+    /// Begins a new page of what changed.
+    fn turn_page(&mut self) {
         self.journal.turn();
-        for index in 0..self.journal.last().len() {
-            let slot = self.journal.last()[index] as usize;
-            self.digests[slot] = self.in_slot(slot).map_or(0, |entity| {
-                let mut hasher = StateHasher::new();
-                entity.state_hash(&mut hasher);
-                hasher.finish().0
-            });
-        }
+        self.digests.note(self.journal.last());
+    }
+
+    fn digest_of_slot(&self, slot: usize) -> u64 {
+        self.in_slot(slot).map_or(0, |entity| {
+            let mut hasher = StateHasher::new();
+            entity.state_hash(&mut hasher);
+            hasher.finish().0
+        })
     }
 
     // ---- inner workings ----
 }
 
 impl StateHash for World {
-    /// Covers the state as of the last finished step.
+    /// Covers the state as it is. It costs what has changed since somebody asked last, and nothing while nobody asks.
     fn state_hash(&self, hasher: &mut StateHasher) {
         hasher.u64(self.clock.tick().0);
         self.environment.state_hash(hasher);
@@ -445,12 +453,18 @@ impl StateHash for World {
         if let Some(ground) = &self.ground {
             ground.state_hash(hasher);
         }
-        // Free slots at the end count for nothing: what came and is gone leaves no trace.
-        let used = self.digests.iter().rposition(|digest| *digest != 0).map_or(0, |last| last + 1);
-        hasher.u64(used as u64);
-        for digest in &self.digests[..used] {
-            hasher.u64(*digest);
-        }
+        self.digests.read(
+            self.journal.now(),
+            |slot| self.digest_of_slot(slot),
+            |digests| {
+                // Free slots at the end count for nothing: what came and is gone leaves no trace.
+                let used = digests.iter().rposition(|digest| *digest != 0).map_or(0, |last| last + 1);
+                hasher.u64(used as u64);
+                for digest in &digests[..used] {
+                    hasher.u64(*digest);
+                }
+            },
+        );
     }
 
     fn digest(&self) -> StateDigest {

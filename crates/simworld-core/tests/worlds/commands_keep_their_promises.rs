@@ -130,6 +130,37 @@ fn the_digest_sees_every_change() {
     }
 }
 
+#[test]
+fn a_digest_is_the_same_however_often_somebody_asks() {
+    let id = EntityId::new(1, 0);
+    let run = |asks: bool| {
+        let mut world = small_world();
+        for step in 0..20 {
+            world.set_motion(id, Pose::translation(0.1 * f64::from(step), 2.0, 0.0), Twist::ZERO).unwrap();
+            if asks {
+                let _ = world.digest(); // in the middle of a step too
+            }
+            world.finish_step();
+            if asks {
+                let _ = world.digest();
+            }
+        }
+        world
+    };
+    let (asked, silent) = (run(true), run(false));
+    assert_eq!(asked.digest(), silent.clone().digest(), "a copy takes along what is out of date");
+    assert_eq!(asked.digest(), silent.digest());
+    assert_eq!(World::restore(silent.snapshot()).unwrap().digest(), silent.digest());
+    let mut moved = silent.clone();
+    moved.set_motion(id, Pose::translation(0.0, 3.0, 0.0), Twist::ZERO).unwrap();
+    assert_ne!(moved.digest(), silent.digest(), "it covers the state as it is");
+    let mark = silent.mark();
+    let mut still = silent;
+    let (pose, twist) = still.entity(id).map(|entity| (*entity.pose, *entity.twist)).unwrap();
+    still.set_motion(id, pose, twist).unwrap();
+    assert_eq!(still.touched_since(mark).unwrap().count(), 0, "who stays as it was has not changed");
+}
+
 /// Which thing a ray eastwards at a height meets, from the west of the small world.
 fn met(world: &World, height: f64) -> Option<EntityKind> {
     let ray = Ray::towards(Point3::new(-5.0, 0.0, height), Point3::new(5.0, 0.0, height))?;

@@ -4,7 +4,7 @@ use super::slots::check_pose;
 use super::{World, WorldError};
 use crate::geometry::{Pose, Twist};
 use crate::id::EntityId;
-use crate::scene::{Attachment, EntityDesc, Scene};
+use crate::scene::{Attachment, EntityDesc, EntityRef, Scene};
 
 impl World {
     /// Hangs an entity on a carrier, or frees it with `None`; returns the old bond.
@@ -44,6 +44,11 @@ impl World {
         self.set_motion(id, pose, twist)?;
         self.set_bond(id.index(), bond);
         Ok(())
+    }
+
+    /// Everything that hangs on something else, by ascending slot.
+    pub fn bonded(&self) -> impl Iterator<Item = EntityRef<'_>> {
+        self.bonded.iter().filter_map(|slot| self.in_slot(*slot as usize))
     }
 
     /// What hangs on a carrier, with its bonds, by ascending slot.

@@ -61,6 +61,11 @@ impl Journal {
         self.touched.clear();
     }
 
+    /// What has changed in this step.
+    pub(super) fn now(&self) -> &[u32] {
+        &self.touched
+    }
+
     /// What changed in the step that was finished last.
     pub(super) fn last(&self) -> &[u32] {
         &self.before

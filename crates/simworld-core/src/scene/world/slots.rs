@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{WORLD_LIMIT, World, WorldError};
-use crate::geometry::{Aabb, Pose, Twist};
+use crate::geometry::{Aabb, Pose, Twist, Vector3};
 use crate::id::EntityId;
 use crate::scene::quadtree::Quadtree;
 use crate::scene::{EntityDesc, EntityInfo, EntityKind, EntityRef, SELLS, Shape};
@@ -47,7 +47,7 @@ impl World {
         self.bounds.push(Shape::Sphere { radius: 1.0 }.aabb(&Pose::identity()));
         self.infos.push(None);
         self.bonds.push(None);
-        self.digests.push(0);
+        self.digests.add_slot();
         self.journal.add_slot();
         slot
     }
@@ -119,14 +119,29 @@ pub(super) fn is_called(info: &EntityInfo) -> bool {
     info.name.is_some() || info.attributes.contains_key(SELLS)
 }
 
+/// Whether two motions are the same by their bits, as digests tell them apart.
+pub(super) fn is_same_motion(one: (&Pose, &Twist), other: (&Pose, &Twist)) -> bool {
+    let bits = |(pose, twist): (&Pose, &Twist)| {
+        let (at, turn) = (&pose.translation.vector, &pose.rotation.coords);
+        let (linear, angular) = (&twist.linear, &twist.angular);
+        [
+            [at.x, at.y, at.z, 0.0].map(f64::to_bits),
+            [turn.x, turn.y, turn.z, turn.w].map(f64::to_bits),
+            [linear.x, linear.y, linear.z, 0.0].map(f64::to_bits),
+            [angular.x, angular.y, angular.z, 0.0].map(f64::to_bits),
+        ]
+    };
+    bits(one) == bits(other)
+}
+
 pub(super) fn check_twist(id: EntityId, twist: &Twist) -> Result<(), WorldError> {
-    let finite = twist.linear.iter().chain(twist.angular.iter()).all(|number| number.is_finite());
-    if finite { Ok(()) } else { Err(WorldError::Twist { id }) }
+    let is_finite = |part: &Vector3| part.x.is_finite() && part.y.is_finite() && part.z.is_finite();
+    if is_finite(&twist.linear) && is_finite(&twist.angular) { Ok(()) } else { Err(WorldError::Twist { id }) }
 }
 
 pub(super) fn check_pose(pose: &Pose) -> Result<(), WorldError> {
     let at = pose.translation.vector;
-    if !at.iter().all(|x| x.abs() <= WORLD_LIMIT) {
+    if !(at.x.abs() <= WORLD_LIMIT && at.y.abs() <= WORLD_LIMIT && at.z.abs() <= WORLD_LIMIT) {
         return Err(WorldError::Pose { x: at.x, y: at.y, z: at.z });
     }
     let norm = pose.rotation.coords.norm();

@@ -130,7 +130,7 @@ impl World {
             }
         }
         world.resume_gestures();
-        world.renew_digests();
+        world.turn_page();
         world.revision = snapshot.revision;
         Ok(world)
     }
