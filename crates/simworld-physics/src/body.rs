@@ -33,12 +33,14 @@ pub enum Detail {
 }
 
 /// What ties a body to other things this step, as the world knows it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bonds {
     /// How it hangs on a carrier (seated, aboard), if it does: then the carrier moves it.
     pub carried: Option<Role>,
     /// The scooter it rides.
     pub scooter: Option<EntityId>,
+    /// Mass of what it has in the hand and in both arms, kg.
+    pub load: f64,
 }
 
 /// An [`Embodiment`] that moves under the laws of a physics world.

@@ -28,6 +28,10 @@ pub(crate) struct Contacts {
     pub(crate) touching: Vec<(EntityId, EntityId)>,
     /// Which of them still do in the substep under examination.
     still: Vec<bool>,
+    /// Where in the list each pair of the engine was found last, by its turn: what lies in a pile is found there again.
+    turns: Vec<u32>,
+    /// Where the bodies are in the list that the solver does not move.
+    pub(crate) unsolved: Vec<usize>,
     /// What was looked at closely in it.
     met: Vec<Met>,
     /// Those that came to touch in this step, by ascending pair.
@@ -74,10 +78,20 @@ impl Contacts {
     }
 
     /// Notes that a pair touches, if there is nothing to tell of it; says whether that is so.
-    fn goes_on(&mut self, pair: (EntityId, EntityId)) -> bool {
-        let Ok(place) = self.touching.binary_search(&pair) else { return false };
+    fn goes_on(&mut self, pair: (EntityId, EntityId), turn: usize) -> bool {
+        if self.turns.len() <= turn {
+            self.turns.resize(turn + 1, 0);
+        }
+        let before = self.turns[turn] as usize;
+        let place = if self.touching.get(before) == Some(&pair) {
+            before
+        } else {
+            let Ok(place) = self.touching.binary_search(&pair) else { return false };
+            self.turns[turn] = place as u32;
+            place
+        };
         self.still[place] = true;
-        self.begun.binary_search_by_key(&pair, |begun| begun.pair).is_err()
+        self.begun.is_empty() || self.begun.binary_search_by_key(&pair, |begun| begun.pair).is_err()
     }
 
     fn start(&mut self) {
@@ -87,7 +101,7 @@ impl Contacts {
 
     /// Takes in what was met.
     fn finish(&mut self) {
-        let Self { touching, still, met, begun } = self;
+        let Self { touching, still, met, begun, .. } = self;
         met.sort_by_key(|met| (met.contact.pair, met.by));
         met.dedup_by_key(|met| met.contact.pair);
         met.retain(|Met { contact, .. }| {
@@ -116,7 +130,8 @@ impl PhysicsDynamics {
     pub(crate) fn find_contacts(&mut self) {
         let mut contacts = std::mem::take(&mut self.contacts);
         contacts.start();
-        for owned in self.bodies.iter().filter(|owned| owned.is_in_engine()) {
+        for index in 0..contacts.unsolved.len() {
+            let owned = &self.bodies[contacts.unsolved[index]];
             if !self.is_solved(owned) {
                 for handle in self.physics.bodies[owned.rigid].colliders() {
                     self.find_close(owned, *handle, &mut contacts);
@@ -135,10 +150,11 @@ impl PhysicsDynamics {
 
     /// What the solver has in contact: all pairs of the engine once. What goes on, such as what lies in a pile, is only noted.
     fn find_solved(&self, contacts: &mut Contacts) {
-        for pair in self.physics.contact_pairs().filter(|pair| pair.has_any_active_contact()) {
+        let touching = self.physics.contact_pairs().filter(|pair| pair.has_any_active_contact());
+        for (turn, pair) in touching.enumerate() {
             let entities = self.entity_of(pair.collider1).zip(self.entity_of(pair.collider2));
             let Some((a, b)) = entities.filter(|(a, b)| a != b).map(|(a, b)| ordered(a, b)) else { continue };
-            if contacts.goes_on((a, b)) {
+            if contacts.goes_on((a, b), turn) {
                 continue;
             }
             let met = [(a, b), (b, a)].into_iter().find_map(|(by, other)| {
@@ -256,8 +272,8 @@ mod tests {
 
     fn substep(contacts: &mut Contacts, found: &[Met]) {
         contacts.start();
-        for met in found {
-            if !contacts.goes_on(met.contact.pair) {
+        for (turn, met) in found.iter().enumerate() {
+            if !contacts.goes_on(met.contact.pair, turn) {
                 contacts.met.push(*met);
             }
         }

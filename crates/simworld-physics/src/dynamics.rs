@@ -103,6 +103,8 @@ pub struct PhysicsDynamics {
     /// An empty set, lent to queries that must not know rigid bodies.
     pub(crate) nobody: RigidBodySet,
     // Scratch space of a step.
+    /// Where those bodies are in the list to which something may have been done in the world, ascending.
+    pub(crate) displaced: Vec<usize>,
     pub(crate) moving: Vec<Moving>,
     /// Where the bodies of this physics are, and whether that was looked up in this step.
     pub(crate) near: Cells<Point2>,
@@ -170,6 +172,7 @@ impl PhysicsDynamics {
             conditions: Conditions::default(),
             interest: Vec::new(),
             nobody: RigidBodySet::new(),
+            displaced: Vec::new(),
             moving: Vec::new(),
             near: Cells::new(2.0 * near),
             near_is_known: false,
@@ -188,21 +191,16 @@ impl PhysicsDynamics {
         &self.config
     }
 
-    /// How many substeps a step of `dt` s takes: what the settings say, or more if a body needs it.
-    fn substeps(&self, dt: f64) -> u32 {
+    /// How many substeps a step of `dt` s takes: what the settings say, or more if a body needs it. And how many times the solver goes
+    /// over one of them: once where a body asks for substeps so short that as many passes a second are made as with the usual ones.
+    fn substeps(&self, dt: f64) -> (u32, usize) {
         let asked = self.bodies.iter().filter(|owned| owned.is_in_engine());
         let longest = asked.map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
+        let iterations = if longest <= SHORT_SUBSTEP { 1 } else { ITERATIONS };
         let longest =
             if self.grasps.list.is_empty() { longest } else { longest.min(LONGEST_JOINTED_SUBSTEP) };
         let needed = (dt / longest - 1e-9).ceil().clamp(1.0, MOST_SUBSTEPS);
-        self.config.substeps.max(needed as u32)
-    }
-
-    /// How many times the solver goes over a substep: once where a body asks for substeps so short that as many passes a second
-    /// are made as with the usual ones.
-    fn iterations(&self) -> usize {
-        let short = |owned: &Owned| owned.is_in_engine() && owned.body.longest_substep() <= SHORT_SUBSTEP;
-        if self.bodies.iter().any(short) { 1 } else { ITERATIONS }
+        (self.config.substeps.max(needed as u32), iterations)
     }
 
     /// Passes on what bodies were told; what they refuse becomes an event.
@@ -252,7 +250,7 @@ impl PhysicsDynamics {
             }
         };
         let looks = |owned: &&Owned| owned.is_in_engine() && owned.body.looks_around();
-        if self.bodies.iter().filter(looks).count() >= config.parallel_threshold {
+        if self.bodies.iter().filter(looks).nth(config.parallel_threshold - 1).is_some() {
             self.bodies.par_iter_mut().with_min_len(4).for_each(sense);
         } else {
             self.bodies.iter_mut().for_each(sense);
@@ -295,8 +293,12 @@ impl PhysicsDynamics {
         self.physics.step();
         self.check_finite()?;
         self.strain_grasps(dt);
-        for owned in self.bodies.iter_mut().filter(|owned| owned.is_in_engine()) {
+        self.contacts.unsolved.clear();
+        for (place, owned) in self.bodies.iter_mut().enumerate().filter(|(_, owned)| owned.is_in_engine()) {
             let rigid = &self.physics.bodies[owned.rigid];
+            if !rigid.is_dynamic() {
+                self.contacts.unsolved.push(place);
+            }
             let linear = from_vector(rigid.velocity_at_point(rigid.translation()));
             let twist = Twist { linear, angular: from_vector(rigid.angvel()) };
             owned.body.observe(&self.physics, owned.rigid);
@@ -327,15 +329,12 @@ impl PhysicsDynamics {
 
     /// Writes poses and velocities of whatever moved.
     fn write_back(&mut self, world: &mut World) -> Result<(), DynamicsError> {
-        for owned in self.bodies.iter_mut().filter(|owned| owned.bonds.carried.is_none()) {
-            let BodyState { pose, twist } = owned.body.state();
-            owned.written = pose;
-            let moved = world.entity(owned.id).is_some_and(|e| *e.pose != pose || *e.twist != twist);
-            if moved {
+        for owned in &mut self.bodies {
+            if owned.bonds.carried.is_none() {
+                let BodyState { pose, twist } = owned.body.state();
+                owned.written = pose;
                 world.set_motion(owned.id, pose, twist)?;
             }
-        }
-        for owned in &mut self.bodies {
             owned.body.report(owned.id, world)?;
         }
         Ok(())
@@ -373,14 +372,15 @@ impl Dynamics for PhysicsDynamics {
         self.take_actions(world);
         self.choose_roamers();
         self.roam(dt);
-        let count = self.substeps(dt);
+        let (count, iterations) = self.substeps(dt);
         let substeps = f64::from(count);
         self.physics.integration_parameters.dt = dt / substeps;
-        self.physics.integration_parameters.num_solver_iterations = self.iterations();
+        self.physics.integration_parameters.num_solver_iterations = iterations;
         for substep in 1..=count {
             self.substep(dt / substeps, f64::from(substep) / substeps)?;
         }
         self.write_back(world)?;
+        self.part_fallen_riders(world)?;
         self.contacts.report(world);
         self.report_grasps(world);
         Ok(())

@@ -19,6 +19,7 @@ mod hands;
 mod humanoid;
 mod joint;
 mod mirror;
+mod mounts;
 mod movers;
 pub mod proving;
 mod quadruped;

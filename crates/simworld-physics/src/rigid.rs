@@ -9,7 +9,7 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
 use crate::body::{BodyContext, PhysicsBody};
 use crate::convert::{to_pose, to_vector};
-use crate::shape::{collider_for, shape_from};
+use crate::shape::{collider_for, volume_of};
 use crate::solid::with_solid;
 
 /// Density of things whose mass nobody gave, kg/m³: about that of seasoned softwood.
@@ -49,8 +49,7 @@ fn given_mass(entity: &EntityRef<'_>) -> Option<f64> {
 
 /// What an entity weighs as a free body, kg; by its shape where nobody gave it a mass.
 pub(crate) fn mass_of(entity: &EntityRef<'_>) -> f64 {
-    let by_shape = || shape_from(&entity.info.shape).0.mass_properties(DENSITY).mass();
-    given_mass(entity).unwrap_or_else(by_shape)
+    given_mass(entity).unwrap_or_else(|| DENSITY * volume_of(&entity.info.shape))
 }
 
 impl std::fmt::Debug for Rigid {

@@ -3,7 +3,7 @@
 //! Core's shapes stand on their origin; rapier's have it in their middle, and its cylinders lie along y. The
 //! collider's place in its body makes up for both, so that a rigid body's frame is the entity's body frame.
 
-use std::f64::consts::FRAC_1_SQRT_2;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
 use rapier3d_f64::prelude::{CoefficientCombineRule, Collider, ColliderBuilder, SharedShape};
@@ -117,6 +117,19 @@ pub fn shape_from(shape: &Shape) -> (SharedShape, RapierPose) {
     }
 }
 
+/// Volume of the solid of a shape, m³.
+pub(crate) fn volume_of(shape: &Shape) -> f64 {
+    let ball = |radius: f64| 4.0 / 3.0 * PI * radius * radius * radius;
+    match *shape {
+        Shape::Cylinder { radius, height } => PI * radius * radius * height,
+        Shape::Capsule { radius, height } => {
+            PI * radius * radius * (height - 2.0 * radius).max(0.0) + ball(radius)
+        }
+        Shape::Sphere { radius } => ball(radius),
+        _ => shape.size().product(),
+    }
+}
+
 /// The collider of an entity's shape, marked as the entity's, with the dry friction of a
 /// material, to be hung on a rigid body at the entity's pose.
 pub fn collider_for(shape: &Shape, id: EntityId, material: Material) -> ColliderBuilder {
@@ -163,6 +176,8 @@ mod tests {
             let aabb = solid.compute_aabb(&body_from_solid);
             assert!(aabb.mins.z.abs() < 1e-12 && (aabb.maxs.z - 3.0).abs() < 1e-12, "{shape:?}: {aabb:?}");
             assert!((aabb.maxs.y - shape.size().y / 2.0).abs() < 1e-12, "{shape:?}: {aabb:?}");
+            let volume = solid.mass_properties(1.0).mass();
+            assert!((volume_of(&shape) / volume - 1.0).abs() < 1e-9, "{shape:?}: {volume}");
         }
     }
 }

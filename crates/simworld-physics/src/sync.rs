@@ -13,6 +13,7 @@ use simworld_core::seam::BodyState;
 use crate::body::Bonds;
 use crate::dynamics::PhysicsDynamics;
 use crate::mirror::Mirror;
+use crate::rigid::mass_of;
 use crate::shape::body_from;
 use crate::slot_set::SlotSet;
 
@@ -51,17 +52,9 @@ impl PhysicsDynamics {
     /// Brings the engine up to date with the world as it stands at the start of a step.
     pub(crate) fn synchronise(&mut self, world: &World) {
         self.lay_ground(world.ground());
-        self.drop_orphans(world);
         self.near_is_known = false;
-        for owned in &mut self.bodies {
-            if owned.bonds.scooter.is_some_and(|scooter| !rides(world, owned.id, scooter)) {
-                owned.bonds = bonds_of(owned.id, world);
-            }
-            owned.bonds.carried = None;
-            if let Some(entity) = world.entity(owned.id) {
-                owned.bonds.carried = entity.attachment.map(|bond| bond.role);
-            }
-        }
+        self.look_at_bodies(world);
+        self.weigh_loads(world);
         self.moving.clear();
         self.stream(world);
         if self.slots.len() < world.slots() {
@@ -85,7 +78,10 @@ impl PhysicsDynamics {
     fn stale(&mut self, world: &World) -> SlotSet {
         let mut stale = std::mem::take(&mut self.stale);
         match self.seen.and_then(|mark| world.touched_since(mark)) {
-            Some(touched) => touched.for_each(|slot| stale.insert(slot)),
+            // Most of what changes are bodies that the physics moved itself, and those were looked at one by one.
+            Some(touched) => touched
+                .filter(|slot| !matches!(self.slots.get(*slot), Some(Slot::Own { .. })))
+                .for_each(|slot| stale.insert(slot)),
             None => (0..self.slots.len()).for_each(|slot| stale.insert(slot)),
         }
         stale.unite(&self.traffic);
@@ -102,18 +98,47 @@ impl PhysicsDynamics {
         self.slots[slot] = value;
     }
 
-    /// Takes the bodies of removed entities out of the engine.
-    fn drop_orphans(&mut self, world: &World) {
-        let (physics, slots) = (&mut self.physics, &mut self.slots);
+    /// Takes the bodies of removed entities out of the engine, and notes what was done to the others in the world.
+    fn look_at_bodies(&mut self, world: &World) {
+        let (physics, slots, stale, displaced) =
+            (&mut self.physics, &mut self.slots, &mut self.stale, &mut self.displaced);
+        let is_first = self.seen.is_none();
+        let mut place = 0;
+        displaced.clear();
         self.bodies.retain_mut(|owned| {
-            let lives = world.entity(owned.id).is_some();
-            if !lives {
+            let Some(entity) = world.entity(owned.id) else {
                 owned.body.gather(physics, owned.rigid);
                 physics.remove_body(owned.rigid);
                 slots[owned.id.index()] = Slot::Vacant;
+                stale.insert(owned.id.index());
+                return false;
+            };
+            if owned.bonds.scooter.is_some_and(|scooter| !rides(world, owned.id, scooter)) {
+                owned.bonds = bonds_of(owned.id, world);
             }
-            lives
+            owned.bonds.load = 0.0;
+            let before = owned.bonds.carried;
+            owned.bonds.carried = entity.attachment.map(|bond| bond.role);
+            if owned.bonds.carried.is_some() {
+                stale.insert(owned.id.index());
+            }
+            let is_tied = before.is_some() || owned.bonds.carried.is_some();
+            if is_first || is_tied || *entity.pose != owned.written {
+                displaced.push(place);
+            }
+            place += 1;
+            true
         });
+    }
+
+    /// Tells bodies what the things weigh that they have in the hand or in both arms.
+    fn weigh_loads(&mut self, world: &World) {
+        for thing in world.bonded() {
+            let bond = thing.attachment.filter(|bond| matches!(bond.role, Role::Held | Role::Carried));
+            if let Some(place) = bond.and_then(|bond| self.position(bond.parent).ok()) {
+                self.bodies[place].bonds.load += mass_of(&thing);
+            }
+        }
     }
 
     fn synchronise_slot(&mut self, slot: usize, entity: &EntityRef<'_>, world: &World) {
@@ -184,7 +209,8 @@ impl PhysicsDynamics {
 
     /// Lets bodies follow what was done to them in the world: moves by command, seats taken and left.
     fn follow_world(&mut self, world: &World) {
-        for index in 0..self.bodies.len() {
+        let displaced = std::mem::take(&mut self.displaced);
+        for index in displaced.iter().copied() {
             let owned = &self.bodies[index];
             let Some(entity) = world.entity(owned.id) else { continue };
             let is_carried = owned.bonds.carried.is_some();
@@ -204,6 +230,7 @@ impl PhysicsDynamics {
                 self.bodies[index].written = *entity.pose;
             }
         }
+        self.displaced = displaced;
     }
 
     fn is_solid(&self, rigid: RigidBodyHandle) -> bool {

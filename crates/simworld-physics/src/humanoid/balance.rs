@@ -98,7 +98,7 @@ impl Humanoid {
     /// Whether it can fall at all as it is.
     pub(super) fn is_fallible(&self, gravity: f64) -> bool {
         self.config.balance == super::Surefootedness::Human
-            && self.motion.posture == Posture::Standing
+            && matches!(self.motion.posture, Posture::Standing | Posture::Riding)
             && gravity >= WEIGHTLESS
     }
 
@@ -140,7 +140,7 @@ impl Humanoid {
         let clears = around.config().step_height + SKIN;
         let center = CENTER * self.height;
         let is_free = |span| self.is_free_ahead(ahead, span, at, queries);
-        !is_free((clears, center)) && is_free((center, self.height))
+        !is_free((clears, center)) && is_free((center, self.stature()))
     }
 
     /// Whether a part of the upright body, from one height to another, has free way ahead.
@@ -215,7 +215,7 @@ impl Humanoid {
         let normal = at.rotation * hit.normal1;
         let closing = -theirs.dot(normal);
         let mass = self.mass_beside(rigid.is_dynamic().then(|| rigid.mass()), other.user_data);
-        closing * mass / (mass + self.mass) > limit
+        closing * mass / (mass + self.laden_mass()) > limit
     }
 
     /// The mass of what runs into it, kg: what somebody else moves goes on as if it were heavy, unless it is a walker.

@@ -228,7 +228,7 @@ impl Humanoid {
         let gait = &self.motion.gait;
         match self.motion.posture {
             Posture::Seated | Posture::Aboard => return Some(JointAngles::seated()),
-            Posture::Standing if !gait.is_standing() => {}
+            Posture::Standing if !gait.is_standing() || self.is_crouched() => {}
             Posture::Standing | Posture::Riding => return Some(JointAngles::default()),
         }
         let body = simworld_core::geometry::pose_facing(self.feet(), self.motion.yaw);
@@ -241,12 +241,14 @@ impl Humanoid {
             let place = body.inverse() * gait.place(foot, CLEARANCE * self.height);
             (place.x, place.z + ankle)
         });
+        let ankles = if gait.is_standing() { [(0.0, ankle); 2] } else { ankles };
         // The hips are as high as the leg that reaches farthest allows; in running neither has to.
         let length = STRETCH * (thigh + shank);
         let highest = ankles.map(|(ahead, up)| up + (length * length - ahead * ahead).max(0.0).sqrt());
         let bears = |foot: usize| gait.phase_of(foot) < gait.duty;
         let limits = (0..2).filter(|foot| bears(*foot)).map(|foot| highest[foot]);
-        let hips = limits.fold(hip, f64::min).max(0.6 * hip);
+        let straight = hip - (self.height - self.stature());
+        let hips = limits.fold(straight, f64::min).max(straight.min(0.6 * hip));
         let [left_leg, right_leg] = [0, 1].map(|foot: usize| {
             let (ahead, up) = ankles[foot];
             reach(ahead, (hips - up).max(0.05 * hip), thigh, shank, gait.feet[foot].slope)

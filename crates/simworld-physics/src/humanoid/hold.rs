@@ -39,13 +39,13 @@ impl Humanoid {
         self.plan.effort = Vector2::zeros();
         let mut strength = self.config.push_force;
         if self.motion.balance.is_careful {
-            strength = strength.min(CARE * self.motion.balance.traction * self.mass);
+            strength = strength.min(CARE * self.motion.balance.traction * self.laden_mass());
         }
         let mut wish = wish;
         for hold in around.holds {
             let (given, force) = self.lead(hold, wish.xy() / dt, turned, strength, dt);
             wish = Vector3::new(given.x * dt, given.y * dt, wish.z);
-            self.plan.effort += force / self.mass;
+            self.plan.effort += force / self.laden_mass();
         }
         wish
     }

@@ -3,6 +3,7 @@
 
 mod actions;
 mod balance;
+mod crouch;
 mod gait;
 mod hold;
 mod pace;
@@ -20,6 +21,7 @@ pub(crate) use push::Shove;
 pub(crate) use walk::SKIN;
 
 use balance::Balance;
+use crouch::Crouch;
 use gait::Gait;
 use pace::Pace;
 use push::Push;
@@ -199,6 +201,10 @@ struct Plan {
     pushes: Vec<Push>,
     /// What pushing and pulling asks of the ground, as an acceleration of its own mass, m/s².
     effort: Vector2,
+    /// Mass of what it has in its hands, kg: the world says it anew every step.
+    load: f64,
+    /// Whether it goes down, or up again.
+    goes_low: Option<bool>,
     /// How its limbs lie while it is limp.
     limp: Option<JointAngles>,
     /// Whether it walks by looks alone.
@@ -241,6 +247,7 @@ struct Motion {
     feet: Point3,
     /// What it stands on, if that can move.
     support: Option<ColliderHandle>,
+    crouch: Crouch,
     balance: Balance,
     pace: Pace,
     gait: Gait,
@@ -275,6 +282,7 @@ impl Humanoid {
                 grounded: false,
                 feet: Point3::origin(),
                 support: None,
+                crouch: Crouch::default(),
                 balance: Balance::default(),
                 pace: Pace::default(),
                 gait: Gait::default(),
@@ -372,6 +380,16 @@ impl Humanoid {
             Posture::Riding => self.config.ride_speed,
             _ => self.config.top_speed,
         }
+    }
+
+    /// Mass of what it has in its hands, kg, as of the last step.
+    pub fn load(&self) -> f64 {
+        self.plan.load
+    }
+
+    /// The mass that its feet carry, kg.
+    fn laden_mass(&self) -> f64 {
+        self.mass + self.plan.load
     }
 }
 

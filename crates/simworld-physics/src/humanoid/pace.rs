@@ -12,6 +12,9 @@ const STEP: f64 = 0.08;
 const TREADS: f64 = 0.6;
 /// Way over which the grade is averaged, m: less than a step.
 const SMOOTHING: f64 = 0.4;
+/// Who was stopped by a riser makes up for so many substeps at most, by so much more of a way at a time.
+const STALLED: f64 = 3.0;
+const CATCHING_UP: f64 = 0.5;
 /// Below this grade the ground is level.
 const LEVEL: f64 = 0.01;
 
@@ -26,6 +29,9 @@ pub(super) struct Pace {
     last: Option<Flight>,
     /// The stairs that it is on.
     stairs: Option<Flight>,
+    /// Way that was told and not gone since the last step, m, and what of it is made up for after that.
+    stalled: f64,
+    owed: f64,
 }
 
 /// Which way stairs lead.
@@ -48,6 +54,24 @@ impl Pace {
         }
     }
 
+    /// The share of a way in the plane that the character controller has to be told so that one comes as far: it lays the way along a
+    /// slope, where its cosine is lost twice, and stops in front of each riser for a substep or two.
+    pub(super) fn told(&self, way: f64) -> f64 {
+        if self.stairs.is_some() {
+            1.0 + (self.owed / way.max(1e-9)).min(CATCHING_UP)
+        } else if self.grade.abs() < LEVEL {
+            1.0
+        } else {
+            1.0 + self.grade * self.grade
+        }
+    }
+
+    /// Takes in what the controller made of a way in the plane, m.
+    pub(super) fn keep_up(&mut self, told: f64, way: f64) {
+        self.owed = (self.owed - (way - told).max(0.0)).max(0.0);
+        self.stalled = (self.stalled + (told - way).max(0.0)).min(STALLED * told);
+    }
+
     /// Takes in the way of a substep over what does not move, m.
     pub(super) fn go(&mut self, way: f64, rise: f64) {
         if way <= 0.0 {
@@ -56,12 +80,14 @@ impl Pace {
         self.since_step += way;
         if self.since_step > TREADS {
             (self.last, self.stairs) = (None, None);
+            (self.stalled, self.owed) = (0.0, 0.0);
         }
         let grade = if rise.abs() > STEP.max(way * 1.1) {
             let flight = if rise > 0.0 { Flight::Up } else { Flight::Down };
             self.stairs = self.last.filter(|last| *last == flight);
             self.last = Some(flight);
             self.since_step = 0.0;
+            self.owed = std::mem::take(&mut self.stalled);
             0.0
         } else {
             rise / way

@@ -35,6 +35,7 @@ impl PhysicsBody for Humanoid {
     }
 
     fn bind(&mut self, bonds: Bonds) {
+        self.plan.load = bonds.load;
         self.assume(match (bonds.carried, bonds.scooter) {
             (Some(Role::Seated), _) => Posture::Seated,
             (Some(_), _) => Posture::Aboard,
@@ -74,6 +75,7 @@ impl PhysicsBody for Humanoid {
             self.fall(cause, context.physics, context.rigid);
             return;
         }
+        self.change_stature(context);
         let displacement = self.step_on(context);
         self.push(context, dt);
         self.slow_down(displacement.xy(), dt);

@@ -77,9 +77,15 @@ impl Humanoid {
     /// Loses its footing: from now on it is a body of limbs with the velocity of its centre of mass.
     pub(super) fn fall(&mut self, cause: FallCause, physics: &mut PhysicsWorld, trunk: RigidBodyHandle) {
         let momentum = self.motion.balance.momentum;
-        let velocity = Vector::new(momentum.x, momentum.y, -self.motion.fall_speed);
+        // Who lands too hard is stopped by the ground, at the price of the legs, and crumples where it stands.
+        let (sink, way) = match cause {
+            FallCause::Landed => (0.0, self.plan.way),
+            _ => (self.motion.fall_speed, Vector3::zeros()),
+        };
+        let velocity = Vector::new(momentum.x, momentum.y, -sink);
         let rigid = &mut physics.bodies[trunk];
-        let pose = pose_facing(from_vector(rigid.translation()).into(), self.motion.yaw);
+        let feet = from_vector(rigid.translation()) + way;
+        let pose = pose_facing(feet.into(), self.motion.yaw);
         rigid.set_body_type(RigidBodyType::Dynamic, true);
         rigid.set_position(to_pose(&pose), true);
         rigid.set_linvel(velocity, true);

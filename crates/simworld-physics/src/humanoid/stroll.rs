@@ -91,6 +91,7 @@ impl Humanoid {
         self.motion.grounded
             && self.motion.support.is_none()
             && self.footing() == Footing::Upright
+            && !self.motion.crouch.is_any()
             && matches!(self.motion.posture, Posture::Standing | Posture::Riding)
     }
 

@@ -9,18 +9,21 @@ use parry3d_f64::shape::Shape;
 use rapier3d_f64::control::{CharacterAutostep, CharacterLength, KinematicCharacterController};
 use rapier3d_f64::math::{Pose as RapierPose, Vector};
 use rapier3d_f64::prelude::{ColliderHandle, QueryPipeline, SharedShape};
+use simworld_core::exertion::Exertion;
 use simworld_core::geometry::{Point2, Vector2, Vector3, direction, pose_facing};
 use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{FallCause, Footing};
 
 use super::balance::{look_down, own_way};
-use super::{ColliderForm, Humanoid, Posture, Stand, hold};
-use crate::body::{BodyContext, Surroundings};
+use super::{ColliderForm, Humanoid, Posture, Stand, Surefootedness, hold};
+use crate::body::{BodyContext, Detail, Surroundings};
 use crate::claims::Claim;
 use crate::convert::{from_vector, to_pose, to_vector};
 use crate::grasp::Hold;
 use crate::shape::{BodyTag, body_from, is_walker, upright};
 
+/// How often the range of speeds is halved in which that of who carries something is looked for: to less than a millimetre a second.
+const HALVINGS: usize = 14;
 /// The gap that people keep to solids, m.
 pub(crate) const SKIN: f64 = 0.02;
 /// Free width that a person needs on a step to take it, m.
@@ -31,6 +34,9 @@ pub(super) const NEARBY: f64 = 0.1;
 const LEVEL: f64 = 1e-3;
 /// Height from which the ground is looked for, m.
 const RAISE: f64 = 0.05;
+/// Who comes down faster than this falls, m/s: those who do so for sport land on their feet from 1.28 m (McNitt-Gray, International
+/// Journal of Sport Biomechanics 7, 1991).
+const HARDEST_LANDING: f64 = 5.0;
 /// A rider slows down so that a turn takes about this long, s.
 const TURN_TIME: f64 = 0.5;
 /// The speed at which a rider takes the sharpest turns, m/s.
@@ -39,7 +45,7 @@ const TURN_SPEED: f64 = 1.0;
 impl Humanoid {
     /// The collider and its place in the body frame.
     pub(crate) fn collider(&self) -> (SharedShape, RapierPose) {
-        let half_height = (self.height - SKIN) * 0.5;
+        let half_height = (self.stature() - SKIN) * 0.5;
         let middle = Vector::new(0.0, 0.0, SKIN + half_height);
         match self.config.form {
             ColliderForm::Cylinder => {
@@ -99,7 +105,7 @@ impl Humanoid {
             };
             rate = rate.min(self.config.ride_lateral / self.motion.speed.max(TURN_SPEED));
         } else {
-            self.motion.speed = self.motion.wanted_speed * self.motion.pace.share();
+            self.motion.speed = self.bearable_speed(self.motion.wanted_speed) * self.motion.pace.share();
         }
         if !holds.is_empty() {
             rate = rate.min(hold::TURN);
@@ -113,7 +119,7 @@ impl Humanoid {
         let step_left = self.motion.step_left;
         let length = step_left.norm();
         if length > 0.0 {
-            let step = step_left * (self.config.step_speed * dt / length).min(1.0);
+            let step = step_left * (self.bearable_speed(self.config.step_speed) * dt / length).min(1.0);
             self.motion.step_left = step_left - step;
             wish += Vector2::new(
                 heading.x * step.x - heading.y * step.y,
@@ -121,6 +127,28 @@ impl Humanoid {
             );
         }
         wish
+    }
+
+    /// How fast it goes of a wish: who crouches is slow, and what it carries costs no more than its top speed does with empty hands, m/s.
+    fn bearable_speed(&self, wish: f64) -> f64 {
+        let (load, wish) = (self.plan.load, self.speed_under(wish));
+        if load <= 0.0 || self.config.balance == Surefootedness::Unfailing {
+            return wish;
+        }
+        let (free, laden) = (
+            Exertion { body: self.mass, ..Exertion::default() },
+            Exertion { body: self.mass, load, ..Exertion::default() },
+        );
+        let most = free.power(self.config.top_speed, 0.0);
+        if laden.power(wish, 0.0) <= most {
+            return wish;
+        }
+        let (mut low, mut high) = (0.0, wish);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if laden.power(middle, 0.0) <= most { low = middle } else { high = middle }
+        }
+        low
     }
 
     /// The speed a rider is after: what it was told, or less for a sharp turn.
@@ -146,7 +174,7 @@ impl Humanoid {
             center: Point2::new(position.x, position.y),
             radius: self.radius,
             bottom: position.z,
-            top: position.z + self.height,
+            top: position.z + self.stature(),
         }
     }
 }
@@ -209,7 +237,9 @@ impl Humanoid {
     pub(super) fn look_around(&mut self, around: &Surroundings<'_>, dt: f64) {
         self.plan.pushes.clear();
         self.plan.upset = None;
+        self.mind_the_head(around);
         self.plan.shifted = Vector3::zeros();
+        let (was_grounded, sink) = (self.motion.grounded, self.motion.fall_speed);
         let (carried, turned) = self.carry(around, dt);
         self.motion.yaw = wrap_angle(self.motion.yaw + turned);
         let before = self.motion.yaw;
@@ -237,6 +267,12 @@ impl Humanoid {
             } else {
                 self.find_way(&wish, &carried, company, around, dt);
             }
+        }
+        let has_landed = !was_grounded && self.motion.grounded;
+        // On height fields limbs that come down straight are not solved well: there one lands on the feet.
+        let is_hard = sink > HARDEST_LANDING && around.detail() == Detail::Full && around.surface().is_none();
+        if has_landed && is_hard && self.is_fallible(around.config().gravity) {
+            self.plan.upset = self.plan.upset.or(Some(FallCause::Landed));
         }
         let own = own_way((self.plan.way - self.plan.shifted - carried).xy(), wish.xy());
         let velocity = (own + carried.xy()) / dt;
@@ -274,7 +310,9 @@ impl Humanoid {
             self.plan.shifted = from_vector(out);
             moved += out;
         }
-        let result = walk(moved, to_vector(wish));
+        let way = wish.xy().norm();
+        let share = if was_grounded { self.motion.pace.told(way) } else { 1.0 };
+        let result = walk(moved, Vector::new(wish.x * share, wish.y * share, wish.z));
         moved += result.translation;
         self.motion.grounded = result.grounded;
         let mut support = None;
@@ -292,6 +330,7 @@ impl Humanoid {
         self.stand_on(support, start.translation + moved, around, &queries);
         let own = from_vector(moved) - carried - self.plan.shifted;
         if was_grounded && self.motion.grounded {
+            self.motion.pace.keep_up(way, own.xy().norm());
             self.motion.pace.go(own.xy().norm(), own.z);
         }
         let at = RapierPose::from_translation(moved) * start;

@@ -7,6 +7,7 @@ mod common;
 mod crowds;
 mod falls;
 mod far;
+mod mishaps;
 mod obstacles;
 mod pushing;
 mod slopes;
