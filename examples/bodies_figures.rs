@@ -14,7 +14,8 @@ use simworld_core::geometry::Point3;
 use simworld_core::scene::World;
 use simworld_core::seam::Dynamics;
 use simworld_examples::bodies::{
-    BUILDINGS, Crowd, PlainWalkers, Quarter, SOLIDS, Threads, our_boxes, our_step, our_walkers, plain_boxes,
+    BUILDINGS, Crowd, Loop, PlainWalkers, Quarter, Rival, SOLIDS, Threads, mujoco_boxes, our_boxes, our_step,
+    our_walkers, plain_boxes,
 };
 use simworld_examples::exit_code;
 use simworld_examples::timing::timed;
@@ -31,6 +32,18 @@ struct Arguments {
     /// Only this part.
     #[arg(long)]
     only: Option<Part>,
+    /// What a city takes, in a process of its own: memory that was used before would count for nothing.
+    #[arg(long, hide = true)]
+    solids: Option<Solids>,
+}
+
+/// Which fixed solids of a city are in the engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Solids {
+    /// All of them.
+    Whole,
+    /// Those near ten points, and near bodies.
+    Streamed,
 }
 
 /// A part of the figures.
@@ -40,6 +53,8 @@ enum Part {
     Overhead,
     /// A city of a million fixed solids, and cities of several sizes.
     City,
+    /// The same city whole, and streamed around ten points.
+    Streaming,
     /// People on foot.
     People,
     /// Cars on tyres.
@@ -61,15 +76,20 @@ type Rows = Vec<[String; 3]>;
 fn job(arguments: &Arguments) -> Result<(), ProvingError> {
     type Measure = fn(f64, &mut Rows) -> Result<(), ProvingError>;
     let share = if (1e-4..=1.0).contains(&arguments.share) { arguments.share } else { 1.0 };
-    let parts: [(Part, Measure); 7] = [
+    let parts: [(Part, Measure); 8] = [
         (Part::Overhead, overhead),
         (Part::City, city),
+        (Part::Streaming, streaming),
         (Part::People, people),
         (Part::Cars, cars),
         (Part::Mixed, mixed),
         (Part::Dogs, dogs),
         (Part::Snapshots, snapshots),
     ];
+    if let Some(solids) = arguments.solids {
+        println!("{}", city_of(solids, share)?);
+        return Ok(());
+    }
     let mut rows = Rows::new();
     for (part, measure) in parts {
         if arguments.only.is_none_or(|only| only == part) {
@@ -141,34 +161,61 @@ fn per_step(
         .try_fold(Cost::NONE, |best, _| Ok(best.least(cost(steps, || (0..steps).try_for_each(|_| step()))?)))
 }
 
-/// The least processor times of a step of two things that are made anew and done in turns, over their first steps, ms.
+/// Processor times of a step of two things, ms, in the mean of their first steps: both are made anew and done in turns, so often.
 fn in_turns<A, B>(
-    steps: usize,
+    (turns, steps): (usize, usize),
     ours: &(impl Fn() -> Result<A, ProvingError>, impl Fn(&mut A) -> Result<(), ProvingError>),
     plain: &(impl Fn() -> B, impl Fn(&mut B)),
-) -> Result<[f64; 2], ProvingError> {
-    let mut best = [Cost::NONE; 2];
-    for _ in 0..4 {
+) -> Result<Vec<[f64; 2]>, ProvingError> {
+    let turn = || {
         let mut one = ours.0()?;
-        best[0] = best[0].least(cost(steps, || (0..steps).try_for_each(|_| ours.1(&mut one)))?);
+        let first = cost(steps, || (0..steps).try_for_each(|_| ours.1(&mut one)))?;
         let mut other = plain.0();
-        best[1] = best[1].least(cost(steps, || {
+        let second = cost(steps, || {
             (0..steps).for_each(|_| plain.1(&mut other));
             Ok(())
-        })?);
-    }
-    Ok(best.map(|cost| cost.processor))
+        })?;
+        Ok([first.processor, second.processor])
+    };
+    (0..turns).map(|_| turn()).collect()
+}
+
+/// What one takes in relation to the other: the least times, and the median ratio of all turns with the least and the greatest.
+fn compared(turns: &[[f64; 2]]) -> String {
+    let least = |which: usize| turns.iter().map(|turn| turn[which]).fold(f64::INFINITY, f64::min);
+    let mut ratios: Vec<f64> = turns.iter().map(|[ours, theirs]| ours / theirs).collect();
+    ratios.sort_by(f64::total_cmp);
+    let [low, median, high] = [0, ratios.len() / 2, ratios.len() - 1].map(|place| ratios[place]);
+    let (ours, theirs) = (least(0), least(1));
+    format!(
+        "{ours:.2} ms over {theirs:.2} ms: {:.2}; {} turns {median:.2} ({low:.2} to {high:.2})",
+        ours / theirs,
+        turns.len()
+    )
 }
 
 fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
-    let count = some(1000, share);
-    let boxes = || our_boxes(count);
     let step = |(world, physics): &mut (World, PhysicsDynamics)| our_step(world, physics);
-    let [ours, theirs] = in_turns(60, &(boxes, step), &(|| plain_boxes(count), PhysicsWorld::step))?;
+    for (count, turns) in [(some(1000, share), 10), (some(10_000, share), 4)] {
+        let ours = (|| our_boxes(count), step);
+        let by_hand = in_turns((turns, 60), &ours, &(|| Loop::new(plain_boxes(count)), Loop::step))?;
+        rows.push([
+            format!("a step of {count} boxes that fall into piles for a second, over a loop by hand that reads motions and contacts"),
+            compared(&by_hand),
+            "1.15".into(),
+        ]);
+        let alone = in_turns((turns, 60), &ours, &(|| plain_boxes(count), PhysicsWorld::step))?;
+        rows.push(["the same over the engine's step alone".into(), compared(&alone), "-".into()]);
+    }
+    let count = some(1000, share);
     rows.push([
-        format!("a step of {count} boxes that fall into piles for a second, over the engine alone"),
-        format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
-        "1.15".into(),
+        format!("a step of {count} such boxes in MuJoCo with its own settings"),
+        match mujoco_boxes(count, 60) {
+            Rival::Step(ms) => format!("{ms:.2} ms"),
+            Rival::Absent => "not measured: the Python package mujoco is not there".into(),
+            Rival::Failed(why) => format!("not measured: {why}"),
+        },
+        "-".into(),
     ]);
     let (mut world, mut physics) = our_boxes(count)?;
     for _ in 0..some(600, share) {
@@ -181,10 +228,10 @@ fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
         "next to nothing".into(),
     ]);
     let walkers = || our_walkers(count);
-    let [ours, theirs] = in_turns(60, &(walkers, step), &(|| PlainWalkers::new(count), PlainWalkers::step))?;
+    let turns = in_turns((4, 60), &(walkers, step), &(|| PlainWalkers::new(count), PlainWalkers::step))?;
     rows.push([
         format!("a step of {count} walkers past posts, over the engine's character controller alone"),
-        format!("{ours:.2} ms over {theirs:.2} ms: {:.2}", ours / theirs),
+        compared(&turns),
         "1.15".into(),
     ]);
     Ok(())
@@ -200,9 +247,57 @@ fn memory() -> Option<f64> {
 /// A hundred bodies that move: half of them people, half crates.
 const ACTIVE: Crowd = Crowd { people: 50, dogs: 0, cars: 0, crates: 50 };
 
+/// Blocks to the side of a city of so many solids.
+fn side(solids: f64, share: f64) -> usize {
+    (solids * share / SOLIDS as f64).sqrt().ceil().max(1.0) as usize
+}
+
+/// What a city of a million solids takes of time and memory.
+fn city_of(solids: Solids, share: f64) -> Result<String, ProvingError> {
+    let blocks = side(1e6, share);
+    let world = Quarter::world(blocks)?;
+    let before = memory();
+    let mut made = None;
+    let building = cost(1, || {
+        let quarter = made.insert(Quarter::new(world, 2, ACTIVE, Threads::One)?);
+        if solids == Solids::Streamed {
+            let apart = blocks as f64 * 8.0;
+            let points: Vec<_> = (0..10).map(|k| 80.0 + f64::from(k) * apart).collect();
+            let points: Vec<_> = points.iter().map(|at| Point3::new(*at, *at, 0.0)).collect();
+            quarter.physics.set_interest(&points);
+        }
+        quarter.step()
+    })?;
+    let Some(mut quarter) = made else { return Ok(String::new()) };
+    let grown = before.zip(memory()).map(|(before, after)| (after - before) / 1e6);
+    let step = per_step(3, some(60, share), || quarter.step())?;
+    let grown = grown.map_or("?".into(), |grown| format!("{grown:.0} MB"));
+    Ok(format!("{:.2} s of a core, {grown}, {:.2} ms a step", building.processor * 1e-3, step.processor))
+}
+
+fn streaming(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
+    let measured = |solids: &str| {
+        let share = share.to_string();
+        let output = std::process::Command::new(std::env::current_exe().ok()?)
+            .args(["--share", &share, "--solids", solids])
+            .output()
+            .ok()?;
+        let said = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+        output.status.success().then_some(said)
+    };
+    let solids = side(1e6, share).pow(2) * SOLIDS;
+    for (name, what) in [("whole", "all in the engine"), ("streamed", "streamed around ten points")] {
+        rows.push([
+            format!("{solids} fixed solids, {what}: to make bodies of them, and a step"),
+            measured(name).unwrap_or_else(|| "not measured".into()),
+            "-".into(),
+        ]);
+    }
+    Ok(())
+}
+
 fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
-    let side = |solids: f64| (solids * share / SOLIDS as f64).sqrt().ceil().max(1.0) as usize;
-    let blocks = side(1e6);
+    let blocks = side(1e6, share);
     let world = Quarter::world(blocks)?;
     let solids = blocks * blocks * SOLIDS;
     let before = memory();
@@ -232,7 +327,7 @@ fn city(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     drop(quarter);
     let mut steps = Vec::new();
     for buildings in [1e3, 1e4, 1e5] {
-        let blocks = side(buildings / BUILDINGS as f64 * SOLIDS as f64);
+        let blocks = side(buildings / BUILDINGS as f64 * SOLIDS as f64, share);
         let mut quarter = Quarter::new(Quarter::world(blocks)?, 2, ACTIVE, Threads::One)?;
         quarter.step()?;
         let step = per_step(5, some(60, share), || quarter.step())?;

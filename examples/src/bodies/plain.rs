@@ -7,11 +7,12 @@ use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
 use simworld_core::seam::Dynamics;
 use simworld_physics::proving::ProvingError;
 use simworld_physics::rapier::control::{CharacterAutostep, CharacterLength, KinematicCharacterController};
-use simworld_physics::rapier::math::Vector;
+use simworld_physics::rapier::math::{Pose as RapierPose, Vector};
 use simworld_physics::rapier::prelude::{
-    ColliderBuilder, PhysicsWorld, QueryFilter, RigidBodyBuilder, RigidBodyHandle,
+    CoefficientCombineRule, ColliderBuilder, ColliderHandle, PhysicsWorld, QueryFilter, RigidBodyBuilder,
+    RigidBodyHandle,
 };
-use simworld_physics::{HumanoidConfig, PhysicsConfig, PhysicsDynamics};
+use simworld_physics::{HumanoidConfig, Material, PhysicsConfig, PhysicsDynamics};
 
 /// Length of a step, s.
 const STEP: f64 = 1.0 / 60.0;
@@ -28,18 +29,51 @@ pub fn plain_boxes(count: usize) -> PhysicsWorld {
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::new(0.0, 0.0, -9.81);
     world.integration_parameters.dt = STEP;
-    world.insert_collider(
-        ColliderBuilder::cuboid(1e3, 1e3, 5.0).translation(Vector::new(0.0, 0.0, -5.0)),
-        None,
-    );
+    let ground = ColliderBuilder::cuboid(1e5, 1e5, 50.0).translation(Vector::new(0.0, 0.0, -50.0));
+    world.insert_collider(rubbing(ground, Material::Asphalt), None);
     for index in 0..count {
         let [x, y, z] = in_piles(index);
         let body = RigidBodyBuilder::dynamic().translation(Vector::new(x, y, z)).ccd_enabled(true);
         let solid =
             ColliderBuilder::cuboid(0.5, 0.5, 0.5).translation(Vector::new(0.0, 0.0, 0.5)).density(500.0);
-        world.insert(body, solid);
+        world.insert(body, rubbing(solid, Material::Concrete));
     }
     world
+}
+
+/// With the friction of a material, as in our physics: the piles fall the same way.
+fn rubbing(solid: ColliderBuilder, material: Material) -> ColliderBuilder {
+    let rule = CoefficientCombineRule::GeometricMean;
+    solid.friction(material.friction()).friction_combine_rule(rule).restitution(material.restitution())
+}
+
+/// A loop on the engine as anybody writes it who does something with the bodies: each step, and then where they are, how they move
+/// and which of them touch, in arrays.
+pub struct Loop {
+    world: PhysicsWorld,
+    handles: Vec<RigidBodyHandle>,
+    /// Pose, linear and angular velocity of each body.
+    motions: Vec<(RapierPose, Vector, Vector)>,
+    touching: Vec<(ColliderHandle, ColliderHandle)>,
+}
+
+impl Loop {
+    /// Over the bodies of an engine.
+    pub fn new(world: PhysicsWorld) -> Self {
+        let handles: Vec<_> = world.bodies.iter().map(|(handle, _)| handle).collect();
+        Self { world, motions: Vec::with_capacity(handles.len()), handles, touching: Vec::new() }
+    }
+
+    /// One step.
+    pub fn step(&mut self) {
+        self.world.step();
+        self.motions.clear();
+        self.touching.clear();
+        let bodies = self.handles.iter().map(|handle| &self.world.bodies[*handle]);
+        self.motions.extend(bodies.map(|body| (*body.position(), body.linvel(), body.angvel())));
+        let touching = self.world.contact_pairs().filter(|pair| pair.has_any_active_contact());
+        self.touching.extend(touching.map(|pair| (pair.collider1, pair.collider2)));
+    }
 }
 
 /// The same boxes in a world of entities.
