@@ -10,6 +10,7 @@ mod contacts;
 mod doors;
 mod errors;
 mod falling;
+mod golden;
 mod grasps;
 mod hands;
 mod laws;
