@@ -244,7 +244,7 @@ struct Place<'a> {
 
 /// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve that keeps off
 /// the kerb.
-fn path(network: &RoadNetwork, place: &Place, (from, to): (LaneId, LaneId), turn: Turn) -> Vec<Point2> {
+fn path(network: &RoadNetwork, place: &Place<'_>, (from, to): (LaneId, LaneId), turn: Turn) -> Vec<Point2> {
     let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
     let (start, start_heading) = polyline::at(&entry.path, entry.length);
@@ -274,7 +274,7 @@ fn path(network: &RoadNetwork, place: &Place, (from, to): (LaneId, LaneId), turn
 
 fn connection(
     network: &RoadNetwork,
-    place: &Place,
+    place: &Place<'_>,
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
 ) -> Connection {

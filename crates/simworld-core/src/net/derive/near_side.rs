@@ -37,7 +37,7 @@ pub(super) fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
 pub(super) fn keep_off(
     network: &RoadNetwork,
     kerb: &[Point2],
-    way: &Way,
+    way: &Way<'_>,
     smooth: Vec<Point2>,
 ) -> Vec<Point2> {
     let ends = beside(kerb, &way.start).min(beside(kerb, &way.end));
@@ -56,7 +56,7 @@ pub(super) fn keep_off(
 }
 
 /// The way that follows its legs to so far from the node, m, and turns there; `None` if that is too tight.
-fn later(network: &RoadNetwork, way: &Way, into: f64, out: f64) -> Option<Vec<Point2>> {
+fn later(network: &RoadNetwork, way: &Way<'_>, into: f64, out: f64) -> Option<Vec<Point2>> {
     let mut path = polyline::reversed(&along(network, way.from, way.start, into));
     let exit = along(network, way.to, way.end, out);
     let (a, b) = (heading_out(&path)?, heading_out(&polyline::reversed(&exit))?);
