@@ -39,10 +39,10 @@ pub enum AdapterChoice {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Backend {
-    /// Rays for batches of many small views on a GPU, triangles for everything else.
+    /// Rays on a discrete GPU, unless edges are smoothed or, in few or large pictures, rain or snow falls; triangles for everything else.
     #[default]
     Auto,
-    /// Triangles, view by view: what CPUs and single large pictures are best at.
+    /// Triangles, view by view: what CPUs are best at.
     Raster,
     /// Rays, all views at once; shadows by rays too, and edges are never smoothed. Where the adapter binds fewer than nine storage
     /// buffers a stage everything is drawn by triangles all the same.

@@ -24,6 +24,7 @@ mod renderer;
 mod resident;
 mod sensor;
 mod shadow;
+mod threads;
 mod view;
 mod works;
 

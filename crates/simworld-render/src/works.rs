@@ -139,7 +139,7 @@ impl Works {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
         let in_color = options.channels.contains(Channels::RGB);
-        let is_cast = table.is_some() || self.casts(config, options, requests, &layout);
+        let is_cast = table.is_some() || self.casts(config, options, &sight, &layout);
         let (globals, features) = self.send(scene, &sight, in_color, is_cast)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         if is_cast {
@@ -147,7 +147,15 @@ impl Works {
             // A ray of a table is no pixel that something could be smaller than.
             let min_pixels = if table.is_some() { 0.0 } else { config.min_pixels };
             let views = &sight.views[..];
-            let look = Look { views, globals: &globals, requests, layout: &layout, min_pixels, table };
+            let look = Look {
+                views,
+                globals: &globals,
+                requests,
+                layout: &layout,
+                min_pixels,
+                finest: table.is_some() || self.residents.finest,
+                table,
+            };
             raycast.hold(&self.gpu, scene, &self.residents, &look)?;
             let color = in_color.then_some(Cast::Color(features));
             let normals = options.channels.contains(Channels::NORMALS).then_some(Cast::Normals);
@@ -217,14 +225,8 @@ impl Works {
     }
 
     /// Whether a batch is cast, and not drawn.
-    fn casts(
-        &self,
-        config: &RenderConfig,
-        options: ViewOptions,
-        requests: &[ViewRequest],
-        layout: &Layout,
-    ) -> bool {
-        if requests.len() > MOST_VIEWS || !self.can_cast() {
+    fn casts(&self, config: &RenderConfig, options: ViewOptions, sight: &Sight, layout: &Layout) -> bool {
+        if layout.spans.len() > MOST_VIEWS || !self.can_cast() {
             return false;
         }
         match config.backend {
@@ -235,10 +237,13 @@ impl Works {
                     self.gpu.info.device_type,
                     wgpu::DeviceType::DiscreteGpu | wgpu::DeviceType::VirtualGpu
                 );
-                let is_smoothed =
-                    config.anti_aliasing != AntiAliasing::Off && options.channels.contains(Channels::RGB);
+                let in_color = options.channels.contains(Channels::RGB);
+                let is_smoothed = config.anti_aliasing != AntiAliasing::Off && in_color;
                 let is_small = layout.largest.iter().all(|side| *side <= SMALL);
-                is_gpu && !is_smoothed && is_small && layout.spans.len() >= MANY
+                let are_many = is_small && layout.spans.len() >= MANY;
+                // What falls before an eye is drawn by triangles alone, and missed in large pictures.
+                let falls = in_color && sight.falling.iter().any(|falling| falling.count > 0);
+                is_gpu && !is_smoothed && (are_many || !falls)
             }
         }
     }
@@ -281,7 +286,9 @@ impl Works {
             let of = |shadow: &Option<ShadowView>| shadow.as_ref().map_or(globals[0], Globals::of_shadow);
             globals.extend(sight.shadows.iter().map(of).collect::<Vec<_>>());
         }
-        self.scenery.send(&self.gpu, &globals, [&light.sky, &lamps.entries], &mut self.residents)?;
+        // Rays have the globals of each view beside it.
+        let drawn = if is_cast { &globals[..0] } else { &globals[..] };
+        self.scenery.send(&self.gpu, drawn, [&light.sky, &lamps.entries], &mut self.residents)?;
         let cover = &light.cover;
         let features = Features {
             lamps: !lamps.entries.is_empty(),
@@ -351,7 +358,8 @@ impl Works {
     }
 }
 
-/// Batches of at least so many views, each at most so wide and high, are cast on GPUs unless something else is asked for.
+/// Batches of at least so many views, each at most so wide and high, are cast on GPUs also where rain or snow falls, unless something else
+/// is asked for.
 const MANY: usize = 16;
 const SMALL: u32 = 256;
 /// The farthest that a silhouette reaches beyond the bounds of its entity, m.

@@ -42,7 +42,7 @@ use crate::traffic::RoadLeg;
 
 /// What is where: the seam through which observers, planners, executors and tasks read a world.
 ///
-/// A reader sees the frozen state of the last finished step.
+/// A reader sees the frozen state of the last finished step; several threads may read at once.
 ///
 /// # Implementing it
 ///
@@ -97,7 +97,7 @@ use crate::traffic::RoadLeg;
 /// let lamp = row.nearest(Point2::new(95.0, 4.0), 50.0, &|_| true).unwrap();
 /// assert_eq!(lamp.id.index(), 3);
 /// ```
-pub trait Scene {
+pub trait Scene: Sync {
     /// The entity of that id, if it lives.
     fn entity(&self, id: EntityId) -> Option<EntityRef<'_>>;
 

@@ -1,5 +1,6 @@
 //! Many cameras of one scene: what is asked for, and what comes back.
 
+mod copies;
 mod layout;
 mod views;
 

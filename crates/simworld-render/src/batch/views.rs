@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use bytemuck::Pod;
 use simworld_core::id::EntityId;
 
+use super::copies::Copies;
 use super::{Channels, Layout, PixelFormat, ViewOptions};
 use crate::Frame;
 
@@ -133,24 +133,24 @@ impl Views {
             first += span.width as usize * span.height as usize;
         }
         self.names = Arc::clone(names);
-        let of = |channel, format| {
-            let wanted = options.channels.contains(channel) && options.format == format;
+        let of = |channel, format: Option<PixelFormat>| {
+            let wanted =
+                options.channels.contains(channel) && format.is_none_or(|format| options.format == format);
             all.get(if wanted { bytes(channel) } else { 0..0 }).unwrap_or_default()
         };
-        let any = |channel| {
-            let wanted = options.channels.contains(channel);
-            all.get(if wanted { bytes(channel) } else { 0..0 }).unwrap_or_default()
-        };
-        gather(&mut self.rgb, layout, any(Channels::RGB), 3);
-        gather(&mut self.ids, layout, any(Channels::IDS), 1);
-        gather(&mut self.depth, layout, of(Channels::DEPTH, PixelFormat::Full), 1);
-        gather(&mut self.depth_mm, layout, of(Channels::DEPTH, PixelFormat::Compact), 1);
-        gather(&mut self.classes, layout, of(Channels::CLASSES, PixelFormat::Full), 1);
+        let (full, compact) = (Some(PixelFormat::Full), Some(PixelFormat::Compact));
         let mut packed: Vec<u32> = Vec::new();
-        gather(&mut packed, layout, any(Channels::NORMALS), 1);
+        let mut copies = Copies { layout, runs: Vec::new() };
+        copies.gather(&mut self.rgb, of(Channels::RGB, None), 3);
+        copies.gather(&mut self.ids, of(Channels::IDS, None), 1);
+        copies.gather(&mut self.depth, of(Channels::DEPTH, full), 1);
+        copies.gather(&mut self.depth_mm, of(Channels::DEPTH, compact), 1);
+        copies.gather(&mut self.classes, of(Channels::CLASSES, full), 1);
+        copies.gather(&mut self.wide_classes, of(Channels::CLASSES, compact), 1);
+        copies.gather(&mut packed, of(Channels::NORMALS, None), 1);
+        copies.make();
         self.normals.clear();
         self.normals.extend(packed.into_iter().map(normal_of));
-        gather(&mut self.wide_classes, layout, of(Channels::CLASSES, PixelFormat::Compact), 1);
     }
 }
 
@@ -175,20 +175,6 @@ fn normal_of(packed: u32) -> [f32; 3] {
     }
     let length = (x * x + y * y + z * z).sqrt();
     [x / length, y / length, z / length]
-}
-
-/// Takes the padding out of rows of `each` entries a pixel.
-fn gather<T: Pod>(out: &mut Vec<T>, layout: &Layout, bytes: &[u8], each: usize) {
-    out.clear();
-    if bytes.is_empty() {
-        return;
-    }
-    let padded: &[T] = bytemuck::cast_slice(bytes);
-    if layout.is_tight() {
-        out.extend_from_slice(&padded[..layout.pixels * each]);
-    } else {
-        layout.rows().for_each(|row| out.extend_from_slice(&padded[row.start * each..row.end * each]));
-    }
 }
 
 #[cfg(test)]

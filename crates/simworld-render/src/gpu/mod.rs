@@ -14,6 +14,6 @@ pub(crate) use globals::Globals;
 pub(crate) use pipelines::{Features, Pipelines, raycast_source};
 pub(crate) use planes::Planes;
 pub(crate) use readback::{Readback, Readbacks, place};
-pub(crate) use scenery::Scenery;
+pub(crate) use scenery::{Scenery, runs};
 pub(crate) use shadow_maps::{Casters, MOST_MAPS, Redraw, ShadowMaps};
 pub(crate) use targets::Targets;

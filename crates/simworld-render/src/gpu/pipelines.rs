@@ -11,7 +11,8 @@ use crate::resident::Instance;
 
 const COMMON: &str = include_str!("../shaders/globals.wgsl");
 const BINDINGS: &str = include_str!("../shaders/bindings.wgsl");
-const RAYCAST: &str = include_str!("../shaders/raycast.wgsl");
+const RAYS: &str = include_str!("../shaders/rays.wgsl");
+const CAST: &str = include_str!("../shaders/cast.wgsl");
 const NOISE: &str = include_str!("../shaders/noise.wgsl");
 const SKY: &str = include_str!("../shaders/sky.wgsl");
 const SKY_PASS: &str = include_str!("../shaders/sky_pass.wgsl");
@@ -140,7 +141,7 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, OCTAHEDRAL, RAYCAST].concat()
+    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, OCTAHEDRAL, RAYS, CAST].concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]

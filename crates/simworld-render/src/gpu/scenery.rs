@@ -96,7 +96,7 @@ impl Scenery {
         gpu.queue.write_buffer(&self.globals, 0, &bytes);
         let everything = is_new || self.epoch != residents.epoch;
         self.epoch = residents.epoch;
-        for piece in pieces(&mut residents.changed, everything.then_some(count as u32)) {
+        for piece in runs(&mut residents.changed, everything.then_some(count as u32)) {
             let offset = u64::from(piece.start) * size_of::<Instance>() as u64;
             let instances = &residents.instances[piece.start as usize..piece.end as usize];
             gpu.queue.write_buffer(&self.instances, offset, bytemuck::cast_slice(instances));
@@ -136,7 +136,7 @@ impl Scenery {
 }
 
 /// The changed numbers as few runs; empties the list.
-fn pieces(changed: &mut Vec<u32>, everything: Option<u32>) -> Vec<std::ops::Range<u32>> {
+pub(crate) fn runs(changed: &mut Vec<u32>, everything: Option<u32>) -> Vec<std::ops::Range<u32>> {
     if let Some(count) = everything {
         changed.clear();
         return if count == 0 { Vec::new() } else { std::iter::once(0..count).collect() };
@@ -199,12 +199,12 @@ mod tests {
     #[test]
     fn changes_are_sent_in_few_pieces_that_cover_them() {
         let mut changed = vec![7, 900, 8, 7, 3];
-        assert_eq!(pieces(&mut changed, None), [3..9, 900..901]);
+        assert_eq!(runs(&mut changed, None), [3..9, 900..901]);
         assert!(changed.is_empty());
         let mut scattered: Vec<u32> = (0..5000).map(|k| k * 100).collect();
-        let runs = pieces(&mut scattered.clone(), None);
-        assert!(runs.len() <= MOST_PIECES);
-        assert!(scattered.iter().all(|number| runs.iter().any(|run| run.contains(number))));
-        assert_eq!(pieces(&mut scattered, Some(12)).first(), Some(&(0..12)));
+        let few = runs(&mut scattered.clone(), None);
+        assert!(few.len() <= MOST_PIECES);
+        assert!(scattered.iter().all(|number| few.iter().any(|run| run.contains(number))));
+        assert_eq!(runs(&mut scattered, Some(12)).first(), Some(&(0..12)));
     }
 }

@@ -300,9 +300,20 @@ pub(crate) enum Drawn {
 impl Drawn {
     /// What stands for it where the ball around its entity is so many pixels across.
     pub(crate) fn at_pixels(self, pixels: f64) -> Self {
+        match self.speck() {
+            Some((few, speck)) if pixels < few => speck,
+            _ => self,
+        }
+    }
+
+    /// What stands for it where fewer pixels than these are across the ball around its entity, if anything does.
+    pub(crate) const fn speck(self) -> Option<(f64, Self)> {
         match self {
-            Self::Model(_) => self,
-            Self::Own(mesh) => Self::Own(mesh.at_pixels(pixels)),
+            Self::Model(_) => None,
+            Self::Own(mesh) => match mesh.speck() {
+                Some((few, speck)) => Some((few, Self::Own(speck))),
+                None => None,
+            },
         }
     }
 

@@ -7,11 +7,11 @@ use super::primitives::{BOTTOM, HIGH, LOW, TOP};
 use super::street::LAMP_REACH;
 
 impl MeshId {
-    /// The mesh of few triangles that is drawn instead where the ball around its entity is so many pixels across, or the same.
+    /// The mesh of few triangles that is drawn instead where the ball around its entity is fewer pixels across than this, if there is one.
     ///
     /// Balls reach far beyond their things: a person is half as high as its ball is wide, a tree a quarter.
-    pub(crate) fn at_pixels(self, pixels: f64) -> Self {
-        let (most, speck) = match self {
+    pub(crate) const fn speck(self) -> Option<(f64, Self)> {
+        Some(match self {
             Self::Standing | Self::Walking => (16.0, Self::SpeckPerson),
             Self::Lamp => (60.0, Self::SpeckLamp),
             Self::FarCar => (15.0, Self::SpeckCar),
@@ -20,9 +20,8 @@ impl MeshId {
             Self::TrashBin => (22.0, Self::SpeckBin),
             Self::Bench => (16.0, Self::SpeckBench),
             Self::RoofUnit => (220.0, Self::SpeckUnit),
-            _ => return self,
-        };
-        if pixels < most { speck } else { self }
+            _ => return None,
+        })
     }
 }
 

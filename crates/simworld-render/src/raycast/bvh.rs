@@ -1,4 +1,5 @@
-//! Trees of boxes: the topology by binned surface areas (Wald 2007), with medians where that does not help; the same for the same boxes.
+//! Trees of boxes with four children a node: the topology by binned surface areas (Wald 2007) of halves, of which two levels at a time are joined
+//! where their boxes are largest; the same for the same boxes.
 
 /// A box, least and greatest corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,12 +10,14 @@ pub(super) struct Box3 {
 
 /// No child.
 pub(super) const NONE: u32 = u32::MAX;
+/// Children of a node.
+pub(super) const WIDTH: usize = 4;
+/// Entries of the stack of a walk, as in rays.wgsl.
+const STACK: u32 = 48;
 /// Bins an axis.
 const BINS: usize = 12;
-/// Deeper than this, halves are taken, so that the stacks of the shaders suffice.
-const SAH_DEPTH: u32 = 12;
 
-/// The two children of a node.
+/// A child of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Child {
     Node(u32),
@@ -29,7 +32,7 @@ pub(super) enum Child {
 /// Nodes in which every child comes after its parent; the first is the root.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
-    pub nodes: Vec<[Child; 2]>,
+    pub nodes: Vec<[Child; WIDTH]>,
     /// The numbers of the boxes, leaf by leaf.
     pub order: Vec<u32>,
 }
@@ -48,6 +51,10 @@ impl Box3 {
         points.into_iter().fold(Self::EMPTY, |all, point| all.grown(Self { low: point, high: point }))
     }
 
+    pub(super) fn around_all<'a>(boxes: impl IntoIterator<Item = &'a Self>) -> Self {
+        boxes.into_iter().fold(Self::EMPTY, |all, one| all.grown(*one))
+    }
+
     fn center(&self, axis: usize) -> f32 {
         (self.low[axis] + self.high[axis]) * 0.5
     }
@@ -59,30 +66,105 @@ impl Box3 {
     }
 }
 
+/// Halves of halves, before they are joined.
+struct Halves {
+    nodes: Vec<[Child; 2]>,
+    /// Surfaces of both halves.
+    areas: Vec<[f32; 2]>,
+    order: Vec<u32>,
+}
+
 impl Tree {
     /// A tree with at most `leaf` boxes a leaf.
     pub(super) fn build(boxes: &[Box3], leaf: usize) -> Self {
+        let tree = Halves::build(boxes, leaf, true).joined(true);
+        if tree.need() <= STACK {
+            return tree;
+        }
+        // Of medians there are few levels, and any two of them are one.
+        Halves::build(boxes, leaf, false).joined(false)
+    }
+
+    /// Entries that a walk may have to put aside.
+    fn need(&self) -> u32 {
+        let mut needs = vec![0; self.nodes.len()];
+        for (node, children) in self.nodes.iter().enumerate().rev() {
+            let there = children.iter().filter(|child| **child != Child::Nothing).count() as u32;
+            let below = children.iter().map(|child| match child {
+                Child::Node(child) => needs[*child as usize],
+                _ => 0,
+            });
+            needs[node] = there.saturating_sub(1) + below.max().unwrap_or(0);
+        }
+        needs.first().copied().unwrap_or(0)
+    }
+}
+
+impl Halves {
+    fn build(boxes: &[Box3], leaf: usize, by_area: bool) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = vec![[Child::Nothing; 2]];
-        // A node to be made, its run of the order, its depth.
-        let mut open = vec![(0_usize, 0_usize, boxes.len(), 0_u32)];
-        while let Some((node, start, end, depth)) = open.pop() {
+        let mut areas = vec![[0.0; 2]];
+        // A node to be made, and its run of the order.
+        let mut open = vec![(0_usize, 0_usize, boxes.len())];
+        while let Some((node, start, end)) = open.pop() {
             if end - start <= leaf {
                 nodes[node][0] = leaf_of(start, end);
                 continue;
             }
-            let middle = start + split(boxes, &mut order[start..end], depth);
+            let middle = start + split(boxes, &mut order[start..end], by_area);
             for (side, (from, to)) in [(start, middle), (middle, end)].into_iter().enumerate() {
+                let bounds = Box3::around_all(order[from..to].iter().map(|number| &boxes[*number as usize]));
+                areas[node][side] = bounds.area();
                 nodes[node][side] = if to - from <= leaf {
                     leaf_of(from, to)
                 } else {
                     nodes.push([Child::Nothing; 2]);
-                    open.push((nodes.len() - 1, from, to, depth + 1));
+                    areas.push([0.0; 2]);
+                    open.push((nodes.len() - 1, from, to));
                     Child::Node(nodes.len() as u32 - 1)
                 };
             }
         }
-        Self { nodes, order }
+        Self { nodes, areas, order }
+    }
+
+    /// Nodes of four: the largest halves are taken apart first, or, for a flat tree, all of them once.
+    fn joined(self, by_area: bool) -> Tree {
+        let mut nodes = vec![[Child::Nothing; WIDTH]];
+        let mut open = vec![(0_usize, 0_u32)];
+        while let Some((place, half)) = open.pop() {
+            let mut children: Vec<(Child, f32, bool)> = self.children(half).collect();
+            while children.len() < WIDTH {
+                let splits = |one: &(Child, f32, bool)| matches!(one.0, Child::Node(_)) && (by_area || one.2);
+                let largest =
+                    (0..children.len()).filter(|index| splits(&children[*index])).reduce(|best, index| {
+                        if children[index].1 > children[best].1 { index } else { best }
+                    });
+                let Some(largest) = largest else { break };
+                let (Child::Node(half), ..) = children.remove(largest) else { break };
+                let halves = self.children(half).map(|(child, area, _)| (child, area, false));
+                children.extend(halves);
+            }
+            for (side, (child, ..)) in children.into_iter().enumerate() {
+                nodes[place][side] = match child {
+                    Child::Node(half) => {
+                        nodes.push([Child::Nothing; WIDTH]);
+                        open.push((nodes.len() - 1, half));
+                        Child::Node(nodes.len() as u32 - 1)
+                    }
+                    other => other,
+                };
+            }
+        }
+        Tree { nodes, order: self.order }
+    }
+
+    /// What is in a node, with its surface; true, since it is the node's own.
+    fn children(&self, node: u32) -> impl Iterator<Item = (Child, f32, bool)> + '_ {
+        let node = node as usize;
+        let pairs = self.nodes[node].iter().zip(&self.areas[node]);
+        pairs.filter(|(child, _)| **child != Child::Nothing).map(|(child, area)| (*child, *area, true))
     }
 }
 
@@ -95,24 +177,33 @@ fn leaf_of(start: usize, end: usize) -> Child {
 }
 
 /// Puts a run in order so that its halves belong together; gives the length of the first, from 1 to all but one.
-fn split(boxes: &[Box3], run: &mut [u32], depth: u32) -> usize {
+fn split(boxes: &[Box3], run: &mut [u32], by_area: bool) -> usize {
     let centers = Box3::around(run.iter().map(|number| {
         let one = &boxes[*number as usize];
         std::array::from_fn(|axis| one.center(axis))
     }));
     let wide = |axis: usize| centers.high[axis] - centers.low[axis];
-    let axis = (0..3).fold(0, |best, axis| if wide(axis) > wide(best) { axis } else { best });
-    if depth < SAH_DEPTH && wide(axis) > 0.0 {
-        let bin = |number: u32| {
-            let share = (boxes[number as usize].center(axis) - centers.low[axis]) / wide(axis);
-            ((share * BINS as f32) as usize).min(BINS - 1)
-        };
-        if let Some(border) = best_border(boxes, run, &bin) {
+    let bin = |number: u32, axis: usize| {
+        let share = (boxes[number as usize].center(axis) - centers.low[axis]) / wide(axis);
+        ((share * BINS as f32) as usize).min(BINS - 1)
+    };
+    if by_area {
+        let mut best: Option<(f32, usize, usize)> = None;
+        for axis in (0..3).filter(|axis| wide(*axis) > 0.0) {
+            let border = best_border(boxes, run, &|number| bin(number, axis));
+            if let Some((cost, border)) = border
+                && best.is_none_or(|(least, ..)| cost < least)
+            {
+                best = Some((cost, axis, border));
+            }
+        }
+        if let Some((_, axis, border)) = best {
             // Stable, so that the order depends on the boxes alone.
-            run.sort_by_key(|number| bin(*number) >= border);
-            return run.partition_point(|number| bin(*number) < border);
+            run.sort_by_key(|number| bin(*number, axis) >= border);
+            return run.partition_point(|number| bin(*number, axis) < border);
         }
     }
+    let axis = (0..3).fold(0, |best, axis| if wide(axis) > wide(best) { axis } else { best });
     run.sort_by(|a, b| {
         let key = |number: &u32| boxes[*number as usize].center(axis);
         key(a).total_cmp(&key(b)).then(a.cmp(b))
@@ -120,8 +211,8 @@ fn split(boxes: &[Box3], run: &mut [u32], depth: u32) -> usize {
     run.len() / 2
 }
 
-/// The first bin of the second half, where the surfaces of both halves, times what is in them, are least.
-fn best_border(boxes: &[Box3], run: &[u32], bin: &dyn Fn(u32) -> usize) -> Option<usize> {
+/// The first bin of the second half, where the surfaces of both halves, times what is in them, are least; with that sum.
+fn best_border(boxes: &[Box3], run: &[u32], bin: &dyn Fn(u32) -> usize) -> Option<(f32, usize)> {
     let mut bins = [(Box3::EMPTY, 0_u32); BINS];
     for number in run {
         let (all, count) = &mut bins[bin(*number)];
@@ -140,7 +231,7 @@ fn best_border(boxes: &[Box3], run: &[u32], bin: &dyn Fn(u32) -> usize) -> Optio
             best = Some((below + above, border));
         }
     }
-    best.map(|(_, border)| border)
+    best
 }
 
 #[cfg(test)]
@@ -149,27 +240,24 @@ mod tests {
 
     use super::*;
 
-    fn depth(tree: &Tree, node: usize) -> u32 {
-        let below = |child: &Child| match child {
-            Child::Node(node) => depth(tree, *node as usize),
-            _ => 0,
-        };
-        1 + tree.nodes[node].iter().map(below).max().unwrap_or(0)
-    }
-
     proptest! {
-        /// Every box is in one leaf, leaves are small, children come after their parents, and the tree is not deep.
+        /// Every box is in one leaf, leaves are small, children come after their parents, and a walk's stack suffices.
         #[test]
         fn every_box_is_in_one_leaf(
             corners in prop::collection::vec((-50.0..50.0f32, -50.0..50.0f32, 0.0..9.0f32, 0.0..20.0f32), 0..300),
             leaf in 1..5usize,
-            same in any::<bool>(),
+            arrangement in 0..3u32,
         ) {
-            let one = |(x, y, z, size): (f32, f32, f32, f32)| {
-                let low = if same { [1.0; 3] } else { [x, y, z] };
+            let one = |(number, (x, y, z, size)): (usize, (f32, f32, f32, f32))| {
+                let low = match arrangement {
+                    0 => [x, y, z],
+                    1 => [1.0; 3],
+                    // Each apart from all before by far more than these from each other: halves by surfaces are one and the rest.
+                    _ => [(number as f32 * 0.25).exp2(), 0.0, 0.0],
+                };
                 Box3 { low, high: low.map(|coordinate| coordinate + size) }
             };
-            let boxes: Vec<Box3> = corners.into_iter().map(one).collect();
+            let boxes: Vec<Box3> = corners.into_iter().enumerate().map(one).collect();
             let tree = Tree::build(&boxes, leaf);
             let mut seen: Vec<u32> = Vec::new();
             for (index, children) in tree.nodes.iter().enumerate() {
@@ -186,8 +274,19 @@ mod tests {
             }
             seen.sort_unstable();
             prop_assert_eq!(seen, (0..boxes.len() as u32).collect::<Vec<_>>());
-            prop_assert!(depth(&tree, 0) <= SAH_DEPTH + 12);
+            prop_assert!(tree.need() <= STACK, "{}", tree.need());
             prop_assert_eq!(&Tree::build(&boxes, leaf).order, &tree.order);
+        }
+    }
+
+    /// Of a million boxes too, in a row or in one place.
+    #[test]
+    fn many_boxes_need_no_deep_stack() {
+        for apart in [0.0, 1.0] {
+            let at = |number: u32| [number as f32 * apart, 0.0, 0.0];
+            let boxes: Vec<Box3> =
+                (0..100_000).map(|number| Box3 { low: at(number), high: at(number) }).collect();
+            assert!(Tree::build(&boxes, 1).need() <= STACK);
         }
     }
 }

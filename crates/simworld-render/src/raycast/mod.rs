@@ -1,33 +1,34 @@
-//! The ray-cast backend: every view of a batch in one dispatch.
+//! The ray-cast backend: every view of a batch at once, in three steps, of what rays meet, of the sun's light there, and of its colour.
 //!
-//! Two levels: a tree of boxes over the triangles of each mesh, and two over the instances, one over what stands still and one over what
+//! Two levels: a tree of boxes over the triangles of each mesh, and two over entities, one over what stands still and one over what
 //! moves. They are made on the CPU, always the same for the same scene; the device walks them.
 
 mod bodies;
 mod bvh;
+mod halves;
 mod shape;
 
 use std::collections::BTreeMap;
 
-use bodies::Bodies;
+use bodies::{Bodies, Followed};
 use bytemuck::{Pod, Zeroable};
 use shape::Shapes;
 use simworld_core::scene::Scene;
 
 use crate::RenderError;
 use crate::batch::{Layout, Projection, ViewRequest};
-use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, raycast_source};
+use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, raycast_source, runs};
 use crate::resident::Residents;
 use crate::view::View;
 
-/// Pixels that one workgroup casts, each way, as in raycast.wgsl.
+/// Pixels that one workgroup casts, each way, as in cast.wgsl.
 const TILE: u32 = 8;
-/// Storage buffers that it binds.
+/// Storage buffers that each step binds.
 pub(crate) const BUFFERS: u32 = 9;
 /// Views that one dispatch takes.
 pub(crate) const MOST_VIEWS: usize = 65_535;
 
-/// What one dispatch finds besides depth and ids.
+/// What a batch wants besides depth and ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Cast {
     /// Colour, of pictures that need these.
@@ -38,7 +39,26 @@ pub(crate) enum Cast {
     Alone,
 }
 
-/// The twin of `View` in raycast.wgsl.
+/// One dispatch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Step {
+    Find,
+    Light,
+    Paint(Cast),
+}
+
+impl Step {
+    /// Its entry point, and the buffers that it binds by their numbers in rays.wgsl and cast.wgsl.
+    const fn binds(self) -> (&'static str, [u32; BUFFERS as usize]) {
+        match self {
+            Self::Find => ("find", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
+            Self::Light => ("light", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
+            Self::Paint(_) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+        }
+    }
+}
+
+/// The twin of `View` in rays.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct Eye {
@@ -55,13 +75,11 @@ pub(crate) struct Raycast {
     bodies: Bodies,
     /// Numbers whose instances changed since the trees last followed.
     noted: Vec<u32>,
-    layout: wgpu::BindGroupLayout,
     module: wgpu::ShaderModule,
-    pipeline_layout: wgpu::PipelineLayout,
-    /// By what is found, and whether the rays are those of a table.
-    pipelines: BTreeMap<(Cast, bool), wgpu::ComputePipeline>,
+    /// By step, and whether the rays are those of a table.
+    pipelines: BTreeMap<(Step, bool), wgpu::ComputePipeline>,
     /// Those of the batch at hand.
-    prepared: Vec<(Cast, bool)>,
+    prepared: Vec<(Step, bool)>,
     /// The table of rays of the batch at hand: directions of length one, optical frame.
     rays: wgpu::Buffer,
     views: wgpu::Buffer,
@@ -79,35 +97,17 @@ pub(crate) struct Look<'a> {
     pub requests: &'a [ViewRequest],
     pub layout: &'a Layout,
     pub min_pixels: f64,
+    /// Whether everything is seen at its finest level.
+    pub finest: bool,
     /// The rays of the only view, where they are those of a table: directions of length one in the optical frame.
     pub table: Option<&'a [[f32; 4]]>,
 }
 
 impl Raycast {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        let entry = |binding: u32| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: binding < 5 || binding == 8 },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        let entries: Vec<_> = (0..BUFFERS).map(entry).collect();
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("raycast"),
-            entries: &entries,
-        });
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("raycast"),
             source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
-        });
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("raycast"),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
         });
         let buffer = |size| storage(gpu, size);
         Self {
@@ -115,11 +115,9 @@ impl Raycast {
             bodies: Bodies::new(),
             noted: Vec::new(),
             module,
-            pipeline_layout,
             pipelines: BTreeMap::new(),
             prepared: Vec::new(),
             rays: buffer(1024),
-            layout,
             views: buffer(1024),
             nodes: buffer(1024),
             placed: buffer(1024),
@@ -143,20 +141,11 @@ impl Raycast {
     ) -> Result<(), RenderError> {
         self.noted.sort_unstable();
         self.noted.dedup();
-        let all = self.bodies.follow(scene, &mut self.shapes, residents, &self.noted);
-        let is_new = ensure(gpu, &mut self.placed, &self.bodies.placed)?;
-        if all || is_new {
-            gpu.queue.write_buffer(&self.placed, 0, bytemuck::cast_slice(&self.bodies.placed));
-        } else if let (Some(first), Some(last)) = (self.noted.first(), self.noted.last()) {
-            let range = *first as usize..=*last as usize;
-            let offset = u64::from(*first) * size_of::<bodies::Placed>() as u64;
-            gpu.queue.write_buffer(&self.placed, offset, bytemuck::cast_slice(&self.bodies.placed[range]));
-        }
+        let followed = self.bodies.follow(scene, &mut self.shapes, residents, &self.noted);
         self.noted.clear();
-        let is_new = ensure(gpu, &mut self.nodes, &self.bodies.nodes)?;
-        let first = if all || is_new { 0 } else { self.bodies.second as usize };
-        let offset = (first * size_of::<bodies::Node>()) as u64;
-        gpu.queue.write_buffer(&self.nodes, offset, bytemuck::cast_slice(&self.bodies.nodes[first..]));
+        if followed != Followed::Nothing {
+            self.send_trees(gpu, followed)?;
+        }
         if ensure(gpu, &mut self.pieces, &self.shapes.pieces)? {
             self.sent = 0;
         }
@@ -179,6 +168,24 @@ impl Raycast {
         Ok(())
     }
 
+    /// Sends what changed of the trees.
+    fn send_trees(&mut self, gpu: &Gpu, followed: Followed) -> Result<(), RenderError> {
+        let is_new = ensure(gpu, &mut self.placed, &self.bodies.placed)?;
+        let everything = is_new || followed == Followed::All;
+        let count = self.bodies.placed.len() as u32;
+        for run in runs(&mut self.bodies.changed, everything.then_some(count)) {
+            let offset = u64::from(run.start) * size_of::<bodies::Placed>() as u64;
+            let placed = &self.bodies.placed[run.start as usize..run.end as usize];
+            gpu.queue.write_buffer(&self.placed, offset, bytemuck::cast_slice(placed));
+        }
+        let is_new = ensure(gpu, &mut self.nodes, &self.bodies.nodes)?;
+        let moving = !is_new && followed == Followed::Moving;
+        let first = if moving { self.bodies.second as usize } else { 0 };
+        let offset = (first * size_of::<bodies::Node>()) as u64;
+        gpu.queue.write_buffer(&self.nodes, offset, bytemuck::cast_slice(&self.bodies.nodes[first..]));
+        Ok(())
+    }
+
     fn eyes(&self, look: &Look<'_>) -> Vec<Eye> {
         let one = |index: usize| {
             let (view, span) = (&look.views[index], &look.layout.spans[index]);
@@ -190,7 +197,12 @@ impl Raycast {
             Eye {
                 globals: look.globals[index],
                 place: crate::view::vec4(&eye, view.near),
-                limits: [view.far as f32, look.min_pixels as f32, focal as f32, 0.0],
+                limits: [
+                    view.far as f32,
+                    look.min_pixels as f32,
+                    focal as f32,
+                    f32::from(u8::from(look.finest)),
+                ],
                 span: [span.first as u32, span.pitch, span.width, span.height],
                 hidden: [
                     hidden,
@@ -203,32 +215,17 @@ impl Raycast {
         (0..look.views.len()).map(one).collect()
     }
 
-    /// Makes ready what a batch is cast with, a dispatch for each of these.
+    /// Makes ready what a batch is cast with.
     pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], by_table: bool) {
-        self.prepared = casts.iter().map(|cast| (*cast, by_table)).collect();
-        for (cast, by_table) in &self.prepared {
-            let (module, layout) = (&self.module, &self.pipeline_layout);
-            self.pipelines.entry((*cast, *by_table)).or_insert_with(|| {
-                let bits = if let Cast::Color(features) = cast { features.bits() } else { 0 };
-                let flag = |is: bool| f64::from(u8::from(is));
-                let constants = [
-                    ("SHADED", flag(matches!(cast, Cast::Color(_)))),
-                    ("FACING", flag(*cast == Cast::Normals)),
-                    ("TABLE", flag(*by_table)),
-                    ("FEATURES", f64::from(bits)),
-                ];
-                gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some("raycast"),
-                    layout: Some(layout),
-                    module,
-                    entry_point: Some("cast_views"),
-                    compilation_options: wgpu::PipelineCompilationOptions {
-                        constants: &constants,
-                        ..Default::default()
-                    },
-                    cache: None,
-                })
-            });
+        let color = casts.iter().copied().find(|cast| matches!(cast, Cast::Color(_)));
+        let normals = casts.contains(&Cast::Normals).then_some(Step::Paint(Cast::Normals));
+        // Colour is painted over what normals are reckoned from.
+        let last = Step::Paint(color.unwrap_or(Cast::Alone));
+        let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last)];
+        self.prepared = steps.into_iter().flatten().map(|step| (step, by_table)).collect();
+        for key in &self.prepared {
+            let module = &self.module;
+            self.pipelines.entry(*key).or_insert_with(|| pipeline(gpu, module, *key));
         }
     }
 
@@ -242,25 +239,19 @@ impl Raycast {
         layout: &Layout,
     ) {
         let [width, height] = layout.largest;
-        for (cast, by_table) in &self.prepared {
-            let Some(pipeline) = self.pipelines.get(&(*cast, *by_table)) else { return };
-            let [color, depth, who] = &planes.raw;
-            // Each of them takes the place of what is not needed beside it.
-            let first = if *cast == Cast::Normals { &planes.normals } else { color };
-            let last = if *by_table { &self.rays } else { &scenery.lights };
-            let trees = [&self.nodes, &self.placed, &self.pieces];
-            let buffers = [&self.views, &scenery.instances].into_iter().chain(trees);
-            let buffers = buffers.chain([first, depth, who, last]);
-            let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-                .zip(buffers)
-                .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                    binding,
-                    resource: buffer.as_entire_binding(),
-                })
-                .collect();
+        let [color, depth, who] = &planes.raw;
+        let scene = [&self.views, &scenery.instances, &self.nodes, &self.placed, &self.pieces];
+        let rest = [color, depth, who, &scenery.lights, &planes.normals, &self.rays];
+        let buffers: Vec<&wgpu::Buffer> = scene.into_iter().chain(rest).collect();
+        for key in &self.prepared {
+            let Some(pipeline) = self.pipelines.get(key) else { return };
+            let entries = key.0.binds().1.map(|binding| wgpu::BindGroupEntry {
+                binding,
+                resource: buffers[binding as usize].as_entire_binding(),
+            });
             let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("raycast"),
-                layout: &self.layout,
+                layout: &pipeline.get_bind_group_layout(0),
                 entries: &entries,
             });
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
@@ -269,6 +260,45 @@ impl Raycast {
             pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), layout.spans.len() as u32);
         }
     }
+}
+
+fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, (step, by_table): (Step, bool)) -> wgpu::ComputePipeline {
+    let (entry_point, bindings) = step.binds();
+    let entries = bindings.map(|binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: !matches!(binding, 5..=7 | 9) },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    });
+    let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("raycast"),
+        entries: &entries,
+    });
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("raycast"),
+        bind_group_layouts: &[Some(&layout)],
+        immediate_size: 0,
+    });
+    let flag = |is: bool| f64::from(u8::from(is));
+    let mut constants = vec![("TABLE", flag(by_table))];
+    if let Step::Paint(cast) = step {
+        let bits = if let Cast::Color(features) = cast { features.bits() } else { 0 };
+        constants.push(("SHADED", flag(matches!(cast, Cast::Color(_)))));
+        constants.push(("FACING", flag(cast == Cast::Normals)));
+        constants.push(("FEATURES", f64::from(bits)));
+    }
+    gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("raycast"),
+        layout: Some(&layout),
+        module,
+        entry_point: Some(entry_point),
+        compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+        cache: None,
+    })
 }
 
 fn storage(gpu: &Gpu, size: u64) -> wgpu::Buffer {

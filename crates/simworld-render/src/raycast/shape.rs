@@ -1,4 +1,4 @@
-//! Meshes as rays meet them: triangles in the order of a tree whose nodes hold two boxes, one of anchors and one of offsets. With a
+//! Meshes as rays meet them: triangles in the order of a tree whose nodes hold two boxes a child, one of anchors and one of offsets. With a
 //! scale and a unit both give the box of the points, so one tree serves every size. Everything in words, four a piece.
 
 use std::collections::BTreeMap;
@@ -8,17 +8,20 @@ use simworld_core::asset::Model;
 use simworld_core::id::AssetId;
 use simworld_core::scene::Scene;
 
-use super::bvh::{Box3, Child, NONE, Tree};
+use super::bvh::{Box3, Child, NONE, Tree, WIDTH};
+use super::halves::{Rounding, pair};
 use crate::mesh::{Drawn, MeshId, MeshLibrary, Vertex};
 use crate::models::{model_of, vertices_of};
 
 /// Triangles a leaf.
 const LEAF: usize = 4;
-/// Pieces of four words that a triangle and a node take, as in raycast.wgsl.
-const TRIANGLE: u32 = 9;
-const NODE: u32 = 8;
+/// Pieces of four words that a triangle and a node take, as in rays.wgsl.
+const TRIANGLE: u32 = 5;
+const NODE: u32 = 7;
 /// Marks a child as a run of triangles; beside it stand their number less one, from bit 28 on, and the first piece.
 const IS_LEAF: u32 = 1 << 31;
+/// From this bit on, a triangle's word of where its normals are has the pattern of its mesh.
+const PATTERN: u32 = 28;
 
 /// A mesh among the pieces.
 #[derive(Clone, Copy, Debug)]
@@ -43,30 +46,36 @@ impl Shapes {
         for mesh in MeshId::ALL {
             let range = &library.ranges[*mesh as usize];
             let indices = &library.indices[range.start as usize..range.end as usize];
-            let shape = shapes.add(&library.vertices, indices);
+            let shape = shapes.add(&library.vertices, indices, mesh.pattern() as u32);
             shapes.own.push(shape);
         }
         shapes
     }
 
-    /// The shape of a mesh; `None` for a model that its scene has not.
-    pub(super) fn of(&mut self, scene: &dyn Scene, mesh: Drawn) -> Option<Shape> {
-        let id = match mesh {
-            Drawn::Own(mesh) => return self.own.get(mesh as usize).copied(),
-            Drawn::Model(id) => id,
-        };
-        let (asset, model) = model_of(scene, id)?;
-        if let Some((held, shape)) = self.models.get(&id)
-            && Arc::ptr_eq(held, model)
-        {
-            return Some(*shape);
+    /// The shape of a mesh; `None` for a model that was not [learnt](Self::learn).
+    pub(super) fn of(&self, mesh: Drawn) -> Option<Shape> {
+        match mesh {
+            Drawn::Own(mesh) => self.own.get(mesh as usize).copied(),
+            Drawn::Model(id) => self.models.get(&id).map(|(_, shape)| *shape),
         }
-        let shape = self.add(&vertices_of(asset, model), model.triangles.as_flattened());
-        self.models.insert(id, (Arc::clone(model), shape));
-        Some(shape)
     }
 
-    fn add(&mut self, vertices: &[Vertex], indices: &[u32]) -> Shape {
+    /// Looks up a model as its scene has it now; does nothing about other meshes.
+    pub(super) fn learn(&mut self, scene: &dyn Scene, mesh: Drawn) {
+        let Drawn::Model(id) = mesh else { return };
+        let Some((asset, model)) = model_of(scene, id) else {
+            self.models.remove(&id);
+            return;
+        };
+        if self.models.get(&id).is_some_and(|(held, _)| Arc::ptr_eq(held, model)) {
+            return;
+        }
+        let indices = model.triangles.as_flattened();
+        let shape = self.add(&vertices_of(asset, model), indices, mesh.pattern() as u32);
+        self.models.insert(id, (Arc::clone(model), shape));
+    }
+
+    fn add(&mut self, vertices: &[Vertex], indices: &[u32], pattern: u32) -> Shape {
         let corners: Vec<[&Vertex; 3]> = indices
             .chunks_exact(3)
             .map(|triangle| [0, 1, 2].map(|corner| &vertices[triangle[corner] as usize]))
@@ -82,49 +91,53 @@ impl Shapes {
         };
         let tree = Tree::build(&(0..corners.len()).map(nominal).collect::<Vec<_>>(), LEAF);
         let first = self.pieces.len() as u32;
+        let normals = first + corners.len() as u32 * TRIANGLE;
+        for (position, number) in (0..).zip(&tree.order) {
+            self.add_triangle(&corners[*number as usize], pattern << PATTERN | (normals + 3 * position));
+        }
         for number in &tree.order {
-            self.add_triangle(&corners[*number as usize]);
+            let three = corners[*number as usize].map(|vertex| vertex.normal.map(f32::to_bits));
+            self.pieces.extend(three.map(|[x, y, z]| [x, y, z, 0]));
         }
         let root = self.pieces.len() as u32;
         let (anchors, offsets) = (in_order(&tree, &anchors), in_order(&tree, &offsets));
         let (anchors, offsets) = (bound(&tree, &anchors), bound(&tree, &offsets));
-        for (node, children) in tree.nodes.iter().enumerate() {
-            for (side, child) in children.iter().enumerate() {
-                let code = match child {
-                    Child::Node(node) => root + node * NODE,
-                    Child::Leaf { first: start, count } => {
-                        IS_LEAF | (count - 1) << 28 | (first + start * TRIANGLE)
-                    }
-                    Child::Nothing => NONE,
-                };
-                self.add_boxes(anchors[node][side], offsets[node][side], code);
-            }
+        for (children, (anchors, offsets)) in tree.nodes.iter().zip(anchors.iter().zip(&offsets)) {
+            self.pieces.push(children.map(|child| match child {
+                Child::Node(node) => root + node * NODE,
+                Child::Leaf { first: start, count } => {
+                    IS_LEAF | (count - 1) << 28 | (first + start * TRIANGLE)
+                }
+                Child::Nothing => NONE,
+            }));
+            self.add_boxes([anchors, offsets]);
         }
-        let whole = |boxes: &[[Box3; 2]]| boxes[0][0].grown(boxes[0][1]);
+        let whole = |boxes: &[[Box3; WIDTH]]| Box3::around_all(&boxes[0]);
         Shape { root, anchors: whole(&anchors), offsets: whole(&offsets) }
     }
 
-    fn add_triangle(&mut self, corners: &[&Vertex; 3]) {
-        let piece = |three: [f32; 3], last: u32| {
-            let [x, y, z] = three.map(f32::to_bits);
-            [x, y, z, last]
-        };
-        for vertex in corners {
-            self.pieces.push(piece(vertex.anchor, vertex.material));
-            self.pieces.push(piece(vertex.offset, 0));
-        }
-        self.pieces.extend(corners.map(|vertex| piece(vertex.normal, 0)));
+    /// Anchor and offset of each corner, its material, and where the normals are.
+    fn add_triangle(&mut self, corners: &[&Vertex; 3], normals: u32) {
+        let places = corners.iter().flat_map(|vertex| vertex.anchor.into_iter().chain(vertex.offset));
+        let words: Vec<u32> = places.map(f32::to_bits).chain([corners[0].material, normals]).collect();
+        self.pieces.extend(words.chunks_exact(4).map(|four| [four[0], four[1], four[2], four[3]]));
     }
 
-    fn add_boxes(&mut self, anchors: Box3, offsets: Box3, code: u32) {
-        let piece = |three: [f32; 3], last: u32| {
-            let [x, y, z] = three.map(f32::to_bits);
-            [x, y, z, last]
-        };
-        self.pieces.push(piece(anchors.low, code));
-        self.pieces.push(piece(anchors.high, 0));
-        self.pieces.push(piece(offsets.low, 0));
-        self.pieces.push(piece(offsets.high, 0));
+    /// The boxes of the children of a node in halves of words, rounded outwards: least anchors of all four along x, then y, z, greatest
+    /// anchors, and the same of offsets.
+    fn add_boxes(&mut self, boxes: [&[Box3; WIDTH]; 2]) {
+        let mut rows: Vec<[u32; 2]> = Vec::with_capacity(12);
+        for kind in boxes {
+            for axis in 0..3 {
+                let [a, b, c, d] = kind.map(|one| one.low[axis]);
+                rows.push([pair(a, b, Rounding::Down), pair(c, d, Rounding::Down)]);
+            }
+            for axis in 0..3 {
+                let [a, b, c, d] = kind.map(|one| one.high[axis]);
+                rows.push([pair(a, b, Rounding::Up), pair(c, d, Rounding::Up)]);
+            }
+        }
+        self.pieces.extend(rows.chunks_exact(2).map(|two| [two[0][0], two[0][1], two[1][0], two[1][1]]));
     }
 }
 
@@ -132,16 +145,16 @@ fn in_order(tree: &Tree, boxes: &[Box3]) -> Vec<Box3> {
     tree.order.iter().map(|number| boxes[*number as usize]).collect()
 }
 
-/// The boxes of both children of every node; `leaves` are in the order of the tree.
-pub(super) fn bound(tree: &Tree, leaves: &[Box3]) -> Vec<[Box3; 2]> {
-    let mut boxes = vec![[Box3::EMPTY; 2]; tree.nodes.len()];
+/// The boxes of the children of every node; `leaves` are in the order of the tree.
+pub(super) fn bound(tree: &Tree, leaves: &[Box3]) -> Vec<[Box3; WIDTH]> {
+    let mut boxes = vec![[Box3::EMPTY; WIDTH]; tree.nodes.len()];
     // Children come after their parents.
     for (node, children) in tree.nodes.iter().enumerate().rev() {
         boxes[node] = children.map(|child| match child {
-            Child::Node(node) => boxes[node as usize][0].grown(boxes[node as usize][1]),
-            Child::Leaf { first, count } => leaves[first as usize..(first + count) as usize]
-                .iter()
-                .fold(Box3::EMPTY, |all, one| all.grown(*one)),
+            Child::Node(node) => Box3::around_all(&boxes[node as usize]),
+            Child::Leaf { first, count } => {
+                Box3::around_all(&leaves[first as usize..(first + count) as usize])
+            }
             Child::Nothing => Box3::EMPTY,
         });
     }

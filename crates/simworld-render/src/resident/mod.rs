@@ -20,11 +20,14 @@ use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 
 use crate::classes::class_of;
-use crate::look::{Detail, Look, Looks, overhang};
+use crate::look::{Look, Looks, overhang};
 use crate::mesh::Drawn;
 use crate::occlusion::Block;
+use crate::threads;
 
 const NONE: u32 = u32::MAX;
+/// Entities that are worth a thread.
+const SHARE: usize = 128;
 /// What has a smaller ball hides little, m.
 const LEAST_WALL: f64 = 3.0;
 
@@ -40,7 +43,7 @@ pub(crate) struct Card {
     pub casts: bool,
     /// Whether its kind moves about.
     pub mobile: bool,
-    /// At which levels of detail it is drawn, as [`Detail::bit`]s: an entity has instances for each of them.
+    /// At which levels of detail it is drawn, as [`crate::look::Detail::bit`]s: an entity has instances for each of them.
     pub details: u8,
     /// The next instance of the entity, or of the free ones.
     next: u32,
@@ -52,8 +55,52 @@ pub(crate) struct Part {
     /// World from part.
     pub pose: Pose,
     pub look: Look,
-    /// At which levels of detail it is drawn, as [`Detail::bit`]s.
+    /// At which levels of detail it is drawn, as [`crate::look::Detail::bit`]s.
     pub details: u8,
+}
+
+/// Entities as they are dressed, before they have numbers.
+#[derive(Default)]
+struct Dressed {
+    parts: Vec<(Part, Instance)>,
+    bodies: Vec<Body>,
+    /// Those of one entity.
+    own: Vec<Part>,
+}
+
+/// What is in a slot, and how many parts it has.
+struct Body {
+    slot: u32,
+    parts: usize,
+    there: Option<There>,
+}
+
+/// Who is seen in a slot.
+struct There {
+    id: EntityId,
+    kind: EntityKind,
+    ball: Ball,
+    is_restless: bool,
+}
+
+impl Dressed {
+    fn add(&mut self, looks: &Looks, scene: &dyn Scene, slot: u32, id: Option<EntityId>) {
+        let Some(entity) = id.and_then(|id| scene.entity(id)).filter(EntityRef::is_visible) else {
+            return self.bodies.push(Body { slot, parts: 0, there: None });
+        };
+        self.own.clear();
+        looks.dress(&entity, scene, &mut self.own);
+        let class = class_of(entity.kind);
+        let with_instance = |part: Part| {
+            let instance = Instance::new(&part.pose, &part.look, entity.id, class);
+            (part, instance)
+        };
+        let parts = self.own.len();
+        self.parts.extend(self.own.drain(..).map(with_instance));
+        let (is_restless, ball) = (entity.gesture().is_some(), ball_of(&entity));
+        let there = There { id: entity.id, kind: entity.kind, ball, is_restless };
+        self.bodies.push(Body { slot, parts, there: Some(there) });
+    }
 }
 
 /// The instances of a scene.
@@ -84,7 +131,8 @@ pub(crate) struct Residents {
     /// Slots of those whose arms move with the clock, whatever else changes.
     restless: BTreeSet<u32>,
     tick: Tick,
-    parts: Vec<Part>,
+    /// Those that are dressed anew, with who is there.
+    slots: Vec<(u32, Option<EntityId>)>,
     looks: Looks,
     /// By slot, in which layer its surface lies; see [`layers`].
     layers: BTreeMap<u32, u8>,
@@ -99,41 +147,42 @@ impl Residents {
     pub(crate) fn follow(&mut self, scene: &dyn Scene, region: &Aabb) {
         let repainted = self.looks.follow(scene);
         let mark = scene.mark();
+        let mut slots = std::mem::take(&mut self.slots);
+        slots.clear();
         let known = match self.mark {
-            Some(since) => scene.visit_changes(since, &mut |slot, entity| self.look_at(scene, slot, entity)),
+            Some(since) => scene.visit_changes(since, &mut |slot, entity| {
+                slots.push((slot as u32, entity.map(|entity| entity.id)));
+            }),
             None => false,
         };
         if !known {
             self.restart();
+            slots.clear();
             let everywhere = Aabb::around(Point3::origin(), Vector3::repeat(1e9));
             let region = if mark.is_some() { &everywhere } else { region };
             let _ = scene.visit(region, &mut |entity| {
-                self.look_at(scene, entity.id.index(), Some(entity));
+                slots.push((entity.id.index() as u32, Some(entity.id)));
                 ControlFlow::Continue(())
             });
         }
         self.mark = mark;
+        self.look_at(scene, &slots);
+        slots.clear();
+        let named = |slot: &u32| (*slot, Some(self.names[*slot as usize]));
         if known && repainted {
             // What is painted on a surface depends on roads elsewhere too.
-            for slot in self.layers.keys().copied().collect::<Vec<_>>() {
-                let id = self.names[slot as usize];
-                self.look_at(scene, slot as usize, scene.entity(id));
-            }
+            slots.extend(self.layers.keys().map(named));
         }
         if self.tick != scene.clock().tick() {
             self.tick = scene.clock().tick();
-            for slot in self.restless.clone() {
-                let id = self.names[slot as usize];
-                self.look_at(scene, slot as usize, scene.entity(id));
-            }
+            slots.extend(self.restless.iter().map(named));
         }
         if self.signals != scene.signals() {
             self.signals = scene.signals().to_vec();
-            for slot in self.signalling.clone() {
-                let id = self.names[slot as usize];
-                self.look_at(scene, slot as usize, scene.entity(id));
-            }
+            slots.extend(self.signalling.iter().map(named));
         }
+        self.look_at(scene, &slots);
+        self.slots = slots;
         if std::mem::take(&mut self.resurfaced) {
             self.lay_out_surfaces();
         }
@@ -177,40 +226,57 @@ impl Residents {
         self.epoch += 1;
     }
 
-    /// Dresses who is in a slot now.
-    fn look_at(&mut self, scene: &dyn Scene, slot: usize, entity: Option<EntityRef<'_>>) {
+    /// Dresses who is in these slots now, by as many threads as that is worth.
+    fn look_at(&mut self, scene: &dyn Scene, slots: &[(u32, Option<EntityId>)]) {
+        let count = threads::worth(slots.len(), SHARE);
+        let wide = slots.len().div_ceil(count).max(1);
+        let looks = &self.looks;
+        let dressed = threads::each(slots.chunks(wide).collect(), |share| {
+            let mut dressed = Dressed::default();
+            for (slot, id) in share {
+                dressed.add(looks, scene, *slot, *id);
+            }
+            dressed
+        });
+        for Dressed { parts, bodies, .. } in dressed {
+            let mut parts = &parts[..];
+            for body in bodies {
+                let (own, rest) = parts.split_at(body.parts);
+                self.settle(&body, own);
+                parts = rest;
+            }
+        }
+    }
+
+    /// Takes in how an entity was dressed.
+    fn settle(&mut self, body: &Body, parts: &[(Part, Instance)]) {
+        let slot = body.slot as usize;
         if slot >= self.heads.len() {
             self.heads.resize(slot + 1, NONE);
         }
         if slot >= self.names.len() {
             Arc::make_mut(&mut self.names).resize(slot + 1, EntityId::default());
         }
-        let mut parts = std::mem::take(&mut self.parts);
-        parts.clear();
-        if let Some(entity) = entity.filter(EntityRef::is_visible) {
-            if self.names[slot] != entity.id {
-                Arc::make_mut(&mut self.names)[slot] = entity.id;
-            }
-            if entity.kind == EntityKind::TrafficSignal {
-                self.signalling.insert(slot as u32);
-            } else {
-                self.signalling.remove(&(slot as u32));
-            }
-            if entity.gesture().is_some() {
-                self.restless.insert(slot as u32);
-            } else {
-                self.restless.remove(&(slot as u32));
-            }
-            self.looks.dress(&entity, scene, &mut parts);
-            self.file_surface(slot as u32, parts.first());
-            self.fill(slot, &entity, &parts);
-        } else {
-            self.file_surface(slot as u32, None);
-            self.signalling.remove(&(slot as u32));
-            self.restless.remove(&(slot as u32));
-            self.cut(slot, NONE);
+        let Some(there) = &body.there else {
+            self.file_surface(body.slot, None);
+            self.signalling.remove(&body.slot);
+            self.restless.remove(&body.slot);
+            return self.cut(slot, NONE);
+        };
+        if self.names[slot] != there.id {
+            Arc::make_mut(&mut self.names)[slot] = there.id;
         }
-        self.parts = parts;
+        let file = |set: &mut BTreeSet<u32>, is_in: bool| {
+            if is_in {
+                set.insert(body.slot)
+            } else {
+                set.remove(&body.slot)
+            };
+        };
+        file(&mut self.signalling, there.kind == EntityKind::TrafficSignal);
+        file(&mut self.restless, there.is_restless);
+        self.file_surface(body.slot, parts.first().map(|(part, _)| part));
+        self.fill(slot, there, parts);
     }
 
     /// Notes whether the first part of who is in a slot is a surface that may lie over another.
@@ -226,10 +292,11 @@ impl Residents {
     }
 
     /// Gives the parts the numbers that the slot has, and more or fewer if there are more or fewer of them.
-    fn fill(&mut self, slot: usize, entity: &EntityRef<'_>, parts: &[Part]) {
+    fn fill(&mut self, slot: usize, there: &There, parts: &[(Part, Instance)]) {
         let mut last = NONE;
         let mut number = self.heads[slot];
-        for (index, part) in (0..).zip(parts) {
+        let casts = casts(there.kind);
+        for (index, (part, instance)) in (0..).zip(parts) {
             if number == NONE {
                 number = self.take_number();
                 match self.cards.get_mut(last as usize) {
@@ -238,8 +305,7 @@ impl Residents {
                 }
             }
             let next = self.cards[number as usize].next;
-            let casts = casts(entity.kind);
-            let mut instance = Instance::new(&part.pose, &part.look, entity.id, class_of(entity.kind));
+            let mut instance = *instance;
             let is_surface = index == 0 && part.mesh.pattern().is_flat();
             if let (true, Some(layer)) = (is_surface, self.layers.get(&(slot as u32))) {
                 instance.put_in_layer(*layer);
@@ -253,7 +319,7 @@ impl Residents {
                 slot: slot as u32,
                 part: index,
                 casts,
-                mobile: entity.kind.is_mobile(),
+                mobile: there.kind.is_mobile(),
                 details: part.details,
                 next,
             };
@@ -262,7 +328,7 @@ impl Residents {
                 self.note(number);
                 self.resurfaced |= is_surface;
             }
-            let ball = ball_of(entity);
+            let ball = there.ball;
             self.grid.place(number, ball);
             if ball.radius >= LEAST_WALL && is_closed(part.mesh) {
                 self.walls.place(number, ball);
@@ -291,6 +357,13 @@ impl Residents {
             self.free = number;
             number = next;
         }
+    }
+
+    /// The numbers of the instances of a slot, in their order.
+    pub(crate) fn numbers_of(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
+        let there = |number: u32| (number != NONE).then_some(number);
+        let first = self.heads.get(slot as usize).copied().and_then(there);
+        std::iter::successors(first, move |number| there(self.cards[*number as usize].next))
     }
 
     /// The closed block that an instance is, if it hides what is behind it from an eye.
@@ -329,9 +402,9 @@ impl Residents {
 }
 
 impl Card {
-    /// Whether rays meet it: somebody has this number now, and it is of the finest level.
-    pub(crate) const fn is_met(&self) -> bool {
-        self.slot != NONE && self.details & Detail::Near.bit() != 0
+    /// The slot of who has this number now, if anybody does.
+    pub(crate) const fn slot_there(&self) -> Option<u32> {
+        if self.slot == NONE { None } else { Some(self.slot) }
     }
 }
 

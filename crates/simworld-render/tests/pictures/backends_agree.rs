@@ -5,18 +5,10 @@ use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::{Point2, Point3, Twist, Vector3, pose_facing};
 use simworld_core::scene::{EntityKind, Shape, World};
 use simworld_core::seed::Seed;
-use simworld_render::{
-    Backend, Frame, LevelOfDetail, RenderConfig, Renderer, ViewOptions, ViewRequest, Views,
-};
+use simworld_render::{Backend, Frame, RenderConfig, Renderer, ViewOptions, ViewRequest, Views};
 
 fn backends() -> Option<[Renderer; 2]> {
-    let with = |backend| {
-        crate::common::renderer(&RenderConfig {
-            backend,
-            level_of_detail: LevelOfDetail::Finest,
-            ..RenderConfig::default()
-        })
-    };
+    let with = |backend| crate::common::renderer(&RenderConfig { backend, ..RenderConfig::default() });
     Some([with(Backend::Raster)?, with(Backend::Raycast)?])
 }
 

@@ -12,6 +12,7 @@ mod files_hold_the_frame;
 mod flow_is_the_motion_that_is_known;
 mod golden;
 mod ids_and_classes_name_what_is_there;
+mod levels_change_little;
 mod light_and_weather;
 mod look;
 mod maps_have_one_scale;
