@@ -48,6 +48,7 @@ mod remarks;
 mod repairs;
 mod resolve;
 mod respelt;
+mod retold;
 mod rows;
 mod says;
 mod shared;
@@ -256,8 +257,17 @@ fn wishes_of(
         return plain;
     }
     let in_parts = reader.in_parts(&is_known, &is_there);
+    if let Some(wishes) = in_parts.as_ref().filter(|wishes| is_there(wishes)) {
+        return Ok(wishes.clone());
+    }
+    let told_again = reader.retold().into_iter().find_map(|lexemes| {
+        let memo = memo::Memo::default();
+        let reader = Reader { lexemes: &lexemes, memo: &memo, words: reader.words, names: reader.names, view: reader.view, at: 0, depth: 0 };
+        let plain = Reader { ..reader }.sentence().ok().filter(|wishes| are_known(wishes) && is_there(wishes));
+        plain.or_else(|| reader.in_parts(&is_known, &is_there).filter(|wishes| is_there(wishes)))
+    });
     match (plain, in_parts) {
-        (_, Some(wishes)) if is_there(&wishes) => Ok(wishes),
+        _ if told_again.is_some() => Ok(told_again.unwrap_or_default()),
         (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
             let unknown = || reader.in_parts(&|_| true, &|_| true);
@@ -319,6 +329,7 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(whole::words())
         .chain(passing::words())
         .chain(idle::words())
+        .chain(retold::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

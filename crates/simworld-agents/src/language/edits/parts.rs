@@ -162,7 +162,10 @@ impl Reader<'_> {
         let there = longest_phrase(&self.lexemes[from..end], &["there is", "theres", "there are"]);
         let stop =
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
-        let mut things = self.spoken_of(from, stop);
+        // "The crate is too big for the kids": the crate, and not the kids.
+        let too = (from..stop).find(|at| matches!(self.word(*at), Some("too" | "enough")));
+        let whom = too.and_then(|too| (too + 1..stop).find(|at| self.word(*at) == Some("for")));
+        let mut things = self.spoken_of(from, whom.unwrap_or(stop));
         // "It is for Anna": what was spoken of before stays the first.
         let again =
             longest_phrase(&self.lexemes[from..end], &["it", "its", "it is", "they", "theyre", "they are"]);

@@ -162,7 +162,8 @@ static TABLES: LazyLock<BTreeSet<String>> = LazyLock::new(|| {
         words::words().chain(super::parse::small_words()).map(str::to_owned).collect();
     let nouns = CATEGORIES.iter().flat_map(|category| category.words).flat_map(|phrase| phrase.split(' '));
     for noun in nouns {
-        words.extend([noun.to_owned(), format!("{noun}s"), format!("{noun}es")]);
+        let hisses = ["s", "x", "z", "ch", "sh", "o"].iter().any(|end| noun.ends_with(end));
+        words.extend([noun.to_owned(), if hisses { format!("{noun}es") } else { format!("{noun}s") }]);
     }
     words.extend(PAINTS.iter().flat_map(|(words, _)| *words).map(|&word| word.to_owned()));
     words
@@ -214,12 +215,14 @@ fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
         } else {
             Slip::Count
         };
+        // Few slip at the first letter.
+        let begins = known.chars().next() != word.chars().next();
         let ends = known.chars().next_back() != word.chars().next_back();
         // Letters out of order are one slip, however far one of them went.
         let distance = strsim::osa_distance(word, known);
         // A word of everybody is likelier than one of the catalogue: "bech" is a bench and no beech.
         let is_rare = !TABLES.contains(known);
-        (if slip == Slip::Swapped && distance <= 2 { 1 } else { distance }, slip, ends, is_rare, known)
+        (if slip == Slip::Swapped && distance <= 2 { 1 } else { distance }, slip, (begins, ends), is_rare, known)
     });
     let short = length == SHORTEST;
     let mut best: Vec<_> = ranked
