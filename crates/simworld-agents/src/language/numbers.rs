@@ -15,6 +15,7 @@ pub(crate) const NUMERALS: &[(&str, f64)] = &[
     ("eighteen", 18.0), ("nineteen", 19.0), ("twenty", 20.0), ("thirty", 30.0), ("forty", 40.0), ("fifty",
     50.0), ("sixty", 60.0), ("seventy", 70.0), ("eighty", 80.0), ("ninety", 90.0), ("hundred", 100.0),
     ("thousand", 1000.0), ("dozen", 12.0), ("half", 0.5), ("couple", 2.0), ("pair", 2.0),
+    ("trio", 3.0), ("threesome", 3.0), ("quartet", 4.0), ("foursome", 4.0), ("quintet", 5.0),
 ];
 
 /// Places in a row, in words.
@@ -67,6 +68,12 @@ pub(super) fn number(lexemes: &[Lexeme]) -> Option<(f64, usize)> {
         if is_tens && in_words {
             return Some((first + units, 2));
         }
+    }
+    if (2.0..100.0).contains(&first)
+        && ["dozen", "dozens"].iter().any(|word| fits(&lexemes[1..], word).is_some())
+    {
+        let of = usize::from(lexemes.get(2).is_some_and(|_| fits(&lexemes[2..], "of").is_some()));
+        return Some((first * 12.0, 2 + of));
     }
     if second == Some(100.0) && first < 10.0 {
         return Some(with_rest(lexemes, first * 100.0, 2));

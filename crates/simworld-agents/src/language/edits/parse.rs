@@ -317,12 +317,22 @@ impl<'a> Reader<'a> {
             // "The white car the black car and the green car".
             let unmarked = || (is_list && self.word(cut) == Some("the")).then_some(0);
             let Some(count) = joint(&self.lexemes[cut..end]).or_else(unmarked) else { continue };
+            if self.stands_by_name(start, cut) {
+                continue;
+            }
             if let (Ok(mut before), Ok(last)) = (self.things(start, cut), self.one_of(cut + count, end)) {
                 before.push(last);
                 return Ok(before);
             }
         }
         whole.map(|what| vec![what])
+    }
+
+    /// "Fay next to the fountain", of whom the name says enough: in "... and Gus next to the statue" this is where she goes.
+    fn stands_by_name(&self, start: usize, end: usize) -> bool {
+        self.names.exact(&self.lexemes[start..end]).is_some_and(|(_, words)| {
+            (start + words..end).any(|at| at < start + words + 2 && self.is_place(at))
+        })
     }
 
     pub(super) fn one_to(&mut self, end: usize) -> Result<Reference, PlanError> {

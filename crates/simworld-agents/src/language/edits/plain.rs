@@ -237,6 +237,8 @@ fn called_to(lexemes: &mut Vec<Lexeme>) {
     while let Some(words) = longest_phrase(lexemes, CALLED)
         && lexemes.get(words).is_some_and(is_mark)
         && words + 2 < lexemes.len()
+        // "Evening, and let it rain" is about the evening.
+        && !matches!(lexemes.get(words + 1).map(|lexeme| &lexeme.token), Some(Token::Word(word)) if word == "and")
     {
         let marks = lexemes[words..].iter().take_while(|lexeme| is_mark(lexeme)).count();
         lexemes.drain(..words + marks);
@@ -305,7 +307,7 @@ fn others_too(lexemes: &mut Vec<Lexeme>) {
 fn needed_one(lexemes: &mut Vec<Lexeme>) {
     #[rustfmt::skip]
     const I_NEED: &Phrases = &Phrases::of(&["i need", "we need", "i want", "we want", "i ordered", "we ordered", "i asked for", "we asked for", "that i need", "that we need", "that i want", "that we want", "that i ordered", "that we ordered", "i was promised",
-        "we were promised", "i have in mind", "we have in mind", "im thinking of", "i am thinking of", "i was thinking of", "we are planning", "we planned"]);
+        "we were promised", "were getting", "we are getting", "im getting", "i am getting", "weve ordered", "we have ordered", "ive ordered", "we bought", "weve bought", "i bought", "ive bought", "i have in mind", "we have in mind", "im thinking of", "i am thinking of", "i was thinking of", "we are planning", "we planned"]);
     const GOES: &Phrases = &Phrases::of(&[
         "goes", "go", "should", "must", "belongs", "belong", "has to", "have to", "is to", "comes", "shall",
         "can", "could", "will", "needs to", "ought", "would", "is for", "stands",

@@ -74,6 +74,9 @@ impl Reader<'_> {
     /// Whether some words ask for nothing.
     pub(super) fn is_remark(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
+        if self.orders_within(from, end) {
+            return false;
+        }
         if self.is_call(from, end)
             || self.is_named_alone(from, end)
             || self.dislikes(from, end)
@@ -105,6 +108,25 @@ impl Reader<'_> {
             return false;
         }
         self.is_remark_at_a_place(from, end) || self.states(from, end) && !self.asks(from, end)
+    }
+
+    /// "They stink to high heaven, and make the postbox yellow": an order behind a mark, which is no part of a remark.
+    fn orders_within(&self, from: usize, end: usize) -> bool {
+        (from + 1..end).any(|at| {
+            is_mark(&self.lexemes[at])
+                && longest_phrase(&self.lexemes[at + 1..end], &["and", "then", "and then"]).is_some_and(
+                    |words| {
+                        longest_phrase(
+                            &self.lexemes[at + 1 + words..end],
+                            &[
+                                "make", "put", "add", "remove", "paint", "move", "turn", "delete", "rotate",
+                                "swap", "place", "close",
+                            ],
+                        )
+                        .is_some()
+                    },
+                )
+        })
     }
 
     /// "Oh dear": sounds and greetings.

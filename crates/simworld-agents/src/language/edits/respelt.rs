@@ -53,6 +53,9 @@ const RESPELT: &[(&[&str], &str)] = &[
     (&["is it possible that there is", "would it be possible that there is", "would it be possible to have", "is it possible to have", "is it possible to get", "would it be possible to get", "can there be", "could there be", "might there be", "may there be",
         "can there also be", "could there also be", "is there any way to get", "is there a way to get", "any way to get", "any way we could get", "any way we can get", "any way of getting", "is there any way we could have", "would there be room for",
         "is it possible to add", "would it be possible to add", "wouldnt it be nice to have", "would not it be nice to have", "wouldnt it be great to have", "would it be ok to have", "would it be okay to have", "is it ok to have"], "there should be"),
+    (&["close of", "near of", "near from", "close from", "near to of"], "near"), (&["behind of"], "behind"), (&["beside of"], "beside"), (&["out front of", "out the front of"], "in front of"), (&["out the front", "out front"], "in front of it"),
+    (&["bin it", "chuck it", "ditch it", "scrap it", "bin that", "chuck that", "ditch that"], "remove it"), (&["bin them", "chuck them", "ditch them", "scrap them"], "remove them"), (&["if there happens to be", "if there should be", "if there happen to be"], "if there is"),
+    (&["is it possible that you", "would it be possible that you"], "could you"),
     (&["it gives"], "there is"), (&["in direction"], "to the"), (&["hold on to"], "keep"),
     (&["likes of"], ""), (&["thus", "therefore", "consequently", "accordingly", "that is why", "which is why", "thats why"], "so"), (&["an all"], ""), (&["fr", "lmfao", "af", "smh", "bruh", "ayo", "fam", "innit"], ""),
 ];

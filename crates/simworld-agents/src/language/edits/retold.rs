@@ -17,12 +17,12 @@ use super::words::VERBS;
 const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with each other", "with one another", "on guard", "on duty", "on watch", "on standby", "on call", "at the ready", "from today on", "from now on",
     "as of today", "as of now", "starting today", "starting now", "starting from now", "ever again", "of course", "to all vehicles", "to all traffic", "to vehicles", "for all traffic", "for all vehicles", "while youre at it",
     "if possible", "if you can", "if you could", "if thats possible", "if that is possible", "all in all", "altogether", "for the time being", "for the moment", "for a change", "for good measure", "for company",
-    "to be kept", "to be placed", "to be put", "all to be kept", "all to be placed", "all to be put", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
+    "right about now", "right now", "out here", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
     "once and for all", "in the meantime", "as a start", "for a start", "to begin with", "to start with", "on second thoughts", "needless to say", "as you know", "as you can see", "say what you want",
-    "first of all", "last of all", "as discussed", "as planned", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of"]);
+    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
-/// none, `M` is a measure; `a|b` is either word.
+/// none, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 const TURNS: &[(&str, &str)] = &[
     // Rows that are told from both ends.
@@ -97,6 +97,43 @@ const TURNS: &[(&str, &str)] = &[
     ("for A one|a|an B , beside|near|behind him|her|it", "add a B next to A"),
     ("A says|reckons|thinks|insists|suggests|demands that|- B belongs|goes C", "add B C"),
     ("A says|reckons|thinks|insists|suggests|demands a|an B belongs|goes|should C", "add a B C"),
+    // New things, told by other verbs.
+    ("P dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "P put D A"),
+    ("P put|place|add|set|build|light|plant|dig|install|park|pitch me|us|them|him|her D A", "P put D A"),
+    ("P have|let|get D A play|stand|sing|perform|work|guard|patrol|sell|live|sleep|lie|walk|rest|watch|wait|sit|greet B", "P put D A B"),
+    ("i am|was wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
+    ("im wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
+    ("im|we wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A", "add D A"),
+    ("P it is|are missing|lacking D A , you put please", "P put D A"),
+    ("P it is|are missing|lacking D A", "P put D A"),
+    ("P , D A wouldnt hurt|harm Q", "P , add D A"),
+    ("P , D A wouldnt go amiss Q", "P , add D A"),
+    ("D A wouldnt hurt|harm Q", "add D A"),
+    ("D A wouldnt go amiss Q", "add D A"),
+    ("A would|might|could be|feel|look happier|better|nicer|safer|prettier|livelier|friendlier with D B", "A needs D B"),
+    ("A should|could|must get itself|himself|herself|themselves D B", "A needs D B"),
+    ("P should|could|must get itself|himself|herself|themselves D B", "P needs D B"),
+    ("in memory|honour|honor of A the B", "the B"),
+    ("A is|are|looks|look B and ought|should|must|has|have|needs|need to|- C", "A should C"),
+    ("A doesnt|dont|no belong|longer here , B it|them", "remove A"),
+    ("A doesnt|dont belong here|there", "remove A"),
+    ("bye|goodbye|farewell bye|- the A", "remove the A"),
+    ("bye|goodbye|farewell bye|- A", "remove the A"),
+    ("so long the A", "remove the A"),
+    ("im|we picturing|imagining|seeing A in B rather than C", "paint A B"),
+    ("i|we am|are|see|picture|imagine A in B rather than C", "paint A B"),
+    ("P double A in size|height", "P double A"),
+    ("P triple A in size|height", "P triple A"),
+    ("P halve A in size|height", "P halve A"),
+    ("P turn|rotate|spin|swivel|swing A round|around by B , Q", "P turn A by B"),
+    ("P turn|rotate|spin|swivel|swing A round|around by B", "P turn A by B"),
+    ("P copy|duplicate|clone A and put|stand|place|set|park|move the|- copy|copies|duplicate|duplicates|clone|it|them down|- B", "P copy A B"),
+    ("P make D copies|copy of A and put|stand|place|set|park|move the|- copy|copies|it|them down|- B", "P make D copies of A B"),
+    ("P read|tell|list|show|name me|us out|- which|what A there are|is Q", "list A"),
+    ("how many A have|do we|you|i got|have Q", "how many A are there Q"),
+    ("P , a clump|tuft|bunch|group|patch every|each M", "P every M"),
+    ("P , one each M B", "P every M B"),
+    ("A from B to C , one|placed|set|spaced every|each M in between", "A every M between B and C"),
     // Where somebody is to be.
     ("P shift|move|bring|take|get A over|- so he|she|it|they is|are B", "P move A B"),
     ("P shift|move|bring|take|get A over|- so hes|shes|its|theyre B", "P move A B"),
@@ -115,6 +152,8 @@ const TURNS: &[(&str, &str)] = &[
     ("A is no colour|color for B make it C", "paint B C"),
     ("A is no colour|color for B , make|paint it C", "paint B C"),
     ("let A turn|become|get B", "make A B"),
+    ("D A would|might|could do B good Q", "add D A"),
+    ("D A would|might|could suit|help|cheer|please B", "add D A"),
     // What is asked.
     ("which|what A have|do we|you|i got|have Q , can|could you list|name|show them P", "list A Q"),
     ("which|what A have we|you got Q", "list A Q"),
@@ -122,16 +161,36 @@ const TURNS: &[(&str, &str)] = &[
     ("P what do|can you know|say about A", "describe A"),
     ("P describe A to me|us|them , B", "describe A"),
     ("P describe A to me|us|them", "describe A"),
-    ("P swap|exchange|switch A with each other", "swap A"),
-    ("both A , the B and the C , have to be removed", "remove the B A and the C A"),
 ];
+
+/// As [`TURNS`], of what would be misunderstood otherwise.
+#[rustfmt::skip]
+const BEFORE_ALL: &[(&str, &str)] = &[
+    // "One" is of what is not there, and not of where it is looked for.
+    ("if there is|isnt no|any A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
+    ("if theres|there no|isnt any|- A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
+];
+/// What is said by the way, in the words of who asks kindly.
+#[rustfmt::skip]
+const ASIDES: &Phrases = &Phrases::of(&["while you are at it", "while youre at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
+    "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);
+
+/// Puts what would be misunderstood plainly, and leaves out what is said by the way.
+pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    let asides = without(lexemes, ASIDES);
+    if asides.iter().any(|lexeme| !is_mark(lexeme)) {
+        *lexemes = asides;
+    }
+    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "if")) {
+        *lexemes = told_by(lexemes, BEFORE_ALL);
+    }
+}
 
 /// What begins a clause that says why or what for, behind a request.
 #[rustfmt::skip]
 const WHY: &Phrases = &Phrases::of(&["because", "since", "so that", "otherwise", "or else", "lest", "in case", "given that", "now that", "seeing that", "seeing as", "considering", "even though", "although", "though", "so people", "so everybody", "so everyone", "so nobody",
     "so visitors", "so kids", "so children", "so students", "so customers", "so guests", "so tourists", "so the", "so we", "so i", "so you", "so they", "so he", "so she", "so it", "so my", "so our", "so no one", "so folks", "so passers", "as people", "as we", "as i", "as they", "as the", "as there", "as everybody", "as everyone",
-    "as he", "as she", "as it", "as my", "as our", "as nobody", "as some", "as many", "for we", "for they", "for there", "for everybody", "for it", "whereas", "in order to", "in order that", "in preparation for", "in honour of", "in honor of", "cause", "cos", "coz", "the way", "that way", "this way", "or", "before somebody", "before someone",
-    "before anybody", "before anyone", "to help", "to keep", "to make", "to give", "to let", "to stop", "to welcome", "to remind", "to celebrate", "to brighten", "to see", "to prevent", "to avoid", "to protect", "to ensure", "to show", "to watch", "to mark", "to catch", "to warn", "to cheer", "to attract", "to feed", "to light", "to look", "to block", "to guide", "to allow", "to be able"]);
+    "as he", "as she", "as it", "as my", "as our", "as nobody", "as some", "as many", "for we", "for they", "for there", "for everybody", "for it", "whereas", "in order to", "in order that", "in preparation for", "in honour of", "in honor of", "cause", "cos", "coz", "the way", "that way", "this way", "or", "before", "to help", "to keep", "to make", "to give", "to let", "to stop", "to welcome", "to remind", "to celebrate", "to brighten", "to see", "to prevent", "to avoid", "to protect", "to ensure", "to show", "to watch", "to mark", "to catch", "to warn", "to cheer", "to attract", "to feed", "to light", "to look", "to block", "to guide", "to allow", "to be able"]);
 /// Verbs of what is so, and what may stand before one.
 #[rustfmt::skip]
 const IS: &Phrases = &Phrases::of(&["is", "are", "was", "were", "am", "has", "have", "had", "will", "wont", "would", "can", "cant", "cannot", "could", "couldnt", "do", "dont", "does", "doesnt", "did", "didnt", "isnt", "arent", "wasnt", "havent", "hasnt", "may", "might",
@@ -139,27 +198,29 @@ const IS: &Phrases = &Phrases::of(&["is", "are", "was", "were", "am", "has", "ha
     "want", "wants", "make", "makes", "use", "see", "gives", "distract", "meet", "bring", "help", "helps", "starts", "run", "play", "sit", "walk", "stop", "tend"]);
 /// By these a clause may change what the rest asks for.
 #[rustfmt::skip]
-const CHANGES: &Phrases = &Phrases::of(&["not the", "not a", "not that", "not those", "not these", "except", "only", "unless", "instead", "rather than", "but", "please", "apart from", "other than", "but not", "if", "until", "when", "twice", "half", "double", "as well", "as big as", "as tall as", "the same", "another", "one more", "remove", "paint", "add", "delete", "i mean",
-    "scratch that", "no wait", "wait no", "actually", "correction", "sorry", "undo", "never mind", "forget it", "forget that", "stop it", "leave it", "leave them", "should", "must", "ought", "lets", "instead", "either", "neither", "or the", "every", "each"]);
+const CHANGES: &Phrases = &Phrases::of(&["not the", "not a", "not that", "not those", "not these", "except", "only", "unless", "instead", "rather than", "but", "please", "apart from", "other than", "but not", "if", "until", "when", "twice", "half", "double", "as well", "the same", "another", "one more", "remove", "paint", "add", "delete", "i mean",
+    "scratch that", "no wait", "wait no", "actually", "correction", "sorry", "undo", "never mind", "forget it", "forget that", "stop it", "leave it", "leave them", "should", "must", "ought", "lets", "instead", "either", "neither", "or the"]);
 /// Words of the rest that may be about what is left out.
 const OPEN: &[&str] = &[
-    "it", "its", "them", "him", "her", "his", "their", "one", "ones", "there", "they", "that", "those", "these",
-    "this", "he", "she", "another", "same", "both", "other", "others", "too", "also",
+    "it", "its", "them", "him", "her", "his", "their", "one", "ones", "there", "they", "that", "those",
+    "these", "this", "he", "she", "another", "same", "both", "other", "others", "too", "also",
 ];
 /// What begins a request that is no order.
 #[rustfmt::skip]
 const REQUESTS: &Phrases = &Phrases::of(&["can", "could", "would", "will", "may", "how", "what", "which", "where", "who", "please", "let", "lets", "i want", "i need", "we need", "we want", "id like", "wed like", "i would like", "we would like", "there should", "there must", "why not", "is there", "are there", "if", "unless", "when", "and", "or", "but", "then", "id", "wed", "kindly", "no", "not"]);
 
-impl<'a> Reader<'a> {
+impl Reader<'_> {
     /// The words told otherwise, in all ways that differ from how they were said, the nearest first.
     pub(super) fn retold(&self) -> Vec<Vec<Lexeme>> {
-        let turned = turned(without_fillers(self.lexemes));
-        let without_why = self.without_why(turned.clone());
-        let requests = turned_again(self.requests(&without_why));
+        let turned = told_by(&without(self.lexemes, FILLERS), TURNS);
+        let without_why = self.without_why(&turned);
+        let requests = told_by(&self.requests(&without_why), TURNS);
         let mut ways: Vec<Vec<Lexeme>> = Vec::new();
         for way in [turned, without_why, requests] {
-            let said = |lexemes: &[Lexeme]| lexemes.iter().map(|lexeme| lexeme.token.clone()).collect::<Vec<_>>();
-            let is_new = said(&way) != said(self.lexemes) && ways.iter().all(|other| said(other) != said(&way));
+            let said =
+                |lexemes: &[Lexeme]| lexemes.iter().map(|lexeme| lexeme.token.clone()).collect::<Vec<_>>();
+            let is_new =
+                said(&way) != said(self.lexemes) && ways.iter().all(|other| said(other) != said(&way));
             if is_new && way.iter().any(|lexeme| !is_mark(lexeme)) {
                 ways.push(way);
             }
@@ -168,16 +229,29 @@ impl<'a> Reader<'a> {
     }
 
     /// The words without the clauses that only say why, each of which ends where its sentence does or something else is asked for.
-    fn without_why(&self, lexemes: Vec<Lexeme>) -> Vec<Lexeme> {
+    fn without_why(&self, lexemes: &[Lexeme]) -> Vec<Lexeme> {
         let mut kept: Vec<Lexeme> = Vec::with_capacity(lexemes.len());
-        for sentence in sentences(&lexemes) {
+        for sentence in sentences(lexemes) {
             let mut rest = sentence.to_vec();
             if let Some(cut) = before_so(&rest)
                 && self.is_idle_clause(&rest[..cut.0], &rest[cut.1..], true)
             {
                 rest.drain(..cut.1);
             }
-            let front = longest_phrase(&rest, &["because", "since", "as", "now that", "given that", "seeing that", "considering", "while", "although"]);
+            let front = longest_phrase(
+                &rest,
+                &[
+                    "because",
+                    "since",
+                    "as",
+                    "now that",
+                    "given that",
+                    "seeing that",
+                    "considering",
+                    "while",
+                    "although",
+                ],
+            );
             if front.is_some()
                 && let Some(comma) = rest.iter().position(|lexeme| lexeme.token == Token::Comma)
                 && self.is_idle_clause(&rest[..comma], &rest[comma + 1..], true)
@@ -186,7 +260,8 @@ impl<'a> Reader<'a> {
             }
             let why = (2..rest.len()).find(|at| longest_phrase(&rest[*at..], WHY).is_some());
             if let Some(at) = why {
-                let end = (at + 2..rest.len()).find(|at| goes_on(&rest[*at..])).unwrap_or_else(|| last_mark(&rest));
+                let end =
+                    (at + 2..rest.len()).find(|at| goes_on(&rest[*at..])).unwrap_or_else(|| last_mark(&rest));
                 if at < end && self.is_idle_clause(&rest[at + 1..end], &rest[..at], false) {
                     let from = if is_mark(&rest[at - 1]) { at - 1 } else { at };
                     rest.drain(from..end);
@@ -200,7 +275,8 @@ impl<'a> Reader<'a> {
     /// The sentences and the parts between commas that ask for something, without those that only tell.
     fn requests(&self, lexemes: &[Lexeme]) -> Vec<Lexeme> {
         let mut units: Vec<&[Lexeme]> = lexemes.split_inclusive(is_mark).collect();
-        let words_of = |unit: &[Lexeme]| unit.iter().filter(|lexeme| !is_mark(lexeme)).cloned().collect::<Vec<_>>();
+        let words_of =
+            |unit: &[Lexeme]| unit.iter().filter(|lexeme| !is_mark(lexeme)).cloned().collect::<Vec<_>>();
         let mut at = 0;
         while at < units.len() {
             let unit = words_of(units[at]);
@@ -221,8 +297,10 @@ impl<'a> Reader<'a> {
 
     /// Whether a clause tells something, asks for nothing that is understood, and leaves the rest of the sentence as it is.
     fn is_idle_clause(&self, clause: &[Lexeme], rest: &[Lexeme], is_before: bool) -> bool {
-        let any = |phrases: &Phrases| (0..clause.len()).any(|at| longest_phrase(&clause[at..], phrases).is_some());
-        let is_open = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if OPEN.contains(&word.as_str()));
+        let any =
+            |phrases: &Phrases| (0..clause.len()).any(|at| longest_phrase(&clause[at..], phrases).is_some());
+        let is_open =
+            |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if OPEN.contains(&word.as_str()));
         let paints = (0..clause.len()).any(|at| longest(&clause[at..], PAINTS).is_some());
         clause.len() > 1
             && any(IS)
@@ -235,18 +313,26 @@ impl<'a> Reader<'a> {
     /// Whether words are a request by themselves.
     fn is_wish(&self, words: &[Lexeme]) -> bool {
         let memo = super::memo::Memo::default();
-        Reader { lexemes: words, at: 0, memo: &memo, depth: self.depth, words: self.words, names: self.names, view: self.view }
-            .sentence()
-            .is_ok()
+        Reader {
+            lexemes: words,
+            at: 0,
+            memo: &memo,
+            depth: self.depth,
+            words: self.words,
+            names: self.names,
+            view: self.view,
+        }
+        .sentence()
+        .is_ok()
     }
 }
 
 /// Without what adds nothing, and the commas around it.
-fn without_fillers(lexemes: &[Lexeme]) -> Vec<Lexeme> {
+fn without(lexemes: &[Lexeme], asides: &Phrases) -> Vec<Lexeme> {
     let mut kept: Vec<Lexeme> = Vec::with_capacity(lexemes.len());
     let mut at = 0;
     while at < lexemes.len() {
-        if let Some(words) = longest_phrase(&lexemes[at..], FILLERS) {
+        if let Some(words) = longest_phrase(&lexemes[at..], asides) {
             at += words;
             let is_aside = kept.last().is_none_or(is_mark);
             while is_aside && lexemes.get(at).is_some_and(|lexeme| lexeme.token == Token::Comma) {
@@ -273,30 +359,28 @@ fn last_mark(lexemes: &[Lexeme]) -> usize {
 /// Whether something else is asked for from here on: ", and put ...", "then move ...".
 fn goes_on(rest: &[Lexeme]) -> bool {
     let marks = rest.iter().take_while(|lexeme| is_mark(lexeme)).count();
-    let joint = longest_phrase(&rest[marks..], &["and", "then", "and then", "also", "and also", "plus", "please"]);
+    let joint =
+        longest_phrase(&rest[marks..], &["and", "then", "and then", "also", "and also", "plus", "please"]);
     joint.is_some_and(|words| rest.get(marks + words..).is_some_and(|rest| longest(rest, &VERBS).is_some()))
 }
 
 /// Where a clause ends before "so", and where what follows from it begins.
 fn before_so(lexemes: &[Lexeme]) -> Option<(usize, usize)> {
     let is = |at: usize, said: &str| matches!(lexemes.get(at).map(|lexeme| &lexeme.token), Some(Token::Word(word)) if word == said);
-    let so = (2..lexemes.len()).find(|at| is(*at, "so") && !is(at + 1, "that") && !is(at + 1, "many") && !is(at + 1, "much"))?;
+    let so = (2..lexemes.len())
+        .find(|at| is(*at, "so") && !is(at + 1, "that") && !is(at + 1, "many") && !is(at + 1, "much"))?;
     let end = if lexemes[so - 1].token == Token::Comma { so - 1 } else { so };
     Some((end, so + 1))
 }
 
-fn turned(lexemes: Vec<Lexeme>) -> Vec<Lexeme> {
-    turned_again(lexemes)
-}
-
 /// Each sentence by the first turn of phrase that it is, two of them at most.
-fn turned_again(lexemes: Vec<Lexeme>) -> Vec<Lexeme> {
+fn told_by(lexemes: &[Lexeme], turns: &[(&str, &str)]) -> Vec<Lexeme> {
     let mut told = Vec::with_capacity(lexemes.len());
-    for sentence in sentences(&lexemes) {
+    for sentence in sentences(lexemes) {
         let end = last_mark(sentence);
         let mut words = sentence[..end].to_vec();
         for _ in 0..2 {
-            if let Some(other) = TURNS.iter().find_map(|(said, meant)| by_turn(&words, said, meant)) {
+            if let Some(other) = turns.iter().find_map(|(said, meant)| by_turn(&words, said, meant)) {
                 words = other;
             }
         }
@@ -325,7 +409,8 @@ fn by_turn(words: &[Lexeme], said: &str, meant: &str) -> Option<Vec<Lexeme>> {
         }
     }
     // "On Anna's left" keeps its side.
-    if let Some(at) = made.iter().position(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "left"))
+    if let Some(at) =
+        made.iter().position(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "left"))
         && words.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "right"))
         && !words.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "left"))
     {
@@ -341,24 +426,22 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     let Some((first, rest)) = pattern.split_first() else { return at == words.len() };
     let is_any = first.len() == 1 && first.starts_with(|letter: char| letter.is_ascii_uppercase());
     if !is_any {
-        if first.split('|').any(|word| word == "-") && fits(words, at, rest, bound) {
-            return true;
-        }
         let here = words.get(at).is_some_and(|lexeme| match &lexeme.token {
             Token::Comma => *first == ",",
             Token::Word(word) => first.split('|').any(|said| said == word),
             _ => false,
         });
-        return here && fits(words, at + 1, rest, bound);
+        let is_left_out = first.split('|').any(|word| word == "-");
+        return here && fits(words, at + 1, rest, bound) || is_left_out && fits(words, at, rest, bound);
     }
     let least = usize::from(!["P", "Q"].contains(first));
-    let most = if *first == "M" { 3 } else { words.len() - at };
+    let most = if ["M", "D"].contains(first) { 3 } else { words.len() - at };
     for count in least..=most.min(words.len() - at) {
         let part = &words[at..at + count];
         if !["P", "Q"].contains(first) && part.iter().any(is_mark) {
             break;
         }
-        if *first == "M" && !is_measure(part) {
+        if *first == "M" && !is_measure(part) || *first == "D" && !is_new(part) {
             continue;
         }
         bound.push((first, at, at + count));
@@ -370,9 +453,16 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
     false
 }
 
+/// "A", "one", "a pair of", "two".
+fn is_new(words: &[Lexeme]) -> bool {
+    let article = longest_phrase(words, &["a", "an", "one", "some", "another"]) == Some(words.len());
+    article || super::super::numbers::count(words).is_some_and(|(_, count)| count == words.len())
+}
+
 /// "Five metres".
 fn is_measure(words: &[Lexeme]) -> bool {
-    const UNITS: &[&str] = &["m", "metre", "metres", "meter", "meters", "feet", "foot", "ft", "yards", "yard", "steps", "paces"];
+    const UNITS: &[&str] =
+        &["m", "metre", "metres", "meter", "meters", "feet", "foot", "ft", "yards", "yard", "steps", "paces"];
     let unit = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if UNITS.contains(&word.as_str()));
     words.len() > 1
         && words.last().is_some_and(unit)
@@ -381,7 +471,10 @@ fn is_measure(words: &[Lexeme]) -> bool {
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {
-    let phrases = [FILLERS, WHY, IS, CHANGES, REQUESTS].into_iter().flatten().flat_map(|phrase| phrase.split(' '));
+    let phrases = [FILLERS, ASIDES, WHY, IS, CHANGES, REQUESTS]
+        .into_iter()
+        .flatten()
+        .flat_map(|phrase| phrase.split(' '));
     let turns = TURNS.iter().flat_map(|(said, _)| said.split([' ', '|']));
     phrases.chain(turns.filter(|word| word.len() > 1))
 }

@@ -222,7 +222,13 @@ fn nearest(word: &str, own: &Own<'_>) -> Option<String> {
         let distance = strsim::osa_distance(word, known);
         // A word of everybody is likelier than one of the catalogue: "bech" is a bench and no beech.
         let is_rare = !TABLES.contains(known);
-        (if slip == Slip::Swapped && distance <= 2 { 1 } else { distance }, slip, (begins, ends), is_rare, known)
+        (
+            if slip == Slip::Swapped && distance <= 2 { 1 } else { distance },
+            slip,
+            (begins, ends),
+            is_rare,
+            known,
+        )
     });
     let short = length == SHORTEST;
     let mut best: Vec<_> = ranked

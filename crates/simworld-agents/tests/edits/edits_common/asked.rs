@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 13] = [
+const SETS: [&str; 15] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -18,6 +18,8 @@ const SETS: [&str; 13] = [
     "eleventh.edits",
     "twelfth.edits",
     "thirteenth.edits",
+    "fourteenth.edits",
+    "fifteenth.edits",
 ];
 
 /// One thing that is asked, and what must then be true.

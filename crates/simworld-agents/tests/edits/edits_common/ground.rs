@@ -41,7 +41,7 @@ impl Judge<'_> {
             return Err(format!("{} in the row", row.len()));
         }
         if words[0] == "around" {
-            return self.ring(&row, self.id(words[1]));
+            return self.ring(&row, self.id(words[1]), every);
         }
         let along: Vec<(f64, f64)> = row.iter().map(|id| self.along(*id, &words)).collect();
         let length = match words[0] {
@@ -96,19 +96,32 @@ impl Judge<'_> {
             let times = if many { (gap / step).round().max(1.0) } else { 1.0 };
             (gap - times * step).abs() <= 0.25 * step
         };
+        // Nothing stands within what the row is between.
+        let free = if words[0] == "between" { length - self.within(words[1], words[2]) } else { length };
         let Some(step) = every else {
             let mean = gaps.iter().sum::<f64>() / gaps.len().max(1) as f64;
             let odd = gaps.iter().find(|gap| !even(gap, mean, false));
             // A row fills what it is along.
-            let fills = mean * row.len() as f64 >= length * 0.6;
+            let fills = mean * row.len() as f64 >= free * 0.6;
             return if odd.is_some() || !fills { Err(format!("it is uneven: {row:?}")) } else { Ok(()) };
         };
-        let room = (length / step + 1e-6).floor();
+        let room = (free / step + 1e-6).floor();
         if (row.len() as f64) < room * 0.6 || row.len() as f64 > room + 1.0 {
             return Err(format!("{} where there is room for {room}", row.len()));
         }
         let odd = gaps.iter().find(|gap| !even(gap, step, true));
         odd.map_or(Ok(()), |gap| Err(format!("{gap:.1} m from one to the next, and not {step}: {row:?}")))
+    }
+
+    /// How much of the line from the middle of a thing to that of another is within either of them, m.
+    fn within(&self, one: &str, other: &str) -> f64 {
+        let [one, other] = [one, other].map(|key| self.id(key));
+        let way = (place_of(self.after, other) - place_of(self.after, one)).normalize();
+        let reach = |id: EntityId| {
+            let size = self.after.entity(id).expect("it is there").bounds.half_extents();
+            (size.x / way.x.abs()).min(size.y / way.y.abs())
+        };
+        reach(one) + reach(other)
     }
 
     /// How far along its line a thing stands, and how far to the left of it, m.
@@ -145,7 +158,7 @@ impl Judge<'_> {
         direction(yaw_of(entity.pose) + if size.x >= size.y { 0.0 } else { std::f64::consts::FRAC_PI_2 })
     }
 
-    fn ring(&self, row: &[EntityId], anchor: EntityId) -> Result<(), String> {
+    fn ring(&self, row: &[EntityId], anchor: EntityId, every: Option<f64>) -> Result<(), String> {
         let middle = place_of(self.after, anchor);
         let ways: Vec<Vector2> = row.iter().map(|id| place_of(self.after, *id) - middle).collect();
         let (least, most) = ways
@@ -159,7 +172,26 @@ impl Judge<'_> {
             let next = angles[(rank + 1) % angles.len()];
             (wrap_angle(next - angles[rank] - step)).abs() <= 0.25 * step
         });
-        if most - least < 0.3 && most < 30.0 && is_even { Ok(()) } else { Err(format!("no ring: {ways:?}")) }
+        // One every so many metres, without those for which there is no room, as in any row.
+        let wide = std::f64::consts::TAU * most;
+        let is_spaced = every.is_some_and(|every| {
+            let room = (wide / every).round();
+            let step = std::f64::consts::TAU / room;
+            let fits = (0..angles.len()).all(|rank| {
+                let gap =
+                    (angles[(rank + 1) % angles.len()] - angles[rank]).rem_euclid(std::f64::consts::TAU);
+                (gap - (gap / step).round() * step).abs() <= 0.25 * step
+            });
+            fits && row.len() as f64 >= room * 0.6
+        });
+        // Around what is large the circle is as large.
+        let (long, deep) = self.sides(anchor);
+        let limit = (long.hypot(deep) + 16.0).max(30.0);
+        if most - least < 0.3 && most < limit && (is_even || is_spaced) {
+            Ok(())
+        } else {
+            Err(format!("no ring: {ways:?}"))
+        }
     }
 
     // ---- streets ----

@@ -14,11 +14,13 @@ use simworld_core::value::Value;
 
 /// The cities in which people speak to a walker.
 pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
-/// Those, the town in which they speak to a driver, and six that came later.
-pub(crate) const PLACES: [&str; 10] =
-    ["harbour", "oldtown", "campus", "town", "park", "station", "depot", "market", "airport", "campsite"];
+/// Those, the town in which they speak to a driver, and eight that came later.
+pub(crate) const PLACES: [&str; 12] = [
+    "harbour", "oldtown", "campus", "town", "park", "station", "depot", "market", "airport", "campsite",
+    "lakeside", "zoo",
+];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 11] = [
+const SETS: [&str; 12] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -30,6 +32,7 @@ const SETS: [&str; 11] = [
     "ninth",
     "tenth",
     "eleventh",
+    "twelfth",
 ];
 
 /// One thing that is said, and what it means.
