@@ -22,7 +22,7 @@ const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with ea
     "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
-/// none, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
+/// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
 #[rustfmt::skip]
 const TURNS: &[(&str, &str)] = &[
     // Rows that are told from both ends.
@@ -85,16 +85,14 @@ const TURNS: &[(&str, &str)] = &[
     ("hows about A", "how about A"),
     ("id|wed put|place|have|add|stick D A", "add D A"),
     ("i|we would put|place|have|add|stick D A", "add D A"),
-    ("keep|have|lay|hang|rest|prop|let D A", "put D A"),
-    ("P , keep|have|lay|hang|rest|prop|let D A", "P , put D A"),
-    ("P kindly|please keep|have|lay|hang|rest|prop|let D A", "P put D A"),
-    ("P could|would|can|will you keep|have|lay|hang|rest|prop|let D A", "P put D A"),
+    ("O let D A keep him|her|it|them company Q", "O put D A Q"),
+    ("O have|let D A play|stand|sing|perform|work|guard|patrol|sell|live|sleep|lie|walk|rest|watch|wait|sit|greet B", "O put D A B"),
+    ("O keep|have|lay|hang|rest|prop|let D A", "O put D A"),
     ("A am|is|are|be|im|were|hes|shes|theyre needing|wanting|requiring D B", "A needs D B"),
     ("A will be needing D B", "A needs D B"),
     ("A should be having D B with|by him|her|it|them", "A needs D B"),
     ("D A should|could|must|has|is to wait|stay|sit|lie|rest|live|sleep|loiter|hang|perch|pose somewhere|out|around B", "add D A B"),
     ("D A should|could|must wait|stay|sit|lie|rest|live|sleep|loiter|hang|perch|pose|greet|keep B", "add D A B"),
-    ("P let D A keep him|her|it|them company Q", "P put D A Q"),
     ("the A , and i|we want|need it|them B", "the A should be B"),
     ("A , and i|we want|need|would|like it|them|one|that B", "add A B"),
     ("for A please D B , beside|with him|her|it", "add D B next to A"),
@@ -102,9 +100,8 @@ const TURNS: &[(&str, &str)] = &[
     ("A says|reckons|thinks|insists|suggests|demands that|- the B belongs|goes C", "the B should go C"),
     ("A says|reckons|thinks|insists|suggests|demands that|- D B belongs|goes C", "add D B C"),
     // New things, told by other verbs.
-    ("P dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "P put D A"),
-    ("P put|place|add|set|build|light|plant|dig|install|park|pitch me|us|them|him|her D A", "P put D A"),
-    ("P have|let D A play|stand|sing|perform|work|guard|patrol|sell|live|sleep|lie|walk|rest|watch|wait|sit|greet B", "P put D A B"),
+    ("O dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "O put D A"),
+    ("O put|place|add|set|build|light|plant|dig|install|park|pitch me|us|them D A", "O put D A"),
     ("i am|was wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
     ("im wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
     ("im|we wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A", "add D A"),
@@ -438,14 +435,18 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
         let is_left_out = first.split('|').any(|word| word == "-");
         return here && fits(words, at + 1, rest, bound) || is_left_out && fits(words, at, rest, bound);
     }
-    let least = usize::from(!["P", "Q"].contains(first));
+    let is_open = ["O", "P", "Q"].contains(first);
+    let least = usize::from(!is_open);
     let most = if ["M", "D"].contains(first) { 3 } else { words.len() - at };
     for count in least..=most.min(words.len() - at) {
         let part = &words[at..at + count];
-        if !["P", "Q"].contains(first) && part.iter().any(is_mark) {
+        if !is_open && part.iter().any(is_mark) {
             break;
         }
-        if *first == "M" && !is_measure(part) || *first == "D" && !is_new(part) {
+        if *first == "M" && !is_measure(part)
+            || *first == "D" && !is_new(part)
+            || *first == "O" && !may_order(part)
+        {
             continue;
         }
         bound.push((first, at, at + count));
@@ -455,6 +456,14 @@ fn fits<'p>(words: &[Lexeme], at: usize, pattern: &[&'p str], bound: &mut Bound<
         bound.pop();
     }
     false
+}
+
+/// Whether an order may follow: "they have a bench" is none.
+fn may_order(words: &[Lexeme]) -> bool {
+    words.last().is_none_or(|last| {
+        is_mark(last)
+            || matches!(&last.token, Token::Word(word) if ["please", "kindly", "you", "and", "then", "so", "now", "just", "also", "lets", "to"].contains(&word.as_str()))
+    })
 }
 
 /// "A", "one", "a pair of", "two".
