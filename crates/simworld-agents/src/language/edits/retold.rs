@@ -303,12 +303,8 @@ impl Reader<'_> {
         let is_open =
             |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if OPEN.contains(&word.as_str()));
         let paints = (0..clause.len()).any(|at| longest(&clause[at..], PAINTS).is_some());
-        clause.len() > 1
-            && any(IS)
-            && !any(CHANGES)
-            && !paints
-            && !(is_before && rest.iter().any(is_open))
-            && !self.is_wish(clause)
+        let may_be_about = is_before && rest.iter().any(is_open);
+        clause.len() > 1 && any(IS) && !any(CHANGES) && !paints && !may_be_about && !self.is_wish(clause)
     }
 
     /// Whether words are a request by themselves.
