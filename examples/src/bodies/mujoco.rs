@@ -1,11 +1,11 @@
-//! The same boxes in MuJoCo, where its Python package is there.
+//! The same boxes in `MuJoCo`, where its Python package is there.
 
 use std::process::Command;
 
 /// What the script ends with where there is no such package.
 const ABSENT: i32 = 3;
 
-/// What MuJoCo takes, or why that is not known.
+/// What `MuJoCo` takes, or why that is not known.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Rival {
     /// Processor time of a step, ms.
@@ -16,7 +16,7 @@ pub enum Rival {
     Failed(String),
 }
 
-/// A step of boxes of half a metre that fall on one another, in the mean of so many steps from the start, in MuJoCo.
+/// A step of boxes of half a metre that fall on one another, in the mean of so many steps from the start, in `MuJoCo`.
 pub fn mujoco_boxes(count: usize, steps: usize) -> Rival {
     let script = ["-c", include_str!("boxes_in_mujoco.py")].map(str::to_owned);
     let run = Command::new("python3").args(script).args([count.to_string(), steps.to_string()]).output();

@@ -30,6 +30,7 @@ mod fronted;
 mod gazes;
 mod handling;
 mod hearing;
+mod idle;
 pub(crate) mod lexer;
 mod lexicon;
 mod modifiers;
@@ -179,7 +180,12 @@ impl Planner for GrammarPlanner {
                 let mut lexemes = hearing::hear(words, me.info.name.as_deref());
                 spelling::correct(&mut lexemes, &names);
                 passive::put_verbs_first(&mut lexemes);
-                Parser::new(words, &lexemes, &names, &view).sentence()?
+                let read = |lexemes: &[lexer::Lexeme]| Parser::new(words, lexemes, &names, &view).sentence();
+                read(&lexemes).or_else(|refused| {
+                    let rest = idle::without_remark(&lexemes, &names).map(read);
+                    rest.filter(|rest| !matches!(rest, Err(PlanError::NotUnderstood { .. })))
+                        .unwrap_or(Err(refused))
+                })?
             }
             Intent::Call { name, args } => vec![call::read(name, args, &names, &view)?],
         };

@@ -186,7 +186,7 @@ impl Judge<'_> {
         });
         // Around what is large the circle is as large.
         let (long, deep) = self.sides(anchor);
-        let limit = (long.hypot(deep) + 16.0).max(30.0);
+        let limit = (simworld_core::ops::hypot(long, deep) + 16.0).max(30.0);
         if most - least < 0.3 && most < limit && (is_even || is_spaced) {
             Ok(())
         } else {
