@@ -16,7 +16,7 @@ use super::verbs::longest_verb;
 /// Words by which something may be asked for, or asked for otherwise.
 #[rustfmt::skip]
 const DEMANDS: &Phrases = &Phrases::of(&[
-    "if", "unless", "until", "till", "when", "whenever", "while", "before", "after", "then", "not", "dont", "no", "never", "cant", "isnt",
+    "if", "unless", "until", "till", "when", "whenever", "before", "after", "then", "not", "dont", "no", "never", "cant", "isnt",
     "wont", "without", "but", "except", "only", "instead", "rather", "better", "should", "shall", "please", "let", "lets", "other", "others",
     "another", "one", "ones", "same", "again", "twice", "too", "also", "as well", "want", "wants", "need", "needs", "would", "him", "her",
     "them", "left", "right", "north", "south", "east", "west", "big", "small", "tall", "largest", "smallest", "tallest", "nearest", "farthest",

@@ -8,7 +8,10 @@ use super::legs::Leg;
 use crate::geometry::{Point2, direction};
 use crate::net::{Intersection, RoadNetwork, polyline};
 
-/// The middle of a way keeps this far off the kerb, m: half a car and a margin. Lanes that lie nearer keep their distance.
+/// A smooth curve that comes nearer to the kerb than this is no way, m.
+const LEAST_CLEARANCE: f64 = 0.6;
+/// The middle of a way that is found instead keeps this far off the kerb, m: half a car and a margin. Lanes that lie nearer
+/// keep their distance.
 const CLEARANCE: f64 = 1.2;
 /// By so much two ways count as equally far from a kerb, m.
 const MARGIN: f64 = 0.05;
@@ -43,6 +46,9 @@ pub(super) fn keep_off(
     let ends = beside(kerb, &way.start).min(beside(kerb, &way.end));
     let wanted = CLEARANCE.min(ends) - MARGIN;
     let mut best = (clearance(kerb, &smooth), smooth);
+    if best.0 >= wanted.min(LEAST_CLEARANCE) {
+        return best.1;
+    }
     let (mut into, mut out) = (way.from.stop, way.to.stop);
     while best.0 < wanted && into.max(out) > STEP {
         (into, out) = ((into - STEP).max(STEP), (out - STEP).max(STEP));
