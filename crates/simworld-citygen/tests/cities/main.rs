@@ -17,5 +17,4 @@ mod streets_are_graded;
 mod streets_have_names;
 mod styles_lie_in_their_bands;
 mod threads_do_not_matter;
-mod turns_keep_to_the_carriageway;
 mod worlds_follow_edits;

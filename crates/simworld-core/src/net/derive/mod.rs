@@ -6,7 +6,6 @@ mod kerbs;
 mod lanes;
 mod legs;
 mod mirror;
-mod near_side;
 mod signals;
 mod trace;
 mod walkways;
