@@ -36,11 +36,17 @@ struct Sight {
     ahead: vec3f,
 }
 
-fn sight_of(at: vec2u, width: u32) -> Sight {
+// The place of a ray in the planes; `NOTHING` beyond its view.
+fn pixel_of(at: vec3u) -> u32 {
+    let span = views[at.z].span;
+    return select(span.x + at.y * span.y + at.x, NOTHING, at.x >= span.z || at.y >= span.w);
+}
+
+fn sight_of(at: vec2u) -> Sight {
     let k = views[view].globals.intrinsics;
     var optical = vec3f((f32(at.x) + 0.5 - k.z) / k.x, (f32(at.y) + 0.5 - k.w) / k.y, 1.0);
     if (TABLE) {
-        optical = table[at.y * width + at.x].xyz;
+        optical = table[at.y * views[view].span.z + at.x].xyz;
     }
     let aside = optical.x * views[view].globals.right.xyz + optical.y * views[view].globals.down.xyz;
     let forward = views[view].globals.forward.xyz;
@@ -101,14 +107,13 @@ fn encoded(color: vec3f) -> u32 {
 
 @compute @workgroup_size(8, 8)
 fn find(@builtin(global_invocation_id) at: vec3u) {
-    let span = views[at.z].span;
-    if (at.x >= span.z || at.y >= span.w) {
+    let pixel = pixel_of(at);
+    if (pixel == NOTHING) {
         return;
     }
     look(at.z);
-    let sight = sight_of(at.xy, span.z);
+    let sight = sight_of(at.xy);
     let found = trace(sight.origin, sight.direction, views[view].eye.w, false);
-    let pixel = span.x + at.y * span.y + at.x;
     // Parallel rays end at the far plane, as clip space does there.
     let is_far = parallel && found.t > limits.x;
     out_color[pixel] = found.triangle;
@@ -118,18 +123,17 @@ fn find(@builtin(global_invocation_id) at: vec3u) {
 
 @compute @workgroup_size(8, 8)
 fn light(@builtin(global_invocation_id) at: vec3u) {
-    let span = views[at.z].span;
-    if (at.x >= span.z || at.y >= span.w) {
+    let pixel = pixel_of(at);
+    if (pixel == NOTHING) {
         return;
     }
     look(at.z);
-    let pixel = span.x + at.y * span.y + at.x;
     let number = out_who[pixel];
     if (number == NOTHING) {
         return;
     }
     let triangle = out_color[pixel];
-    let sight = sight_of(at.xy, span.z);
+    let sight = sight_of(at.xy);
     let met = met_at(number, triangle, sight.origin + sight.direction * out_depth[pixel]);
     let sun = views[view].globals.sun_direction.xyz;
     // Leaves let light through.
@@ -146,14 +150,13 @@ fn light(@builtin(global_invocation_id) at: vec3u) {
 
 @compute @workgroup_size(8, 8)
 fn paint(@builtin(global_invocation_id) at: vec3u) {
-    let span = views[at.z].span;
-    if (at.x >= span.z || at.y >= span.w) {
+    let pixel = pixel_of(at);
+    if (pixel == NOTHING) {
         return;
     }
     look(at.z);
-    let pixel = span.x + at.y * span.y + at.x;
     let number = out_who[pixel];
-    let sight = sight_of(at.xy, span.z);
+    let sight = sight_of(at.xy);
     globals = views[at.z].globals;
     if (number == NOTHING) {
         if (SHADED) {
