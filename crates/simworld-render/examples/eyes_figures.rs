@@ -42,6 +42,8 @@ struct Measured {
     views: usize,
     /// Seconds of all processors that a batch took, driver and all, where the system tells.
     work: Option<f64>,
+    /// Seconds that each step of the last batch took on the device, where it was left there.
+    steps: Vec<(&'static str, f64)>,
 }
 
 /// What was asked for.
@@ -57,7 +59,7 @@ struct Settings {
 /// How a row gets its results.
 #[derive(Clone, Copy)]
 enum Results {
-    /// Whoever goes on with them there hands that in behind them; the host waits after every fourth batch.
+    /// Whoever goes on with them there hands that in behind them, without the host.
     OnDevice,
     /// The next batch is handed in before the last is taken.
     OnHost(ViewOptions),
@@ -92,9 +94,12 @@ fn main() -> Result<(), Failure> {
         for (what, measured) in rows(&settings, is_cpu) {
             let what = format!("{name}: {what}");
             if what.contains(&settings.only) {
-                let Measured { rate, views, work } = measured(renderer)?;
+                let Measured { rate, views, work, steps } = measured(renderer)?;
                 let work = work.map_or_else(|| "-".to_owned(), |work| format!("{:.1}", work * 1e3));
                 println!("{what:68} {rate:>9.1} {:>14.0} {work:>20}", rate * views as f64);
+                for (step, seconds) in steps {
+                    println!("    {step:64} {:>9.2} ms on the device", seconds * 1e3);
+                }
                 measured_rows.push((what, rate));
             }
         }
@@ -227,14 +232,13 @@ fn measure(
 ) -> Result<Measured, Failure> {
     let mut views = Views::new();
     let mut under_way = None;
-    let mut is_done = true;
     let (mut start, mut work, mut batches) = (Instant::now(), processor_seconds(), 0_u32);
     // The first two are not counted: pipelines and buffers are made in them.
     for round in 0_u32.. {
         if round == 2 {
             (start, work, batches) = (Instant::now(), processor_seconds(), 0);
         }
-        if round > 2 && is_done && start.elapsed().as_secs_f64() >= seconds {
+        if round > 2 && start.elapsed().as_secs_f64() >= seconds {
             break;
         }
         for (index, id) in movers.iter().enumerate() {
@@ -247,8 +251,7 @@ fn measure(
         match results {
             Results::OnDevice => {
                 let drawn = renderer.draw_on_device(world, requests, &ViewOptions::compact())?;
-                is_done = round < 2 || batches % 4 == 3;
-                if is_done {
+                if round < 2 {
                     drawn.wait()?;
                 }
             }
@@ -264,9 +267,16 @@ fn measure(
     if let Some(last) = under_way {
         renderer.take(last, &mut views)?;
     }
-    let rate = f64::from(batches) / start.elapsed().as_secs_f64();
+    let mut steps = Vec::new();
+    if matches!(results, Results::OnDevice) {
+        // One more, which is done when all are.
+        steps = renderer.draw_on_device(world, requests, &ViewOptions::compact())?.times()?;
+        batches += 1;
+    }
+    let elapsed = start.elapsed().as_secs_f64();
+    let rate = f64::from(batches) / elapsed;
     let work = work.zip(processor_seconds()).map(|(before, after)| (after - before) / f64::from(batches));
-    Ok(Measured { rate, views: requests.len(), work })
+    Ok(Measured { rate, views: requests.len(), work, steps })
 }
 
 /// Streets every 100 m with what stands along them; what moves is given beside.

@@ -39,7 +39,7 @@ pub enum AdapterChoice {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Backend {
-    /// Rays on a discrete GPU, unless edges are smoothed or, in few or large pictures, rain or snow falls; triangles for everything else.
+    /// Rays on a discrete GPU, unless edges are smoothed; triangles for everything else.
     #[default]
     Auto,
     /// Triangles, view by view: what CPUs are best at.

@@ -1,5 +1,6 @@
 //! Everything that lives on a device: what goes when the device goes.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use simworld_core::environment::Environment;
@@ -11,7 +12,7 @@ use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
 use crate::config::{AntiAliasing, Backend, LevelOfDetail};
 use crate::draw_list::{DrawList, ViewBatches};
 use crate::falling::Falling;
-use crate::gpu::{Features, Globals, Gpu, MOST_MAPS, Planes, Readback, Readbacks, Scenery, place};
+use crate::gpu::{Features, Globals, Gpu, MOST_MAPS, Planes, Readback, Readbacks, Scenery, Timing, place};
 use crate::lamps::LampGrids;
 use crate::light::Light;
 use crate::raster::{Job, Raster};
@@ -32,6 +33,9 @@ pub(crate) struct Works {
     scenery: Scenery,
     pub planes: Planes,
     readbacks: Readbacks,
+    timing: Timing,
+    /// Batches that were left on the device, the oldest first.
+    left: VecDeque<wgpu::SubmissionIndex>,
     residents: Residents,
     list: DrawList,
     /// The light of the environment that was drawn last.
@@ -64,6 +68,7 @@ impl Works {
         let raster = Raster::new(&gpu, shadow_resolution, config.anti_aliasing);
         let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
         let planes = Planes::new(&gpu);
+        let timing = Timing::new(&gpu);
         gpu.check()?;
         let (readbacks, list) = (Readbacks::default(), DrawList::new(raster.extents()));
         let mut residents = Residents::default();
@@ -76,6 +81,8 @@ impl Works {
             scenery,
             planes,
             readbacks,
+            timing,
+            left: VecDeque::new(),
             residents,
             list,
             light: None,
@@ -139,9 +146,10 @@ impl Works {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
         let in_color = options.channels.contains(Channels::RGB);
-        let is_cast = table.is_some() || self.casts(config, options, &sight, &layout);
+        let is_cast = table.is_some() || self.casts(config, options, &layout);
         let (globals, features) = self.send(scene, &sight, in_color, is_cast)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.timing.begin();
         if is_cast {
             let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
             // A ray of a table is no pixel that something could be smaller than.
@@ -152,6 +160,7 @@ impl Works {
                 globals: &globals,
                 requests,
                 layout: &layout,
+                falling: &sight.falling,
                 min_pixels,
                 finest: table.is_some() || self.residents.finest,
                 table,
@@ -163,8 +172,8 @@ impl Works {
             if casts.is_empty() {
                 casts.push(Cast::Alone);
             }
-            raycast.prepare(&self.gpu, &casts, table.is_some());
-            raycast.draw(&self.gpu, &mut encoder, &self.scenery, &self.planes, &layout);
+            raycast.prepare(&self.gpu, &casts, &sight.falling, table.is_some());
+            raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight, in_color)?;
             if in_color {
@@ -184,7 +193,7 @@ impl Works {
             };
             self.raster.draw(&mut encoder, &self.planes, &job);
         }
-        self.planes.pack(&mut encoder, &layout);
+        self.planes.pack(&mut encoder, &mut self.timing, &layout);
         Ok((encoder, layout))
     }
 
@@ -225,7 +234,7 @@ impl Works {
     }
 
     /// Whether a batch is cast, and not drawn.
-    fn casts(&self, config: &RenderConfig, options: ViewOptions, sight: &Sight, layout: &Layout) -> bool {
+    fn casts(&self, config: &RenderConfig, options: ViewOptions, layout: &Layout) -> bool {
         if layout.spans.len() > MOST_VIEWS || !self.can_cast() {
             return false;
         }
@@ -237,13 +246,9 @@ impl Works {
                     self.gpu.info.device_type,
                     wgpu::DeviceType::DiscreteGpu | wgpu::DeviceType::VirtualGpu
                 );
-                let in_color = options.channels.contains(Channels::RGB);
-                let is_smoothed = config.anti_aliasing != AntiAliasing::Off && in_color;
-                let is_small = layout.largest.iter().all(|side| *side <= SMALL);
-                let are_many = is_small && layout.spans.len() >= MANY;
-                // What falls before an eye is drawn by triangles alone, and missed in large pictures.
-                let falls = in_color && sight.falling.iter().any(|falling| falling.count > 0);
-                is_gpu && !is_smoothed && (are_many || !falls)
+                let is_smoothed =
+                    config.anti_aliasing != AntiAliasing::Off && options.channels.contains(Channels::RGB);
+                is_gpu && !is_smoothed
             }
         }
     }
@@ -348,6 +353,22 @@ impl Works {
         Ok(Pending { readback, layout, options, names: Arc::clone(&self.residents.names) })
     }
 
+    /// Hands the commands in, and leaves what they draw on the device; waits where too many batches are under way.
+    pub(crate) fn leave(&mut self, encoder: wgpu::CommandEncoder) -> Result<(), RenderError> {
+        self.left.push_back(self.gpu.queue.submit([encoder.finish()]));
+        if self.left.len() > MOST_LEFT
+            && let Some(oldest) = self.left.pop_front()
+        {
+            self.gpu.wait_for(oldest)?;
+        }
+        self.gpu.check()
+    }
+
+    /// Seconds that each step of the batch that was drawn last took on the device.
+    pub(crate) fn times(&self) -> Result<Vec<(&'static str, f64)>, RenderError> {
+        self.timing.read(&self.gpu)
+    }
+
     /// Waits for a batch.
     pub(crate) fn take(&mut self, pending: Pending, views: &mut Views) -> Result<(), RenderError> {
         let Pending { readback, layout, options, names } = pending;
@@ -358,9 +379,7 @@ impl Works {
     }
 }
 
-/// Batches of at least so many views, each at most so wide and high, are cast on GPUs also where rain or snow falls, unless something else
-/// is asked for.
-const MANY: usize = 16;
-const SMALL: u32 = 256;
+/// Batches that may be under way when they are left on the device: enough that it never waits for the host.
+const MOST_LEFT: usize = 3;
 /// The farthest that a silhouette reaches beyond the bounds of its entity, m.
 const OVERHANG: f64 = 8.0;

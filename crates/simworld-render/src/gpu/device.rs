@@ -2,6 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::Timing;
 use crate::config::{AdapterChoice, Backends};
 use crate::{RenderConfig, RenderError};
 
@@ -42,6 +43,7 @@ impl Gpu {
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("simworld"),
+            required_features: Timing::features(&adapter),
             required_limits: limits,
             ..Default::default()
         }))
@@ -88,6 +90,14 @@ impl Gpu {
     pub(crate) fn wait(&self) -> Result<(), RenderError> {
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| self.fault_or(RenderError::Device(error.to_string())))?;
+        self.check()
+    }
+
+    /// Waits until what was submitted then is done.
+    pub(crate) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), RenderError> {
+        self.device
+            .poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None })
             .map_err(|error| self.fault_or(RenderError::Device(error.to_string())))?;
         self.check()
     }

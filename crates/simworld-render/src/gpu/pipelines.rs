@@ -12,6 +12,7 @@ use crate::resident::Instance;
 const COMMON: &str = include_str!("../shaders/globals.wgsl");
 const BINDINGS: &str = include_str!("../shaders/bindings.wgsl");
 const RAYS: &str = include_str!("../shaders/rays.wgsl");
+const BLOCKED: &str = include_str!("../shaders/blocked.wgsl");
 const CAST: &str = include_str!("../shaders/cast.wgsl");
 const NOISE: &str = include_str!("../shaders/noise.wgsl");
 const SKY: &str = include_str!("../shaders/sky.wgsl");
@@ -21,6 +22,8 @@ const HIT: &str = include_str!("../shaders/hit.wgsl");
 const PATTERNS: &str = include_str!("../shaders/patterns.wgsl");
 const ROADS: &str = include_str!("../shaders/roads.wgsl");
 const LAMPS: &str = include_str!("../shaders/lamps.wgsl");
+const DROPS: &str = include_str!("../shaders/drops.wgsl");
+const FALL: &str = include_str!("../shaders/fall.wgsl");
 const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
 const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
@@ -106,7 +109,7 @@ impl Pipelines {
             &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT, FORWARD],
         );
         let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
-        let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, PRECIPITATION]);
+        let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, DROPS, PRECIPITATION]);
         let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
         let normals = module("normals", &[COMMON, BINDINGS, OCTAHEDRAL, NORMALS]);
 
@@ -141,7 +144,11 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, OCTAHEDRAL, RAYS, CAST].concat()
+    [
+        COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, OCTAHEDRAL, RAYS, BLOCKED, CAST,
+        DROPS, FALL,
+    ]
+    .concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]

@@ -2,6 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::Timing;
 use super::device::Gpu;
 use crate::RenderError;
 use crate::batch::{Channels, Layout, PixelFormat, ViewOptions};
@@ -105,10 +106,10 @@ impl Planes {
     }
 
     /// Records the step from pixels as drawn to pixels as asked for.
-    pub(crate) fn pack(&self, encoder: &mut wgpu::CommandEncoder, layout: &Layout) {
+    pub(crate) fn pack(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, layout: &Layout) {
         let quads = layout.pixels as u32 / 4;
         let row = row_of(quads);
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let mut pass = encoder.begin_compute_pass(&timing.pass("pack"));
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.group, &[]);
         pass.dispatch_workgroups(row, quads.div_ceil(row * GROUP), 1);

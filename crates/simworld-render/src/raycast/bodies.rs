@@ -1,5 +1,5 @@
 //! The trees over what stands and moves in a scene: one over what stands still, which is built once, and one over what moves, refitted after every
-//! step.
+//! step. What moves is told by its motion, not by its kind: a parked car is one of those that stand, until it drives off.
 //!
 //! A leaf is an entity with the instances of all its levels of detail, of which a ray looks through those of one level; what is the same at every
 //! level is a leaf of its own. So somebody of one pixel is one box, and one mesh behind it.
@@ -17,6 +17,12 @@ use crate::threads;
 
 /// Marks a child as a leaf; beside it stands the number of its first instance.
 const IS_LEAF: u32 = 1 << 31;
+/// Levels of a tree over instances at most, as in rays.wgsl.
+const LEVELS: u32 = 14;
+/// What stands and is longer is in its tree piece by piece, m.
+const PIECE: f64 = 32.0;
+/// Pieces of one instance at most.
+const MOST_CUTS: f64 = 64.0;
 /// Entities that are worth a thread.
 const SHARE: usize = 128;
 /// Marks what throws no shadow, in [`Placed::order`].
@@ -26,13 +32,24 @@ const REFITS: u32 = 64;
 /// As many newcomers among what moves, beside a quarter of what stands still, and everything is laid out anew.
 const NEWCOMERS: usize = 4096;
 
-/// The twin of `Node` in rays.wgsl: four children, their boxes axis by axis.
+/// A node as in rays.wgsl: four children, their boxes axis by axis; where there is no child the box is inside out.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Node {
     codes: [u32; WIDTH],
     low: [[f32; WIDTH]; 3],
     high: [[f32; WIDTH]; 3],
+}
+
+impl Node {
+    /// Makes a child a hole.
+    fn leave(&mut self, child: usize) {
+        self.codes[child] = NONE;
+        for axis in 0..3 {
+            // Inside out, as an empty box.
+            (self.low[axis][child], self.high[axis][child]) = (f32::INFINITY, f32::NEG_INFINITY);
+        }
+    }
 }
 
 /// The twin of `Placed` in rays.wgsl.
@@ -72,10 +89,8 @@ enum Home {
 pub(super) enum Followed {
     /// Nothing.
     Nothing,
-    /// What moves, and the places of whose instances changed.
+    /// The tree of what moves, those nodes of the other that were [patched](Bodies::patched), and the places of whose instances changed.
     Moving,
-    /// All nodes, and places as before.
-    Nodes,
     All,
 }
 
@@ -89,9 +104,14 @@ pub(super) struct Bodies {
     pub placed: Vec<Placed>,
     /// Numbers whose places changed.
     pub changed: Vec<u32>,
-    fixed: Tree,
+    /// Nodes of the first tree that lost a child.
+    pub patched: Vec<u32>,
+    /// The leaves of the first tree, by number: four times the node, plus which child of it.
+    spots: Vec<(u32, u32)>,
     moving: Tree,
     movers: Vec<u32>,
+    /// How many leaves the first tree was laid out with.
+    standing: usize,
     /// By number, what it is in.
     homes: Vec<Home>,
     /// By number, the box of the leaf that it is the first of.
@@ -111,9 +131,11 @@ impl Bodies {
             second: 0,
             placed: Vec::new(),
             changed: Vec::new(),
-            fixed: Tree::default(),
+            patched: Vec::new(),
+            spots: Vec::new(),
             moving: Tree::default(),
             movers: Vec::new(),
+            standing: 0,
             homes: Vec::new(),
             boxes: Vec::new(),
             newcomers: 0,
@@ -132,7 +154,8 @@ impl Bodies {
         noted: &[u32],
     ) -> Followed {
         self.changed.clear();
-        if self.epoch != residents.epoch || self.newcomers > NEWCOMERS + self.fixed.order.len() / 4 {
+        self.patched.clear();
+        if self.epoch != residents.epoch || self.newcomers > NEWCOMERS + self.standing / 4 {
             self.restart(scene, shapes, residents);
             return Followed::All;
         }
@@ -157,7 +180,7 @@ impl Bodies {
         slots.dedup();
         self.place(scene, shapes, residents, &slots);
         self.slots = slots;
-        let (fixed_changed, members_changed) = self.rehome();
+        let members_changed = self.rehome();
         if members_changed {
             let homes = &self.homes;
             self.movers.retain(|number| homes[*number as usize] == Home::Moving);
@@ -168,47 +191,44 @@ impl Bodies {
             self.lay_out_movers();
         }
         self.refits += 1;
-        if fixed_changed {
-            self.nodes.clear();
-            self.nodes.extend(self.coded(&self.fixed, 0, Home::Fixed));
-        }
-        self.nodes.truncate(self.second as usize);
-        let moving = self.coded(&self.moving, self.second, Home::Moving);
-        self.nodes.extend(moving);
-        if fixed_changed { Followed::Nodes } else { Followed::Moving }
+        self.code_movers();
+        Followed::Moving
     }
 
-    /// Finds the tree of each leaf that came, changed or went: true if one left the tree of what stands still, and if others move than before.
-    fn rehome(&mut self) -> (bool, bool) {
-        let (mut fixed_changed, mut members_changed) = (false, false);
+    /// Finds the tree of each leaf that came, changed or went: true if others move than before.
+    fn rehome(&mut self) -> bool {
+        let mut members_changed = false;
         for number in &self.changed {
             let index = *number as usize;
             let is_there = self.boxes[index] != Box3::EMPTY;
             let home = &mut self.homes[index];
+            if *home == Home::Fixed {
+                // It leaves a hole in its tree, whose boxes stay as they are, and is one of those that move from now on.
+                let start = self.spots.partition_point(|(other, _)| other < number);
+                for (_, spot) in self.spots[start..].iter().take_while(|(other, _)| other == number) {
+                    let (node, child) = (spot / WIDTH as u32, *spot as usize % WIDTH);
+                    self.nodes[node as usize].leave(child);
+                    self.patched.push(node);
+                }
+                *home = Home::Nowhere;
+            }
             match (*home, is_there) {
                 (Home::Nowhere, true) => {
                     (*home, members_changed) = (Home::Moving, true);
                     self.movers.push(*number);
                     self.newcomers += 1;
                 }
-                (Home::Fixed, _) => {
-                    // It leaves a hole in its tree, and is one of those that move from now on.
-                    fixed_changed = true;
-                    *home = if is_there { Home::Moving } else { Home::Nowhere };
-                    if is_there {
-                        self.movers.push(*number);
-                        (members_changed, self.newcomers) = (true, self.newcomers + 1);
-                    }
-                }
                 (Home::Moving, false) => (*home, members_changed) = (Home::Nowhere, true),
-                (Home::Nowhere, false) | (Home::Moving, true) => {}
+                (Home::Nowhere, false) | (Home::Moving | Home::Fixed, true) | (Home::Fixed, false) => {}
             }
         }
-        (fixed_changed, members_changed)
+        members_changed
     }
 
     fn restart(&mut self, scene: &dyn Scene, shapes: &mut Shapes, residents: &Residents) {
         let count = residents.instances.len();
+        let was_moving =
+            if self.epoch == residents.epoch { std::mem::take(&mut self.movers) } else { Vec::new() };
         *self = Self { epoch: residents.epoch, ..Self::new() };
         self.origin =
             residents.instances.first().map_or_else(Vector3::zeros, |one| one.place().map(f64::round));
@@ -218,54 +238,55 @@ impl Bodies {
         let slots: Vec<u32> = (0..residents.names.len() as u32).collect();
         self.place(scene, shapes, residents, &slots);
         self.changed.clear();
-        let mut still: Vec<u32> = Vec::new();
-        for (number, card) in (0..).zip(&residents.cards) {
-            if self.boxes[number as usize] == Box3::EMPTY {
-                continue;
-            }
-            self.homes[number as usize] = if card.mobile { Home::Moving } else { Home::Fixed };
-            if card.mobile { self.movers.push(number) } else { still.push(number) }
-        }
-        self.fixed = self.tree_over(&still);
-        self.nodes = self.coded(&self.fixed, 0, Home::Fixed);
-        self.second = self.nodes.len() as u32;
+        let is_there = |number: &u32| self.boxes[*number as usize] != Box3::EMPTY;
+        self.movers = was_moving.into_iter().filter(is_there).collect();
+        self.movers.iter().for_each(|number| self.homes[*number as usize] = Home::Moving);
+        let stands = |number: &u32| is_there(number) && self.homes[*number as usize] == Home::Nowhere;
+        let still: Vec<u32> = (0..count as u32).filter(stands).collect();
+        still.iter().for_each(|number| self.homes[*number as usize] = Home::Fixed);
+        self.standing = still.len();
+        self.lay_out_standing(shapes, residents, &still);
         self.lay_out_movers();
-        let moving = self.coded(&self.moving, self.second, Home::Moving);
-        self.nodes.extend(moving);
+        self.code_movers();
+    }
+
+    /// Lays out the first tree: what is long is in it piece by piece.
+    fn lay_out_standing(&mut self, shapes: &Shapes, residents: &Residents, still: &[u32]) {
+        let placer = Placer { shapes, residents, origin: self.origin };
+        let mut pieces = Vec::new();
+        for number in still {
+            placer.cut(*number, self.boxes[*number as usize], &mut pieces);
+        }
+        let boxes: Vec<Box3> = pieces.iter().map(|(_, piece)| *piece).collect();
+        let tree = Tree::build(&boxes, 1, LEVELS);
+        let leaf = |position: u32| pieces[tree.order[position as usize] as usize];
+        self.nodes = coded(&tree, 0, &leaf);
+        self.second = self.nodes.len() as u32;
+        let spots = (0..).zip(tree.nodes.as_flattened()).filter_map(|(spot, child)| match child {
+            Child::Leaf { first, .. } => Some((leaf(*first).0, spot)),
+            _ => None,
+        });
+        self.spots = spots.collect();
+        self.spots.sort_unstable();
     }
 
     fn lay_out_movers(&mut self) {
-        self.moving = self.tree_over(&self.movers);
+        let boxes: Vec<Box3> = self.movers.iter().map(|number| self.boxes[*number as usize]).collect();
+        self.moving = Tree::build(&boxes, 1, LEVELS);
+        self.moving.order.iter_mut().for_each(|position| *position = self.movers[*position as usize]);
         self.refits = 0;
     }
 
-    /// A tree whose order holds the numbers of instances.
-    fn tree_over(&self, members: &[u32]) -> Tree {
-        let boxes: Vec<Box3> = members.iter().map(|number| self.boxes[*number as usize]).collect();
-        let mut tree = Tree::build(&boxes, 1);
-        tree.order.iter_mut().for_each(|position| *position = members[*position as usize]);
-        tree
-    }
-
-    /// The nodes of a tree with the boxes of now; those who went elsewhere are holes.
-    fn coded(&self, tree: &Tree, first: u32, home: Home) -> Vec<Node> {
-        let is_in = |number: u32| self.homes[number as usize] == home;
-        let leaf = |number: &u32| if is_in(*number) { self.boxes[*number as usize] } else { Box3::EMPTY };
-        let boxes = bound(tree, &tree.order.iter().map(leaf).collect::<Vec<_>>());
-        let code = |child: Child| match child {
-            Child::Node(node) => first + node,
-            Child::Leaf { first, .. } => {
-                let number = tree.order[first as usize];
-                if is_in(number) { IS_LEAF | number } else { NONE }
-            }
-            Child::Nothing => NONE,
+    /// The tree of what moves, where it is now; those who went elsewhere are holes.
+    fn code_movers(&mut self) {
+        let leaf = |position: u32| {
+            let number = self.moving.order[position as usize];
+            let is_in = self.homes[number as usize] == Home::Moving;
+            if is_in { (number, self.boxes[number as usize]) } else { (NONE, Box3::EMPTY) }
         };
-        let node = |(children, boxes): (&[Child; WIDTH], &[Box3; WIDTH])| Node {
-            codes: children.map(code),
-            low: std::array::from_fn(|axis| boxes.map(|one| one.low[axis])),
-            high: std::array::from_fn(|axis| boxes.map(|one| one.high[axis])),
-        };
-        tree.nodes.iter().zip(&boxes).map(node).collect()
+        let moving = coded(&self.moving, self.second, &leaf);
+        self.nodes.truncate(self.second as usize);
+        self.nodes.extend(moving);
     }
 
     /// Finds where the instances of these slots are, and of which leaves they are.
@@ -288,6 +309,24 @@ impl Bodies {
             self.changed.push(number);
         }
     }
+}
+
+/// The nodes of a tree, of which the first has that number; a leaf says which instance is at a position of its order, and in what box.
+fn coded(tree: &Tree, first: u32, leaf: &dyn Fn(u32) -> (u32, Box3)) -> Vec<Node> {
+    let leaves: Vec<Box3> = (0..tree.order.len() as u32).map(|position| leaf(position).1).collect();
+    let boxes = bound(tree, &leaves);
+    let code = |child: Child| match child {
+        Child::Node(node) => first + node,
+        // NONE has the mark of leaves too.
+        Child::Leaf { first, .. } => IS_LEAF | leaf(first).0,
+        Child::Nothing => NONE,
+    };
+    let node = |(children, boxes): (&[Child; WIDTH], &[Box3; WIDTH])| Node {
+        codes: children.map(code),
+        low: std::array::from_fn(|axis| boxes.map(|one| one.low[axis])),
+        high: std::array::from_fn(|axis| boxes.map(|one| one.high[axis])),
+    };
+    tree.nodes.iter().zip(&boxes).map(node).collect()
 }
 
 /// Finds where instances are.
@@ -360,29 +399,60 @@ impl Placer<'_> {
         Some((placed, bounds))
     }
 
+    /// What stands as boxes of a tree, with its number: in one, or piece by piece along its longest side, since one box around a street that
+    /// goes aslant through the city is half of the city.
+    fn cut(&self, number: u32, whole: Box3, out: &mut Vec<(u32, Box3)>) {
+        let card = &self.residents.cards[number as usize];
+        let alone = card.details == Detail::EVERY && card.mesh.speck().is_none();
+        let Some(shape) = self.shapes.of(card.mesh).filter(|_| alone) else {
+            return out.push((number, whole));
+        };
+        let instance = &self.residents.instances[number as usize];
+        let (low, high) = extent(instance, &shape);
+        let axis = (high - low).imax();
+        let length = high[axis] - low[axis];
+        let count = (length / PIECE).ceil().clamp(1.0, MOST_CUTS);
+        for piece in 0..count as u32 {
+            let (mut from, mut to) = (low, high);
+            from[axis] = low[axis] + length * f64::from(piece) / count;
+            to[axis] = low[axis] + length * f64::from(piece + 1) / count;
+            out.push((number, self.around(instance, from, to)));
+        }
+    }
+
     /// Around an instance, whichever of these shapes it has.
     fn bounds(&self, instance: &Instance, shapes: &[Shape]) -> Box3 {
-        let place = instance.place() - self.origin;
-        let (scale, unit) = instance.measure();
-        let axes = instance.turn().to_rotation_matrix();
-        let spread = axes.matrix().abs();
         shapes.iter().fold(Box3::EMPTY, |bounds, shape| {
-            let end = |which: fn(&Box3) -> [f32; 3]| {
-                let (anchors, offsets) = (which(&shape.anchors), which(&shape.offsets));
-                Vector3::from_fn(|axis, _| f64::from(anchors[axis] * scale[axis] + offsets[axis] * unit))
-            };
-            let (low, high) = (end(|one| one.low), end(|one| one.high));
-            let middle = place + axes * ((low + high) * 0.5);
-            let half = spread * ((high - low) * 0.5);
-            // What floats lose is made up for.
-            let loss = |coordinate: f64| 1e-4 + 1e-6 * coordinate.abs();
-            let moved = |sign: f64| {
-                std::array::from_fn(|axis| {
-                    let at = middle[axis] + sign * half[axis];
-                    (at + sign * loss(at)) as f32
-                })
-            };
-            bounds.grown(Box3 { low: moved(-1.0), high: moved(1.0) })
+            let (low, high) = extent(instance, shape);
+            bounds.grown(self.around(instance, low, high))
         })
     }
+
+    /// Around what of an instance lies between two corners of its body frame.
+    fn around(&self, instance: &Instance, low: Vector3, high: Vector3) -> Box3 {
+        let place = instance.place() - self.origin;
+        let axes = instance.turn().to_rotation_matrix();
+        let spread = axes.matrix().abs();
+        let middle = place + axes * ((low + high) * 0.5);
+        let half = spread * ((high - low) * 0.5);
+        // What floats lose is made up for.
+        let loss = |coordinate: f64| 1e-4 + 1e-6 * coordinate.abs();
+        let moved = |sign: f64| {
+            std::array::from_fn(|axis| {
+                let at = middle[axis] + sign * half[axis];
+                (at + sign * loss(at)) as f32
+            })
+        };
+        Box3 { low: moved(-1.0), high: moved(1.0) }
+    }
+}
+
+/// The least and the greatest corner of a shape in the body frame of an instance, m.
+fn extent(instance: &Instance, shape: &Shape) -> (Vector3, Vector3) {
+    let (scale, unit) = instance.measure();
+    let end = |which: fn(&Box3) -> [f32; 3]| {
+        let (anchors, offsets) = (which(&shape.anchors), which(&shape.offsets));
+        Vector3::from_fn(|axis, _| f64::from(anchors[axis] * scale[axis] + offsets[axis] * unit))
+    };
+    (end(|one| one.low), end(|one| one.high))
 }

@@ -12,10 +12,8 @@ pub(super) struct Box3 {
 pub(super) const NONE: u32 = u32::MAX;
 /// Children of a node.
 pub(super) const WIDTH: usize = 4;
-/// Entries of the stack of a walk, as in rays.wgsl.
-const STACK: u32 = 48;
-/// Bins an axis.
-const BINS: usize = 12;
+/// Bins an axis. With half as many, rays through a city walk a seventh more nodes.
+const BINS: usize = 32;
 
 /// A child of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,44 +73,48 @@ struct Halves {
 }
 
 impl Tree {
-    /// A tree with at most `leaf` boxes a leaf.
-    pub(super) fn build(boxes: &[Box3], leaf: usize) -> Self {
-        let tree = Halves::build(boxes, leaf, true).joined(true);
-        if tree.need() <= STACK {
+    /// A tree with at most `leaf` boxes a leaf, and at most so many levels as long as there are no more boxes than `leaf` times four to the power of that.
+    pub(super) fn build(boxes: &[Box3], leaf: usize, levels: u32) -> Self {
+        let tree = Halves::build(boxes, leaf, None).joined(true);
+        if tree.levels() <= levels {
             return tree;
         }
-        // Of medians there are few levels, and any two of them are one.
-        Halves::build(boxes, leaf, false).joined(false)
+        // Of halves that are not too deep any two levels are one.
+        Halves::build(boxes, leaf, Some(2 * levels)).joined(false)
     }
 
-    /// Entries that a walk may have to put aside.
-    fn need(&self) -> u32 {
-        let mut needs = vec![0; self.nodes.len()];
+    /// Nodes on the longest way from the root, itself among them: a walk puts one entry aside for each.
+    fn levels(&self) -> u32 {
+        let mut levels = vec![1; self.nodes.len()];
         for (node, children) in self.nodes.iter().enumerate().rev() {
-            let there = children.iter().filter(|child| **child != Child::Nothing).count() as u32;
             let below = children.iter().map(|child| match child {
-                Child::Node(child) => needs[*child as usize],
+                Child::Node(child) => levels[*child as usize],
                 _ => 0,
             });
-            needs[node] = there.saturating_sub(1) + below.max().unwrap_or(0);
+            levels[node] = 1 + below.max().unwrap_or(0);
         }
-        needs.first().copied().unwrap_or(0)
+        levels.first().copied().unwrap_or(0)
     }
 }
 
 impl Halves {
-    fn build(boxes: &[Box3], leaf: usize, by_area: bool) -> Self {
+    /// With so many levels at most, if that is enough for halves of equal numbers.
+    fn build(boxes: &[Box3], leaf: usize, levels: Option<u32>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = vec![[Child::Nothing; 2]];
         let mut areas = vec![[0.0; 2]];
-        // A node to be made, and its run of the order.
-        let mut open = vec![(0_usize, 0_usize, boxes.len())];
-        while let Some((node, start, end)) = open.pop() {
+        // A node to be made, its run of the order, and on which level it is.
+        let mut open = vec![(0_usize, 0_usize, boxes.len(), 1_u32)];
+        while let Some((node, start, end, level)) = open.pop() {
             if end - start <= leaf {
                 nodes[node][0] = leaf_of(start, end);
                 continue;
             }
-            let middle = start + split(boxes, &mut order[start..end], by_area);
+            // What either half may hold at most.
+            let room = levels.map_or(usize::MAX, |levels| {
+                leaf.saturating_mul(1_usize.checked_shl(levels.saturating_sub(level)).unwrap_or(usize::MAX))
+            });
+            let middle = start + split(boxes, &mut order[start..end], room);
             for (side, (from, to)) in [(start, middle), (middle, end)].into_iter().enumerate() {
                 let bounds = Box3::around_all(order[from..to].iter().map(|number| &boxes[*number as usize]));
                 areas[node][side] = bounds.area();
@@ -121,7 +123,7 @@ impl Halves {
                 } else {
                     nodes.push([Child::Nothing; 2]);
                     areas.push([0.0; 2]);
-                    open.push((nodes.len() - 1, from, to));
+                    open.push((nodes.len() - 1, from, to, level + 1));
                     Child::Node(nodes.len() as u32 - 1)
                 };
             }
@@ -176,8 +178,9 @@ fn leaf_of(start: usize, end: usize) -> Child {
     }
 }
 
-/// Puts a run in order so that its halves belong together; gives the length of the first, from 1 to all but one.
-fn split(boxes: &[Box3], run: &mut [u32], by_area: bool) -> usize {
+/// Puts a run in order so that its halves belong together; gives the length of the first, from 1 to all but one. Where the best halves by surface are larger than
+/// `room`, they are of equal numbers.
+fn split(boxes: &[Box3], run: &mut [u32], room: usize) -> usize {
     let centers = Box3::around(run.iter().map(|number| {
         let one = &boxes[*number as usize];
         std::array::from_fn(|axis| one.center(axis))
@@ -187,20 +190,21 @@ fn split(boxes: &[Box3], run: &mut [u32], by_area: bool) -> usize {
         let share = (boxes[number as usize].center(axis) - centers.low[axis]) / wide(axis);
         ((share * BINS as f32) as usize).min(BINS - 1)
     };
-    if by_area {
-        let mut best: Option<(f32, usize, usize)> = None;
-        for axis in (0..3).filter(|axis| wide(*axis) > 0.0) {
-            let border = best_border(boxes, run, &|number| bin(number, axis));
-            if let Some((cost, border)) = border
-                && best.is_none_or(|(least, ..)| cost < least)
-            {
-                best = Some((cost, axis, border));
-            }
+    let mut best: Option<(f32, usize, usize)> = None;
+    for axis in (0..3).filter(|axis| wide(*axis) > 0.0) {
+        let border = best_border(boxes, run, &|number| bin(number, axis));
+        if let Some((cost, border)) = border
+            && best.is_none_or(|(least, ..)| cost < least)
+        {
+            best = Some((cost, axis, border));
         }
-        if let Some((_, axis, border)) = best {
+    }
+    if let Some((_, axis, border)) = best {
+        let first = run.iter().filter(|number| bin(**number, axis) < border).count();
+        if first.max(run.len() - first) <= room {
             // Stable, so that the order depends on the boxes alone.
             run.sort_by_key(|number| bin(*number, axis) >= border);
-            return run.partition_point(|number| bin(*number, axis) < border);
+            return first;
         }
     }
     let axis = (0..3).fold(0, |best, axis| if wide(axis) > wide(best) { axis } else { best });
@@ -219,16 +223,26 @@ fn best_border(boxes: &[Box3], run: &[u32], bin: &dyn Fn(u32) -> usize) -> Optio
         *all = all.grown(boxes[*number as usize]);
         *count += 1;
     }
-    let cost = |half: &[(Box3, u32)]| {
-        let (all, count) =
-            half.iter().fold((Box3::EMPTY, 0), |(all, count), (one, more)| (all.grown(*one), count + more));
-        (count > 0).then(|| all.area() * count as f32)
-    };
+    let cost = |all: &Box3, count: u32| all.area() * count as f32;
+    // Of all bins from each on.
+    let mut above = [(Box3::EMPTY, 0_u32); BINS];
+    let mut behind = (Box3::EMPTY, 0);
+    for (sum, (one, count)) in above.iter_mut().zip(&bins).rev() {
+        behind = (behind.0.grown(*one), behind.1 + count);
+        *sum = behind;
+    }
+    let mut below = (Box3::EMPTY, 0);
     let mut best: Option<(f32, usize)> = None;
     for border in 1..BINS {
-        let (Some(below), Some(above)) = (cost(&bins[..border]), cost(&bins[border..])) else { continue };
-        if best.is_none_or(|(least, _)| below + above < least) {
-            best = Some((below + above, border));
+        let (one, count) = bins[border - 1];
+        below = (below.0.grown(one), below.1 + count);
+        let rest = above[border];
+        if below.1 == 0 || rest.1 == 0 {
+            continue;
+        }
+        let sum = cost(&below.0, below.1) + cost(&rest.0, rest.1);
+        if best.is_none_or(|(least, _)| sum < least) {
+            best = Some((sum, border));
         }
     }
     best
@@ -240,8 +254,11 @@ mod tests {
 
     use super::*;
 
+    /// Enough for 1,024 leaves, and fewer than boxes that lie apart like powers of two would have.
+    const LEVELS: u32 = 5;
+
     proptest! {
-        /// Every box is in one leaf, leaves are small, children come after their parents, and a walk's stack suffices.
+        /// Every box is in one leaf, leaves are small, children come after their parents, and there are no more levels than were asked for.
         #[test]
         fn every_box_is_in_one_leaf(
             corners in prop::collection::vec((-50.0..50.0f32, -50.0..50.0f32, 0.0..9.0f32, 0.0..20.0f32), 0..300),
@@ -258,7 +275,7 @@ mod tests {
                 Box3 { low, high: low.map(|coordinate| coordinate + size) }
             };
             let boxes: Vec<Box3> = corners.into_iter().enumerate().map(one).collect();
-            let tree = Tree::build(&boxes, leaf);
+            let tree = Tree::build(&boxes, leaf, LEVELS);
             let mut seen: Vec<u32> = Vec::new();
             for (index, children) in tree.nodes.iter().enumerate() {
                 for child in children {
@@ -274,19 +291,19 @@ mod tests {
             }
             seen.sort_unstable();
             prop_assert_eq!(seen, (0..boxes.len() as u32).collect::<Vec<_>>());
-            prop_assert!(tree.need() <= STACK, "{}", tree.need());
-            prop_assert_eq!(&Tree::build(&boxes, leaf).order, &tree.order);
+            prop_assert!(tree.levels() <= LEVELS, "{}", tree.levels());
+            prop_assert_eq!(&Tree::build(&boxes, leaf, LEVELS).order, &tree.order);
         }
     }
 
-    /// Of a million boxes too, in a row or in one place.
+    /// Of very many boxes too, in a row or in one place.
     #[test]
-    fn many_boxes_need_no_deep_stack() {
+    fn many_boxes_have_few_levels() {
         for apart in [0.0, 1.0] {
             let at = |number: u32| [number as f32 * apart, 0.0, 0.0];
             let boxes: Vec<Box3> =
                 (0..100_000).map(|number| Box3 { low: at(number), high: at(number) }).collect();
-            assert!(Tree::build(&boxes, 1).need() <= STACK);
+            assert!(Tree::build(&boxes, 1, 9).levels() <= 9, "four to the power of nine are more");
         }
     }
 }

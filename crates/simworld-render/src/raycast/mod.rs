@@ -1,4 +1,4 @@
-//! The ray-cast backend: every view of a batch at once, in three steps, of what rays meet, of the sun's light there, and of its colour.
+//! The ray-cast backend: every view of a batch at once, in steps: of what rays meet, of the sun's light there, of its colour, and of what falls before it.
 //!
 //! Two levels: a tree of boxes over the triangles of each mesh, and two over entities, one over what stands still and one over what
 //! moves. They are made on the CPU, always the same for the same scene; the device walks them.
@@ -17,12 +17,15 @@ use simworld_core::scene::Scene;
 
 use crate::RenderError;
 use crate::batch::{Layout, Projection, ViewRequest};
-use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, raycast_source, runs};
+use crate::falling::Falling;
+use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, Timing, raycast_source, runs};
 use crate::resident::Residents;
 use crate::view::View;
 
-/// Pixels that one workgroup casts, each way, as in cast.wgsl.
+/// Pixels that one workgroup finds or lights, each way, as in cast.wgsl.
 const TILE: u32 = 8;
+/// Pixels that one workgroup paints, or lets rain fall before, each way.
+const PAINTED: u32 = 16;
 /// Storage buffers that each step binds.
 pub(crate) const BUFFERS: u32 = 9;
 /// Views that one dispatch takes.
@@ -45,6 +48,7 @@ enum Step {
     Find,
     Light,
     Paint(Cast),
+    Fall,
 }
 
 impl Step {
@@ -54,6 +58,7 @@ impl Step {
             Self::Find => ("find", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
             Self::Light => ("light", [0, 1, 2, 3, 4, 5, 6, 7, 10]),
             Self::Paint(_) => ("paint", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
+            Self::Fall => ("fall", [0, 1, 4, 5, 6, 7, 8, 9, 10]),
         }
     }
 }
@@ -67,6 +72,7 @@ struct Eye {
     limits: [f32; 4],
     span: [u32; 4],
     hidden: [u32; 4],
+    falling: [u32; 4],
 }
 
 /// Trees and pipelines of the ray-cast backend.
@@ -96,6 +102,7 @@ pub(crate) struct Look<'a> {
     pub globals: &'a [Globals],
     pub requests: &'a [ViewRequest],
     pub layout: &'a Layout,
+    pub falling: &'a [Falling],
     pub min_pixels: f64,
     /// Whether everything is seen at its finest level.
     pub finest: bool,
@@ -179,10 +186,14 @@ impl Raycast {
             gpu.queue.write_buffer(&self.placed, offset, bytemuck::cast_slice(placed));
         }
         let is_new = ensure(gpu, &mut self.nodes, &self.bodies.nodes)?;
-        let moving = !is_new && followed == Followed::Moving;
-        let first = if moving { self.bodies.second as usize } else { 0 };
-        let offset = (first * size_of::<bodies::Node>()) as u64;
-        gpu.queue.write_buffer(&self.nodes, offset, bytemuck::cast_slice(&self.bodies.nodes[first..]));
+        let everything = is_new || followed == Followed::All;
+        let (first, end) = (self.bodies.second, self.bodies.nodes.len() as u32);
+        let patches = runs(&mut self.bodies.patched, everything.then_some(first));
+        for run in patches.into_iter().chain(std::iter::once(first..end)) {
+            let offset = u64::from(run.start) * size_of::<bodies::Node>() as u64;
+            let nodes = &self.bodies.nodes[run.start as usize..run.end as usize];
+            gpu.queue.write_buffer(&self.nodes, offset, bytemuck::cast_slice(nodes));
+        }
         Ok(())
     }
 
@@ -210,18 +221,21 @@ impl Raycast {
                     only,
                     u32::from(request.projection == Projection::Parallel),
                 ],
+                falling: [look.falling[index].count, 0, 0, 0],
             }
         };
         (0..look.views.len()).map(one).collect()
     }
 
     /// Makes ready what a batch is cast with.
-    pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], by_table: bool) {
+    pub(crate) fn prepare(&mut self, gpu: &Gpu, casts: &[Cast], falling: &[Falling], by_table: bool) {
         let color = casts.iter().copied().find(|cast| matches!(cast, Cast::Color(_)));
         let normals = casts.contains(&Cast::Normals).then_some(Step::Paint(Cast::Normals));
         // Colour is painted over what normals are reckoned from.
         let last = Step::Paint(color.unwrap_or(Cast::Alone));
-        let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last)];
+        let falls = color.is_some() && falling.iter().any(|one| one.count > 0);
+        let fall = falls.then_some(Step::Fall);
+        let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last), fall];
         self.prepared = steps.into_iter().flatten().map(|step| (step, by_table)).collect();
         for key in &self.prepared {
             let module = &self.module;
@@ -234,6 +248,7 @@ impl Raycast {
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
+        timing: &mut Timing,
         scenery: &Scenery,
         planes: &Planes,
         layout: &Layout,
@@ -254,10 +269,11 @@ impl Raycast {
                 layout: &pipeline.get_bind_group_layout(0),
                 entries: &entries,
             });
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let mut pass = encoder.begin_compute_pass(&timing.pass(key.0.binds().0));
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups(width.div_ceil(TILE), height.div_ceil(TILE), layout.spans.len() as u32);
+            let tile = if matches!(key.0, Step::Paint(_) | Step::Fall) { PAINTED } else { TILE };
+            pass.dispatch_workgroups(width.div_ceil(tile), height.div_ceil(tile), layout.spans.len() as u32);
         }
     }
 }

@@ -14,7 +14,9 @@ use crate::mesh::{Drawn, MeshId, MeshLibrary, Vertex};
 use crate::models::{model_of, vertices_of};
 
 /// Triangles a leaf.
-const LEAF: usize = 4;
+const LEAF: usize = 3;
+/// Levels of the tree of a mesh at most, as in rays.wgsl: three million triangles have no more.
+const LEVELS: u32 = 10;
 /// Pieces of four words that a triangle and a node take, as in rays.wgsl.
 const TRIANGLE: u32 = 5;
 const NODE: u32 = 7;
@@ -89,7 +91,7 @@ impl Shapes {
             low: std::array::from_fn(|axis| 3.0 * anchors[index].low[axis] + offsets[index].low[axis]),
             high: std::array::from_fn(|axis| 3.0 * anchors[index].high[axis] + offsets[index].high[axis]),
         };
-        let tree = Tree::build(&(0..corners.len()).map(nominal).collect::<Vec<_>>(), LEAF);
+        let tree = Tree::build(&(0..corners.len()).map(nominal).collect::<Vec<_>>(), LEAF, LEVELS);
         let first = self.pieces.len() as u32;
         let normals = first + corners.len() as u32 * TRIANGLE;
         for (position, number) in (0..).zip(&tree.order) {
@@ -123,22 +125,27 @@ impl Shapes {
         self.pieces.extend(words.chunks_exact(4).map(|four| [four[0], four[1], four[2], four[3]]));
     }
 
-    /// The boxes of the children of a node in halves of words, rounded outwards: least anchors of all four along x, then y, z, greatest
+    /// The boxes of the children of a node in halves of words, rounded outwards, and flat ones with some thickness, so that rays lose nothing to rounding: least anchors of all four along x, then y, z, greatest
     /// anchors, and the same of offsets.
     fn add_boxes(&mut self, boxes: [&[Box3; WIDTH]; 2]) {
         let mut rows: Vec<[u32; 2]> = Vec::with_capacity(12);
         for kind in boxes {
             for axis in 0..3 {
-                let [a, b, c, d] = kind.map(|one| one.low[axis]);
+                let [a, b, c, d] = kind.map(|one| one.low[axis] - slack(&one, axis));
                 rows.push([pair(a, b, Rounding::Down), pair(c, d, Rounding::Down)]);
             }
             for axis in 0..3 {
-                let [a, b, c, d] = kind.map(|one| one.high[axis]);
+                let [a, b, c, d] = kind.map(|one| one.high[axis] + slack(&one, axis));
                 rows.push([pair(a, b, Rounding::Up), pair(c, d, Rounding::Up)]);
             }
         }
         self.pieces.extend(rows.chunks_exact(2).map(|two| [two[0][0], two[0][1], two[1][0], two[1][1]]));
     }
+}
+
+/// By how much a box is made thicker on either side along an axis; the empty one stays inside out.
+fn slack(one: &Box3, axis: usize) -> f32 {
+    if *one == Box3::EMPTY { 0.0 } else { 1e-5 * (one.low[axis].abs() + one.high[axis].abs()) + 1e-7 }
 }
 
 fn in_order(tree: &Tree, boxes: &[Box3]) -> Vec<Box3> {

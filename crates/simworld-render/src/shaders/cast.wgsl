@@ -113,7 +113,7 @@ fn find(@builtin(global_invocation_id) at: vec3u) {
     }
     look(at.z);
     let sight = sight_of(at.xy);
-    let found = trace(sight.origin, sight.direction, views[view].eye.w, false);
+    let found = trace(sight.origin, sight.direction, views[view].eye.w);
     // Parallel rays end at the far plane, as clip space does there.
     let is_far = parallel && found.t > limits.x;
     out_color[pixel] = found.triangle;
@@ -141,14 +141,15 @@ fn light(@builtin(global_invocation_id) at: vec3u) {
     var reaches = dot(normal, sun) > 0.0;
     if (reaches && views[view].globals.bounce.w != 0.0) {
         let lift = 0.005 + 2e-4 * length(met.relative);
-        reaches = trace(met.relative + normal * lift, sun, 1e-3, true).number == NOTHING;
+        reaches = !is_blocked(met.relative + normal * lift, sun, 1e-3);
     }
     if (reaches) {
         out_color[pixel] = triangle | LIT;
     }
 }
 
-@compute @workgroup_size(8, 8)
+// In larger groups, whose rays share more of what paints them.
+@compute @workgroup_size(16, 16)
 fn paint(@builtin(global_invocation_id) at: vec3u) {
     let pixel = pixel_of(at);
     if (pixel == NOTHING) {

@@ -11,16 +11,8 @@ struct View {
     // Slot plus one of who is hidden; the root of the tree of what moves; slot plus one of who alone is seen, or 0; 1 if rays are
     // parallel.
     hidden: vec4u,
-}
-
-struct Node {
-    codes: vec4u,
-    low_x: vec4f,
-    low_y: vec4f,
-    low_z: vec4f,
-    high_x: vec4f,
-    high_y: vec4f,
-    high_z: vec4f,
+    // How many drops or flakes fall before the eye.
+    falling: vec4u,
 }
 
 // An instance; see raycast/bodies.rs.
@@ -39,7 +31,8 @@ struct Placed {
 
 @group(0) @binding(0) var<storage, read> views: array<View>;
 @group(0) @binding(1) var<storage, read> instances: array<Instance>;
-@group(0) @binding(2) var<storage, read> tree: array<Node>;
+// Nodes of seven: the codes of four children, then the least x, y and z of their boxes, then the greatest.
+@group(0) @binding(2) var<storage, read> tree: array<vec4f>;
 @group(0) @binding(3) var<storage, read> placed: array<Placed>;
 @group(0) @binding(4) var<storage, read> pieces: array<vec4u>;
 
@@ -48,9 +41,13 @@ var<private> view: u32;
 var<private> eye: vec3f;
 var<private> limits: vec4f;
 var<private> parallel: bool;
-// What is still to be looked at, and from where along the ray on: codes of the trees over instances, above them those of a mesh. Here, and not in
-// the functions that use them, because there each call would set all of it to zero.
-var<private> stack: array<vec2u, 96>;
+// What a walk put aside, one entry a level: a node with those of its children that are still to be looked at, nearest first, and how far away each of them begins.
+// As few as the trees may have levels (of one over instances, then of one in a mesh; see bodies.rs and shape.rs), since all of it is set to zero at the start of each ray, which
+// takes longer than it looks; and not in the memory of the workgroup, which leaves room for fewer rays at a time.
+const LEVELS: u32 = 24u;
+var<private> aside: array<vec2u, LEVELS>;
+// The same of a walk that looks for anything: a node, and below it a bit for each child.
+var<private> open: array<u32, LEVELS>;
 
 const NOTHING: u32 = 0xffffffffu;
 const IS_LEAF: u32 = 0x80000000u;
@@ -67,47 +64,100 @@ struct Found {
     triangle: u32,
 }
 
-// A ray in the frame of an instance, or of the trees.
+// A ray in the frame of an instance, or of the trees. At a coordinate it is `coordinate * inverse + shift` along itself; `back` says along which
+// axes it meets the greater side of a box first.
 struct Ray {
     origin: vec3f,
     direction: vec3f,
     inverse: vec3f,
+    shift: vec3f,
+    back: vec3<bool>,
 }
 
 fn ray_of(origin: vec3f, direction: vec3f) -> Ray {
     let least = select(vec3f(-1e-12), vec3f(1e-12), direction >= vec3f(0.0));
     let safe = select(direction, least, abs(direction) < vec3f(1e-12));
-    return Ray(origin, direction, 1.0 / safe);
+    let inverse = 1.0 / safe;
+    return Ray(origin, direction, inverse, -origin * inverse, inverse < vec3f(0.0));
 }
 
-// Three coordinates of four boxes.
-struct Four {
-    x: vec4f,
-    y: vec4f,
-    z: vec4f,
+// Where a ray is at the nearer and at the farther sides of four boxes.
+struct Sides {
+    near_x: vec4f,
+    near_y: vec4f,
+    near_z: vec4f,
+    far_x: vec4f,
+    far_y: vec4f,
+    far_z: vec4f,
 }
 
-// Where a ray comes into each of four boxes, or FAR_AWAY if it does not before `limit`.
-fn enter_four(ray: Ray, low: Four, high: Four, start: f32, limit: f32) -> vec4f {
-    let ax = (low.x - ray.origin.x) * ray.inverse.x;
-    let bx = (high.x - ray.origin.x) * ray.inverse.x;
-    let ay = (low.y - ray.origin.y) * ray.inverse.y;
-    let by = (high.y - ray.origin.y) * ray.inverse.y;
-    let az = (low.z - ray.origin.z) * ray.inverse.z;
-    let bz = (high.z - ray.origin.z) * ray.inverse.z;
-    let first = max(max(min(ax, bx), min(ay, by)), max(min(az, bz), vec4f(start)));
+// Where a ray comes into each of four boxes, or FAR_AWAY if it does not before `limit`; empty boxes are inside out, and never come into.
+fn enter_four(sides: Sides, start: f32, limit: f32) -> vec4f {
+    let first = max(max(sides.near_x, sides.near_y), max(sides.near_z, vec4f(start)));
     // A little longer, so that rounding loses nothing.
-    let last = min(min(max(ax, bx), max(ay, by)), min(max(az, bz), vec4f(limit))) * 1.000001;
+    let last = min(min(sides.far_x, sides.far_y), min(sides.far_z, vec4f(limit))) * 1.000001;
     return select(vec4f(FAR_AWAY), first, first <= last);
 }
 
 // Whether a ray comes into a box before `limit`.
 fn enters(ray: Ray, low: vec3f, high: vec3f, start: f32, limit: f32) -> bool {
-    let a = (low - ray.origin) * ray.inverse;
-    let b = (high - ray.origin) * ray.inverse;
+    let a = fma(low, ray.inverse, ray.shift);
+    let b = fma(high, ray.inverse, ray.shift);
     let near = min(a, b);
     let far = max(a, b);
     return max(max(near.x, near.y), max(near.z, start)) <= min(min(far.x, far.y), min(far.z, limit)) * 1.000001;
+}
+
+// Where a ray is at four coordinates along an axis.
+fn along(sides: vec4f, inverse: f32, shift: f32) -> vec4f {
+    return fma(sides, vec4f(inverse), vec4f(shift));
+}
+
+// The sides of the children of a node over instances.
+fn sides_in_tree(ray: Ray, at: u32) -> Sides {
+    let x = select(1u, 4u, ray.back.x);
+    let y = select(2u, 5u, ray.back.y);
+    let z = select(3u, 6u, ray.back.z);
+    return Sides(
+        along(tree[at + x], ray.inverse.x, ray.shift.x),
+        along(tree[at + y], ray.inverse.y, ray.shift.y),
+        along(tree[at + z], ray.inverse.z, ray.shift.z),
+        along(tree[at + 5u - x], ray.inverse.x, ray.shift.x),
+        along(tree[at + 7u - y], ray.inverse.y, ray.shift.y),
+        along(tree[at + 9u - z], ray.inverse.z, ray.shift.z),
+    );
+}
+
+fn halves(words: vec2u) -> vec4f {
+    return vec4f(unpack2x16float(words.x), unpack2x16float(words.y));
+}
+
+// Where a ray is at four sides in a mesh along an axis, of which anchors and offsets are known.
+fn along_both(anchors: vec2u, offsets: vec2u, by_anchor: f32, by_offset: f32, shift: f32) -> vec4f {
+    return fma(halves(anchors), vec4f(by_anchor), fma(halves(offsets), vec4f(by_offset), vec4f(shift)));
+}
+
+// The sides of the children of a node in a mesh of that scale and unit of offsets.
+fn sides_in_mesh(ray: Ray, scale: vec3f, unit: f32, node: u32) -> Sides {
+    let p = pieces[node + 1u];
+    let q = pieces[node + 2u];
+    let r = pieces[node + 3u];
+    let s = pieces[node + 4u];
+    let t = pieces[node + 5u];
+    let u = pieces[node + 6u];
+    let a = scale * ray.inverse;
+    let o = unit * ray.inverse;
+    let x = ray.back.x;
+    let y = ray.back.y;
+    let z = ray.back.z;
+    return Sides(
+        along_both(select(p.xy, q.zw, x), select(s.xy, t.zw, x), a.x, o.x, ray.shift.x),
+        along_both(select(p.zw, r.xy, y), select(s.zw, u.xy, y), a.y, o.y, ray.shift.y),
+        along_both(select(q.xy, r.zw, z), select(t.xy, u.zw, z), a.z, o.z, ray.shift.z),
+        along_both(select(q.zw, p.xy, x), select(t.zw, s.xy, x), a.x, o.x, ray.shift.x),
+        along_both(select(r.xy, p.zw, y), select(u.xy, s.zw, y), a.y, o.y, ray.shift.y),
+        along_both(select(r.zw, q.xy, z), select(u.zw, t.xy, z), a.z, o.z, ray.shift.z),
+    );
 }
 
 fn one_of(four: vec4u, key: u32) -> u32 {
@@ -115,11 +165,24 @@ fn one_of(four: vec4u, key: u32) -> u32 {
     return select(pair.x, pair.y, (key & 1u) != 0u);
 }
 
-// The code of the nearest child that the ray meets, while the others are put aside, the nearest of them on top; NOTHING if it meets none. Depths
-// are sorted as whole numbers, whose last two bits say which child it is.
-fn descend(entries: vec4f, codes: vec4u, height: ptr<function, u32>) -> u32 {
-    let met = select(vec4f(FAR_AWAY), entries, codes != vec4u(NOTHING));
-    let keys = (bitcast<vec4u>(met) & vec4u(0xfffffffcu)) | vec4u(0u, 1u, 2u, 3u);
+// The code of a child, which is told as four times its node plus which of its children it is.
+fn code_in_tree(child: u32) -> u32 {
+    return bitcast<u32>(tree[(child >> 2u) * 7u][child & 3u]);
+}
+
+fn code_in_mesh(child: u32) -> u32 {
+    return pieces[child >> 2u][child & 3u];
+}
+
+// A depth in ten bits, rounded down: five of its exponent, from 1/128 m on, and five behind it.
+fn coarse(depth: u32) -> u32 {
+    return clamp(depth >> 18u, 3840u, 4863u) - 3840u;
+}
+
+// The code of the nearest child that the ray comes into, while the others are put aside; NOTHING if it comes into none. Depths are sorted as whole
+// numbers, whose last two bits say which child it is.
+fn descend(node: u32, entries: vec4f, codes: vec4u, height: ptr<function, u32>) -> u32 {
+    let keys = (bitcast<vec4u>(entries) & vec4u(0xfffffffcu)) | vec4u(0u, 1u, 2u, 3u);
     let a = min(keys.xz, keys.yw);
     let b = max(keys.xz, keys.yw);
     let first = min(a.x, a.y);
@@ -129,35 +192,51 @@ fn descend(entries: vec4f, codes: vec4u, height: ptr<function, u32>) -> u32 {
     let last = max(b.x, b.y);
     let second = min(max(a.x, a.y), min(b.x, b.y));
     let third = max(max(a.x, a.y), min(b.x, b.y));
-    if (last < FAR_KEY) {
-        stack[*height] = vec2u(one_of(codes, last), last);
-        *height += 1u;
-    }
-    if (third < FAR_KEY) {
-        stack[*height] = vec2u(one_of(codes, third), third);
-        *height += 1u;
-    }
     if (second < FAR_KEY) {
-        stack[*height] = vec2u(one_of(codes, second), second);
+        // What is not met stands there as what is before it.
+        let y = select(second, third, third < FAR_KEY);
+        let z = select(y, last, last < FAR_KEY);
+        let children = (z & 3u) << 4u | (y & 3u) << 2u | (second & 3u);
+        aside[*height] = vec2u(node << 6u | children, coarse(z) << 20u | coarse(y) << 10u | coarse(second));
         *height += 1u;
     }
     return one_of(codes, first);
 }
 
-// What was put aside last and is not behind what was met since; NOTHING if there is no more of it above `base`.
+// The nearest child of the node that was put aside last, if it is not behind what was met since; NOTHING if there is no more above `base`.
 fn next_of(height: ptr<function, u32>, base: u32, limit: f32) -> u32 {
+    let bound = coarse(bitcast<u32>(limit));
     while (*height > base) {
-        *height -= 1u;
-        let top = stack[*height];
-        if (bitcast<f32>(top.y & 0xfffffffcu) <= limit) {
-            return top.x;
+        let entry = aside[*height - 1u];
+        if ((entry.y & 1023u) > bound) {
+            // Those behind it begin no nearer.
+            *height -= 1u;
+            continue;
         }
+        if (((entry.x >> 2u) & 3u) == (entry.x & 3u)) {
+            *height -= 1u;
+        } else {
+            aside[*height - 1u] = vec2u((entry.x & 0xfffffff0u) | ((entry.x >> 2u) & 15u), entry.y >> 10u);
+        }
+        return (entry.x >> 6u) << 2u | (entry.x & 3u);
     }
     return NOTHING;
 }
 
-fn halves(words: vec2u) -> vec4f {
-    return vec4f(unpack2x16float(words.x), unpack2x16float(words.y));
+fn next_in_tree(height: ptr<function, u32>, limit: f32) -> u32 {
+    let next = next_of(height, 0u, limit);
+    if (next == NOTHING) {
+        return NOTHING;
+    }
+    return code_in_tree(next);
+}
+
+fn next_in_mesh(height: ptr<function, u32>, base: u32, limit: f32) -> u32 {
+    let next = next_of(height, base, limit);
+    if (next == NOTHING) {
+        return NOTHING;
+    }
+    return code_in_mesh(next);
 }
 
 // A triangle of a mesh: its first corner and two sides from there, body frame.
@@ -179,29 +258,36 @@ fn triangle_at(piece: u32, scale: vec3f, unit: f32) -> Triangle {
     return Triangle(a, b - a, c - a);
 }
 
-// Meets the triangles of a leaf from outside.
-fn meet_triangles(ray: Ray, code: u32, scale: vec3f, unit: f32, number: u32, start: f32, best: ptr<function, Found>) -> bool {
-    let count = ((code >> 28u) & 7u) + 1u;
-    let first = code & 0x0fffffffu;
-    var met = false;
-    for (var k = 0u; k < count; k++) {
-        let at = first + k * 5u;
-        let one = triangle_at(at, scale, unit);
-        let p = cross(ray.direction, one.ac);
-        let facing = dot(one.ab, p);
-        if (facing <= 0.0) {
-            continue;
-        }
-        let apart = ray.origin - one.a;
-        let u = dot(apart, p);
-        let q = cross(apart, one.ab);
-        let v = dot(ray.direction, q);
-        if (u < 0.0 || v < 0.0 || u + v > facing) {
-            continue;
-        }
-        // From the plane: exact also for the large triangles of the ground.
-        let normal = cross(one.ab, one.ac);
-        let t = -dot(normal, apart) / dot(normal, ray.direction);
+// Where a ray meets a triangle from outside; less than 0 if it does not.
+fn meet_triangle(ray: Ray, one: Triangle) -> f32 {
+    let p = cross(ray.direction, one.ac);
+    let facing = dot(one.ab, p);
+    if (facing <= 0.0) {
+        return -1.0;
+    }
+    let apart = ray.origin - one.a;
+    let u = dot(apart, p);
+    let q = cross(apart, one.ab);
+    let v = dot(ray.direction, q);
+    if (u < 0.0 || v < 0.0 || u + v > facing) {
+        return -1.0;
+    }
+    // From the plane: exact also for the large triangles of the ground.
+    let normal = cross(one.ab, one.ac);
+    return -dot(normal, apart) / dot(normal, ray.direction);
+}
+
+// How many triangles a leaf has, and the piece at which the first of them begins.
+fn triangles_of(code: u32) -> vec2u {
+    return vec2u(((code >> 28u) & 7u) + 1u, code & 0x0fffffffu);
+}
+
+// Meets the triangles of a leaf.
+fn meet_triangles(ray: Ray, code: u32, scale: vec3f, unit: f32, number: u32, start: f32, best: ptr<function, Found>) {
+    let run = triangles_of(code);
+    for (var k = 0u; k < run.x; k++) {
+        let at = run.y + k * 5u;
+        let t = meet_triangle(ray, triangle_at(at, scale, unit));
         if (t < start) {
             continue;
         }
@@ -214,10 +300,8 @@ fn meet_triangles(ray: Ray, code: u32, scale: vec3f, unit: f32, number: u32, sta
         }
         if (wins) {
             *best = Found(t, number, at);
-            met = true;
         }
     }
-    return met;
 }
 
 fn comes_first(number: u32, other: u32) -> bool {
@@ -231,47 +315,34 @@ fn from_eye(i: u32) -> vec3f {
     return (instances[i].place.xyz - views[view].globals.eye.xyz) + (instances[i].rest - views[view].globals.eye_rest.xyz);
 }
 
-// Meets the mesh of an instance; the origin is relative to the eye.
-fn meet_mesh(number: u32, root: u32, origin: vec3f, direction: vec3f, start: f32, shadow: bool, base: u32, best: ptr<function, Found>) -> bool {
+// A ray of the trees, relative to the eye, in the body frame of an instance.
+fn body_ray(number: u32, origin: vec3f, direction: vec3f) -> Ray {
     let rotation = instances[number].rotation;
     let inverse = vec4f(-rotation.xyz, rotation.w);
-    let ray = ray_of(rotate(inverse, origin - from_eye(number)), rotate(inverse, direction));
+    return ray_of(rotate(inverse, origin - from_eye(number)), rotate(inverse, direction));
+}
+
+// Meets the mesh of an instance; the origin is relative to the eye.
+fn meet_mesh(number: u32, root: u32, origin: vec3f, direction: vec3f, start: f32, base: u32, best: ptr<function, Found>) {
+    let ray = body_ray(number, origin, direction);
     let scale = instances[number].scale.xyz;
     let unit = instances[number].place.w;
     var height = base;
     var code = root;
-    var met = false;
     loop {
         while ((code & IS_LEAF) == 0u) {
-            let codes = pieces[code];
-            let p = pieces[code + 1u];
-            let q = pieces[code + 2u];
-            let r = pieces[code + 3u];
-            let s = pieces[code + 4u];
-            let t = pieces[code + 5u];
-            let u = pieces[code + 6u];
-            var low = Four(halves(p.xy) * scale.x + halves(s.xy) * unit, halves(p.zw) * scale.y + halves(s.zw) * unit, halves(q.xy) * scale.z + halves(t.xy) * unit);
-            var high = Four(halves(q.zw) * scale.x + halves(t.zw) * unit, halves(r.xy) * scale.y + halves(u.xy) * unit, halves(r.zw) * scale.z + halves(u.zw) * unit);
-            // Flat boxes have some thickness, so that rounding loses nothing.
-            let thick = Four(1e-5 * (abs(low.x) + abs(high.x)) + 1e-6, 1e-5 * (abs(low.y) + abs(high.y)) + 1e-6, 1e-5 * (abs(low.z) + abs(high.z)) + 1e-6);
-            low = Four(low.x - thick.x, low.y - thick.y, low.z - thick.z);
-            high = Four(high.x + thick.x, high.y + thick.y, high.z + thick.z);
-            let entries = enter_four(ray, low, high, start * 0.999, (*best).t * TIE);
-            code = descend(entries, codes, &height);
+            let entries = enter_four(sides_in_mesh(ray, scale, unit, code), start * 0.999, (*best).t * TIE);
+            code = descend(code, entries, pieces[code], &height);
             if (code == NOTHING) {
-                code = next_of(&height, base, (*best).t * TIE);
+                code = next_in_mesh(&height, base, (*best).t * TIE);
             }
         }
         if (code == NOTHING) {
             break;
         }
-        met = meet_triangles(ray, code, scale, unit, number, start, best) || met;
-        if (met && shadow) {
-            break;
-        }
-        code = next_of(&height, base, (*best).t * TIE);
+        meet_triangles(ray, code, scale, unit, number, start, best);
+        code = next_in_mesh(&height, base, (*best).t * TIE);
     }
-    return met;
 }
 
 // At which level of detail an entity is seen in a ball that is so many pixels across, as `Detail::of` in look/mod.rs decides.
@@ -292,59 +363,73 @@ fn is_shown(number: u32, distance: f32, radius: f32, pixels: f32) -> bool {
     return distance - radius <= limits.x && pixels >= limits.y;
 }
 
-// Meets the instances of a leaf, those of the level at which they are seen from the eye; shadows are thrown by the same.
-fn meet_leaf(leader: u32, world: Ray, origin: vec3f, start: f32, shadow: bool, base: u32, best: ptr<function, Found>) -> bool {
+// How far away the entity of a leaf is, and how many pixels the ball around it is across.
+struct Sighting {
+    distance: f32,
+    radius: f32,
+    pixels: f32,
+}
+
+fn sighting_of(leader: u32) -> Sighting {
     let distance = length(placed[leader].center - eye);
     let radius = placed[leader].radius;
     let pixels = 2.0 * radius * limits.z / select(max(max(distance, radius), 1e-9), 1.0, parallel);
-    var counts = (placed[leader].order & NO_SHADOW) == 0u;
-    if (!shadow) {
-        counts = is_shown(leader, distance, radius, pixels);
+    return Sighting(distance, radius, pixels);
+}
+
+// The level of detail of a leaf.
+fn level_in(sighting: Sighting) -> u32 {
+    return select(level_of(sighting.radius, sighting.pixels), 2u, limits.w != 0.0);
+}
+
+// The root of the mesh of an instance.
+fn root_of(number: u32, sighting: Sighting) -> u32 {
+    return select(placed[number].root, placed[number].speck, sighting.pixels < placed[number].few && limits.w == 0.0);
+}
+
+// Meets the instances of a leaf, those of the level at which they are seen from the eye.
+fn meet_leaf(leader: u32, world: Ray, origin: vec3f, start: f32, base: u32, best: ptr<function, Found>) {
+    let sighting = sighting_of(leader);
+    if (!is_shown(leader, sighting.distance, sighting.radius, sighting.pixels)) {
+        return;
     }
-    if (!counts) {
-        return false;
-    }
-    let finest = limits.w != 0.0;
-    let level = select(level_of(radius, pixels), 2u, finest);
+    let level = level_in(sighting);
     var number = placed[leader].first[level];
-    var met = false;
     while (number != NOTHING) {
         if (enters(world, placed[number].low, placed[number].high, start * 0.999, (*best).t * TIE)) {
-            let root = select(placed[number].root, placed[number].speck, pixels < placed[number].few && !finest);
-            met = meet_mesh(number, root, origin, world.direction, start, shadow, base, best) || met;
-            if (met && shadow) {
-                break;
-            }
+            meet_mesh(number, root_of(number, sighting), origin, world.direction, start, base, best);
         }
         number = placed[number].next[level];
     }
-    return met;
 }
 
-// The first thing on a ray, or anything that throws a shadow.
-fn trace(origin: vec3f, direction: vec3f, start: f32, shadow: bool) -> Found {
+// The first thing on a ray; the tree of what moves comes behind that of what stands.
+fn trace(origin: vec3f, direction: vec3f, start: f32) -> Found {
     var best = Found(FAR_AWAY * 0.1, NOTHING, 0u);
     let ray = ray_of(eye + origin, direction);
-    stack[0] = vec2u(views[view].hidden.y, 0u);
-    var height = 1u;
+    var rest = views[view].hidden.y;
+    var height = 0u;
     var code = 0u;
     loop {
         while ((code & IS_LEAF) == 0u) {
-            let low = Four(tree[code].low_x, tree[code].low_y, tree[code].low_z);
-            let high = Four(tree[code].high_x, tree[code].high_y, tree[code].high_z);
-            let entries = enter_four(ray, low, high, start * 0.999, best.t * TIE);
-            code = descend(entries, tree[code].codes, &height);
+            let at = code * 7u;
+            let entries = enter_four(sides_in_tree(ray, at), start * 0.999, best.t * TIE);
+            code = descend(code, entries, bitcast<vec4u>(tree[at]), &height);
             if (code == NOTHING) {
-                code = next_of(&height, 0u, best.t * TIE);
+                code = next_in_tree(&height, best.t * TIE);
             }
         }
+        if (code != NOTHING) {
+            meet_leaf(code & ~IS_LEAF, ray, origin, start, height, &best);
+            code = next_in_tree(&height, best.t * TIE);
+        }
         if (code == NOTHING) {
-            break;
+            if (rest == NOTHING) {
+                break;
+            }
+            code = rest;
+            rest = NOTHING;
         }
-        if (meet_leaf(code & ~IS_LEAF, ray, origin, start, shadow, height, &best) && shadow) {
-            break;
-        }
-        code = next_of(&height, 0u, best.t * TIE);
     }
     return best;
 }

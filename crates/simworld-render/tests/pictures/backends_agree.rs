@@ -189,6 +189,33 @@ fn trees_follow_what_happens() {
     }
 }
 
+/// What falls is the same before triangles and before rays: the same drops, as long, as wide and as bright, hidden by the same things.
+#[test]
+fn rain_and_snow_fall_before_both() {
+    let Some([mut raster, mut raycast]) = backends() else { return };
+    let requests: Vec<ViewRequest> = [0.0, 4.0].map(|shift| square_camera(shift, 150, 90).into()).to_vec();
+    let mut clear = Views::new();
+    let (mut drawn, mut cast) = (Views::new(), Views::new());
+    for (name, rain, snow) in [("rain", 12.0, 0.0), ("snow", 0.0, 2.5)] {
+        let mut world = square(0.0);
+        let mut environment = *world.environment();
+        (environment.weather.rain, environment.weather.snow) = (rain, snow);
+        environment.weather.temperature = if snow > 0.0 { -3.0 } else { 12.0 };
+        world.set_environment(environment).expect("a weather in range");
+        raster.render_views(&world, &requests, &ViewOptions::default(), &mut drawn).expect("it is drawn");
+        raycast.render_views(&world, &requests, &ViewOptions::default(), &mut cast).expect("it is cast");
+        let (mean, differing) = difference(&drawn.rgb, &cast.rgb, 24);
+        println!("{name}: colours differ by {mean:.2}, on {:.2} % by more than 24", differing * 100.0);
+        assert!(mean < 1.5 && differing < 0.02, "{name}: colours differ by {mean}, {differing}");
+        // Without it there would be nothing to agree about.
+        environment.weather.wind = [40.0, 40.0].into();
+        world.set_environment(environment).expect("a weather in range");
+        raycast.render_views(&world, &requests, &ViewOptions::default(), &mut clear).expect("it is cast");
+        let (_, elsewhere) = difference(&clear.rgb, &cast.rgb, 24);
+        assert!(elsewhere > 2.0 * differing, "{name}: with other drops {elsewhere} differs");
+    }
+}
+
 #[test]
 fn rays_give_the_same_bits_every_time() {
     let (Some([_, mut first]), Some([_, mut second])) = (backends(), backends()) else { return };

@@ -75,6 +75,34 @@ fn both_methods_agree() {
     assert!(same > 1000 && other < same / 20, "{same} agree, {other} do not");
 }
 
+/// Straight up and straight down too: beams that are cast go anywhere.
+#[test]
+fn steep_beams_meet_floor_and_ceiling() {
+    let Some(renderer) = renderer(&RenderConfig::default()) else { return };
+    let renderer = Arc::new(Mutex::new(renderer));
+    let mut world = World::new();
+    let floor = put(&mut world, EntityKind::Prop, [0.0, 0.0, -1.0], 0.0, Shape::cuboid(300.0, 300.0, 1.0));
+    let ceiling = put(&mut world, EntityKind::Prop, [0.0, 0.0, 9.0], 0.0, Shape::cuboid(300.0, 300.0, 1.0));
+    let wearer = put(&mut world, EntityKind::Prop, [0.0, 0.0, 1.0], 0.0, Shape::cuboid(0.2, 0.2, 0.2));
+    let table = || BeamTable::from_csv("0,0,-90\n1,30,-75\n2,77,90\n").expect("sound");
+    let by = |method| LidarConfig { method, ..LidarConfig::default() };
+    let mut scanner = Lidar::new(Arc::clone(&renderer), table(), by(LidarMethod::Rays))
+        .expect("in range")
+        .mounted_at(Pose::translation(0.0, 0.0, 1.0));
+    let mut cloud = PointCloud::new();
+    scanner.observe(&world, wearer, &mut cloud).expect("scanned");
+    let met: Vec<(f32, u32)> = cloud.points.iter().map(|point| (point.range, point.id - 1)).collect();
+    let slanting = (2.0 / ops::sin(75_f64.to_radians())) as f32;
+    for (point, (range, who)) in met.iter().zip([(2.0, floor), (slanting, floor), (7.0, ceiling)]) {
+        assert!((point.0 - range).abs() < 1e-4 && point.1 as usize == who.index(), "{met:?}");
+    }
+    assert_eq!(met.len(), 3);
+    assert!(matches!(
+        Lidar::new(renderer, table(), by(LidarMethod::Views)),
+        Err(RenderError::Beams { reason }) if reason.contains("beam 0")
+    ));
+}
+
 #[test]
 fn ranges_are_those_of_rays_in_double_precision() {
     for method in [LidarMethod::Views, LidarMethod::Rays] {

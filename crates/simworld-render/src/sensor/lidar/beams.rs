@@ -5,7 +5,7 @@ use simworld_core::ops;
 
 use crate::RenderError;
 
-/// The steepest beam, radians: 60°.
+/// The steepest beam that views of a quarter turn show, radians: 60°.
 const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
 /// The most beams of a table.
 const MOST: usize = 4_000_000;
@@ -39,23 +39,38 @@ impl BeamTable {
     /// Any beams.
     ///
     /// # Errors
-    /// No beams or more than four million, a number that is not finite, or a beam steeper than 60°.
+    /// No beams or more than four million, a number that is not finite, or an elevation beyond a right angle.
     pub fn new(beams: Vec<Beam>) -> Result<Self, RenderError> {
         let fail = |reason: String| Err(RenderError::Beams { reason });
         if beams.is_empty() || beams.len() > MOST {
             return fail(format!("{} beams: give 1 to {MOST}", beams.len()));
         }
         let is_sound = |beam: &Beam| {
-            beam.azimuth.is_finite() && beam.azimuth.abs() <= 1e3 && beam.elevation.abs() <= STEEPEST
+            beam.azimuth.is_finite()
+                && beam.azimuth.abs() <= 1e3
+                && beam.elevation.abs() <= std::f64::consts::FRAC_PI_2
         };
         match beams.iter().position(|beam| !is_sound(beam)) {
             Some(index) => {
                 let Beam { azimuth, elevation, .. } = beams[index];
                 fail(format!(
-                    "beam {index} has azimuth {azimuth} and elevation {elevation}: give finite radians, and elevations within ±60°"
+                    "beam {index} has azimuth {azimuth} and elevation {elevation}: give finite radians, and elevations within ±90°"
                 ))
             }
             None => Ok(Self { beams }),
+        }
+    }
+
+    /// Checks that views can show all of the beams.
+    pub(super) fn check_views(&self) -> Result<(), RenderError> {
+        match self.beams.iter().position(|beam| beam.elevation.abs() > STEEPEST) {
+            None => Ok(()),
+            Some(index) => Err(RenderError::Beams {
+                reason: format!(
+                    "beam {index} has elevation {}, and views show beams within ±60° alone: have them cast, on an adapter that binds nine storage buffers a stage and by a renderer that is not to draw by triangles alone",
+                    self.beams[index].elevation
+                ),
+            }),
         }
     }
 
@@ -196,7 +211,10 @@ mod tests {
         let reason = |text: &str| BeamTable::from_csv(text).unwrap_err().to_string();
         assert!(reason("0,0,0\nx,1,2").contains("line 2"));
         assert!(reason("0,0,0,7").contains("line 1"));
-        assert!(reason("0,0,80").contains("within ±60°"));
+        assert!(reason("0,0,91").contains("within ±90°"));
+        assert!(BeamTable::from_csv("0,0,60").unwrap().check_views().is_ok());
+        let steep = BeamTable::from_csv("0,0,0\n0,0,-80").unwrap().check_views().unwrap_err();
+        assert!(steep.to_string().contains("beam 1"), "{steep}");
         assert!(reason("0,NaN,0").contains("beam 0"));
         assert!(reason("").contains("give 1 to"));
         assert!(BeamTable::rotating(&vec![0.0; 4096], 4096).is_err());

@@ -167,7 +167,7 @@ impl Lidar {
     /// A scanner with these beams; many sensors may share one renderer.
     ///
     /// # Errors
-    /// A setting out of range.
+    /// A setting out of range, or a beam steeper than 60° where beams read views.
     pub fn new(
         renderer: Arc<Mutex<Renderer>>,
         beams: BeamTable,
@@ -186,6 +186,7 @@ impl Lidar {
         let means = if by_rays {
             Means::Rays(Rays::new(&beams))
         } else {
+            beams.check_views()?;
             let faces = (0..4).filter_map(|quarter| Face::new(&beams, quarter, config.resolution));
             Means::Views(faces.collect())
         };
