@@ -109,7 +109,8 @@ pub struct PhysicsDynamics {
     /// Where the bodies of this physics are, and whether that was looked up in this step.
     pub(crate) near: Cells<Point2>,
     pub(crate) near_is_known: bool,
-    /// What may knock somebody over.
+    /// Whether somebody may lose the footing, and what may knock somebody over.
+    may_fall: bool,
     pub(crate) movers: Movers,
     /// Who moves by itself, for who asks.
     pub(crate) roamers: Roamers,
@@ -176,6 +177,7 @@ impl PhysicsDynamics {
             moving: Vec::new(),
             near: Cells::new(2.0 * near),
             near_is_known: false,
+            may_fall: false,
             movers: Movers::default(),
             roamers: Roamers::default(),
             claims: Claims::default(),
@@ -191,8 +193,8 @@ impl PhysicsDynamics {
         &self.config
     }
 
-    /// How many substeps a step of `dt` s takes: what the settings say, or more if a body needs it. And how many times the solver goes
-    /// over one of them: once where a body asks for substeps so short that as many passes a second are made as with the usual ones.
+    /// How many substeps `dt` s take, for what bodies need. And how many times the solver goes over one of them: once where a body asks for
+    /// substeps so short that as many passes a second are made as with the usual ones.
     fn substeps(&self, dt: f64) -> (u32, usize) {
         let asked = self.bodies.iter().filter(|owned| owned.is_in_engine());
         let longest = asked.map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
@@ -200,7 +202,7 @@ impl PhysicsDynamics {
         let longest =
             if self.grasps.list.is_empty() { longest } else { longest.min(LONGEST_JOINTED_SUBSTEP) };
         let needed = (dt / longest - 1e-9).ceil().clamp(1.0, MOST_SUBSTEPS);
-        (self.config.substeps.max(needed as u32), iterations)
+        (needed as u32, iterations)
     }
 
     /// Passes on what bodies were told; what they refuse becomes an event.
@@ -262,7 +264,8 @@ impl PhysicsDynamics {
         let slowest = least_blow(self.config.gravity);
         self.movers.clear();
         let may_fall = |owned: &Owned| owned.is_in_engine() && (&*owned.body as &dyn Any).is::<Humanoid>();
-        if !self.bodies.iter().any(may_fall) {
+        self.may_fall = self.bodies.iter().any(may_fall);
+        if !self.may_fall {
             return;
         }
         let own = self.bodies.iter().filter(|owned| owned.is_in_engine());
@@ -271,6 +274,29 @@ impl PhysicsDynamics {
         for rigid in own.chain(mirrored) {
             self.movers.note(*rigid, slowest, dt, &self.physics);
         }
+    }
+
+    /// All substeps of a step of `dt` s: as many as the settings say, or more if a body needs it. Who falls in one of them needs finer ones
+    /// from then on.
+    fn take_substeps(&mut self, dt: f64) -> Result<(), PhysicsError> {
+        let (needed, mut iterations) = self.substeps(dt);
+        let mut count = needed.max(self.config.substeps);
+        let (mut taken, mut begun, mut substep) = (0, 0.0, dt / f64::from(count));
+        while taken < count {
+            self.physics.integration_parameters.dt = substep;
+            self.physics.integration_parameters.num_solver_iterations = iterations;
+            taken += 1;
+            let passed = if taken == count { dt } else { begun + substep * f64::from(taken) };
+            self.substep(substep, passed / dt)?;
+            if taken < count && self.may_fall {
+                let (needed, finer) = self.substeps(dt - passed);
+                if needed > count - taken {
+                    (count, taken, iterations) = (needed, 0, finer);
+                    (begun, substep) = (passed, (dt - passed) / f64::from(needed));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// One substep: `share` of the world's step will have passed at its end.
@@ -372,13 +398,7 @@ impl Dynamics for PhysicsDynamics {
         self.take_actions(world);
         self.choose_roamers();
         self.roam(dt);
-        let (count, iterations) = self.substeps(dt);
-        let substeps = f64::from(count);
-        self.physics.integration_parameters.dt = dt / substeps;
-        self.physics.integration_parameters.num_solver_iterations = iterations;
-        for substep in 1..=count {
-            self.substep(dt / substeps, f64::from(substep) / substeps)?;
-        }
+        self.take_substeps(dt)?;
         self.write_back(world)?;
         self.part_fallen_riders(world)?;
         self.contacts.report(world);

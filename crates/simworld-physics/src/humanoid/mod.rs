@@ -3,6 +3,7 @@
 
 mod actions;
 mod balance;
+mod burial;
 mod crouch;
 mod gait;
 mod hold;
@@ -207,6 +208,8 @@ struct Plan {
     goes_low: Option<bool>,
     /// How its limbs lie while it is limp.
     limp: Option<JointAngles>,
+    /// How far it has to be lifted out of the ground, m.
+    lift: Option<f64>,
     /// Whether it walks by looks alone.
     strolls: bool,
     /// The share of its stride at which it told how it holds its limbs, last while it does; below zero for standing, and before.

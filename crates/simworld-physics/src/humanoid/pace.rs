@@ -58,12 +58,17 @@ impl Pace {
     /// slope, where its cosine is lost twice, and stops in front of each riser for a substep or two.
     pub(super) fn told(&self, way: f64) -> f64 {
         if self.stairs.is_some() {
-            1.0 + (self.owed / way.max(1e-9)).min(CATCHING_UP)
+            self.catching_up(way)
         } else if self.grade.abs() < LEVEL {
             1.0
         } else {
             1.0 + self.grade * self.grade
         }
+    }
+
+    /// The part of that for stairs.
+    pub(super) fn catching_up(&self, way: f64) -> f64 {
+        if self.stairs.is_some() { 1.0 + (self.owed / way.max(1e-9)).min(CATCHING_UP) } else { 1.0 }
     }
 
     /// Takes in what the controller made of a way in the plane, m.

@@ -61,7 +61,9 @@ impl PhysicsBody for Humanoid {
 
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
         self.stop_strolling();
-        if !self.is_limp() {
+        if self.is_limp() {
+            self.look_for_ground(around);
+        } else {
             self.look_around(around, dt);
         }
     }

@@ -7,7 +7,7 @@
 //! foot. Joints end where those of adults do (Norkin and White, Measurement of Joint Motion, 2016), rounded.
 
 use rapier3d_f64::dynamics::{MotorModel, RevoluteJointBuilder, SphericalJointBuilder};
-use rapier3d_f64::math::{Pose as RapierPose, Vector};
+use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
 use rapier3d_f64::prelude::{
     CoefficientCombineRule, Collider, ColliderBuilder, GenericJoint, Group, InteractionGroups,
     InteractionTestMode, JointAxis, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape,
@@ -248,15 +248,21 @@ impl Limb {
         let damping = DAMPING * build.mass * (self.mass / 0.1).min(1.0);
         match &self.freedom {
             Freedom::Ball(limits) => {
+                // The engine measures the turn about each axis as if it were the only one, which is good for turns that are far from
+                // half of one: so they are measured from the middle of the bend. From the hanging limb, legs that were bent and
+                // spread went on swinging for good.
+                let middle = 0.5 * (limits[1][0] + limits[1][1]);
+                let frame = RapierPose::from_parts(anchor, Rotation::from_scaled_axis(Vector::Y * middle));
+                let bend = limits[1].map(|limit| limit - middle);
                 let mut joint = SphericalJointBuilder::new()
-                    .local_anchor1(anchor)
+                    .local_frame1(frame)
                     .local_anchor2(anchor)
                     .contacts_enabled(false);
                 for (axis, limits) in
-                    [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ].into_iter().zip(limits)
+                    [(JointAxis::AngX, limits[0]), (JointAxis::AngY, bend), (JointAxis::AngZ, limits[2])]
                 {
                     joint = joint
-                        .limits(axis, *limits)
+                        .limits(axis, limits)
                         .motor_model(axis, MotorModel::ForceBased)
                         .motor_velocity(axis, 0.0, damping);
                 }

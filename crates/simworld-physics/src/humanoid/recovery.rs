@@ -23,8 +23,9 @@ use crate::shape::is_walker;
 
 /// Slower than this a body rests, m/s: of the trunk, and of the limbs three times as fast.
 const RESTING: f64 = 0.2;
-/// Time for which it has to rest, s.
+/// Time for which it has to rest, s, and while its limbs do not.
 const REST: f64 = 0.4;
+const STILL: f64 = 3.0;
 /// Time that one lies before one gets up, s.
 const LYING: f64 = 1.0;
 /// Time that getting up takes, s: healthy young adults take 2 to 3 s from lying on the back.
@@ -102,9 +103,15 @@ impl Humanoid {
     pub(super) fn recover(&mut self, context: &mut BodyContext<'_>, dt: f64) {
         let (physics, trunk) = (&mut *context.physics, context.rigid);
         self.plan.limp = self.motion.recovery.limbs().map(|limbs| limbs.angles(physics, trunk));
+        self.come_up(physics, trunk);
         match std::mem::take(&mut self.motion.recovery) {
             Recovery::Falling { limbs, resting } => {
-                let resting = if rests(physics, trunk, &limbs) { resting + dt } else { 0.0 };
+                let resting = match ease(physics, trunk, &limbs) {
+                    Ease::All => resting + dt,
+                    // Nobody's limbs go on swinging: who lies takes hold of them.
+                    Ease::Trunk => resting + dt * (REST / STILL),
+                    Ease::None => 0.0,
+                };
                 self.motion.recovery = if resting < REST {
                     Recovery::Falling { limbs, resting }
                 } else {
@@ -113,10 +120,10 @@ impl Humanoid {
             }
             Recovery::Down { limbs, lying } if lying + dt < LYING => {
                 // What strikes who lies sends it tumbling again.
-                self.motion.recovery = if rests(physics, trunk, &limbs) {
-                    Recovery::Down { limbs, lying: lying + dt }
-                } else {
+                self.motion.recovery = if ease(physics, trunk, &limbs) == Ease::None {
                     Recovery::Falling { limbs, resting: 0.0 }
+                } else {
+                    Recovery::Down { limbs, lying: lying + dt }
                 };
             }
             Recovery::Down { limbs, .. } => match self.place_to_stand(&limbs, physics, trunk) {
@@ -199,7 +206,7 @@ impl Humanoid {
                 continue;
             }
             // On a slope the rim of the body stands higher than its middle.
-            let slope = (1.0 - hit.normal.z * hit.normal.z).sqrt() / hit.normal.z;
+            let slope = (1.0 - hit.normal.z * hit.normal.z).max(0.0).sqrt() / hit.normal.z;
             let height = above.z - hit.time_of_impact + slope * self.radius + SKIN * 0.5;
             let pose = pose_facing(Point3::new(above.x, above.y, height), self.motion.yaw);
             let place = to_pose(&pose) * body_from_solid;
@@ -225,10 +232,24 @@ impl Humanoid {
     }
 }
 
-/// Whether trunk and limbs hardly move.
-fn rests(physics: &PhysicsWorld, trunk: RigidBodyHandle, limbs: &Ragdoll) -> bool {
+/// What of somebody hardly moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ease {
+    All,
+    /// Not all of its limbs.
+    Trunk,
+    None,
+}
+
+fn ease(physics: &PhysicsWorld, trunk: RigidBodyHandle, limbs: &Ragdoll) -> Ease {
     let slow = |handle: RigidBodyHandle, limit: f64| {
         physics.bodies.get(handle).is_none_or(|rigid| rigid.linvel().length() < limit)
     };
-    slow(trunk, RESTING) && limbs.limbs().iter().all(|limb| slow(*limb, 3.0 * RESTING))
+    if !slow(trunk, RESTING) {
+        Ease::None
+    } else if limbs.limbs().iter().all(|limb| slow(*limb, 3.0 * RESTING)) {
+        Ease::All
+    } else {
+        Ease::Trunk
+    }
 }

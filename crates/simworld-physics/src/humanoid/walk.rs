@@ -252,7 +252,7 @@ impl Humanoid {
             self.plan.upset = Some(FallCause::Struck);
         }
         if let Some(surface) = around.surface() {
-            self.cross_country(surface, around, &(wish + carried), dt);
+            self.cross_country(surface, around, (&wish, &carried), dt);
         } else {
             let reach = (wish + carried).norm() + NEARBY;
             let company = Company::of(solid, &(start * body_from_solid), reach, &around.queries());
@@ -269,8 +269,7 @@ impl Humanoid {
             }
         }
         let has_landed = !was_grounded && self.motion.grounded;
-        // On height fields limbs that come down straight are not solved well: there one lands on the feet.
-        let is_hard = sink > HARDEST_LANDING && around.detail() == Detail::Full && around.surface().is_none();
+        let is_hard = sink > HARDEST_LANDING && around.detail() == Detail::Full;
         if has_landed && is_hard && self.is_fallible(around.config().gravity) {
             self.plan.upset = self.plan.upset.or(Some(FallCause::Landed));
         }
@@ -342,7 +341,7 @@ impl Humanoid {
     }
 
     /// Takes in what is under the feet.
-    fn stand_on(
+    pub(super) fn stand_on(
         &mut self,
         support: Option<ColliderHandle>,
         feet: Vector,

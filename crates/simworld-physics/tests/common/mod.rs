@@ -1,10 +1,13 @@
 //! Worlds in which the behaviour tests take place.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
+use std::sync::Arc;
+
 use nalgebra::UnitQuaternion;
 use simworld_core::action::Action;
 use simworld_core::event::EventKind;
-use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
+use simworld_core::geometry::{Point2, Point3, Pose, Vector2, Vector3, pose_facing};
+use simworld_core::ground::{Cover, Ground, GroundData};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_core::seam::Dynamics;
@@ -31,6 +34,13 @@ impl Stage {
     pub fn with(config: PhysicsConfig) -> Self {
         let physics = PhysicsDynamics::new(config).unwrap();
         Self { world: World::new(), physics, contacts: Vec::new(), events: Vec::new() }
+    }
+
+    /// On land that rises and falls.
+    pub fn on(ground: &Arc<Ground>) -> Self {
+        let mut stage = Self::new();
+        stage.world.set_ground(Arc::clone(ground));
+        stage
     }
 
     pub fn spawn(&mut self, kind: EntityKind, pose: Pose, shape: Shape) -> EntityId {
@@ -120,6 +130,18 @@ impl Stage {
     pub fn velocity(&self, id: EntityId) -> Vector3 {
         self.world.entity(id).unwrap().twist.linear
     }
+}
+
+/// Land of these heights, 2 m from point to point, not square and not in the middle.
+pub fn land(height: impl Fn(Point2) -> f64) -> Arc<Ground> {
+    let (columns, rows, origin) = (61, 41, Point2::new(-40.0, -30.0));
+    let at = |index: u32| origin + Vector2::new(f64::from(index % columns), f64::from(index / columns)) * 2.0;
+    let heights = (0..columns * rows).map(|index| height(at(index)) as f32).collect();
+    let covers = vec![Cover::Grass; (columns * rows) as usize];
+    Arc::new(
+        Ground::new(GroundData { origin, spacing: 2.0, columns, rows, heights, covers, water: None })
+            .expect("such heights are a ground"),
+    )
 }
 
 /// Standing at a point, facing `yaw` radians from east.

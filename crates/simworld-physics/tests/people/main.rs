@@ -4,6 +4,7 @@
 mod blows;
 #[path = "../common/mod.rs"]
 mod common;
+mod country;
 mod crowds;
 mod falls;
 mod far;
