@@ -24,7 +24,7 @@ use crate::sync::Slot;
 use crate::{PhysicsConfig, PhysicsError};
 
 /// The mark of this crate's saved state and its version.
-const MARK: [u8; 8] = *b"swphys08";
+const MARK: [u8; 8] = *b"swphys09";
 
 /// What is written, by reference.
 #[derive(Serialize)]

@@ -24,6 +24,8 @@ use crate::shape::{BodyTag, upright};
 const SIGHT: f64 = 8.0;
 /// After so long it looks anew, for things may have been put there, s.
 const MEMORY: f64 = 5.0;
+/// Who has come down by so much looks anew, m: from above it looked over what is now in its way.
+const LOWER: f64 = 0.12;
 /// How far it may come off the line along which it looked, m.
 pub(super) const ASIDE: f64 = 0.05;
 /// After so long it no longer minds a wall, or tries once more where it could not go, s.
@@ -53,8 +55,9 @@ pub(super) struct Stroll {
     wall: Option<Vector2>,
     /// How far it has come off that line, m.
     aside: f64,
-    /// Since the look ahead, s.
+    /// Since the look ahead, s, and the height of the feet then, m.
     since: f64,
+    level: f64,
     /// The wall along which it goes, by its normal, and since when, s.
     along: Option<(Vector2, f64)>,
     /// Way from the last look down to the next, and until that, m.
@@ -75,6 +78,7 @@ impl Default for Stroll {
             wall: None,
             aside: 0.0,
             since: 0.0,
+            level: 0.0,
             along: None,
             between: TREAD,
             until: 0.0,
@@ -164,9 +168,11 @@ impl Humanoid {
         let off = cross(way, stroll.ahead).abs();
         let holds = way.dot(&stroll.ahead) > 0.5 * length && stroll.aside + off <= ASIDE;
         let ends = length > stroll.clear && (stroll.wall.is_none() || stroll.since > PATIENCE);
-        if !holds || ends || stroll.since > MEMORY {
+        let is_lower = self.feet().z < stroll.level - LOWER;
+        if !holds || ends || is_lower || stroll.since > MEMORY {
             let ahead = way / length;
             (stroll.ahead, stroll.aside, stroll.since) = (ahead, 0.0, 0.0);
+            stroll.level = self.feet().z;
             (stroll.clear, stroll.wall) = match self.look_ahead(ahead, from, around) {
                 Some((distance, wall)) => self.look_for_treads(stroll, distance, wall, from, around),
                 None => (SIGHT, None),

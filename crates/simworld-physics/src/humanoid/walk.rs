@@ -256,14 +256,18 @@ impl Humanoid {
         } else {
             let reach = (wish + carried).norm() + NEARBY;
             let company = Company::of(solid, &(start * body_from_solid), reach, &around.queries());
-            if company == Company::Alone && self.is_on_level_ground(around.config().ground_half_extent, reach)
-            {
+            let half_extent = around.config().ground_half_extent;
+            if company == Company::Alone && self.is_on_level_ground(half_extent, reach) {
                 // There is nothing to run into: the controller would find out the same at many times the cost.
                 self.plan.way = Vector3::new(wish.x, wish.y, -self.feet().z);
-                let grip = around.conditions().road.grip(around.config().ground);
-                self.plan.stand = Stand { grip, ..Stand::default() };
-                self.motion.support = None;
+                self.stand_on_level_ground(around);
                 self.motion.pace.go(wish.xy().norm(), 0.0);
+            } else if company == Company::Alone && !was_grounded && self.is_over_ground(half_extent, reach) {
+                // Casts of a slender form against a solid of 200 km find faces that lean, along which it would slide.
+                let height = self.feet().z;
+                self.motion.grounded = height + wish.z <= 0.0;
+                self.plan.way = Vector3::new(wish.x, wish.y, wish.z.max(-height));
+                self.stand_on_level_ground(around);
             } else {
                 self.find_way(&wish, &carried, company, around, dt);
             }
@@ -279,6 +283,12 @@ impl Humanoid {
             self.plan.upset = self.plan.upset.or(Some(FallCause::Slipped));
         }
         self.tread(&carried, around, dt);
+    }
+
+    fn stand_on_level_ground(&mut self, around: &Surroundings<'_>) {
+        let grip = around.conditions().road.grip(around.config().ground);
+        self.plan.stand = Stand { grip, ..Stand::default() };
+        self.motion.support = None;
     }
 
     /// Lets the character controller find the way among solids.

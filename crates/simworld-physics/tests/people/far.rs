@@ -55,8 +55,7 @@ fn who_comes_near_goes_on_without_a_jump() {
         let (to, velocity) = (stage.position(who), stage.velocity(who));
         let says = ((to - from) / 0.1 - velocity).norm();
         assert!(step == 0 || says < 1e-9, "step {step}: it moves as it says");
-        let expected = if step == 0 { 0.14..=0.141 } else { 0.139..=0.141 };
-        assert!(expected.contains(&(to - from).norm()), "step {step}: {}", (to - from).norm());
+        assert!((0.139..=0.141).contains(&(to - from).norm()), "step {step}: {}", (to - from).norm());
         assert!(to.z.abs() < 1e-9, "step {step}: {to}");
         assert!(facing.angle_to(&stage.world.entity(who).unwrap().pose.rotation) < 0.41, "step {step}");
         let now = stage.physics.detail(who);
