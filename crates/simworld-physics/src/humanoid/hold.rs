@@ -27,6 +27,12 @@ pub(super) fn turned_with(holds: &[Hold], wish: f64) -> f64 {
     holds.iter().filter(|hold| hold.turns).fold(wish, within)
 }
 
+/// What hangs on hands of what they hold, as a mass, kg, where things are this heavy, m/s²: by how far the springs have given way.
+pub(super) fn hung(holds: &[Hold], gravity: f64) -> f64 {
+    let force: f64 = holds.iter().map(|hold| hold.stiffness * hold.gap.z.max(0.0)).sum();
+    if gravity > 0.0 { force / gravity } else { 0.0 }
+}
+
 impl Humanoid {
     /// Whether it holds a body, and so does not push it as something in the way.
     pub(super) fn has_hold_of(rigid: Option<RigidBodyHandle>, around: &Surroundings<'_>) -> bool {

@@ -204,6 +204,8 @@ struct Plan {
     effort: Vector2,
     /// Mass of what it has in its hands, kg: the world says it anew every step.
     load: f64,
+    /// What of the weight of things that it holds hangs on it, kg: they say it anew every substep.
+    hung: f64,
     /// Whether it goes down, or up again.
     goes_low: Option<bool>,
     /// How its limbs lie while it is limp.
@@ -385,14 +387,15 @@ impl Humanoid {
         }
     }
 
-    /// Mass of what it has in its hands, kg, as of the last step.
+    /// Mass of what it has in its hands, kg, as of the last step, with what hangs on them of things that it
+    /// [holds](crate::PhysicsDynamics::grasp): all of the mass where they hang free, nothing where they stand.
     pub fn load(&self) -> f64 {
-        self.plan.load
+        self.plan.load + self.plan.hung
     }
 
     /// The mass that its feet carry, kg.
     fn laden_mass(&self) -> f64 {
-        self.mass + self.plan.load
+        self.mass + self.load()
     }
 }
 

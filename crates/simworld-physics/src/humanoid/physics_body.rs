@@ -35,7 +35,7 @@ impl PhysicsBody for Humanoid {
     }
 
     fn bind(&mut self, bonds: Bonds) {
-        self.plan.load = bonds.load;
+        (self.plan.load, self.plan.hung) = (bonds.load, 0.0);
         self.assume(match (bonds.carried, bonds.scooter) {
             (Some(Role::Seated), _) => Posture::Seated,
             (Some(_), _) => Posture::Aboard,

@@ -131,7 +131,7 @@ impl Humanoid {
 
     /// How fast it goes of a wish: who crouches is slow, and what it carries costs no more than its top speed does with empty hands, m/s.
     fn bearable_speed(&self, wish: f64) -> f64 {
-        let (load, wish) = (self.plan.load, self.speed_under(wish));
+        let (load, wish) = (self.load(), self.speed_under(wish));
         if load <= 0.0 || self.config.balance == Surefootedness::Unfailing {
             return wish;
         }
@@ -239,6 +239,7 @@ impl Humanoid {
         self.plan.upset = None;
         self.mind_the_head(around);
         self.plan.shifted = Vector3::zeros();
+        self.plan.hung = hold::hung(around.holds, around.config().gravity);
         let (was_grounded, sink) = (self.motion.grounded, self.motion.fall_speed);
         let (carried, turned) = self.carry(around, dt);
         self.motion.yaw = wrap_angle(self.motion.yaw + turned);

@@ -3,7 +3,7 @@
 
 use crate::common::{PERSON, Stage, at};
 use nalgebra::UnitQuaternion;
-use simworld_core::action::Action;
+use simworld_core::action::{Action, StepDirection};
 use simworld_core::environment::Environment;
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point3, Pose, Twist, Vector3, pose_facing};
@@ -11,7 +11,7 @@ use simworld_core::id::EntityId;
 use simworld_core::ops;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape};
 use simworld_physics::robot::{Base, JointDescription, JointKind, LinkDescription, RobotDescription};
-use simworld_physics::{Grip, PhysicsError, Robot, RobotConfig, Turning};
+use simworld_physics::{Grip, Humanoid, HumanoidConfig, PhysicsError, Robot, RobotConfig, Turning};
 
 const GRAVITY: f64 = 9.81;
 
@@ -270,4 +270,99 @@ fn holds_that_cannot_be_are_refused_with_the_reason() {
     }
     stage.run(20);
     assert!(stage.position(thing).coords.norm().is_finite());
+}
+
+fn load(stage: &Stage, who: EntityId) -> f64 {
+    stage.physics.body_as::<Humanoid>(who).unwrap().load()
+}
+
+#[test]
+fn what_hangs_on_a_hand_slows_down_as_what_is_carried_does_and_what_stands_does_not() {
+    let grip = Grip::both_hands();
+    let (mut stage, who, _) = hanging(25.0, grip);
+    stage.tell(who, Action::MoveForward { speed: 2.5 });
+    stage.run(60);
+    assert!((load(&stage, who) - 25.0).abs() < 0.5, "{} kg hang on it", load(&stage, who));
+    let hung = stage.velocity(who).norm();
+    let mut stage = Stage::new();
+    let who = stage.person(at(0.0, 0.0, 0.0));
+    let thing = EntityDesc::new(EntityKind::Parcel, at(0.6, 0.0, 0.0), Shape::cuboid(0.2, 0.2, 0.2));
+    let item = stage.world.spawn(thing.weighing(25.0)).unwrap();
+    stage.tell(who, Action::CarryHeavy { item });
+    stage.tell(who, Action::MoveForward { speed: 2.5 });
+    stage.run(60);
+    let carried = stage.velocity(who).norm();
+    assert!(carried < 2.3 && (hung / carried - 1.0).abs() < 0.02, "{hung} m/s, and {carried} if carried");
+    let mut stage = Stage::new();
+    let who = stage.person(at(0.0, 0.0, 0.0));
+    let desc = EntityDesc::new(EntityKind::Prop, at(0.6, 0.0, 0.0), Shape::cuboid(0.4, 0.4, 1.0));
+    let thing = stage.world.spawn(desc.weighing(25.0)).unwrap();
+    stage.physics.add_rigid(&stage.world, thing).unwrap();
+    stage.physics.grasp(&stage.world, who, thing, Some(Point3::new(0.5, 0.0, 1.0)), grip).unwrap();
+    stage.run(20);
+    assert!(load(&stage, who) < 0.5, "it stands by itself: {} kg", load(&stage, who));
+}
+
+/// Two who face one another with a box between them, 0.8 m up, that both hold; how hard each of them pushes and pulls, N.
+fn two_with_a_box(mass: f64, forces: [f64; 2]) -> (Stage, [EntityId; 2], EntityId) {
+    let mut stage = Stage::new();
+    let pose = pose_facing(Point3::new(0.0, 0.0, 0.8), 0.0);
+    let desc = EntityDesc::new(EntityKind::Prop, pose, Shape::cuboid(0.4, 0.4, 0.2)).weighing(mass);
+    let thing = stage.world.spawn(desc).unwrap();
+    stage.physics.add_rigid(&stage.world, thing).unwrap();
+    let people = [-1.0, 1.0].map(|side| {
+        let stands = at(0.7 * side, 0.0, if side < 0.0 { 0.0 } else { std::f64::consts::PI });
+        let who = stage.world.spawn(EntityDesc::new(EntityKind::Person, stands, PERSON)).unwrap();
+        let push_force = forces[usize::from(side > 0.0)];
+        let config = HumanoidConfig { push_force, ..HumanoidConfig::default() };
+        stage.physics.add_humanoid(&stage.world, who, config).unwrap();
+        let place = Point3::new(0.2 * side, 0.0, 0.9);
+        stage.physics.grasp(&stage.world, who, thing, Some(place), Grip::default()).unwrap();
+        who
+    });
+    (stage, people, thing)
+}
+
+#[test]
+fn a_thing_that_two_hold_weighs_half_on_each() {
+    let (mut stage, people, thing) = two_with_a_box(16.0, [200.0; 2]);
+    stage.run(30);
+    for who in people {
+        assert!((load(&stage, who) - 8.0).abs() < 0.2, "{} kg", load(&stage, who));
+    }
+    // They carry it sideways together.
+    for (who, direction) in people.into_iter().zip([StepDirection::Left, StepDirection::Right]) {
+        stage.tell(who, Action::Step { direction, distance: 2.0 });
+    }
+    stage.run(40);
+    let there = stage.position(thing);
+    assert!((there.y - 2.0).abs() < 0.1 && there.x.abs() < 0.1 && there.z > 0.7, "{there}");
+    assert_eq!(broke(&stage), None);
+    stage.physics.let_go(people[0]);
+    stage.run(40);
+    assert!((load(&stage, people[1]) - 16.0).abs() < 0.5, "all of it hangs on who still holds it");
+    assert_eq!(load(&stage, people[0]), 0.0);
+}
+
+#[test]
+fn a_thing_that_two_pull_at_goes_with_the_stronger_and_with_nobody_if_they_are_alike() {
+    for (forces, goes) in [([200.0, 200.0], 0.0), ([200.0, 60.0], -1.0), ([60.0, 200.0], 1.0)] {
+        let (mut stage, people, thing) = two_with_a_box(5.0, forces);
+        for who in people {
+            stage.tell(who, Action::Step { direction: StepDirection::Backward, distance: 3.0 });
+        }
+        stage.run(20);
+        let there = stage.position(thing);
+        if goes == 0.0 {
+            assert!(there.x.abs() < 0.1, "{forces:?}: {there}");
+        } else {
+            assert!(there.x * goes > 0.5, "{forces:?}: {there}");
+        }
+        assert_eq!(broke(&stage), None, "{forces:?}");
+        for who in people {
+            let (_, force) = stage.physics.grasped(who).next().expect("both still hold it");
+            // Beside the weight of a half.
+            assert!(force > 50.0 && force < 260.0, "{forces:?}: {force} N");
+        }
+    }
 }
