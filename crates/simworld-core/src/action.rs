@@ -215,6 +215,8 @@ actions! {
     },
     /// Lets go of everything that was taken hold of.
     LetGo,
+    /// Goes down on bent knees, lower and slower, until it stands up. A body carries it out, and stays down under what is too low.
+    Crouch,
 }
 
 impl fmt::Display for ActionKind {

@@ -17,7 +17,7 @@ const PERSON: fn(&Stage) -> EntityId = |stage| stage.me;
 const DOG: fn(&Stage) -> EntityId = |stage| stage.dog;
 const CAR: fn(&Stage) -> EntityId = |stage| stage.car;
 
-const ROWS: [Row; 45] = [
+const ROWS: [Row; 46] = [
     (PERSON, ActionKind::MoveForward, |stage| moving::forward(stage, stage.me)),
     (PERSON, ActionKind::Step, |stage| moving::step(stage, stage.me)),
     (PERSON, ActionKind::Rotate, |stage| moving::rotate(stage, stage.me)),
@@ -39,6 +39,7 @@ const ROWS: [Row; 45] = [
     (PERSON, ActionKind::Buy, things::buy),
     (PERSON, ActionKind::SitDown, things::sit_down),
     (PERSON, ActionKind::StandUp, things::stand_up),
+    (PERSON, ActionKind::Crouch, |stage| moving::crouch(stage, stage.me)),
     (PERSON, ActionKind::OpenDoor, things::open_door),
     (PERSON, ActionKind::CloseDoor, things::close_door),
     (PERSON, ActionKind::EnterCar, vehicles::enter_car),

@@ -101,3 +101,19 @@ pub(crate) fn focus(stage: &mut Stage, who: EntityId) {
     stage.does(who, Action::Focus { horizontal_fov: 0.6 });
     assert_eq!(view(stage), Some(0.6));
 }
+
+pub(crate) fn crouch(stage: &mut Stage, who: EntityId) {
+    on_open_ground(stage, who);
+    stage.does(who, Action::Crouch);
+    stage.refuses(who, Action::Crouch, "crouching");
+    assert!(stage.world().entity(who).expect("it is there").is_crouched(), "others see it");
+    stage.does(who, Action::MoveForward { speed: 2.0 });
+    let (ahead, _) = stage.way_in(who, 2.0);
+    within(ahead, 1.9..=2.01);
+    stage.does(who, Action::StandUp);
+    stage.wait(0.5);
+    assert!(!stage.world().entity(who).expect("it is there").is_crouched());
+    let (ahead, _) = stage.way_in(who, 2.0);
+    within(ahead, 3.9..=4.01);
+    stage.refuses(who, Action::StandUp, "standing");
+}

@@ -110,6 +110,7 @@ fn is_visible(action: &Action) -> bool {
             | Action::PutDownHeavy
             | Action::SitDown { .. }
             | Action::StandUp
+            | Action::Crouch
             | Action::RideScooter { .. }
             | Action::GetOffScooter
             | Action::EnterCar { .. }
@@ -143,6 +144,7 @@ fn missing_effect(scene: &dyn Scene, who: EntityId, action: &Action) -> Option<S
         Action::SitDown { seat } => i_hang_on(Some(*seat), Role::Seated),
         Action::EnterCar { car } => i_hang_on(Some(*car), Role::Aboard),
         Action::StandUp => !i_hang_on(None, Role::Seated),
+        Action::Crouch => scene.entity(who).is_some_and(|me| me.is_crouched()),
         Action::ExitCar => !i_hang_on(None, Role::Aboard),
         Action::Buy { .. } => scene.attached(who, Role::Held).is_some(),
         Action::OpenDoor { door } => is_open(scene, *door),

@@ -20,7 +20,7 @@ use super::spelling::correct;
 pub(super) const CALLS: &[(&str, &[&str])] = &[
     ("navigate", &["to?", "x?", "y?", "z?", "speed?", "within?"]), ("follow", &["whom"]), ("face", &["what"]),
     ("pick_up", &["item"]), ("drop_off", &[]), ("put_down", &[]), ("give", &["to", "item?"]), ("throw", &["to", "item?"]), ("buy", &["goods",
-    "at?"]), ("sit_down", &["seat?"]), ("stand_up", &[]), ("stop", &[]), ("wait", &["seconds"]),
+    "at?"]), ("sit_down", &["seat?"]), ("stand_up", &[]), ("crouch", &[]), ("stop", &[]), ("wait", &["seconds"]),
     ("ride_scooter", &["scooter"]), ("get_off_scooter", &[]), ("enter_car", &["car"]), ("exit_car", &[]),
     ("open_door", &["door?"]), ("close_door", &["door?"]), ("step", &["direction?", "distance?"]), ("turn",
     &["angle"]), ("change_speed", &["speed"]), ("say", &["to", "words"]), ("argue", &["with"]), ("wave",
@@ -59,6 +59,7 @@ pub(super) fn read(
         "put_down" => Ok(Clause::Drop { what: None, at: None, manner: Manner::PutDown }),
         "sit_down" => Ok(Clause::Sit { on: call.optional_thing("seat")? }),
         "stand_up" => Ok(Clause::StandUp),
+        "crouch" => Ok(Clause::Crouch),
         "stop" => Ok(Clause::Stop),
         "wait" => Ok(Clause::Wait { seconds: call.number("seconds", 0.001, 86_400.0)? }),
         "get_off_scooter" => Ok(Clause::Alight { from: Vehicle::Scooter }),

@@ -44,6 +44,8 @@ pub(super) enum Clause {
     Sit { on: Option<Reference> },
     /// Gets up.
     StandUp,
+    /// Goes down on bent knees.
+    Crouch,
     /// Halts.
     Stop,
     /// Waits.

@@ -184,6 +184,7 @@ impl<'a> Draft<'a> {
                 self.posture = Posture::Standing;
                 self.act(Action::StandUp)
             }
+            Clause::Crouch => self.act(Action::Crouch),
             Clause::Stop if matches!(self.last_step(), Some(PlanStep::Act(Action::Stop))) => Ok(()),
             Clause::Stop => self.act(Action::Stop),
             Clause::Wait { seconds } => {

@@ -118,6 +118,7 @@ impl Parser<'_> {
             !matches!(
                 verb,
                 Verb::StandUp
+                    | Verb::Crouch
                     | Verb::Stop
                     | Verb::Wait
                     | Verb::Count
@@ -277,6 +278,7 @@ impl Parser<'_> {
     fn deed(&mut self, verb: Verb, start: usize) -> Result<Vec<Clause>, PlanError> {
         let one = |clause| Ok(vec![clause]);
         match verb {
+            Verb::Crouch => one(Clause::Crouch),
             Verb::Stop => self.stop(),
             Verb::Park => self.park(),
             Verb::Pass => self.past(Pace::Usual),

@@ -25,6 +25,7 @@ impl Parser<'_> {
                     Clause::Sit { .. }
                         | Clause::Go { .. }
                         | Clause::StandUp
+                        | Clause::Crouch
                         | Clause::Stop
                         | Clause::Park { .. }
                 )

@@ -129,6 +129,13 @@ const ENTRIES: &[Entry] = &[
         says: "goes there and sits down",
     },
     Entry { act: "stand_up", call: "stand_up", needs: &[A::StandUp], args: &[], says: "gets up" },
+    Entry {
+        act: "crouch",
+        call: "crouch",
+        needs: &[A::Crouch],
+        args: &[],
+        says: "goes down on bent knees, until it gets up",
+    },
     Entry { act: "stop", call: "stop", needs: &[A::Stop], args: &[], says: "halts" },
     Entry {
         act: "wait",

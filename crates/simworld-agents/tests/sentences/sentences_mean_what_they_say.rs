@@ -92,6 +92,10 @@ fn verbs_have_their_steps() {
         ("sit on the nearest chair", "go #2, sit #2"),
         ("take a seat by the museum", "go #3, sit #3"),
         ("sit down, then stand up", "go #2, sit #2, stand up"),
+        ("crouch", "crouch"),
+        ("please duck down", "crouch"),
+        ("squat down and wait three seconds, then stand up", "crouch, wait 3, stand up"),
+        ("go to the museum, crouch and take a photo", "go #5, crouch, take photo"),
         ("pick up the parcel", "go #4, take #4"),
         ("pick the package up and bring it to the museum", "go #4, take #4, go #5, drop off"),
         ("deliver the parcel to the museum", "go #4, take #4, go #5, drop off"),
@@ -252,6 +256,7 @@ fn calls_mean_the_same_as_words() {
         ),
         (Intent::call("wait").arg("seconds", 2.5), "wait 2.5"),
         (Intent::call("stand_up"), "stand up"),
+        (Intent::call("crouch"), "crouch"),
         (Intent::call("turn").arg("angle", 1.0), "turn 57"),
     ];
     for (intent, steps) in table {

@@ -10,6 +10,9 @@ use crate::value::Value;
 /// The attribute of somebody that says how it fares on its feet, as [`Footing`] names it; upright without it.
 pub const FOOTING: &str = "footing";
 
+/// The attribute of somebody who crouches: true, and none while it does not.
+pub const CROUCHED: &str = "crouched";
+
 /// How somebody fares on its feet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -81,5 +84,10 @@ impl EntityRef<'_> {
     pub fn footing(&self) -> Footing {
         let Some(Value::Text(name)) = self.info.attributes.get(FOOTING) else { return Footing::Upright };
         Footing::NAMED.into_iter().find(|footing| footing.as_str() == name).unwrap_or_default()
+    }
+
+    /// Whether it crouches.
+    pub fn is_crouched(&self) -> bool {
+        self.info.attributes.get(CROUCHED) == Some(&Value::Bool(true))
     }
 }

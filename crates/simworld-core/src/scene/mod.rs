@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 pub use classes::ClassIndex;
 pub use entity::{Attachment, EntityDesc, EntityInfo, EntityRef, MATERIAL, Role, Solidity, Visibility};
-pub use footing::{FOOTING, FallCause, Footing};
+pub use footing::{CROUCHED, FOOTING, FallCause, Footing};
 pub use gesture::{GESTURE, GESTURE_END, Gesture, POINTING};
 pub use interaction::{
     ARM_REACH, CARRY_LIMIT, EARSHOT, FIELD_OF_VIEW, GAZE, HAND_LIMIT, InteractionError, LOCKED, MOST_THROWN,

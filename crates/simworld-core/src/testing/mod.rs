@@ -196,6 +196,7 @@ pub fn sample_action(kind: ActionKind, someone: EntityId) -> Action {
         ActionKind::ThrowTo => Action::ThrowTo { to: someone },
         ActionKind::Grasp => Action::Grasp { thing: someone, both_hands: false },
         ActionKind::LetGo => Action::LetGo,
+        ActionKind::Crouch => Action::Crouch,
         ActionKind::Buy => Action::Buy { goods: "tea".to_owned(), from: someone },
     }
 }

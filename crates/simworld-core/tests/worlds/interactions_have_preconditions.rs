@@ -98,6 +98,24 @@ fn hands_and_arms_hold_no_more_than_they_can() {
 }
 
 #[test]
+fn who_stands_can_crouch_until_it_stands_up_sits_or_rides() {
+    let mut world = small_world();
+    let is_crouched = |world: &World| world.entity(PERSON).unwrap().is_crouched();
+    assert!(!is_crouched(&world));
+    world.actuate(PERSON, Action::Crouch).unwrap();
+    assert!(is_crouched(&world));
+    let refused = world.actuate(PERSON, Action::Crouch).unwrap_err().to_string();
+    assert!(refused.contains("crouching"), "{refused}");
+    world.actuate(PERSON, Action::StandUp).unwrap();
+    assert!(!is_crouched(&world) && world.actuate(PERSON, Action::StandUp).is_err(), "it stands");
+    world.actuate(PERSON, Action::Crouch).unwrap();
+    world.actuate(PERSON, Action::SitDown { seat: CHAIR }).unwrap();
+    assert!(!is_crouched(&world));
+    let refused = world.actuate(PERSON, Action::Crouch).unwrap_err().to_string();
+    assert!(refused.contains("sitting"), "{refused}");
+}
+
+#[test]
 fn who_gets_up_or_puts_down_finds_room() {
     let mut world = World::new();
     let mut put = |kind, x: f64, y: f64, shape| {

@@ -51,7 +51,11 @@ impl Humanoid {
             Action::SitDown { .. } => self.assume(Posture::Seated),
             Action::EnterCar { .. } => self.assume(Posture::Aboard),
             Action::RideScooter { .. } => self.assume(Posture::Riding),
-            Action::StandUp | Action::ExitCar | Action::GetOffScooter => self.assume(Posture::Standing),
+            Action::StandUp | Action::ExitCar | Action::GetOffScooter => {
+                self.crouch(false);
+                self.assume(Posture::Standing);
+            }
+            Action::Crouch => self.crouch(true),
             // Where it looks stands in the world, where others see it.
             Action::LookUp { angle } | Action::LookDown { angle } => {
                 checked(kind, "angle", *angle, f64::MIN..=f64::MAX, "a finite angle")?;
@@ -83,6 +87,7 @@ impl Humanoid {
         }
         self.motion.posture = posture;
         self.motion.speed = 0.0;
+        self.crouch(false);
         self.motion.balance = Balance::default();
         self.motion.pace = Pace::default();
         self.motion.support = None;

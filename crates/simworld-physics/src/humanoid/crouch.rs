@@ -32,7 +32,8 @@ impl Crouch {
 }
 
 impl Humanoid {
-    /// Tells it to crouch, or to stand up straight again, which it does where there is room above it. Who crouches on its feet is 0.7 times
+    /// Tells it to crouch, as `Action::Crouch` does, or to stand up straight again, as `StandUp` does, which it does where there is room
+    /// above it. Others see it (`EntityRef::is_crouched`). Who crouches on its feet is 0.7 times
     /// as high and goes no faster than 1 m/s; the shape of its entity stays what it was. It is a part of saved states.
     pub fn crouch(&mut self, low: bool) {
         self.motion.crouch.wanted = low;

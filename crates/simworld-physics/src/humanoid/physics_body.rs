@@ -4,8 +4,9 @@ use rapier3d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, Rig
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Twist, Vector2};
 use simworld_core::id::EntityId;
-use simworld_core::scene::{FOOTING, Footing, Role, Scene, World, WorldError};
+use simworld_core::scene::{CROUCHED, FOOTING, Footing, Role, Scene, World, WorldError};
 use simworld_core::seam::BodyState;
+use simworld_core::value::Value;
 
 use super::gait::NEVER;
 use super::ragdoll::{Ragdoll, dressed};
@@ -122,6 +123,10 @@ impl PhysicsBody for Humanoid {
         let footing = self.footing();
         if world.entity(id).is_some_and(|entity| entity.footing() != footing) {
             world.set_attribute(id, FOOTING, footing.to_attribute())?;
+        }
+        let crouched = self.is_crouched();
+        if world.entity(id).is_some_and(|entity| entity.is_crouched() != crouched) {
+            world.set_attribute(id, CROUCHED, crouched.then_some(Value::Bool(true)))?;
         }
         if let Some(joints) = self.joints() {
             world.set_joints(id, joints)?;

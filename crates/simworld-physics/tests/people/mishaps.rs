@@ -148,8 +148,9 @@ fn who_crouches_goes_under_a_bar_slowly_and_stands_up_behind_it() {
         let bar = pose_facing(Point3::new(3.0, 0.0, 1.35), 0.0);
         stage.spawn(EntityKind::Building, bar, Shape::cuboid(1.0, 6.0, 1.0));
         let person = stage.person(at(0.0, 0.0, 0.0));
-        let body: &mut Humanoid = stage.physics.body_as_mut(person).unwrap();
-        body.crouch(low);
+        if low {
+            stage.tell(person, Action::Crouch);
+        }
         stage.tell(person, Action::MoveForward { speed: 1.34 });
         stage.run(30);
         (stage, person)
@@ -161,10 +162,13 @@ fn who_crouches_goes_under_a_bar_slowly_and_stands_up_behind_it() {
     assert!((under.x - 3.0).abs() < 0.1, "a metre a second: {under}");
     let joints = *stage.world.joints(person).unwrap();
     assert!(joints.left_leg.knee_flexion > 1.0 && joints.hip_drop > 0.4, "on bent knees: {joints:?}");
-    let body: &mut Humanoid = stage.physics.body_as_mut(person).unwrap();
-    body.crouch(false);
+    stage.tell(person, Action::StandUp);
     stage.step();
-    let is_low = |stage: &Stage| stage.physics.body_as::<Humanoid>(person).unwrap().is_crouched();
+    let is_low = |stage: &Stage| {
+        let low = stage.physics.body_as::<Humanoid>(person).unwrap().is_crouched();
+        assert_eq!(stage.world.entity(person).unwrap().is_crouched(), low, "others see it");
+        low
+    };
     assert!(is_low(&stage), "the bar is above it");
     stage.run(30);
     assert!(!is_low(&stage) && stage.position(person).x > 5.5, "{}", stage.position(person));

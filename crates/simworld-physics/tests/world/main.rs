@@ -13,6 +13,9 @@ mod falling;
 mod golden;
 mod grasps;
 mod hands;
+#[path = "../common/hostile.rs"]
+mod hostile;
+mod hostile_settings;
 mod laws;
 mod models;
 mod rays;

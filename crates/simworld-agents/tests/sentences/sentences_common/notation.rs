@@ -77,6 +77,7 @@ fn act(action: &Action, city: &City) -> String {
         Action::EnterCar { car } => format!("enter {}", key(car)),
         Action::ExitCar => "exit".into(),
         Action::StandUp => "stand".into(),
+        Action::Crouch => "crouch".into(),
         Action::WaveHand { to } => format!("wave {}", key(to)),
         Action::Argue { with } => format!("argue {}", key(with)),
         Action::Give { to } => format!("give {}", key(to)),

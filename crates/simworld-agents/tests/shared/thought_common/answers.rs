@@ -78,6 +78,7 @@ fn act(action: &Action, scene: &dyn Scene) -> Option<Json> {
         }
         Action::SitDown { seat } => json!({ "act": "sit_down", "seat": seat.to_string() }),
         Action::StandUp => json!({ "act": "stand_up" }),
+        Action::Crouch => json!({ "act": "crouch" }),
         Action::Stop => json!({ "act": "stop" }),
         Action::OpenDoor { door } => json!({ "act": "open_door", "door": door.to_string() }),
         Action::CloseDoor { door } => json!({ "act": "close_door", "door": door.to_string() }),

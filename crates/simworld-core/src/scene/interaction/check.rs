@@ -29,7 +29,9 @@ pub fn check_action(scene: &dyn Scene, who: EntityId, action: &Action) -> Result
         Action::DropOff => has(scene, who, Role::Held, "drop off", "holding nothing").map(drop),
         Action::PutDownHeavy => has(scene, who, Role::Carried, "put down", "carrying nothing").map(drop),
         Action::GetOffScooter => has(scene, who, Role::Ridden, "get off", "on foot").map(drop),
+        Action::StandUp if find(scene, who)?.is_crouched() => Ok(()),
         Action::StandUp => hangs_by(scene, who, Role::Seated, "stand up", "standing"),
+        Action::Crouch => crouch(scene, who),
         Action::ExitCar => get_out(scene, who),
         Action::OpenDoor { door } => turn_door(scene, who, *door, true),
         Action::CloseDoor { door } => turn_door(scene, who, *door, false),
@@ -74,8 +76,8 @@ fn able(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), Inte
 /// Hands, seats, vehicles and doors want somebody who stands; looking, talking and letting go do not.
 fn on_its_feet(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(), InteractionError> {
     use ActionKind::{
-        Buy, CarryHeavy, CloseDoor, EnterCar, Give, Grasp, OpenDoor, PickUp, RideScooter, SitDown, StandUp,
-        Throw, ThrowTo,
+        Buy, CarryHeavy, CloseDoor, Crouch, EnterCar, Give, Grasp, OpenDoor, PickUp, RideScooter, SitDown,
+        StandUp, Throw, ThrowTo,
     };
     let needs_feet = ActionSet::of(&[
         PickUp,
@@ -83,6 +85,7 @@ fn on_its_feet(scene: &dyn Scene, who: EntityId, action: ActionKind) -> Result<(
         RideScooter,
         SitDown,
         StandUp,
+        Crouch,
         EnterCar,
         OpenDoor,
         CloseDoor,
@@ -249,6 +252,19 @@ fn hangs_by(
 ) -> Result<(), InteractionError> {
     let bond = find(scene, who)?.attachment.filter(|bond| bond.role == role);
     bond.map(drop).ok_or(InteractionError::Busy { who, verb, state })
+}
+
+/// Nobody crouches but on its own feet.
+fn crouch(scene: &dyn Scene, who: EntityId) -> Result<(), InteractionError> {
+    let actor = find(scene, who)?;
+    let state = match actor.attachment.map(|bond| bond.role) {
+        Some(Role::Seated) => "sitting",
+        Some(_) => "in a vehicle",
+        None if scene.attached(who, Role::Ridden).is_some() => "riding",
+        None if actor.is_crouched() => "crouching",
+        None => return Ok(()),
+    };
+    Err(InteractionError::Busy { who, verb: "crouch", state })
 }
 
 /// Nobody gets out of a vehicle that moves.

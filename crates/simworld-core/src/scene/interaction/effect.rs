@@ -11,7 +11,7 @@ use crate::event::EventKind;
 use crate::geometry::{Point3, Pose, Vector3, pose_facing, yaw_of};
 use crate::id::EntityId;
 use crate::ops::wrap_angle;
-use crate::scene::{Attachment, EntityDesc, EntityKind, EntityRef, Role, Scene, Shape, World};
+use crate::scene::{Attachment, CROUCHED, EntityDesc, EntityKind, EntityRef, Role, Scene, Shape, World};
 use crate::value::Value;
 
 impl World {
@@ -26,20 +26,29 @@ impl World {
         match action {
             Action::PickUp { item } => self.hang(*item, who, &PICK_UP, PICK_UP.offset),
             Action::CarryHeavy { item } => self.hang(*item, who, &CARRY, CARRY.offset),
-            Action::RideScooter { scooter } => self.hang(*scooter, who, &RIDE, RIDE.offset),
+            Action::RideScooter { scooter } => {
+                self.straighten(who);
+                self.hang(*scooter, who, &RIDE, RIDE.offset);
+            }
+            Action::Crouch => self.note(who, CROUCHED, Value::Bool(true)),
             Action::SitDown { seat } => {
+                self.straighten(who);
                 let height =
                     self.entity(*seat).map_or(0.0, |seat| (seat.info.shape.size().z * 0.5).min(0.45));
                 self.hang(who, *seat, &SIT, SIT.offset + Vector3::z() * height);
             }
             Action::EnterCar { car } => {
                 let seat = entering(self, *car);
+                self.straighten(who);
                 self.hang(who, *car, seat, seat.offset);
             }
             Action::DropOff => self.put_down(has(self, who, Role::Held, "", "")?, who),
             Action::PutDownHeavy => self.put_down(has(self, who, Role::Carried, "", "")?, who),
             Action::GetOffScooter => self.put_down(has(self, who, Role::Ridden, "", "")?, who),
-            Action::StandUp | Action::ExitCar => self.dismount(who),
+            Action::StandUp | Action::ExitCar => {
+                self.straighten(who);
+                self.dismount(who);
+            }
             Action::OpenDoor { door } => self.set_door(*door, true),
             Action::CloseDoor { door } => self.set_door(*door, false),
             Action::Give { to } => {
@@ -96,6 +105,13 @@ impl World {
         let pose = pose_facing(room::beside(self, who, &carrier, wished), yaw_of(carrier.pose));
         self.bond(who, None);
         self.place(who, pose);
+    }
+
+    /// Whoever sits, rides or stands no longer crouches.
+    fn straighten(&mut self, who: EntityId) {
+        if self.entity(who).is_some_and(|actor| actor.is_crouched()) {
+            let _ = self.set_attribute(who, CROUCHED, None);
+        }
     }
 
     fn set_door(&mut self, door: EntityId, open: bool) {
