@@ -140,7 +140,6 @@ fn model(corners: &[[f32; 3]]) -> (Model, Shape) {
         triangles,
         hulls: vec![Hull { points: corners }],
         parts: vec![part],
-        ..Model::default()
     };
     (model, Shape::Box { size: Vector3::from(size) })
 }
@@ -163,11 +162,10 @@ fn embody(
             let dog = RobotConfig::from(QuadrupedModel::default().description());
             physics.add_robot(world, id, changed(&dog, changes)?)
         }
-        _ => physics.add_rigid(world, id).and_then(|()| {
-            let Some(grip) = changed(&Grip::default(), changes) else { return Ok(()) };
+        _ => physics.add_rigid(world, id).map(|()| {
             // Nobody holds himself, whatever the grip.
-            assert!(physics.grasp(world, id, id, None, grip).is_err());
-            Ok(())
+            let grip = changed(&Grip::default(), changes);
+            assert!(grip.is_none_or(|grip| physics.grasp(world, id, id, None, grip).is_err()));
         }),
     })
 }
