@@ -14,7 +14,7 @@ use simworld_agents::assets::{ImportConfig, Thing, export_glb, import_glb, read_
 use simworld_agents::editing::SceneEditor;
 use simworld_agents::retrieval::AssetIndex;
 use simworld_citygen::{City, CityConfig};
-use simworld_core::asset::{Asset, Catalogue, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{Asset, Catalogue, Model, ModelPart, ModelVertex};
 use simworld_core::ops;
 use simworld_core::scene::World;
 use simworld_core::seed::Seed;
@@ -267,6 +267,6 @@ fn dented_ball(rings: u32) -> Model {
         }
     }
     let parts =
-        vec![ModelPart { name: "stone".into(), triangles: triangles.len() as u32, paint: Paint::Own }];
-    Model { vertices, triangles, parts, hulls: Vec::new() }
+        vec![ModelPart { name: "stone".into(), triangles: triangles.len() as u32, ..ModelPart::default() }];
+    Model { vertices, triangles, parts, ..Model::default() }
 }

@@ -13,6 +13,8 @@ fuzz_target!(|data: &[u8]| {
     let Ok(surface) = read_glb(data, &limits) else { return };
     assert!(!surface.triangles.is_empty() && surface.triangles.len() <= 400);
     assert!(surface.points.iter().all(|point| point.iter().all(|number| number.is_finite())));
+    assert!(surface.places.iter().flatten().all(|part| part.is_finite()));
+    assert!(surface.images.iter().all(|image| image.is_whole() && image.pixels.len() <= 3 << 12));
     let config = ImportConfig { limits, voxels: 16, hulls: 4, tangled: 1.0, ..ImportConfig::default() };
     let thing = Thing { name: "thing".into(), words: "crate".into(), ..Thing::default() };
     if let Ok(imported) = import_glb(data, &thing, &config) {

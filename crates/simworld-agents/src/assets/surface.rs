@@ -1,6 +1,6 @@
 //! Surfaces: triangles with their looks, before they are known to be a solid.
 
-use simworld_core::asset::ModelPart;
+use simworld_core::asset::{ModelImage, ModelPart, light_of};
 use simworld_core::geometry::{Point3, Vector3};
 
 /// Triangles with their looks. Body axes (x forward, y left, z up); unit and origin are those of where it came from.
@@ -10,12 +10,16 @@ pub struct Surface {
     pub points: Vec<Point3>,
     /// Outward, of length 1, one for each point; zero where none is known.
     pub normals: Vec<Vector3>,
-    /// Linear-light sRGB primaries in [0, 1], one for each point.
+    /// Linear-light sRGB primaries in [0, 1], one for each point; times the picture on its part, if there is one.
     pub colors: Vec<[f32; 3]>,
+    /// Where each point lies on the picture of its part, as [`ModelVertex::place`](simworld_core::asset::ModelVertex::place).
+    pub places: Vec<[f32; 2]>,
     /// Three points each, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
     /// Runs of triangles of one look, in order; together they are all of them.
     pub parts: Vec<ModelPart>,
+    /// The pictures that lie on its parts.
+    pub images: Vec<ModelImage>,
 }
 
 impl Surface {
@@ -35,6 +39,15 @@ impl Surface {
     pub(super) fn cross(&self, triangle: [u32; 3]) -> Vector3 {
         let [a, b, c] = self.corners(triangle);
         (b - a).cross(&(c - a))
+    }
+
+    /// The light that the picture of its part has at the corners of a triangle, a little within; white without a picture.
+    pub(super) fn shown(&self, part: &ModelPart, triangle: [u32; 3]) -> [[f32; 3]; 3] {
+        let image =
+            part.texture.and_then(|texture| Some((self.images.get(texture.image as usize)?, texture.wrap)));
+        let Some((image, wrap)) = image else { return [[1.0; 3]; 3] };
+        let places = triangle.map(|point| self.places[point as usize].map(f64::from));
+        within(places).map(|place| image.pixel_at(place, wrap).map(light_of))
     }
 
     /// Keeps the triangles that a rule keeps, and of the parts those that have some left.
@@ -68,5 +81,15 @@ impl Surface {
         self.points = kept.iter().map(|point| self.points[*point]).collect();
         self.normals = kept.iter().map(|point| self.normals[*point]).collect();
         self.colors = kept.iter().map(|point| self.colors[*point]).collect();
+        self.places = kept.iter().map(|point| self.places[*point]).collect();
     }
+}
+
+/// Places on a picture a little within a triangle, near its corners: islands of a picture end at their edges, and beyond lies another
+/// colour.
+pub(super) fn within(corners: [[f64; 2]; 3]) -> [[f64; 2]; 3] {
+    const INWARD: f64 = 0.2;
+    let middle: [f64; 2] =
+        std::array::from_fn(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
+    corners.map(|corner| std::array::from_fn(|axis| corner[axis] + (middle[axis] - corner[axis]) * INWARD))
 }

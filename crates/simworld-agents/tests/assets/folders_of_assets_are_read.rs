@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use simworld_agents::assets::{ImportConfig, export_glb};
 use simworld_agents::library::{LOCK, Library, LibraryError, LibraryLimits, MANIFEST, Manifest};
 use simworld_agents::retrieval::AssetIndex;
-use simworld_core::asset::{Affordance, Catalogue, Material, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{Affordance, Catalogue, Material, Model, ModelPart, ModelVertex};
 use simworld_core::scene::EntityKind;
 
 const HEAD: &str = "name = \"test\"\nlicence = \"CC0-1.0\"\n";
@@ -18,7 +18,12 @@ fn turned(profile: &[(f32, f32)], color: [f32; 3]) -> Model {
     const SIDES: usize = 16;
     let mut model = Model::default();
     let mut put = |position: [f32; 3]| {
-        model.vertices.push(ModelVertex { position, normal: [0.0, 0.0, 1.0], color });
+        model.vertices.push(ModelVertex {
+            position,
+            normal: [0.0, 0.0, 1.0],
+            color,
+            ..ModelVertex::default()
+        });
         (model.vertices.len() - 1) as u32
     };
     let bottom = put([0.0, 0.0, profile[0].1]);
@@ -46,7 +51,7 @@ fn turned(profile: &[(f32, f32)], color: [f32; 3]) -> Model {
         model.triangles.push([top, last[side], last[next]]);
     }
     let triangles = model.triangles.len() as u32;
-    model.parts.push(ModelPart { name: "body".to_owned(), triangles, paint: Paint::Own });
+    model.parts.push(ModelPart { name: "body".to_owned(), triangles, ..ModelPart::default() });
     model
 }
 

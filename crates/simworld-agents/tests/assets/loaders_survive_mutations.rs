@@ -128,6 +128,7 @@ fn models_of_strangers_are_surfaces_or_refused() {
         let (document, bytes) = crate::assets_common::bending_bar(curve);
         container(&document, &bytes)
     }));
+    seeds.push(crate::assets_common::painted(&crate::assets_common::halves()));
     run("glb", &seeds, |data| {
         let limits =
             GlbLimits { triangles: 400, vertices: 1200, nodes: 100, pixels: 1 << 12, ..GlbLimits::default() };
@@ -138,6 +139,8 @@ fn models_of_strangers_are_surfaces_or_refused() {
         let Ok(surface) = read_glb(data, &limits) else { return false };
         assert!(!surface.triangles.is_empty() && surface.triangles.len() <= 400);
         assert!(surface.points.iter().all(|point| point.iter().all(|number| number.is_finite())));
+        assert!(surface.places.iter().flatten().all(|part| part.is_finite()));
+        assert!(surface.images.iter().all(|image| image.is_whole() && image.pixels.len() <= 3 << 12));
         let config = ImportConfig { limits, voxels: 16, hulls: 4, tangled: 1.0, ..ImportConfig::default() };
         let thing = Thing { name: "thing".into(), words: "crate".into(), ..Thing::default() };
         if let Ok(imported) = import_glb(data, &thing, &config) {

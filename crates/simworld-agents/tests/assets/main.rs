@@ -8,6 +8,7 @@ mod folders_of_assets_are_read;
 mod generators_survive_servers;
 mod hostile_models_are_refused;
 mod loaders_survive_mutations;
+mod materials_are_read;
 mod models_are_imported;
 mod models_are_posed;
 mod things_are_made_from_words;

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::assets_common::{
-    RED, container, cuboid, dented_ball, import, model, plain, plain_model, table, thing, together,
+    RED, container, cuboid, dented_ball, halves, import, model, painted, painted_document, plain,
+    plain_model, table, thing, together,
 };
 use serde_json::{Value, json};
 use simworld_agents::assets::{
@@ -144,52 +145,6 @@ fn edges_are_sharp_and_bends_are_smooth_where_no_normals_are_given() {
     );
 }
 
-/// A slab whose left half looks at the left half of a picture, as one mesh of two boxes that share no vertex.
-fn painted_document(picture: &[u8]) -> (Value, Vec<u8>) {
-    let slab =
-        together(&[cuboid([0.0, 0.0, 0.0], [0.5, 0.6, 0.5]), cuboid([0.0, 0.7, 0.0], [0.5, 1.3, 0.5])]);
-    let (mut document, mut bytes) = plain_model(&slab);
-    let places: Vec<f32> =
-        (0..16).flat_map(|vertex| if vertex < 8 { [0.25, 0.5] } else { [0.75, 0.5] }).collect();
-    let add = |document: &mut Value, bytes: &mut Vec<u8>, more: &[u8]| {
-        document["bufferViews"]
-            .as_array_mut()
-            .unwrap()
-            .push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": more.len()}));
-        bytes.extend(more);
-        document["buffers"][0]["byteLength"] = json!(bytes.len());
-    };
-    let places: Vec<u8> = places.iter().flat_map(|x| x.to_le_bytes()).collect();
-    add(&mut document, &mut bytes, &places);
-    add(&mut document, &mut bytes, picture);
-    document["accessors"]
-        .as_array_mut()
-        .unwrap()
-        .push(json!({"bufferView": 2, "componentType": 5126, "count": 16, "type": "VEC2"}));
-    document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
-    document["meshes"][0]["primitives"][0]["material"] = json!(0);
-    document["materials"] = json!([{"pbrMetallicRoughness": {
-        "baseColorFactor": [0.5, 1.0, 1.0, 1.0], "baseColorTexture": {"index": 0}}}]);
-    document["textures"] = json!([{"source": 0}]);
-    document["images"] = json!([{"bufferView": 3, "mimeType": "image/png"}]);
-    (document, bytes)
-}
-
-/// The same as a file.
-fn painted(picture: &[u8]) -> Vec<u8> {
-    let (document, bytes) = painted_document(picture);
-    container(&document, &bytes)
-}
-
-/// Red on the left, and sRGB 188 of blue on the right.
-fn halves() -> Vec<u8> {
-    let mut png = Vec::new();
-    let mut encoder = png::Encoder::new(&mut png, 2, 1);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header().unwrap().write_image_data(&[255, 0, 0, 0, 0, 188]).unwrap();
-    png
-}
-
 #[test]
 fn textures_lie_where_the_file_shifts_and_turns_them() {
     let colors = |transform: Value| {
@@ -197,7 +152,7 @@ fn textures_lie_where_the_file_shifts_and_turns_them() {
         document["extensionsRequired"] = json!(["KHR_texture_transform"]);
         let texture = &mut document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
         texture["extensions"] = json!({"KHR_texture_transform": transform});
-        let surface = read_glb(&container(&document, &bytes), &GlbLimits::default()).unwrap();
+        let surface = read_glb(&container(&document, &bytes), &at_vertices()).unwrap();
         [surface.colors[0], surface.colors[8]].map(|[red, _, blue]| (red > 0.4, blue > 0.4))
     };
     let (red, blue) = ((true, false), (false, true));
@@ -211,13 +166,19 @@ fn textures_lie_where_the_file_shifts_and_turns_them() {
     assert_eq!(colors(json!({"rotation": std::f64::consts::FRAC_PI_2, "offset": [0.25, 0.0]})), [blue, blue]);
 }
 
+/// Limits with which no picture stays one.
+fn at_vertices() -> GlbLimits {
+    GlbLimits { texture: 0, ..GlbLimits::default() }
+}
+
 #[test]
-fn textures_become_colours_of_vertices() {
+fn textures_become_colours_of_vertices_where_none_is_to_stay() {
     let png = halves();
     // Left half red, right half (0, 0, 188), 16 by 8.
     let jpeg = include_bytes!("assets_common/halves.jpg");
     for (picture, tolerance) in [(png.as_slice(), 1e-3), (jpeg.as_slice(), 0.03)] {
-        let surface = read_glb(&painted(picture), &GlbLimits::default()).unwrap();
+        let surface = read_glb(&painted(picture), &at_vertices()).unwrap();
+        assert!(surface.images.is_empty() && surface.parts[0].texture.is_none());
         let (left, right) = (surface.colors[0], surface.colors[8]);
         // sRGB 188 is 0.503 in linear light; the factor halves red.
         for (got, want) in left.into_iter().chain(right).zip([0.5, 0.0, 0.0, 0.0, 0.0, 0.503]) {

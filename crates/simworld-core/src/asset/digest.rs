@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Asset, Model, Season};
+use super::{Asset, Finish, Model, Season};
 use crate::hash::StateHasher;
 
 /// The content address of an asset or of a file: XXH3 with 128 bits, 32 hex digits in files.
@@ -110,6 +110,8 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
         for numbers in [&vertex.position, &vertex.normal, &vertex.color] {
             triple(hasher, numbers);
         }
+        let [right, down] = vertex.place;
+        triple(hasher, &[right, down, 0.0]);
     }
     hasher.u64(model.triangles.len() as u64);
     for corner in model.triangles.iter().flatten() {
@@ -118,6 +120,13 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
     hasher.u64(model.parts.len() as u64);
     for part in &model.parts {
         hasher.str(&part.name).u64(u64::from(part.triangles)).u64(part.paint as u64);
+        let Finish { metallic, roughness, emission } = part.finish;
+        triple(hasher, &[metallic, roughness, 0.0]);
+        triple(hasher, &emission);
+        hasher.u64(part.texture.map_or(u64::MAX, |texture| u64::from(texture.image)));
+        for wrap in part.texture.iter().flat_map(|texture| texture.wrap) {
+            hasher.u64(wrap as u64);
+        }
     }
     hasher.u64(model.hulls.len() as u64);
     for hull in &model.hulls {
@@ -125,6 +134,11 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
         for point in &hull.points {
             triple(hasher, point);
         }
+    }
+    hasher.u64(model.images.len() as u64);
+    for image in &model.images {
+        hasher.u64(u64::from(image.width)).u64(u64::from(image.height));
+        hasher.u64(image.pixels.len() as u64).bytes(&image.pixels);
     }
 }
 
@@ -134,7 +148,10 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::asset::{Affordance, AffordanceSet, Hull, Material, ModelPart, ModelVertex, Paint, Seasons};
+    use crate::asset::{
+        Affordance, AffordanceSet, Hull, Material, ModelImage, ModelPart, ModelTexture, ModelVertex, Seasons,
+        Wrap,
+    };
     use crate::scene::{EntityKind, Place, Shape};
 
     fn stool() -> Asset {
@@ -147,8 +164,9 @@ mod tests {
         Model {
             vertices: corners.map(vertex).to_vec(),
             triangles: vec![[0, 1, 2]],
-            parts: vec![ModelPart { name: "seat".to_owned(), triangles: 1, paint: Paint::Own }],
+            parts: vec![ModelPart { name: "seat".to_owned(), triangles: 1, ..ModelPart::default() }],
             hulls: vec![Hull { points: corners.to_vec() }],
+            images: vec![ModelImage { width: 2, height: 1, pixels: vec![9; 6] }],
         }
     }
 
@@ -157,9 +175,18 @@ mod tests {
         assert_eq!(stool().content_id(), Asset { name: "taboret".to_owned(), ..stool() }.content_id());
     }
 
+    fn lies(model: &mut Model, wrap: [Wrap; 2]) {
+        model.parts[0].texture = Some(ModelTexture { image: 0, wrap });
+    }
+
     #[test]
     fn every_other_field_is_content() {
         let seasons = Seasons { spring: [0.1; 3], summer: [0.2; 3], autumn: [0.3; 3], winter: [0.4; 3] };
+        let spoilt = |spoil: fn(&mut Model)| {
+            let mut model = model(1.0);
+            spoil(&mut model);
+            Asset { model: Some(Arc::new(model)), ..stool() }
+        };
         let others = [
             stool(),
             Asset { kind: EntityKind::Bench, ..stool() },
@@ -177,6 +204,14 @@ mod tests {
             Asset { licence: "CC0-1.0".to_owned(), ..stool() },
             Asset { model: Some(Arc::new(model(1.0))), ..stool() },
             Asset { model: Some(Arc::new(model(2.0))), ..stool() },
+            spoilt(|model| model.vertices[1].place = [0.5, 0.0]),
+            spoilt(|model| model.parts[0].finish.metallic = 1.0),
+            spoilt(|model| model.parts[0].finish.roughness = 0.2),
+            spoilt(|model| model.parts[0].finish.emission[2] = 0.2),
+            spoilt(|model| lies(model, [Wrap::Repeat; 2])),
+            spoilt(|model| lies(model, [Wrap::Repeat, Wrap::Clamp])),
+            spoilt(|model| model.images[0].pixels[5] = 8),
+            spoilt(|model| (model.images[0].width, model.images[0].height) = (1, 2)),
         ];
         let distinct: BTreeSet<ContentId> = others.iter().map(Asset::content_id).collect();
         assert_eq!(distinct.len(), others.len());

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::finish::{BRIGHTEST, Finish, ModelTexture};
+use super::image::{LONGEST_IMAGE, MOST_PIXELS, ModelImage};
 use crate::geometry::Vector3;
 
 /// Why a model is none.
@@ -51,6 +53,46 @@ pub enum ModelError {
         /// How many points it has.
         points: usize,
     },
+    /// How a part takes light is out of range.
+    #[error(
+        "part {part} is {finish:?}: give metal and roughness from 0 to 1, and light of its own from 0 to {BRIGHTEST}"
+    )]
+    Finish {
+        /// Which part.
+        part: usize,
+        /// What was given.
+        finish: Finish,
+    },
+    /// A part names a picture that is not there.
+    #[error("part {part} has image {image}, and there are {count}: count from 0")]
+    Image {
+        /// Which part.
+        part: usize,
+        /// Which picture.
+        image: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A picture is none.
+    #[error(
+        "image {index} is {width} x {height} with {bytes} bytes: give 1 to {LONGEST_IMAGE} pixels each way, three bytes each"
+    )]
+    Picture {
+        /// Which.
+        index: usize,
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Bytes of its pixels.
+        bytes: usize,
+    },
+    /// The pictures are too large together.
+    #[error("its images have {pixels} pixels together, and {MOST_PIXELS} are the most: halve them")]
+    Pixels {
+        /// How many they have.
+        pixels: u64,
+    },
     /// It does not fit its collider.
     #[error(
         "it is {model:?} m long, wide and high, and its collider {collider:?}: give a collider that is as large, and stand \
@@ -66,6 +108,9 @@ pub enum ModelError {
 
 /// How far a point of a model may be from its origin, m.
 pub const LARGEST_MODEL: f32 = 1000.0;
+
+/// How far a vertex may be from the picture on its part, in the picture's sides.
+pub const FARTHEST_PLACE: f32 = 1e5;
 
 /// How much larger or smaller a model may be than its asset's collider, m.
 const MISFIT: f64 = 0.02;
@@ -85,6 +130,9 @@ pub struct Model {
     pub parts: Vec<ModelPart>,
     /// Convex solids that together are what bodies meet.
     pub hulls: Vec<Hull>,
+    /// The pictures that lie on its parts.
+    #[serde(default)]
+    pub images: Vec<ModelImage>,
 }
 
 /// A corner of triangles.
@@ -94,12 +142,16 @@ pub struct ModelVertex {
     pub position: [f32; 3],
     /// Outward, of length 1.
     pub normal: [f32; 3],
-    /// Colour, linear-light sRGB primaries in [0, 1].
+    /// Colour, linear-light sRGB primaries in [0, 1]; times that of the picture on its part, if there is one.
     pub color: [f32; 3],
+    /// Where it lies on the picture of its part: from the left edge rightwards and from the top downwards, in shares of the picture's
+    /// sides, beyond [0, 1] where the picture goes on.
+    #[serde(default)]
+    pub place: [f32; 2],
 }
 
 /// A run of triangles of one look.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModelPart {
     /// What it is: `leg`, `lid`, `lamp`; a name for people.
     pub name: String,
@@ -107,6 +159,12 @@ pub struct ModelPart {
     pub triangles: u32,
     /// Whose colour it has.
     pub paint: Paint,
+    /// How it takes light.
+    #[serde(default)]
+    pub finish: Finish,
+    /// The picture on it.
+    #[serde(default)]
+    pub texture: Option<ModelTexture>,
 }
 
 /// Whose colour a part has.
@@ -153,7 +211,8 @@ impl Model {
     /// Checks that it is a model, and one that stands in a collider of that size (length, width, height, m).
     ///
     /// # Errors
-    /// Nothing to see or to meet, numbers that are none, triangles without vertices, another size than the collider's.
+    /// Nothing to see or to meet, numbers that are none, triangles without vertices, pictures that are none or not there, another
+    /// size than the collider's.
     pub fn validate(&self, collider: Vector3) -> Result<(), ModelError> {
         for (what, count) in [("triangle", self.triangles.len()), ("hull", self.hulls.len())] {
             if count == 0 {
@@ -164,6 +223,8 @@ impl Model {
             checked("the position of vertex", index, vertex.position, LARGEST_MODEL)?;
             checked("the normal of vertex", index, vertex.normal, 1.01)?;
             checked("the colour of vertex", index, vertex.color, 1.0)?;
+            let [right, down] = vertex.place;
+            checked("the place on a picture of vertex", index, [right, down, 0.0], FARTHEST_PLACE)?;
         }
         let count = self.vertices.len();
         for (index, triangle) in self.triangles.iter().enumerate() {
@@ -183,7 +244,27 @@ impl Model {
                 checked("a point of hull", index, *point, LARGEST_MODEL)?;
             }
         }
+        self.validate_looks()?;
         self.fits(collider)
+    }
+
+    fn validate_looks(&self) -> Result<(), ModelError> {
+        let count = self.images.len();
+        for (part, ModelPart { finish, texture, .. }) in self.parts.iter().enumerate() {
+            let shares = [finish.metallic, finish.roughness].iter().all(|share| (0.0..=1.0).contains(share));
+            if !shares || !finish.emission.iter().all(|light| (0.0..=BRIGHTEST).contains(light)) {
+                return Err(ModelError::Finish { part, finish: *finish });
+            }
+            if let Some(texture) = texture.filter(|texture| texture.image as usize >= count) {
+                return Err(ModelError::Image { part, image: texture.image, count });
+            }
+        }
+        for (index, image) in self.images.iter().enumerate().filter(|(_, image)| !image.is_whole()) {
+            let bytes = image.pixels.len();
+            return Err(ModelError::Picture { index, width: image.width, height: image.height, bytes });
+        }
+        let pixels = self.images.iter().map(|image| u64::from(image.width) * u64::from(image.height)).sum();
+        if pixels > MOST_PIXELS { Err(ModelError::Pixels { pixels }) } else { Ok(()) }
     }
 
     fn fits(&self, collider: Vector3) -> Result<(), ModelError> {
@@ -209,15 +290,22 @@ fn checked(what: &'static str, index: usize, value: [f32; 3], limit: f32) -> Res
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::asset::Wrap;
 
     fn wedge() -> Model {
         let corners = [[-0.5, -0.5, 0.0], [0.5, -0.5, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 1.0]];
-        let vertex = |position| ModelVertex { position, normal: [0.0, 0.0, 1.0], color: [0.5; 3] };
+        let vertex = |position| ModelVertex {
+            position,
+            normal: [0.0, 0.0, 1.0],
+            color: [0.5; 3],
+            ..ModelVertex::default()
+        };
         Model {
             vertices: corners.map(vertex).to_vec(),
             triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
-            parts: vec![ModelPart { name: "wedge".to_owned(), triangles: 4, paint: Paint::Own }],
+            parts: vec![ModelPart { name: "wedge".to_owned(), triangles: 4, ..ModelPart::default() }],
             hulls: vec![Hull { points: corners.to_vec() }],
+            images: Vec::new(),
         }
     }
 
@@ -230,7 +318,8 @@ mod tests {
 
     #[test]
     fn every_triangle_is_in_the_run_of_its_part() {
-        let part = |name: &str, triangles| ModelPart { name: name.to_owned(), triangles, paint: Paint::Own };
+        let part =
+            |name: &str, triangles| ModelPart { name: name.to_owned(), triangles, ..ModelPart::default() };
         let model = Model { parts: vec![part("front", 1), part("none", 0), part("rest", 3)], ..wedge() };
         let runs: Vec<(&str, &[[u32; 3]])> =
             model.runs().map(|(part, triangles)| (part.name.as_str(), triangles)).collect();
@@ -255,5 +344,46 @@ mod tests {
             ModelError::Number { .. }
         ));
         assert!(matches!(is_none(|model| model.vertices[0].color[0] = 2.0), ModelError::Number { .. }));
+        assert!(matches!(is_none(|model| model.vertices[0].place[1] = f32::NAN), ModelError::Number { .. }));
+    }
+
+    #[test]
+    fn what_is_no_look_says_so() {
+        let with = |finish: Finish, image: u32, images: Vec<ModelImage>| {
+            let mut model = Model { images, ..wedge() };
+            let texture = Some(ModelTexture { image, wrap: [Wrap::Repeat; 2] });
+            model.parts[0] = ModelPart { finish, texture, ..model.parts[0].clone() };
+            model.validate(Vector3::new(1.0, 1.0, 1.0))
+        };
+        let plain = |width: u32, height: u32| {
+            let pixels = vec![9; width as usize * height as usize * 3];
+            ModelImage { width, height, pixels }
+        };
+        let dull = Finish::default();
+        assert_eq!(with(dull, 0, vec![plain(3, 1)]), Ok(()));
+        for finish in [
+            Finish { metallic: 1.5, ..dull },
+            Finish { roughness: f32::NAN, ..dull },
+            Finish { emission: [0.0, -1.0, 0.0], ..dull },
+            Finish { emission: [0.0, 0.0, f32::INFINITY], ..dull },
+        ] {
+            let error = with(finish, 0, vec![plain(3, 1)]).unwrap_err();
+            assert!(matches!(error, ModelError::Finish { part: 0, .. }), "{error}");
+        }
+        assert!(matches!(
+            with(dull, 1, vec![plain(3, 1)]),
+            Err(ModelError::Image { image: 1, count: 1, .. })
+        ));
+        for image in [
+            ModelImage::default(),
+            ModelImage { width: 4, ..plain(3, 1) },
+            ModelImage { width: u32::MAX, height: u32::MAX, pixels: vec![] },
+            plain(LONGEST_IMAGE + 1, 1),
+        ] {
+            let error = with(dull, 0, vec![image]).unwrap_err();
+            assert!(matches!(error, ModelError::Picture { index: 0, .. }), "{error}");
+        }
+        let many = vec![plain(LONGEST_IMAGE, LONGEST_IMAGE / 2); 3];
+        assert!(matches!(with(dull, 0, many), Err(ModelError::Pixels { .. })));
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::common::{Stage, at};
 use nalgebra::UnitQuaternion;
-use simworld_core::asset::{Asset, Hull, Material, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{Asset, Hull, Material, Model, ModelPart, ModelVertex};
 use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
@@ -24,6 +24,7 @@ fn boxes(solids: &[[[f32; 3]; 2]]) -> Model {
             position: *position,
             normal: [0.0, 0.0, 1.0],
             color: [1.0; 3],
+            ..ModelVertex::default()
         };
         model.vertices.extend(points.iter().map(vertex));
         for quad in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
@@ -33,7 +34,7 @@ fn boxes(solids: &[[[f32; 3]; 2]]) -> Model {
         model.hulls.push(Hull { points });
     }
     let triangles = model.triangles.len() as u32;
-    model.parts.push(ModelPart { name: "boxes".to_owned(), triangles, paint: Paint::Own });
+    model.parts.push(ModelPart { name: "boxes".to_owned(), triangles, ..ModelPart::default() });
     model
 }
 

@@ -9,7 +9,12 @@ const JSON: u32 = 0x4E4F_534A;
 const BIN: u32 = 0x004E_4942;
 
 /// Extensions that a file may require. Whoever looks at a model lights it, so that what is to be unlit is only not shiny.
-const SERVED: [&str; 3] = ["KHR_texture_transform", "KHR_mesh_quantization", "KHR_materials_unlit"];
+const SERVED: [&str; 4] = [
+    "KHR_texture_transform",
+    "KHR_mesh_quantization",
+    "KHR_materials_unlit",
+    "KHR_materials_emissive_strength",
+];
 
 /// The document and the bytes that it refers to.
 pub(super) fn open<'a>(bytes: &'a [u8], limits: &GlbLimits) -> Result<(Document, &'a [u8]), GlbError> {

@@ -131,7 +131,31 @@ const fn triangles() -> u32 {
 #[serde(default, rename_all = "camelCase")]
 pub(super) struct Material {
     pub(super) name: Option<String>,
-    pub(super) pbr_metallic_roughness: Pbr,
+    pub(super) pbr_metallic_roughness: Option<Pbr>,
+    pub(super) emissive_factor: Option<[f64; 3]>,
+    pub(super) emissive_texture: Option<TextureInfo>,
+    pub(super) extensions: MaterialExtensions,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct MaterialExtensions {
+    #[serde(rename = "KHR_materials_unlit")]
+    pub(super) unlit: Option<serde::de::IgnoredAny>,
+    #[serde(rename = "KHR_materials_emissive_strength")]
+    pub(super) strength: Option<Strength>,
+}
+
+/// How many times brighter than its factor says something shines.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Strength {
+    #[serde(default = "one")]
+    pub(super) emissive_strength: f64,
+}
+
+const fn one() -> f64 {
+    1.0
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -139,6 +163,9 @@ pub(super) struct Material {
 pub(super) struct Pbr {
     pub(super) base_color_factor: Option<[f64; 4]>,
     pub(super) base_color_texture: Option<TextureInfo>,
+    pub(super) metallic_factor: Option<f64>,
+    pub(super) roughness_factor: Option<f64>,
+    pub(super) metallic_roughness_texture: Option<TextureInfo>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -20,6 +20,9 @@ pub struct GlbLimits {
     pub depth: usize,
     /// The most pixels of all its pictures together.
     pub pixels: u64,
+    /// The longest side of a picture that stays one, pixels: larger ones are halved until they are no longer than that. 0 to 4096; at 0
+    /// pictures become colours of vertices.
+    pub texture: u32,
 }
 
 impl Default for GlbLimits {
@@ -31,7 +34,8 @@ impl Default for GlbLimits {
             triangles: 200_000,
             nodes: 10_000,
             depth: 64,
-            pixels: 4096 * 4096,
+            pixels: 3 * 4096 * 4096,
+            texture: 1024,
         }
     }
 }

@@ -3,15 +3,16 @@
 //! Files come from strangers. Everything must stand in the one file: no address is followed, and no other file is opened.
 //! Lengths, counts, indices and depths are checked before memory is taken for them. What is read: the triangles of one scene,
 //! where its nodes put them, or its skins' joints, at rest or at a moment of an animation; with normals, and colours from
-//! materials, PNG or JPEG textures and vertices; and the extensions `KHR_texture_transform`, `KHR_mesh_quantization` and
-//! `KHR_materials_unlit`. Sparse accessors, morph targets, compressed meshes, other extensions that a file requires, and
-//! everything but separate triangles are refused; cameras, lights, transparency and all of a material but its base colour are
-//! passed over.
+//! materials and vertices; PNG or JPEG textures of the base colour; metal, roughness and light of its own, one of each for a
+//! primitive; and the extensions `KHR_texture_transform`, `KHR_mesh_quantization`, `KHR_materials_unlit` and
+//! `KHR_materials_emissive_strength`. Sparse accessors, morph targets, compressed meshes, other extensions that a file requires, and
+//! everything but separate triangles are refused; cameras, lights, transparency, bumps and shades of materials are passed over.
 
 mod accessor;
 mod container;
 mod document;
 mod error;
+mod finish;
 mod limits;
 mod paint;
 mod picture;

@@ -1,27 +1,42 @@
-//! Colours of vertices: the factor of their material, its texture and their own, in linear light.
+//! How primitives look: colours of vertices, the picture on them, and how they take light.
 
 use std::collections::BTreeMap;
 
+use simworld_core::asset::{FARTHEST_PLACE, Finish, MOST_PIXELS, ModelImage, ModelTexture, Wrap, light_of};
 use simworld_core::ops;
 
 use super::accessor::{Column, Data, Normalized, Number, get};
 use super::document::{Material, Primitive, Sampler, TextureInfo, TextureTransform};
 use super::error::GlbError;
-use super::picture::{Picture, Undecoded};
+use super::finish::finish_of;
+use super::limits::GlbLimits;
+use super::picture::{Undecoded, decode, wrap_of};
+use crate::assets::surface::within;
 
 /// Decodes pictures once, within a budget.
 pub(super) struct Painter<'a> {
     data: Data<'a>,
-    pictures: BTreeMap<usize, Picture>,
+    /// Those that are looked up here, by their number in the file.
+    pictures: BTreeMap<usize, ModelImage>,
+    /// Those that stay pictures, and which they are by their number in the file.
+    images: Vec<ModelImage>,
+    kept: BTreeMap<usize, u32>,
     pixels: u64,
     limit: u64,
-    linear: Vec<f32>,
+    /// The longest side of a picture that stays one.
+    side: u32,
 }
 
-/// The colours of a primitive's vertices.
+/// How the vertices of a primitive look.
 pub(super) struct Coat {
     /// Linear-light sRGB in [0, 1].
     pub(super) colors: Vec<[f32; 3]>,
+    /// Where each lies on the picture.
+    pub(super) places: Vec<[f32; 2]>,
+    /// The picture on them.
+    pub(super) texture: Option<ModelTexture>,
+    /// How it takes light.
+    pub(super) finish: Finish,
     /// Whether the file says of what colour it is.
     pub(super) says: Says,
 }
@@ -33,13 +48,40 @@ pub(super) enum Says {
     Nothing,
 }
 
+/// A picture as it lies on a primitive.
+pub(super) struct Laid {
+    /// By vertex.
+    places: Vec<[f64; 2]>,
+    wrap: [Wrap; 2],
+    /// Its number in the file.
+    image: usize,
+}
+
 impl<'a> Painter<'a> {
-    pub(super) fn new(data: Data<'a>, limit: u64) -> Self {
-        let linear = (0..256u32).map(|value| linear_light(f64::from(value) / 255.0) as f32).collect();
-        Self { data, pictures: BTreeMap::new(), pixels: 0, limit, linear }
+    pub(super) fn new(data: Data<'a>, limits: &GlbLimits) -> Self {
+        Self {
+            data,
+            pictures: BTreeMap::new(),
+            images: Vec::new(),
+            kept: BTreeMap::new(),
+            pixels: 0,
+            limit: limits.pixels,
+            side: limits.texture,
+        }
     }
 
-    /// The colours of so many vertices of a primitive with these triangles.
+    /// The pictures that stay, halved where they are too many pixels together for a model.
+    pub(super) fn into_images(mut self) -> Vec<ModelImage> {
+        let area = |image: &ModelImage| u64::from(image.width) * u64::from(image.height);
+        while self.images.iter().map(area).sum::<u64>() > MOST_PIXELS {
+            // The first of the largest; there is one, for the sum is not zero.
+            let Some(largest) = self.images.iter_mut().rev().max_by_key(|image| area(image)) else { break };
+            *largest = largest.halved();
+        }
+        self.images
+    }
+
+    /// How so many vertices of a primitive with these triangles look.
     pub(super) fn coat(
         &mut self,
         primitive: &Primitive,
@@ -51,8 +93,8 @@ impl<'a> Painter<'a> {
             Some(index) => get("material", &self.data.document.materials, index)?,
             None => &none,
         };
-        let pbr = &material.pbr_metallic_roughness;
-        let factor = pbr.base_color_factor.unwrap_or([1.0; 4]);
+        let pbr = material.pbr_metallic_roughness.as_ref();
+        let factor = pbr.and_then(|pbr| pbr.base_color_factor).unwrap_or([1.0; 4]);
         let base = [factor[0], factor[1], factor[2]].map(|channel| channel.clamp(0.0, 1.0) as f32);
         let mut says = if base == [1.0; 3] { Says::Nothing } else { Says::Color };
         let mut colors = vec![base; vertices];
@@ -63,12 +105,20 @@ impl<'a> Painter<'a> {
                 *color = std::array::from_fn(|which| color[which] * own[which].clamp(0.0, 1.0) as f32);
             }
         }
-        if let Some(info) = &pbr.base_color_texture {
+        let (mut places, mut texture) = (vec![[0.0; 2]; vertices], None);
+        if let Some(info) = pbr.and_then(|pbr| pbr.base_color_texture.as_ref()) {
             says = Says::Color;
-            self.texture(info, primitive, triangles, &mut colors)?;
+            let laid = self.lay(info, primitive, vertices)?;
+            if self.side == 0 {
+                self.dye(&laid, triangles, &mut colors)?;
+            } else {
+                texture = Some(ModelTexture { image: self.keep(laid.image)?, wrap: laid.wrap });
+                places = laid.places.iter().map(|place| place.map(|part| part as f32)).collect();
+            }
         }
+        let finish = finish_of(self, material, primitive, vertices, triangles)?;
         if colors.iter().flatten().all(|channel| channel.is_finite()) {
-            Ok(Coat { colors, says })
+            Ok(Coat { colors, places, texture, finish, says })
         } else {
             Err(GlbError::Number { what: "material", index: primitive.material.unwrap_or(0) })
         }
@@ -81,16 +131,13 @@ impl<'a> Painter<'a> {
         Ok(Some(column))
     }
 
-    /// Multiplies in what a texture has at each vertex. Islands of a texture end at their edges, and beyond lies another
-    /// colour: so a vertex takes the mean of points a little within each of its triangles.
-    fn texture(
-        &mut self,
+    /// Where a picture lies on a primitive.
+    pub(super) fn lay(
+        &self,
         info: &TextureInfo,
         primitive: &Primitive,
-        triangles: &[[u32; 3]],
-        colors: &mut [[f32; 3]],
-    ) -> Result<(), GlbError> {
-        const INWARD: f64 = 0.2;
+        vertices: usize,
+    ) -> Result<Laid, GlbError> {
         let transform = info.extensions.transform.unwrap_or_default();
         let name = format!("TEXCOORD_{}", transform.tex_coord.unwrap_or(info.tex_coord));
         let Some(index) = primitive.attributes.get(&name) else {
@@ -100,10 +147,10 @@ impl<'a> Painter<'a> {
                 reason: format!("its vertices have no {name}: export the file with texture coordinates"),
             });
         };
-        let places = self.data.column(*index, &[("VEC2", 2)], |number, normalized| {
+        let column = self.data.column(*index, &[("VEC2", 2)], |number, normalized| {
             is_share(number, normalized) || (number != Number::U32 && self.data.is_quantized())
         })?;
-        same_length(*index, places.count, colors.len())?;
+        same_length(*index, column.count, vertices)?;
         let texture = get("texture", &self.data.document.textures, info.index)?;
         let sampler = match texture.sampler {
             Some(sampler) => *get("sampler", &self.data.document.samplers, sampler)?,
@@ -114,45 +161,79 @@ impl<'a> Painter<'a> {
             index: info.index,
             reason: "it has no picture as PNG or JPEG: export the textures as one of both".to_owned(),
         })?;
-        self.decode(image)?;
-        let (picture, linear) = (&self.pictures[&image], &self.linear);
-        let mut sums = vec![([0.0f32; 3], 0u32); colors.len()];
-        for triangle in triangles {
-            let corners = triangle.map(|vertex| transform.of(places.reals::<2>(vertex as usize)));
-            let middle: [f64; 2] =
-                std::array::from_fn(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
-            for (vertex, corner) in triangle.iter().zip(corners) {
-                let place = std::array::from_fn(|axis| corner[axis] + (middle[axis] - corner[axis]) * INWARD);
-                let pixel = picture.at(place, sampler);
-                let (sum, count) = &mut sums[*vertex as usize];
-                *sum = std::array::from_fn(|which| sum[which] + linear[usize::from(pixel[which])]);
-                *count += 1;
-            }
+        let places: Vec<[f64; 2]> = (0..vertices).map(|row| transform.of(column.reals::<2>(row))).collect();
+        let is_near = |part: &f64| part.abs() <= f64::from(FARTHEST_PLACE);
+        if places.iter().flatten().all(is_near) {
+            Ok(Laid { places, wrap: [sampler.wrap_s, sampler.wrap_t].map(wrap_of), image })
+        } else {
+            Err(GlbError::Number { what: "accessor", index: *index })
         }
+    }
+
+    /// Multiplies in what a picture has at each vertex: the mean of what its triangles have there.
+    fn dye(&mut self, laid: &Laid, triangles: &[[u32; 3]], colors: &mut [[f32; 3]]) -> Result<(), GlbError> {
+        let mut sums = vec![([0.0f32; 3], 0u32); colors.len()];
+        self.visit(laid, triangles, |vertex, pixel| {
+            let (sum, count) = &mut sums[vertex as usize];
+            *sum = std::array::from_fn(|which| sum[which] + light_of(pixel[which]));
+            *count += 1;
+        })?;
         for (color, (sum, count)) in colors.iter_mut().zip(sums).filter(|(_, (_, count))| *count > 0) {
             *color = std::array::from_fn(|which| color[which] * sum[which] / count as f32);
         }
         Ok(())
     }
 
-    fn decode(&mut self, index: usize) -> Result<(), GlbError> {
-        if self.pictures.contains_key(&index) {
-            return Ok(());
+    /// Visits the pixels at the corners of triangles, a little [within].
+    pub(super) fn visit(
+        &mut self,
+        laid: &Laid,
+        triangles: &[[u32; 3]],
+        mut visitor: impl FnMut(u32, [u8; 3]),
+    ) -> Result<(), GlbError> {
+        if !self.pictures.contains_key(&laid.image) {
+            let image = self.decoded(laid.image)?;
+            self.pictures.insert(laid.image, image);
         }
+        let picture = &self.pictures[&laid.image];
+        for triangle in triangles {
+            let places = within(triangle.map(|vertex| laid.places[vertex as usize]));
+            for (vertex, place) in triangle.iter().zip(places) {
+                visitor(*vertex, picture.pixel_at(place, laid.wrap));
+            }
+        }
+        Ok(())
+    }
+
+    /// The number of a picture among those that stay.
+    fn keep(&mut self, index: usize) -> Result<u32, GlbError> {
+        if let Some(number) = self.kept.get(&index) {
+            return Ok(*number);
+        }
+        let mut image = self.decoded(index)?;
+        while image.width.max(image.height) > self.side {
+            image = image.halved();
+        }
+        let number = self.images.len() as u32;
+        self.images.push(image);
+        self.kept.insert(index, number);
+        Ok(number)
+    }
+
+    fn decoded(&mut self, index: usize) -> Result<ModelImage, GlbError> {
         let image = get("image", &self.data.document.images, index)?;
         let Some(view) = image.buffer_view else {
             return Err(GlbError::Picture { index, reason: "the file does not hold it".to_owned() });
         };
         let left = self.limit - self.pixels;
-        let picture = Picture::decode(self.data.view(view)?, left).map_err(|error| match error {
+        let picture = decode(self.data.view(view)?, left).map_err(|error| match error {
             Undecoded::Broken(reason) => GlbError::Picture { index, reason },
             Undecoded::Large(got) => {
-                GlbError::TooMany { what: "pixels", got: got + self.pixels, most: self.limit }
+                GlbError::TooMany { what: "pixels", got: got.saturating_add(self.pixels), most: self.limit }
             }
         })?;
-        self.pixels += picture.len();
-        self.pictures.insert(index, picture);
-        Ok(())
+        self.pixels += u64::from(picture.width) * u64::from(picture.height);
+        Ok(picture)
     }
 }
 
@@ -177,9 +258,4 @@ pub(super) fn same_length(index: usize, got: usize, vertices: usize) -> Result<(
     }
     let reason = format!("it has {got} rows, and its primitive {vertices} vertices: export the file again");
     Err(GlbError::Unsupported { what: "accessor", index, reason })
-}
-
-/// Light of an sRGB value (IEC 61966-2-1), both in [0, 1].
-fn linear_light(value: f64) -> f64 {
-    if value <= 0.040_45 { value / 12.92 } else { ops::pow((value + 0.055) / 1.055, 2.4) }
 }

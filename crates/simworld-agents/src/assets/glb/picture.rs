@@ -8,14 +8,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use super::document::Sampler;
-
-/// A decoded picture, sRGB, rows from its top.
-pub(super) struct Picture {
-    width: usize,
-    height: usize,
-    pixels: Vec<[u8; 3]>,
-}
+use simworld_core::asset::{LONGEST_IMAGE, ModelImage, Wrap};
 
 /// Why a picture is none.
 pub(super) enum Undecoded {
@@ -25,51 +18,28 @@ pub(super) enum Undecoded {
     Large(u64),
 }
 
-impl Picture {
-    /// Decodes what begins like a PNG or a JPEG, if it has at most that many pixels.
-    pub(super) fn decode(bytes: &[u8], most: u64) -> Result<Self, Undecoded> {
-        let picture = if bytes.starts_with(b"\x89PNG") {
-            png(bytes, most)
-        } else if bytes.starts_with(&[0xFF, 0xD8, 0xFF]) {
-            jpeg(bytes, most)
-        } else {
-            Err(broken("it is neither PNG nor JPEG: export the textures as one of both"))
-        }?;
-        if picture.pixels.is_empty() || picture.pixels.len() != picture.width * picture.height {
-            return Err(broken("it has another number of pixels than it says"));
-        }
-        Ok(picture)
-    }
+/// Decodes what begins like a PNG or a JPEG, if it has at most that many pixels and no side is longer than pictures of models may be.
+pub(super) fn decode(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
+    let image = if bytes.starts_with(b"\x89PNG") {
+        png(bytes, most)
+    } else if bytes.starts_with(&[0xFF, 0xD8, 0xFF]) {
+        jpeg(bytes, most)
+    } else {
+        Err(broken("it is neither PNG nor JPEG: export the textures as one of both"))
+    }?;
+    if image.is_whole() { Ok(image) } else { Err(broken("it has another number of pixels than it says")) }
+}
 
-    /// The number of pixels.
-    pub(super) fn len(&self) -> u64 {
-        self.pixels.len() as u64
-    }
-
-    /// The pixel at texture coordinates, of which (0, 0) is the top left corner.
-    pub(super) fn at(&self, [u, v]: [f64; 2], sampler: Sampler) -> [u8; 3] {
-        let column = wrapped(u, self.width, sampler.wrap_s);
-        let row = wrapped(v, self.height, sampler.wrap_t);
-        self.pixels[row * self.width + column]
+/// The way to wrap that glTF has under a number; it repeats under any other.
+pub(super) const fn wrap_of(number: u32) -> Wrap {
+    match number {
+        33_071 => Wrap::Clamp,
+        33_648 => Wrap::Mirror,
+        _ => Wrap::Repeat,
     }
 }
 
-/// The pixel of a coordinate, by the number that glTF has for the way to wrap it.
-fn wrapped(coordinate: f64, size: usize, wrap: u32) -> usize {
-    const CLAMPED: u32 = 33_071;
-    const MIRRORED: u32 = 33_648;
-    let within = match wrap {
-        CLAMPED => coordinate,
-        MIRRORED => {
-            let turn = coordinate.rem_euclid(2.0);
-            if turn > 1.0 { 2.0 - turn } else { turn }
-        }
-        _ => coordinate.rem_euclid(1.0),
-    };
-    ((within * size as f64).max(0.0) as usize).min(size - 1)
-}
-
-fn png(bytes: &[u8], most: u64) -> Result<Picture, Undecoded> {
+fn png(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
     let limit = usize::try_from(most.saturating_mul(8)).unwrap_or(usize::MAX);
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: limit });
     decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);
@@ -81,18 +51,21 @@ fn png(bytes: &[u8], most: u64) -> Result<Picture, Undecoded> {
     let frame = reader.next_frame(&mut samples).map_err(|error| broken(&error.to_string()))?;
     let samples = &samples[..frame.buffer_size()];
     let pixels = match frame.color_type {
-        png::ColorType::Rgb => samples.as_chunks::<3>().0.to_vec(),
-        png::ColorType::Rgba => samples.as_chunks::<4>().0.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect(),
-        png::ColorType::Grayscale => samples.iter().map(|grey| [*grey; 3]).collect(),
+        png::ColorType::Rgb => samples.to_vec(),
+        png::ColorType::Rgba => {
+            samples.as_chunks::<4>().0.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect()
+        }
+        png::ColorType::Grayscale => samples.iter().flat_map(|grey| [*grey; 3]).collect(),
         png::ColorType::GrayscaleAlpha => {
-            samples.as_chunks::<2>().0.iter().map(|[grey, _]| [*grey; 3]).collect()
+            samples.as_chunks::<2>().0.iter().flat_map(|[grey, _]| [*grey; 3]).collect()
         }
         png::ColorType::Indexed => return Err(broken("its palette was not expanded")),
     };
-    Ok(Picture { width: width as usize, height: height as usize, pixels })
+    Ok(ModelImage { width, height, pixels })
 }
 
-fn jpeg(bytes: &[u8], most: u64) -> Result<Picture, Undecoded> {
+fn jpeg(bytes: &[u8], most: u64) -> Result<ModelImage, Undecoded> {
+    // A little beyond what is afforded, so that the answer is the same as for a PNG.
     const LONGEST_SIDE: usize = 1 << 14;
     let options = DecoderOptions::default()
         .set_max_width(LONGEST_SIDE)
@@ -103,12 +76,21 @@ fn jpeg(bytes: &[u8], most: u64) -> Result<Picture, Undecoded> {
     let (width, height) = decoder.dimensions().ok_or_else(|| broken("it says no size"))?;
     affordable(width as u64, height as u64, most)?;
     let samples = decoder.decode().map_err(|error| broken(&error.to_string()))?;
-    Ok(Picture { width, height, pixels: samples.as_chunks::<3>().0.to_vec() })
+    Ok(ModelImage { width: width as u32, height: height as u32, pixels: samples })
 }
 
 fn affordable(width: u64, height: u64, most: u64) -> Result<(), Undecoded> {
     let pixels = width.saturating_mul(height);
-    if pixels > most { Err(Undecoded::Large(pixels)) } else { Ok(()) }
+    if pixels > most {
+        return Err(Undecoded::Large(pixels));
+    }
+    let longest = u64::from(LONGEST_IMAGE);
+    if width.max(height) > longest {
+        return Err(Undecoded::Broken(format!(
+            "it is {width} x {height} pixels, and {longest} each way are the most: shrink it"
+        )));
+    }
+    Ok(())
 }
 
 fn broken(reason: &str) -> Undecoded {
@@ -128,26 +110,23 @@ mod tests {
     }
 
     #[test]
-    fn coordinates_wrap_as_the_sampler_says() {
+    fn what_is_decoded_is_what_was_encoded() {
         let file = png_of(2, 1, &[255, 0, 0, 0, 0, 255]);
-        let picture = Picture::decode(&file, 10).unwrap_or_else(|_| unreachable!("it is a PNG"));
-        let (red, blue) = ([255, 0, 0], [0, 0, 255]);
-        let with = |wrap| Sampler { wrap_s: wrap, wrap_t: wrap };
-        for (u, repeated, clamped, mirrored) in
-            [(0.2, red, red, red), (0.8, blue, blue, blue), (1.2, red, blue, blue), (-0.2, blue, red, red)]
-        {
-            assert_eq!(picture.at([u, 0.5], with(10_497)), repeated, "{u} repeated");
-            assert_eq!(picture.at([u, 0.5], with(33_071)), clamped, "{u} clamped");
-            assert_eq!(picture.at([u, 0.5], with(33_648)), mirrored, "{u} mirrored");
-        }
-        assert_eq!(picture.at([f64::MAX, -f64::MAX], with(33_071)), blue);
+        let picture = decode(&file, 10).unwrap_or_else(|_| unreachable!("it is a PNG"));
+        assert_eq!(picture, ModelImage { width: 2, height: 1, pixels: vec![255, 0, 0, 0, 0, 255] });
+        assert_eq!(
+            [10_497, 33_071, 33_648, 7].map(wrap_of),
+            [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror, Wrap::Repeat]
+        );
     }
 
     #[test]
     fn pictures_beyond_the_budget_are_not_decoded() {
         let file = png_of(2, 2, &[0; 12]);
-        assert!(matches!(Picture::decode(&file, 3), Err(Undecoded::Large(4))));
-        assert!(matches!(Picture::decode(b"GIF89a", 3), Err(Undecoded::Broken(_))));
-        assert!(matches!(Picture::decode(&file[..40], 4), Err(Undecoded::Broken(_))));
+        assert!(matches!(decode(&file, 3), Err(Undecoded::Large(4))));
+        assert!(matches!(decode(b"GIF89a", 3), Err(Undecoded::Broken(_))));
+        assert!(matches!(decode(&file[..40], 4), Err(Undecoded::Broken(_))));
+        let long = png_of(LONGEST_IMAGE + 1, 1, &vec![0; 3 * (LONGEST_IMAGE as usize + 1)]);
+        assert!(matches!(decode(&long, 1 << 20), Err(Undecoded::Broken(_))));
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn surface(
     let scene = get("scene", &document.scenes, document.scene.unwrap_or(0))?;
     let places = places(data, limits, moment)?;
     let mut gatherer =
-        Gatherer { data, limits, painter: Painter::new(data, limits.pixels), surface: Surface::default() };
+        Gatherer { data, limits, painter: Painter::new(data, limits), surface: Surface::default() };
     let mut seen = vec![false; document.nodes.len()];
     let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
     while let Some(index) = open.pop() {
@@ -43,7 +43,10 @@ pub(super) fn surface(
         }
         open.extend(node.children.iter().rev());
     }
-    if gatherer.surface.triangles.is_empty() { Err(GlbError::Empty) } else { Ok(gatherer.surface) }
+    if gatherer.surface.triangles.is_empty() {
+        return Err(GlbError::Empty);
+    }
+    Ok(Surface { images: gatherer.painter.into_images(), ..gatherer.surface })
 }
 
 struct Gatherer<'a> {
@@ -126,9 +129,12 @@ impl Gatherer<'_> {
         }
         let coat = self.painter.coat(primitive, positions.count, &triangles)?;
         self.surface.colors.extend(coat.colors);
+        self.surface.places.extend(coat.places);
         let paint = if coat.says == Says::Color { Paint::Own } else { Paint::Entity };
         let name = name.chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
-        self.surface.parts.push(ModelPart { name, triangles: triangles.len() as u32, paint });
+        let (triangle_count, finish) = (triangles.len() as u32, coat.finish);
+        let part = ModelPart { name, triangles: triangle_count, paint, finish, texture: coat.texture };
+        self.surface.parts.push(part);
         self.surface.triangles.extend(triangles.iter().map(|[a, b, c]| {
             let [a, b, c] = [first + a, first + b, first + c];
             if map((a - first) as usize).mirrors { [a, c, b] } else { [a, b, c] }

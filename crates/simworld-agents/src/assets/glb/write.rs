@@ -1,82 +1,172 @@
-//! Models as GLB files: one mesh, a primitive for each part, colours at the vertices.
+//! Models as GLB files: one mesh, a primitive and a material for each part, colours at the vertices, pictures as PNG.
 
 use serde_json::{Value, json};
-use simworld_core::asset::{Model, ModelVertex, Paint};
+use simworld_core::asset::{Model, ModelImage, ModelPart, ModelVertex, Paint, Wrap};
+
+/// Targets of buffer views: what vertices have, and indices.
+const VERTICES: u32 = 34_962;
+const INDICES: u32 = 34_963;
 
 /// Writes a model as a GLB file, y up and z to the front, in metres. Hulls are not written; [`read_glb`](super::read_glb) gives
 /// its triangles back.
 ///
-/// A part that takes the colour of its entity is written without colours.
+/// A part that takes the colour of its entity is written without colours and picture. A picture that has another number of bytes than its
+/// size says is left out.
 pub fn export_glb(model: &Model) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut views = Vec::new();
-    let mut accessors = vec![];
+    let mut file = File::default();
     let rows = |of: fn(&ModelVertex) -> [f32; 3]| model.vertices.iter().map(of).collect::<Vec<_>>();
     let turned = |[x, y, z]: [f32; 3]| [y, z, x];
     let positions: Vec<_> = rows(|vertex| vertex.position).into_iter().map(turned).collect();
     let normals: Vec<_> = rows(|vertex| vertex.normal).into_iter().map(turned).collect();
-    for (index, column) in [&positions, &normals, &rows(|vertex| vertex.color)].into_iter().enumerate() {
-        let view =
-            append(&mut bytes, &mut views, 34_962, column.iter().flatten().flat_map(|x| x.to_le_bytes()));
-        let mut accessor =
-            json!({"bufferView": view, "componentType": 5126, "count": column.len(), "type": "VEC3"});
-        if index == 0 {
-            let fold = |from: f32, pick: fn(f32, f32) -> f32| -> [f32; 3] {
-                std::array::from_fn(|axis| column.iter().map(|row| row[axis]).fold(from, pick))
-            };
-            accessor["min"] = json!(fold(f32::INFINITY, f32::min));
-            accessor["max"] = json!(fold(f32::NEG_INFINITY, f32::max));
-        }
-        accessors.push(accessor);
-    }
-    let (mut primitives, mut materials) = (Vec::new(), Vec::new());
+    let position = file.column(&positions);
+    let fold = |from: f32, pick: fn(f32, f32) -> f32| -> [f32; 3] {
+        std::array::from_fn(|axis| positions.iter().map(|row| row[axis]).fold(from, pick))
+    };
+    file.accessors[position]["min"] = json!(fold(f32::INFINITY, f32::min));
+    file.accessors[position]["max"] = json!(fold(f32::NEG_INFINITY, f32::max));
+    let (normal, color) = (file.column(&normals), file.column(&rows(|vertex| vertex.color)));
+    let is_textured = model.parts.iter().any(|part| part.texture.is_some());
+    let place = is_textured
+        .then(|| file.column(&model.vertices.iter().map(|vertex| vertex.place).collect::<Vec<_>>()));
+    let pictures: Vec<Option<usize>> = model.images.iter().map(|image| file.picture(image)).collect();
     for (part, triangles) in model.runs().filter(|(_, triangles)| !triangles.is_empty()) {
         let corners = triangles.as_flattened();
-        let view = append(&mut bytes, &mut views, 34_963, corners.iter().flat_map(|x| x.to_le_bytes()));
-        accessors.push(
+        let view = file.append(corners.iter().flat_map(|x| x.to_le_bytes()), Some(INDICES));
+        file.accessors.push(
             json!({"bufferView": view, "componentType": 5125, "count": corners.len(), "type": "SCALAR"}),
         );
-        let mut attributes = json!({"POSITION": 0, "NORMAL": 1});
+        let indices = file.accessors.len() - 1;
+        let mut attributes = json!({"POSITION": position, "NORMAL": normal});
         if part.paint == Paint::Own {
-            attributes["COLOR_0"] = json!(2);
+            attributes["COLOR_0"] = json!(color);
+            if let (Some(place), true) = (place, part.texture.is_some()) {
+                attributes["TEXCOORD_0"] = json!(place);
+            }
         }
-        materials.push(json!({"name": part.name}));
-        let [indices, material] = [accessors.len() - 1, materials.len() - 1];
-        primitives
+        let material = file.material(part, &pictures);
+        file.primitives
             .push(json!({"attributes": attributes, "indices": indices, "material": material, "mode": 4}));
     }
-    let document = json!({
-        "asset": {"version": "2.0", "generator": concat!("simworld ", env!("CARGO_PKG_VERSION"))},
-        "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": primitives}], "materials": materials,
-        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": bytes.len()}],
-    });
-    pack(&document, bytes)
+    file.pack()
 }
 
-/// Adds bytes to the buffer and a view of them; the view's number.
-fn append(bytes: &mut Vec<u8>, views: &mut Vec<Value>, target: u32, more: impl Iterator<Item = u8>) -> usize {
-    let start = bytes.len();
-    bytes.extend(more);
-    views
-        .push(json!({"buffer": 0, "byteOffset": start, "byteLength": bytes.len() - start, "target": target}));
-    views.len() - 1
+/// A file as it grows.
+#[derive(Default)]
+struct File {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    primitives: Vec<Value>,
+    materials: Vec<Value>,
+    images: Vec<Value>,
+    textures: Vec<Value>,
+    samplers: Vec<Value>,
+    /// Whether something shines brighter than a factor can say.
+    shines: bool,
 }
 
-/// The container: every chunk is filled up to a multiple of four bytes.
-fn pack(document: &Value, mut bytes: Vec<u8>) -> Vec<u8> {
-    let mut text = document.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    bytes.resize(bytes.len().next_multiple_of(4), 0);
-    let length = 12 + 8 + text.len() + 8 + bytes.len();
-    let mut file = Vec::with_capacity(length);
-    for word in [0x4654_6C67, 2, length as u32, text.len() as u32, 0x4E4F_534A] {
-        file.extend(u32::to_le_bytes(word));
+impl File {
+    /// Adds rows of real numbers; the number of their accessor.
+    fn column<const N: usize>(&mut self, rows: &[[f32; N]]) -> usize {
+        let view = self.append(rows.iter().flatten().flat_map(|x| x.to_le_bytes()), Some(VERTICES));
+        let shape = format!("VEC{N}");
+        self.accessors
+            .push(json!({"bufferView": view, "componentType": 5126, "count": rows.len(), "type": shape}));
+        self.accessors.len() - 1
     }
-    file.extend(text);
-    for word in [bytes.len() as u32, 0x004E_4942] {
-        file.extend(u32::to_le_bytes(word));
+
+    /// Adds bytes to the buffer, from a multiple of four on, and a view of them; the view's number.
+    fn append(&mut self, more: impl IntoIterator<Item = u8>, target: Option<u32>) -> usize {
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        let start = self.bytes.len();
+        self.bytes.extend(more);
+        let mut view = json!({"buffer": 0, "byteOffset": start, "byteLength": self.bytes.len() - start});
+        if let Some(target) = target {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
+        self.views.len() - 1
     }
-    file.extend(bytes);
-    file
+
+    /// Adds a picture as PNG; its number, if it is one.
+    fn picture(&mut self, image: &ModelImage) -> Option<usize> {
+        let png = image.is_whole().then(|| png_of(image).ok()).flatten()?;
+        let view = self.append(png, None);
+        self.images.push(json!({"bufferView": view, "mimeType": "image/png"}));
+        Some(self.images.len() - 1)
+    }
+
+    /// Adds the material of a part; its number.
+    fn material(&mut self, part: &ModelPart, pictures: &[Option<usize>]) -> usize {
+        let finish = &part.finish;
+        let mut pbr = json!({"metallicFactor": finish.metallic, "roughnessFactor": finish.roughness});
+        let texture = part.texture.filter(|_| part.paint == Paint::Own);
+        let picture =
+            texture.and_then(|texture| Some((pictures.get(texture.image as usize)?.as_ref()?, texture.wrap)));
+        if let Some((picture, wrap)) = picture {
+            let [right, down] = wrap.map(|wrap| match wrap {
+                Wrap::Repeat => 10_497,
+                Wrap::Mirror => 33_648,
+                Wrap::Clamp => 33_071,
+            });
+            self.samplers.push(json!({"wrapS": right, "wrapT": down}));
+            self.textures.push(json!({"source": picture, "sampler": self.samplers.len() - 1}));
+            pbr["baseColorTexture"] = json!({"index": self.textures.len() - 1});
+        }
+        let mut material = json!({"name": part.name, "pbrMetallicRoughness": pbr});
+        let brightest = finish.emission.iter().copied().fold(0.0, f32::max);
+        if brightest > 1.0 {
+            self.shines = true;
+            material["emissiveFactor"] = json!(finish.emission.map(|light| light / brightest));
+            material["extensions"] =
+                json!({"KHR_materials_emissive_strength": {"emissiveStrength": brightest}});
+        } else if brightest > 0.0 {
+            material["emissiveFactor"] = json!(finish.emission);
+        }
+        self.materials.push(material);
+        self.materials.len() - 1
+    }
+
+    /// The container: every chunk is filled up to a multiple of four bytes.
+    fn pack(self) -> Vec<u8> {
+        let mut document = json!({
+            "asset": {"version": "2.0", "generator": concat!("simworld ", env!("CARGO_PKG_VERSION"))},
+            "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": self.primitives}], "materials": self.materials,
+            "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": self.bytes.len()}],
+        });
+        if !self.textures.is_empty() {
+            document["samplers"] = json!(self.samplers);
+            document["textures"] = json!(self.textures);
+        }
+        if !self.images.is_empty() {
+            document["images"] = json!(self.images);
+        }
+        if self.shines {
+            document["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+        }
+        let mut bytes = self.bytes;
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+        let length = 12 + 8 + text.len() + 8 + bytes.len();
+        let mut file = Vec::with_capacity(length);
+        for word in [0x4654_6C67, 2, length as u32, text.len() as u32, 0x4E4F_534A] {
+            file.extend(u32::to_le_bytes(word));
+        }
+        file.extend(text);
+        for word in [bytes.len() as u32, 0x004E_4942] {
+            file.extend(u32::to_le_bytes(word));
+        }
+        file.extend(bytes);
+        file
+    }
+}
+
+fn png_of(image: &ModelImage) -> Result<Vec<u8>, png::EncodingError> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, image.width, image.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header()?.write_image_data(&image.pixels)?;
+    Ok(file)
 }

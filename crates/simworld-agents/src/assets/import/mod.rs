@@ -80,14 +80,14 @@ pub struct ImportReport {
 ///
 /// ```
 /// use simworld_agents::assets::{ImportConfig, Thing, export_glb, import_glb};
-/// use simworld_core::asset::{Model, ModelPart, ModelVertex, Paint};
+/// use simworld_core::asset::{Model, ModelPart, ModelVertex};
 /// // A tetrahedron 80 units high: in centimetres, if it is to be a stool.
 /// let corners = [[-20.0, -20.0, 0.0], [20.0, -20.0, 0.0], [0.0, 20.0, 0.0], [0.0, 0.0, 50.0]];
 /// let model = Model {
 ///     vertices: corners.map(|position| ModelVertex { position, color: [0.3, 0.2, 0.1], ..Default::default() }).to_vec(),
 ///     triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
-///     parts: vec![ModelPart { name: "seat".into(), triangles: 4, paint: Paint::Own }],
-///     hulls: vec![],
+///     parts: vec![ModelPart { name: "seat".into(), triangles: 4, ..ModelPart::default() }],
+///     ..Model::default()
 /// };
 /// let thing = Thing { name: "stool".into(), words: "a wooden stool".into(), ..Thing::default() };
 /// let stool = import_glb(&export_glb(&model), &thing, &ImportConfig::default())?;
@@ -254,12 +254,14 @@ fn asset(
 
 fn model(surface: Surface, solids: Vec<Solid>) -> Model {
     let single = |[x, y, z]: [f64; 3]| [x as f32, y as f32, z as f32];
-    let vertices = surface.points.iter().zip(&surface.normals).zip(&surface.colors);
+    let looks = surface.colors.iter().zip(&surface.places);
+    let vertices = surface.points.iter().zip(&surface.normals).zip(looks);
     let vertices = vertices
-        .map(|((point, normal), color)| ModelVertex {
+        .map(|((point, normal), (color, place))| ModelVertex {
             position: single((*point).into()),
             normal: single((*normal).into()),
             color: *color,
+            place: *place,
         })
         .collect();
     Model {
@@ -267,6 +269,7 @@ fn model(surface: Surface, solids: Vec<Solid>) -> Model {
         triangles: surface.triangles,
         parts: surface.parts,
         hulls: solids.into_iter().map(|solid| solid.hull).collect(),
+        images: surface.images,
     }
 }
 
@@ -280,8 +283,9 @@ fn mean_color(surface: &Surface) -> Option<[f32; 3]> {
             if part.paint == Paint::Own {
                 let share = surface.cross(*triangle).norm();
                 area += share;
-                for point in triangle {
-                    let color = surface.colors[*point as usize];
+                for (point, shown) in triangle.iter().zip(surface.shown(part, *triangle)) {
+                    let tint = surface.colors[*point as usize];
+                    let color: [f32; 3] = std::array::from_fn(|which| tint[which] * shown[which]);
                     sum = std::array::from_fn(|which| sum[which] + f64::from(color[which]) * share / 3.0);
                 }
             }

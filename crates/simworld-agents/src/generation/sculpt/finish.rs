@@ -69,7 +69,12 @@ fn model_of(pieces: &[Piece]) -> Model {
         let (name, paint) = (piece.name, piece.finish.paint);
         match model.parts.last_mut() {
             Some(part) if part.name == name && part.paint == paint => part.triangles += count,
-            _ => model.parts.push(ModelPart { name: name.to_owned(), triangles: count, paint }),
+            _ => model.parts.push(ModelPart {
+                name: name.to_owned(),
+                triangles: count,
+                paint,
+                ..ModelPart::default()
+            }),
         }
         for triangle in &piece.triangles {
             let corner = |(point, normal): &(V, V)| {
@@ -77,6 +82,7 @@ fn model_of(pieces: &[Piece]) -> Model {
                     position: narrow(point),
                     normal: narrow(normal),
                     color: piece.finish.color,
+                    ..ModelVertex::default()
                 };
                 let mut key = [0; 9];
                 let numbers = vertex.position.iter().chain(&vertex.normal).chain(&vertex.color);

@@ -4,19 +4,24 @@
 
 use serde_json::{Value, json};
 use simworld_agents::assets::{ImportConfig, ImportError, Imported, Thing, import_glb};
-use simworld_core::asset::{Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{Model, ModelPart, ModelVertex};
 use simworld_core::ops;
 
 pub const RED: [f32; 3] = [0.5, 0.02, 0.02];
 
 /// A model of one part; the importer makes the normals and the hulls.
 pub fn model(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Model {
-    let vertex = |position: &[f32; 3]| ModelVertex { position: *position, normal: [0.0; 3], color: RED };
+    let vertex =
+        |position: &[f32; 3]| ModelVertex { position: *position, color: RED, ..ModelVertex::default() };
     Model {
         vertices: points.iter().map(vertex).collect(),
         triangles: triangles.to_vec(),
-        parts: vec![ModelPart { name: "all".into(), triangles: triangles.len() as u32, paint: Paint::Own }],
-        hulls: vec![],
+        parts: vec![ModelPart {
+            name: "all".into(),
+            triangles: triangles.len() as u32,
+            ..ModelPart::default()
+        }],
+        ..Model::default()
     }
 }
 
@@ -191,4 +196,50 @@ pub fn bending_bar(interpolation: &str) -> (Value, Vec<u8>) {
         "samplers": [{"input": 5, "output": 6, "interpolation": interpolation}],
     }]);
     bar
+}
+
+/// A slab whose left half looks at the left half of a picture, as one mesh of two boxes that share no vertex.
+pub fn painted_document(picture: &[u8]) -> (Value, Vec<u8>) {
+    let slab =
+        together(&[cuboid([0.0, 0.0, 0.0], [0.5, 0.6, 0.5]), cuboid([0.0, 0.7, 0.0], [0.5, 1.3, 0.5])]);
+    let (mut document, mut bytes) = plain_model(&slab);
+    let places: Vec<f32> =
+        (0..16).flat_map(|vertex| if vertex < 8 { [0.25, 0.5] } else { [0.75, 0.5] }).collect();
+    let add = |document: &mut Value, bytes: &mut Vec<u8>, more: &[u8]| {
+        document["bufferViews"]
+            .as_array_mut()
+            .unwrap()
+            .push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": more.len()}));
+        bytes.extend(more);
+        document["buffers"][0]["byteLength"] = json!(bytes.len());
+    };
+    let places: Vec<u8> = places.iter().flat_map(|x| x.to_le_bytes()).collect();
+    add(&mut document, &mut bytes, &places);
+    add(&mut document, &mut bytes, picture);
+    document["accessors"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({"bufferView": 2, "componentType": 5126, "count": 16, "type": "VEC2"}));
+    document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(2);
+    document["meshes"][0]["primitives"][0]["material"] = json!(0);
+    document["materials"] = json!([{"pbrMetallicRoughness": {
+        "baseColorFactor": [0.5, 1.0, 1.0, 1.0], "baseColorTexture": {"index": 0}}}]);
+    document["textures"] = json!([{"source": 0}]);
+    document["images"] = json!([{"bufferView": 3, "mimeType": "image/png"}]);
+    (document, bytes)
+}
+
+/// The same as a file.
+pub fn painted(picture: &[u8]) -> Vec<u8> {
+    let (document, bytes) = painted_document(picture);
+    container(&document, &bytes)
+}
+
+/// Red on the left, and sRGB 188 of blue on the right.
+pub fn halves() -> Vec<u8> {
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 2, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().unwrap().write_image_data(&[255, 0, 0, 0, 0, 188]).unwrap();
+    png
 }
