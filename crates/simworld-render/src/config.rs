@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::RenderError;
+use crate::gpu::{LAYER, MOST_LAYERS};
 
 /// Which graphics interfaces may be used. Only those whose crate feature is on can answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -99,6 +100,9 @@ pub struct RenderConfig {
     pub shadow_distance: f64,
     /// Brightness of RGB over the automatic exposure, which follows from sun and clouds alone, in stops from -8 to 8.
     pub exposure_compensation: f64,
+    /// Bytes of the device that pictures on models may take, from 4 MiB to 1 GiB, in steps of 4 MiB. Of pictures that are more together
+    /// the largest are shown in half their size, and so on until all have room.
+    pub texture_memory: u64,
 }
 
 impl Default for RenderConfig {
@@ -115,6 +119,7 @@ impl Default for RenderConfig {
             shadow_resolution: 2048,
             shadow_distance: 120.0,
             exposure_compensation: 0.0,
+            texture_memory: 256 << 20,
         }
     }
 }
@@ -126,6 +131,7 @@ impl RenderConfig {
     /// The first field out of range, with what is allowed; NaN is always out of range.
     pub fn validate(&self) -> Result<(), RenderError> {
         let side = f64::from(self.shadow_resolution);
+        let (least, most) = (LAYER as f64, LAYER as f64 * f64::from(MOST_LAYERS));
         let checks = [
             ("near", self.near, 1e-3, 100.0, "0.001 to 100 m"),
             ("far", self.far, self.near, 1e6, "more than `near`, at most 1e6 m"),
@@ -139,6 +145,7 @@ impl RenderConfig {
             ),
             ("shadow_distance", self.shadow_distance, 10.0, 2000.0, "10 to 2000 m"),
             ("exposure_compensation", self.exposure_compensation, -8.0, 8.0, "-8 to 8 stops"),
+            ("texture_memory", self.texture_memory as f64, least, most, "4 MiB to 1 GiB, in bytes"),
         ];
         for (field, value, low, high, allowed) in checks {
             if !(low..=high).contains(&value) {
@@ -165,6 +172,8 @@ mod tests {
             RenderConfig { shadow_resolution: 3, ..RenderConfig::default() },
             RenderConfig { shadow_distance: 0.0, ..RenderConfig::default() },
             RenderConfig { exposure_compensation: 9.0, ..RenderConfig::default() },
+            RenderConfig { texture_memory: 0, ..RenderConfig::default() },
+            RenderConfig { texture_memory: u64::MAX, ..RenderConfig::default() },
         ];
         for config in spoilt {
             let error = config.validate().unwrap_err().to_string();

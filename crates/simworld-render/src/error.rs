@@ -107,6 +107,16 @@ pub enum RenderError {
         /// The most.
         limit: u64,
     },
+    /// More pictures on models than there is memory for, be they of one pixel each.
+    #[error(
+        "the models of the scene have {count} pictures, and there is room for {limit}: raise `texture_memory`"
+    )]
+    Pictures {
+        /// How many.
+        count: usize,
+        /// The most.
+        limit: usize,
+    },
     /// The adapter ran out of memory.
     #[error("the adapter ran out of memory: draw a smaller picture or a smaller shadow map")]
     OutOfMemory,

@@ -4,6 +4,7 @@
 mod atmosphere;
 mod batch;
 pub mod classes;
+mod coats;
 mod config;
 mod draw_list;
 mod error;

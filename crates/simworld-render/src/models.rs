@@ -78,9 +78,11 @@ pub(crate) fn model_of(scene: &dyn Scene, id: AssetId) -> Option<(&Asset, &Arc<M
 
 impl Held {
     fn upload(gpu: &Gpu, asset: &Asset, model: &Arc<Model>) -> Result<Self, RenderError> {
-        let vertices = vertices_of(asset, model);
-        let indices: &[u32] = model.triangles.as_flattened();
-        let largest = size_of_val(&vertices[..]).max(size_of_val(indices)) as u64;
+        let ModelMesh { mut vertices, spots, indices } = ModelMesh::of(asset, model);
+        for (vertex, spot) in vertices.iter_mut().zip(spots) {
+            vertex.offset = spot;
+        }
+        let largest = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
         let limit = gpu.device.limits().max_buffer_size;
         if largest > limit {
             return Err(RenderError::Model { name: asset.name.clone(), bytes: largest, limit });
@@ -89,31 +91,56 @@ impl Held {
         Ok(Self {
             model: Arc::clone(model),
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
-            indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(indices)),
+            indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
             count: indices.len() as u32,
         })
     }
 }
 
-/// Points in shares of the collider's box, so that an entity of another size stretches the model; normals as they stand on
-/// the surface in that unit box.
-pub(crate) fn vertices_of(asset: &Asset, model: &Model) -> Vec<Vertex> {
-    let size = asset.collider.size();
-    let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
-    let mut paints = vec![Paint::Own; model.vertices.len()];
-    for (part, triangles) in model.runs() {
-        // Who shares a vertex between parts of unlike paint gives it the later one's.
-        for vertex in triangles.as_flattened() {
-            paints[*vertex as usize] = part.paint;
+/// A model as both backends read it.
+pub(crate) struct ModelMesh {
+    /// Points in shares of the collider's box, so that an entity of another size stretches the model; normals as they stand on the
+    /// surface in that unit box.
+    pub vertices: Vec<Vertex>,
+    /// By vertex, the place on the picture of its part, and which part that is. In triangles it stands where other meshes have
+    /// their offsets, whose unit is zero in instances of models.
+    pub spots: Vec<[f32; 3]>,
+    pub indices: Vec<u32>,
+}
+
+impl ModelMesh {
+    pub(crate) fn of(asset: &Asset, model: &Model) -> Self {
+        const NOBODY: (u32, u32) = (u32::MAX, 0);
+        let size = asset.collider.size();
+        let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
+        let mut mesh = Self {
+            vertices: Vec::with_capacity(model.vertices.len()),
+            spots: Vec::with_capacity(model.vertices.len()),
+            indices: Vec::with_capacity(model.triangles.len() * 3),
+        };
+        // By vertex of the model, the part that had it last, and which it is there: parts that share one have one each.
+        let mut homes = vec![NOBODY; model.vertices.len()];
+        for (number, (part, triangles)) in (0..).zip(model.runs()) {
+            for corner in triangles.as_flattened() {
+                let home = &mut homes[*corner as usize];
+                if home.0 != number {
+                    *home = (number, mesh.vertices.len() as u32);
+                    let vertex = &model.vertices[*corner as usize];
+                    let factor = if part.paint == Paint::Entity { ENTITY_COLOR } else { 0 };
+                    mesh.vertices.push(Vertex {
+                        anchor: std::array::from_fn(|axis| vertex.position[axis] / size[axis]),
+                        offset: [0.0; 3],
+                        normal: std::array::from_fn(|axis| vertex.normal[axis] * size[axis]),
+                        material: packed(vertex.color) | factor,
+                    });
+                    let [right, down] = vertex.place;
+                    mesh.spots.push([right, down, number as f32]);
+                }
+                mesh.indices.push(home.1);
+            }
         }
+        mesh
     }
-    let vertex = |(vertex, paint): (&simworld_core::asset::ModelVertex, &Paint)| Vertex {
-        anchor: std::array::from_fn(|axis| vertex.position[axis] / size[axis]),
-        offset: [0.0; 3],
-        normal: std::array::from_fn(|axis| vertex.normal[axis] * size[axis]),
-        material: packed(vertex.color) | if *paint == Paint::Entity { ENTITY_COLOR } else { 0 },
-    };
-    model.vertices.iter().zip(&paints).map(vertex).collect()
 }
 
 fn packed(color: [f32; 3]) -> u32 {
@@ -123,7 +150,28 @@ fn packed(color: [f32; 3]) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use simworld_core::asset::{ModelPart, ModelVertex};
+    use simworld_core::scene::{EntityKind, Shape};
+
     use super::*;
+
+    #[test]
+    fn parts_that_share_a_vertex_have_one_each() {
+        let part = |paint| ModelPart { triangles: 1, paint, ..ModelPart::default() };
+        let model = Model {
+            vertices: vec![ModelVertex::default(); 4],
+            triangles: vec![[0, 1, 2], [2, 1, 3]],
+            parts: vec![part(Paint::Own), part(Paint::Entity)],
+            ..Model::default()
+        };
+        let asset = Asset::new("sheet", EntityKind::Prop, Shape::cuboid(1.0, 1.0, 1.0));
+        let ModelMesh { vertices, spots, indices } = ModelMesh::of(&asset, &model);
+        assert_eq!(indices, [0, 1, 2, 3, 4, 5]);
+        assert_eq!(spots.iter().map(|spot| spot[2]).collect::<Vec<_>>(), [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
+        let of_entity: Vec<bool> =
+            vertices.iter().map(|vertex| vertex.material & ENTITY_COLOR != 0).collect();
+        assert_eq!(of_entity, [false, false, false, true, true, true]);
+    }
 
     #[test]
     fn a_colour_survives_packing() {

@@ -43,6 +43,8 @@ pub(crate) struct Job<'a> {
     pub features: Features,
     /// By view, what falls before it.
     pub falling: &'a [Falling],
+    /// The pictures of models.
+    pub store: &'a wgpu::BindGroup,
 }
 
 /// With which pipelines entities are drawn.
@@ -55,9 +57,14 @@ enum Painting<'a> {
 }
 
 impl Raster {
-    pub(crate) fn new(gpu: &Gpu, shadow_resolution: u32, smoothing: AntiAliasing) -> Self {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shadow_resolution: u32,
+        smoothing: AntiAliasing,
+        store: &wgpu::BindGroupLayout,
+    ) -> Self {
         let shadows = ShadowMaps::new(gpu, shadow_resolution.max(1));
-        let pipelines = Pipelines::new(gpu, shadows.layout(), smoothing);
+        let pipelines = Pipelines::new(gpu, shadows.layout(), store, smoothing);
         let meshes = Meshes::upload(gpu, MeshLibrary::build());
         Self { pipelines, meshes, models: Models::default(), shadows, targets: None, smoothing }
     }
@@ -191,6 +198,7 @@ impl Raster {
     fn draw_entities(&self, pass: &mut wgpu::RenderPass<'_>, one: &View<'_>, painting: Painting<'_>) {
         one.job.scenery.bind(pass, one.index);
         pass.set_bind_group(1, one.shadows, &[]);
+        pass.set_bind_group(2, one.job.store, &[]);
         self.draw_batches(pass, &one.batches.visible, |pass, pattern| {
             let pipeline = match painting {
                 Painting::Picture(features) => self.pipelines.picture(features, pattern),

@@ -9,6 +9,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
 
 use crate::batch::{Channels, Layout, Projection, ViewOptions, ViewRequest};
+use crate::coats::Coats;
 use crate::config::{AntiAliasing, Backend, LevelOfDetail};
 use crate::draw_list::{DrawList, ViewBatches};
 use crate::falling::Falling;
@@ -37,6 +38,7 @@ pub(crate) struct Works {
     /// Batches that were left on the device, the oldest first.
     left: VecDeque<wgpu::SubmissionIndex>,
     residents: Residents,
+    coats: Coats,
     list: DrawList,
     /// The light of the environment that was drawn last.
     light: Option<(Environment, Arc<Light>)>,
@@ -65,7 +67,8 @@ impl Works {
     pub(crate) fn new(config: &RenderConfig) -> Result<Self, RenderError> {
         let gpu = Gpu::new(config)?;
         let shadow_resolution = config.shadow_resolution.min(gpu.largest_picture());
-        let raster = Raster::new(&gpu, shadow_resolution, config.anti_aliasing);
+        let coats = Coats::new(&gpu, config.texture_memory);
+        let raster = Raster::new(&gpu, shadow_resolution, config.anti_aliasing, coats.texels().layout());
         let scenery = Scenery::new(&gpu, &raster.pipelines.scenery);
         let planes = Planes::new(&gpu);
         let timing = Timing::new(&gpu);
@@ -84,6 +87,7 @@ impl Works {
             timing,
             left: VecDeque::new(),
             residents,
+            coats,
             list,
             light: None,
         })
@@ -94,9 +98,11 @@ impl Works {
     pub(crate) fn relieve(&mut self, config: &RenderConfig) {
         self.planes = Planes::new(&self.gpu);
         (self.readbacks, self.raycast) = (Readbacks::default(), None);
+        self.coats = Coats::new(&self.gpu, config.texture_memory);
         // What was held is free when the device has seen that; if it fails again the next call says so.
         let _ = self.gpu.wait();
-        self.raster = Raster::new(&self.gpu, self.shadow_resolution, config.anti_aliasing);
+        let store = self.coats.texels().layout();
+        self.raster = Raster::new(&self.gpu, self.shadow_resolution, config.anti_aliasing, store);
         self.scenery = Scenery::new(&self.gpu, &self.raster.pipelines.scenery);
         self.residents = Residents::default();
         self.residents.finest = config.level_of_detail == LevelOfDetail::Finest;
@@ -145,13 +151,15 @@ impl Works {
         if self.residents.names.len() > MOST_SLOTS {
             return Err(RenderError::TooMany { count: self.residents.names.len(), limit: MOST_SLOTS });
         }
+        self.coats.hold(&self.gpu, scene, &self.residents.models)?;
         let in_color = options.channels.contains(Channels::RGB);
         let is_cast = table.is_some() || self.casts(config, options, &layout);
         let (globals, features) = self.send(scene, &sight, in_color, is_cast)?;
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.timing.begin();
         if is_cast {
-            let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu));
+            let store = self.coats.texels();
+            let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu, store.layout()));
             // A ray of a table is no pixel that something could be smaller than.
             let min_pixels = if table.is_some() { 0.0 } else { config.min_pixels };
             let views = &sight.views[..];
@@ -173,7 +181,8 @@ impl Works {
                 casts.push(Cast::Alone);
             }
             raycast.prepare(&self.gpu, &casts, &sight.falling, table.is_some());
-            raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
+            let (scenery, planes) = (&self.scenery, &self.planes);
+            raycast.draw(&self.gpu, &mut encoder, &mut self.timing, scenery, planes, &layout, store.group());
         } else {
             self.list(config, scene, requests, &sight, in_color)?;
             if in_color {
@@ -190,6 +199,7 @@ impl Works {
                 shadows: &sight.shadows,
                 features,
                 falling: &sight.falling,
+                store: self.coats.texels().group(),
             };
             self.raster.draw(&mut encoder, &self.planes, &job);
         }
@@ -278,8 +288,8 @@ impl Works {
         let views = sight.views.iter().zip(&sight.shadows).zip(&sight.falling);
         let mut globals: Vec<Globals> = views
             .map(|((view, shadow), falling)| {
-                let place =
-                    if in_color { lamps.around(scene, view.eye, light, light.sky.len()) } else { None };
+                let first = light.sky.len() + self.coats.table().len();
+                let place = if in_color { lamps.around(scene, view.eye, light, first) } else { None };
                 Globals::new(view, light, falling, shadow.as_ref(), place.as_ref())
             })
             .collect();
@@ -293,12 +303,18 @@ impl Works {
         }
         // Rays have the globals of each view beside it.
         let drawn = if is_cast { &globals[..0] } else { &globals[..] };
-        self.scenery.send(&self.gpu, drawn, [&light.sky, &lamps.entries], &mut self.residents)?;
+        self.scenery.send(
+            &self.gpu,
+            drawn,
+            [&light.sky, self.coats.table(), &lamps.entries],
+            &mut self.residents,
+        )?;
         let cover = &light.cover;
         let features = Features {
             lamps: !lamps.entries.is_empty(),
             water: cover.wetness > 0.0 || cover.puddles > 0.0,
             snow: cover.snow_depth > 0.0,
+            models: is_cast && !self.coats.table().is_empty(),
         };
         Ok((globals, features))
     }

@@ -8,6 +8,7 @@ mod readback;
 mod scenery;
 mod shadow_maps;
 mod targets;
+mod texels;
 mod timing;
 
 pub(crate) use device::Gpu;
@@ -18,4 +19,5 @@ pub(crate) use readback::{Readback, Readbacks, place};
 pub(crate) use scenery::{Scenery, runs};
 pub(crate) use shadow_maps::{Casters, MOST_MAPS, Redraw, ShadowMaps};
 pub(crate) use targets::Targets;
+pub(crate) use texels::{LAYER, MOST_LAYERS, ROW, Texels};
 pub(crate) use timing::Timing;

@@ -27,6 +27,9 @@ const FALL: &str = include_str!("../shaders/fall.wgsl");
 const PRECIPITATION: &str = include_str!("../shaders/precipitation.wgsl");
 const SHADING: &str = include_str!("../shaders/shading.wgsl");
 const SUNLIT: &str = include_str!("../shaders/sunlit.wgsl");
+const MODELS: &str = include_str!("../shaders/models.wgsl");
+const FORWARD_MODELS: &str = include_str!("../shaders/forward_models.wgsl");
+const CAST_MODELS: &str = include_str!("../shaders/cast_models.wgsl");
 const FORWARD: &str = include_str!("../shaders/forward.wgsl");
 const OCTAHEDRAL: &str = include_str!("../shaders/octahedral.wgsl");
 const NORMALS: &str = include_str!("../shaders/normals.wgsl");
@@ -38,6 +41,8 @@ pub(crate) struct Pipelines {
     picture: BTreeMap<Features, Vec<wgpu::RenderPipeline>>,
     forward: wgpu::ShaderModule,
     forward_layout: wgpu::PipelineLayout,
+    /// The same with the pictures of models.
+    model_layout: wgpu::PipelineLayout,
     smooth: bool,
     /// Depth and ids alone, where RGB is smoothed or not asked for.
     pub measures: wgpu::RenderPipeline,
@@ -57,12 +62,15 @@ pub(crate) struct Features {
     pub lamps: bool,
     pub water: bool,
     pub snow: bool,
+    /// Of rays alone: triangles of models have a pipeline of their own.
+    pub models: bool,
 }
 
 impl Features {
     /// The value of FEATURES.
     pub(crate) fn bits(self) -> u32 {
-        u32::from(self.lamps) | u32::from(self.water) << 1 | u32::from(self.snow) << 2
+        let [lamps, water, snow, models] = [self.lamps, self.water, self.snow, self.models].map(u32::from);
+        lamps | water << 1 | snow << 2 | models << 3
     }
 }
 
@@ -86,7 +94,12 @@ struct Variant<'a> {
 }
 
 impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu, shadows: &wgpu::BindGroupLayout, smoothing: AntiAliasing) -> Self {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shadows: &wgpu::BindGroupLayout,
+        store: &wgpu::BindGroupLayout,
+        smoothing: AntiAliasing,
+    ) -> Self {
         let device = &gpu.device;
         let scenery = scenery_layout(device);
         let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
@@ -104,10 +117,9 @@ impl Pipelines {
         };
         let full = layout(&[Some(&scenery), Some(shadows)]);
         let plain = layout(&[Some(&scenery)]);
-        let forward = module(
-            "forward",
-            &[COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT, FORWARD],
-        );
+        let shading =
+            [COMMON, BINDINGS, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, SUNLIT, MODELS];
+        let forward = module("forward", &[&shading[..], &[FORWARD, FORWARD_MODELS]].concat());
         let sky = module("sky", &[COMMON, BINDINGS, NOISE, SKY, SKY_PASS]);
         let falling = module("precipitation", &[COMMON, BINDINGS, NOISE, SKY, DROPS, PRECIPITATION]);
         let shadow = module("shadow", &[COMMON, BINDINGS, SHADOW]);
@@ -120,6 +132,7 @@ impl Pipelines {
             normals: Recipe { gpu, module: &normals, layout: &plain }.normals(),
             forward,
             forward_layout: full,
+            model_layout: layout(&[Some(&scenery), Some(shadows), Some(store)]),
             smooth,
             precipitation: Recipe { gpu, module: &falling, layout: &plain }.precipitation(smooth),
             sky: Recipe { gpu, module: &sky, layout: &plain }.sky(smooth),
@@ -130,10 +143,12 @@ impl Pipelines {
 
     /// Makes what a picture of these features is drawn with, the first time that one is wanted.
     pub(crate) fn prepare(&mut self, gpu: &Gpu, features: Features) {
-        let recipe = Recipe { gpu, module: &self.forward, layout: &self.forward_layout };
-        self.picture.entry(features).or_insert_with(|| {
-            Pattern::ALL.map(|pattern| recipe.picture(pattern, features, self.smooth)).into()
-        });
+        let picture = |pattern| {
+            let is_model = pattern == Pattern::Model;
+            let layout = if is_model { &self.model_layout } else { &self.forward_layout };
+            Recipe { gpu, module: &self.forward, layout }.picture(pattern, features, self.smooth)
+        };
+        self.picture.entry(features).or_insert_with(|| Pattern::ALL.map(picture).into());
     }
 
     /// The pipeline of a pattern, if it was [prepared](Self::prepare).
@@ -144,11 +159,8 @@ impl Pipelines {
 
 /// The source of the ray-cast backend: the same shading with another `sunlit` and other bindings.
 pub(crate) fn raycast_source() -> String {
-    [
-        COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, OCTAHEDRAL, RAYS, BLOCKED, CAST,
-        DROPS, FALL,
-    ]
-    .concat()
+    let shading = [COMMON, NOISE, SKY, MATERIALS, HIT, PATTERNS, ROADS, SHADING, LAMPS, MODELS];
+    [&shading[..], &[OCTAHEDRAL, RAYS, BLOCKED, CAST, CAST_MODELS, DROPS, FALL]].concat().concat()
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "wgpu takes every target as an option")]
@@ -177,10 +189,14 @@ impl Recipe<'_> {
     fn picture(&self, pattern: Pattern, features: Features, smooth: bool) -> wgpu::RenderPipeline {
         let all = wgpu::ColorWrites::ALL;
         let targets = [target(COLOR, all), target(DEPTH, all), target(ID, all)];
+        let (vertex, color, everything) = match pattern {
+            Pattern::Model => ("vertex_model", "fragment_model_color", "fragment_model_all"),
+            _ => ("vertex_main", "fragment_color", "fragment_all"),
+        };
         self.build(&Variant {
             label: "picture",
-            vertex: "vertex_main",
-            fragment: Some(if smooth { "fragment_color" } else { "fragment_all" }),
+            vertex,
+            fragment: Some(if smooth { color } else { everything }),
             constants: &[("PATTERN", f64::from(pattern as u32)), ("FEATURES", f64::from(features.bits()))],
             targets: if smooth { &targets[..1] } else { &targets },
             depth: depth_state(wgpu::CompareFunction::Greater, wgpu::DepthBiasState::default()),

@@ -21,7 +21,7 @@ pub(crate) struct Scenery {
     /// Those that are drawn, in their order.
     drawn: wgpu::Buffer,
     copies: Vec<Instance>,
-    /// The sky and the grids of lamps.
+    /// The sky, the coats of models, and the grids of lamps.
     pub lights: wgpu::Buffer,
     group: wgpu::BindGroup,
     layout: wgpu::BindGroupLayout,
@@ -53,12 +53,12 @@ impl Scenery {
         }
     }
 
-    /// Sends the globals of the views, the sky with the lamps behind it, and what changed of the instances.
+    /// Sends the globals of the views, the sky with the coats of models and the lamps behind it, and what changed of the instances.
     pub(crate) fn send(
         &mut self,
         gpu: &Gpu,
         globals: &[Globals],
-        lights: [&[[f32; 4]]; 2],
+        lights: [&[[f32; 4]]; 3],
         residents: &mut Residents,
     ) -> Result<(), RenderError> {
         let limits = gpu.device.limits();
@@ -70,8 +70,11 @@ impl Scenery {
         }
         let (wide, long) = (self.stride * globals.len() as u64, (count * size_of::<Instance>()) as u64);
         let is_new = long > self.instances.size();
-        let [sky, lamps] = lights.map(bytemuck::cast_slice::<[f32; 4], u8>);
-        let lit = (sky.len() + lamps.len()) as u64;
+        let lights = lights.map(bytemuck::cast_slice::<[f32; 4], u8>);
+        let lit: u64 = lights.iter().map(|part| part.len() as u64).sum();
+        if lit > limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) {
+            return Err(RenderError::TooMany { count: (lit / 16) as usize, limit });
+        }
         if wide > self.globals.size() || is_new || lit > self.lights.size() {
             if wide > self.globals.size() {
                 self.globals = buffer(gpu, "globals", wgpu::BufferUsages::UNIFORM, wide.next_power_of_two());
@@ -86,8 +89,11 @@ impl Scenery {
             self.group = bind(gpu, &self.layout, &self.globals, &self.lights);
             gpu.check()?;
         }
-        gpu.queue.write_buffer(&self.lights, 0, sky);
-        gpu.queue.write_buffer(&self.lights, sky.len() as u64, lamps);
+        let mut offset = 0;
+        for part in lights {
+            gpu.queue.write_buffer(&self.lights, offset, part);
+            offset += part.len() as u64;
+        }
         let mut bytes = vec![0; wide as usize];
         for (index, one) in globals.iter().enumerate() {
             let start = index * self.stride as usize;

@@ -11,6 +11,7 @@ mod trees;
 mod vehicles;
 
 use simworld_core::geometry::Pose;
+use simworld_core::id::AssetId;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
@@ -120,7 +121,7 @@ impl Looks {
     pub(crate) fn dress(&self, entity: &EntityRef<'_>, scene: &dyn Scene, out: &mut Vec<resident::Part>) {
         let whole = |mesh, look| resident::Part { mesh, pose: *entity.pose, look, details: Detail::EVERY };
         if let Some(id) = entity.info.asset.filter(|id| model_of(scene, *id).is_some()) {
-            return out.push(whole(Drawn::Model(id), self.of_model(entity)));
+            return out.push(whole(Drawn::Model(id), self.of_model(entity, id)));
         }
         let bits = self.bits(entity);
         let dresser: Dresser = match entity.kind {
@@ -164,10 +165,11 @@ impl Looks {
         }
     }
 
-    /// The look of an entity that is drawn as its asset's model.
-    pub(crate) fn of_model(&self, entity: &EntityRef<'_>) -> Look {
+    /// The look of an entity that is drawn as its asset's model: by the asset shaders find how its parts take light. What stands where
+    /// other meshes have their offsets is none, so their unit is zero.
+    fn of_model(&self, entity: &EntityRef<'_>, asset: AssetId) -> Look {
         let color = entity.info.color.unwrap_or([1.0; 3]);
-        Look { unit: 1.0, color, ..self.plain(entity) }
+        Look { unit: 0.0, color, second: [asset.index() as f32, 0.0, 0.0], ..self.plain(entity) }
     }
 
     /// The look of an entity under the aspects that signals show.

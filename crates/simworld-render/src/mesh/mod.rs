@@ -41,6 +41,8 @@ pub(crate) enum Pattern {
     Foliage = 6,
     /// What is painted on roads, which is much to ask of every pixel of them.
     Mark = 7,
+    /// The pictures on models of assets.
+    Model = 8,
 }
 
 impl Pattern {
@@ -49,7 +51,7 @@ impl Pattern {
         matches!(self, Self::Road | Self::Mark | Self::Sidewalk | Self::Crosswalk | Self::Ground)
     }
 
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Plain,
         Self::Facade,
         Self::Road,
@@ -58,6 +60,7 @@ impl Pattern {
         Self::Ground,
         Self::Foliage,
         Self::Mark,
+        Self::Model,
     ];
 }
 
@@ -319,7 +322,7 @@ impl Drawn {
 
     pub(crate) const fn pattern(self) -> Pattern {
         match self {
-            Self::Model(_) => Pattern::Plain,
+            Self::Model(_) => Pattern::Model,
             Self::Own(mesh) => mesh.pattern(),
         }
     }

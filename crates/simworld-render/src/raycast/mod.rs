@@ -94,6 +94,8 @@ pub(crate) struct Raycast {
     pieces: wgpu::Buffer,
     /// Pieces of four words that are on the device.
     sent: usize,
+    /// The layout of the pictures of models, which paint alone reads.
+    store: wgpu::BindGroupLayout,
 }
 
 /// What is looked at, and how.
@@ -111,7 +113,7 @@ pub(crate) struct Look<'a> {
 }
 
 impl Raycast {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new(gpu: &Gpu, store: &wgpu::BindGroupLayout) -> Self {
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("raycast"),
             source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
@@ -130,6 +132,7 @@ impl Raycast {
             placed: buffer(1024),
             pieces: buffer(1024),
             sent: 0,
+            store: store.clone(),
         }
     }
 
@@ -238,8 +241,8 @@ impl Raycast {
         let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last), fall];
         self.prepared = steps.into_iter().flatten().map(|step| (step, by_table)).collect();
         for key in &self.prepared {
-            let module = &self.module;
-            self.pipelines.entry(*key).or_insert_with(|| pipeline(gpu, module, *key));
+            let (module, store) = (&self.module, &self.store);
+            self.pipelines.entry(*key).or_insert_with(|| pipeline(gpu, module, store, *key));
         }
     }
 
@@ -252,6 +255,7 @@ impl Raycast {
         scenery: &Scenery,
         planes: &Planes,
         layout: &Layout,
+        store: &wgpu::BindGroup,
     ) {
         let [width, height] = layout.largest;
         let [color, depth, who] = &planes.raw;
@@ -272,13 +276,21 @@ impl Raycast {
             let mut pass = encoder.begin_compute_pass(&timing.pass(key.0.binds().0));
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
+            if matches!(key.0, Step::Paint(_)) {
+                pass.set_bind_group(1, store, &[]);
+            }
             let tile = if matches!(key.0, Step::Paint(_) | Step::Fall) { PAINTED } else { TILE };
             pass.dispatch_workgroups(width.div_ceil(tile), height.div_ceil(tile), layout.spans.len() as u32);
         }
     }
 }
 
-fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, (step, by_table): (Step, bool)) -> wgpu::ComputePipeline {
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    store: &wgpu::BindGroupLayout,
+    (step, by_table): (Step, bool),
+) -> wgpu::ComputePipeline {
     let (entry_point, bindings) = step.binds();
     let entries = bindings.map(|binding| wgpu::BindGroupLayoutEntry {
         binding,
@@ -294,9 +306,10 @@ fn pipeline(gpu: &Gpu, module: &wgpu::ShaderModule, (step, by_table): (Step, boo
         label: Some("raycast"),
         entries: &entries,
     });
+    let (groups, is_paint) = ([Some(&layout), Some(store)], matches!(step, Step::Paint(_)));
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("raycast"),
-        bind_group_layouts: &[Some(&layout)],
+        bind_group_layouts: if is_paint { &groups } else { &groups[..1] },
         immediate_size: 0,
     });
     let flag = |is: bool| f64::from(u8::from(is));

@@ -11,7 +11,7 @@ use simworld_core::scene::Scene;
 use super::bvh::{Box3, Child, NONE, Tree, WIDTH};
 use super::halves::{Rounding, pair};
 use crate::mesh::{Drawn, MeshId, MeshLibrary, Vertex};
-use crate::models::{model_of, vertices_of};
+use crate::models::{ModelMesh, model_of};
 
 /// Triangles a leaf.
 const LEAF: usize = 3;
@@ -20,6 +20,9 @@ const LEVELS: u32 = 10;
 /// Pieces of four words that a triangle and a node take, as in rays.wgsl.
 const TRIANGLE: u32 = 5;
 const NODE: u32 = 7;
+/// Pieces of a triangle that stand apart: its normals, and of models also the place of each corner on the picture, and the part.
+const ASIDE: u32 = 3;
+const MODEL_ASIDE: u32 = 5;
 /// Marks a child as a run of triangles; beside it stand their number less one, from bit 28 on, and the first piece.
 const IS_LEAF: u32 = 1 << 31;
 /// From this bit on, a triangle's word of where its normals are has the pattern of its mesh.
@@ -48,7 +51,7 @@ impl Shapes {
         for mesh in MeshId::ALL {
             let range = &library.ranges[*mesh as usize];
             let indices = &library.indices[range.start as usize..range.end as usize];
-            let shape = shapes.add(&library.vertices, indices, mesh.pattern() as u32);
+            let shape = shapes.add(&library.vertices, &[], indices, mesh.pattern() as u32);
             shapes.own.push(shape);
         }
         shapes
@@ -72,12 +75,13 @@ impl Shapes {
         if self.models.get(&id).is_some_and(|(held, _)| Arc::ptr_eq(held, model)) {
             return;
         }
-        let indices = model.triangles.as_flattened();
-        let shape = self.add(&vertices_of(asset, model), indices, mesh.pattern() as u32);
+        let own = ModelMesh::of(asset, model);
+        let shape = self.add(&own.vertices, &own.spots, &own.indices, mesh.pattern() as u32);
         self.models.insert(id, (Arc::clone(model), shape));
     }
 
-    fn add(&mut self, vertices: &[Vertex], indices: &[u32], pattern: u32) -> Shape {
+    /// Adds a mesh; `spots` are those of a [`ModelMesh`], and none of other meshes.
+    fn add(&mut self, vertices: &[Vertex], spots: &[[f32; 3]], indices: &[u32], pattern: u32) -> Shape {
         let corners: Vec<[&Vertex; 3]> = indices
             .chunks_exact(3)
             .map(|triangle| [0, 1, 2].map(|corner| &vertices[triangle[corner] as usize]))
@@ -94,12 +98,18 @@ impl Shapes {
         let tree = Tree::build(&(0..corners.len()).map(nominal).collect::<Vec<_>>(), LEAF, LEVELS);
         let first = self.pieces.len() as u32;
         let normals = first + corners.len() as u32 * TRIANGLE;
+        let aside = if spots.is_empty() { ASIDE } else { MODEL_ASIDE };
         for (position, number) in (0..).zip(&tree.order) {
-            self.add_triangle(&corners[*number as usize], pattern << PATTERN | (normals + 3 * position));
+            self.add_triangle(&corners[*number as usize], pattern << PATTERN | (normals + aside * position));
         }
         for number in &tree.order {
             let three = corners[*number as usize].map(|vertex| vertex.normal.map(f32::to_bits));
             self.pieces.extend(three.map(|[x, y, z]| [x, y, z, 0]));
+            if aside == MODEL_ASIDE {
+                let corner = |which: usize| spots[indices[*number as usize * 3 + which] as usize];
+                let [[a, b, _], [c, d, _], [e, f, part]] = [0, 1, 2].map(corner);
+                self.pieces.extend([[a, b, c, d], [e, f, part, 0.0]].map(|four| four.map(f32::to_bits)));
+            }
         }
         let root = self.pieces.len() as u32;
         let (anchors, offsets) = (in_order(&tree, &anchors), in_order(&tree, &offsets));

@@ -15,7 +15,7 @@ pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
 use simworld_core::clock::Tick;
 use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
-use simworld_core::id::EntityId;
+use simworld_core::id::{AssetId, EntityId};
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 
@@ -140,6 +140,8 @@ pub(crate) struct Residents {
     resurfaced: bool,
     /// Whether every view draws the finest level, however small it is.
     pub finest: bool,
+    /// Assets that are drawn as their models, and by how many instances.
+    pub models: BTreeMap<AssetId, u32>,
 }
 
 impl Residents {
@@ -221,6 +223,7 @@ impl Residents {
         self.signalling.clear();
         self.restless.clear();
         self.layers.clear();
+        self.models.clear();
         self.names = Arc::default();
         self.free = NONE;
         self.epoch += 1;
@@ -311,6 +314,7 @@ impl Residents {
                 instance.put_in_layer(*layer);
             }
             let card = &mut self.cards[number as usize];
+            let before = card.slot_there().map(|_| card.mesh);
             let is_same = self.instances[number as usize] == instance
                 && card.mesh == part.mesh
                 && (card.casts, card.details) == (casts, part.details);
@@ -323,6 +327,10 @@ impl Residents {
                 details: part.details,
                 next,
             };
+            if before != Some(part.mesh) {
+                self.model_goes(before);
+                self.model_comes(part.mesh);
+            }
             if !is_same {
                 self.instances[number as usize] = instance;
                 self.note(number);
@@ -352,10 +360,30 @@ impl Residents {
             self.walls.remove(number);
             self.note(number);
             let card = &mut self.cards[number as usize];
+            let before = card.slot_there().map(|_| card.mesh);
             card.slot = NONE;
             let next = std::mem::replace(&mut card.next, self.free);
+            self.model_goes(before);
             self.free = number;
             number = next;
+        }
+    }
+
+    /// Counts an instance in, if its mesh is a model.
+    fn model_comes(&mut self, mesh: Drawn) {
+        if let Drawn::Model(id) = mesh {
+            *self.models.entry(id).or_insert(0) += 1;
+        }
+    }
+
+    /// Counts an instance out that had this mesh, if that is a model.
+    fn model_goes(&mut self, mesh: Option<Drawn>) {
+        let Some(Drawn::Model(id)) = mesh else { return };
+        if let std::collections::btree_map::Entry::Occupied(mut count) = self.models.entry(id) {
+            *count.get_mut() -= 1;
+            if *count.get() == 0 {
+                count.remove();
+            }
         }
     }
 

@@ -89,14 +89,23 @@ fn met_at(number: u32, triangle: u32, relative: vec3f) -> Met {
     return Met(relative, body, normals, rotate(rotation, normalize(plane)), normal, last.z, last.w >> 28u);
 }
 
-fn hit_of(met: Met, number: u32, direction: vec3f) -> Hit {
+fn hit_of(met: Met, number: u32, triangle: u32, direction: vec3f) -> Hit {
     let i = instances[number];
     let depth = max(dot(met.relative, globals.forward.xyz), 1e-6);
     let ray = select(met.relative / depth, direction, parallel);
-    let footprint = footprint_of(ray, select(depth, 1.0, parallel), met.flat_normal, i.rotation);
-    let finish = finish_of(met.material, i.color, i.second, i.scale.w);
+    let steps = steps_of(ray, select(depth, 1.0, parallel), met.flat_normal);
+    var finish: Finish;
+    var glow = vec3f(0.0);
+    if ((FEATURES & WITH_MODELS) != 0u && is_model(met.material)) {
+        let spot = model_spot(met, number, triangle, steps);
+        finish = spot.finish;
+        glow = spot.glow;
+    } else {
+        finish = finish_of(met.material, i.color, i.second, i.scale.w);
+    }
     let extra = vec2f(i.color.w, i.second.w);
-    return Hit(met.relative, met.normal, met.body, met.normals[0], finish, i.scale, extra, f32(met.material != 0u), met.pattern, footprint);
+    let footprint = footprint_of(steps, i.rotation);
+    return Hit(met.relative, met.normal, met.body, met.normals[0], finish, i.scale, extra, f32(met.material != 0u), met.pattern, footprint, glow);
 }
 
 fn encoded(color: vec3f) -> u32 {
@@ -173,13 +182,14 @@ fn paint(@builtin(global_invocation_id) at: vec3u) {
     }
     let code = out_color[pixel];
     lit = f32(code >> 31u);
-    let met = met_at(number, code & ~LIT, sight.origin + sight.direction * out_depth[pixel]);
+    let triangle = code & ~LIT;
+    let met = met_at(number, triangle, sight.origin + sight.direction * out_depth[pixel]);
     if (FACING) {
         out_normals[pixel] = packed_normal(met.normal);
         return;
     }
     if (SHADED) {
-        out_color[pixel] = encoded(shade(hit_of(met, number, sight.direction)));
+        out_color[pixel] = encoded(shade(hit_of(met, number, triangle, sight.direction)));
     }
     out_who[pixel] = instances[number].who;
 }

@@ -19,16 +19,23 @@ struct Hit {
     pattern: u32,
     // How far each body coordinate goes from a pixel to the next: steps across and down together, m.
     footprint: vec3f,
+    // Light of its own, beside that of its finish.
+    glow: vec3f,
 }
 
-// The footprint of a pixel on the plane through a point, for backends without derivatives: as the view ray moves by a
-// pixel, depth * (axis - ray * (normal . axis) / (normal . ray)), ray and axis of planar depth one, turned into the body. Parallel rays
-// spread no further with depth: theirs is one.
-fn footprint_of(ray: vec3f, depth: f32, normal: vec3f, rotation: vec4f) -> vec3f {
+// How far a point on a plane goes from a pixel to the next, across and down, world axes, for backends without derivatives: as the view ray moves by
+// a pixel, depth * (axis - ray * (normal . axis) / (normal . ray)), ray and axis of planar depth one. Parallel rays spread no further with
+// depth: theirs is one.
+fn steps_of(ray: vec3f, depth: f32, normal: vec3f) -> mat2x3f {
     let slant = dot(normal, ray);
     let steep = select(min(slant, -1e-4), max(slant, 1e-4), slant > 0.0);
     let across = (globals.right.xyz - ray * (dot(normal, globals.right.xyz) / steep)) * (depth / globals.intrinsics.x);
     let down = (globals.down.xyz - ray * (dot(normal, globals.down.xyz) / steep)) * (depth / globals.intrinsics.y);
+    return mat2x3f(across, down);
+}
+
+// The footprint of a pixel in the body.
+fn footprint_of(steps: mat2x3f, rotation: vec4f) -> vec3f {
     let inverse = vec4f(-rotation.xyz, rotation.w);
-    return abs(rotate(inverse, across)) + abs(rotate(inverse, down));
+    return abs(rotate(inverse, steps[0])) + abs(rotate(inverse, steps[1]));
 }

@@ -15,15 +15,9 @@ fn matte(albedo: vec3f) -> Finish {
     return Finish(albedo, 0.0, 0.0, 0.85, 0.0);
 }
 
-// The materials of mesh/builder.rs, and the colours of assets' models; `color` and `second` are those of the instance,
+// The materials of mesh/builder.rs; `color` and `second` are those of the instance,
 // with its state in the w of the first.
 fn finish_of(material: u32, color: vec4f, second: vec4f, seed: f32) -> Finish {
-    if (is_model(material)) {
-        // Square roots of 10 bits a channel; times the colour of the entity where the part has that.
-        let roots = vec3f(vec3u(material >> 20u, material >> 10u, material) & vec3u(1023u)) / 1023.0;
-        let factor = select(vec3f(1.0), color.rgb, (material & 0x40000000u) != 0u);
-        return matte(roots * roots * factor);
-    }
     let night = globals.sun_direction.w;
     let aspect = color.w;
     let skin = mix(vec3f(0.42, 0.24, 0.15), vec3f(0.72, 0.47, 0.33), fract(seed * 11.0));

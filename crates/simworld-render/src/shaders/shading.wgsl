@@ -6,10 +6,12 @@ override FEATURES: u32 = 7u;
 const WITH_LAMPS: u32 = 1u;
 const WITH_WATER: u32 = 2u;
 const WITH_SNOW: u32 = 4u;
+// Of rays alone, which meet models and everything else in one pipeline.
+const WITH_MODELS: u32 = 8u;
 
 fn surface_of(hit: Hit) -> Surface {
     let f = hit.finish;
-    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission, hit.normal, f.roughness, f.metallic);
+    let base = Surface(f.albedo, f.gloss, f.albedo * f.emission + hit.glow, hit.normal, f.roughness, f.metallic);
     switch hit.pattern {
         case 1u: { return facade(hit, base); }
         case 2u: { return road(hit, base); }

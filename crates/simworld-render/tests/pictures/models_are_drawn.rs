@@ -31,10 +31,15 @@ fn posts() -> Asset {
         ];
         for (corners, normal) in faces {
             let first = model.vertices.len() as u32;
-            model.vertices.extend(corners.map(|k: usize| ModelVertex { position: points[k], normal, color }));
+            model.vertices.extend(corners.map(|k: usize| ModelVertex {
+                position: points[k],
+                normal,
+                color,
+                ..ModelVertex::default()
+            }));
             model.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
         }
-        model.parts.push(ModelPart { name: name.to_owned(), triangles: 12, paint });
+        model.parts.push(ModelPart { name: name.to_owned(), triangles: 12, paint, ..ModelPart::default() });
         model.hulls.push(Hull { points });
     }
     Asset {

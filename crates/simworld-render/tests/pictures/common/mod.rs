@@ -1,6 +1,8 @@
 //! What the tests of the renderer share.
 #![allow(unreachable_pub, reason = "a helper of tests")]
 
+pub(crate) mod models;
+
 use std::sync::Arc;
 
 use simworld_core::camera::{Camera, Intrinsics};
