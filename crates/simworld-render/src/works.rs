@@ -310,12 +310,11 @@ impl Works {
             &mut self.residents,
         )?;
         let cover = &light.cover;
-        let features = Features {
-            lamps: !lamps.entries.is_empty(),
-            water: cover.wetness > 0.0 || cover.puddles > 0.0,
-            snow: cover.snow_depth > 0.0,
-            models: is_cast && !self.coats.table().is_empty(),
-        };
+        let mut features = Features::default();
+        features.set(Features::LAMPS, !lamps.entries.is_empty());
+        features.set(Features::WATER, cover.wetness > 0.0 || cover.puddles > 0.0);
+        features.set(Features::SNOW, cover.snow_depth > 0.0);
+        features.set(Features::MODELS, is_cast && !self.coats.table().is_empty());
         Ok((globals, features))
     }
 

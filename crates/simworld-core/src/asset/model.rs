@@ -259,7 +259,7 @@ impl Model {
                 return Err(ModelError::Image { part, image: texture.image, count });
             }
         }
-        for (index, image) in self.images.iter().enumerate().filter(|(_, image)| !image.is_whole()) {
+        if let Some((index, image)) = self.images.iter().enumerate().find(|(_, image)| !image.is_whole()) {
             let bytes = image.pixels.len();
             return Err(ModelError::Picture { index, width: image.width, height: image.height, bytes });
         }

@@ -3,6 +3,8 @@
 
 use std::collections::BTreeMap;
 
+use bitflags::bitflags;
+
 use super::device::Gpu;
 use super::targets::{COLOR, DEPTH, ID, SAMPLES, Z};
 use crate::config::AntiAliasing;
@@ -56,21 +58,15 @@ pub(crate) struct Pipelines {
     pub scenery: wgpu::BindGroupLayout,
 }
 
-/// What a picture needs beyond sun and sky; the bits of FEATURES in shaders/shading.wgsl.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Features {
-    pub lamps: bool,
-    pub water: bool,
-    pub snow: bool,
-    /// Of rays alone: triangles of models have a pipeline of their own.
-    pub models: bool,
-}
-
-impl Features {
-    /// The value of FEATURES.
-    pub(crate) fn bits(self) -> u32 {
-        let [lamps, water, snow, models] = [self.lamps, self.water, self.snow, self.models].map(u32::from);
-        lamps | water << 1 | snow << 2 | models << 3
+bitflags! {
+    /// What a picture needs beyond sun and sky; the bits of FEATURES in shaders/shading.wgsl.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+    pub(crate) struct Features: u32 {
+        const LAMPS = 1;
+        const WATER = 2;
+        const SNOW = 4;
+        /// Of rays alone: triangles of models have a pipeline of their own.
+        const MODELS = 8;
     }
 }
 

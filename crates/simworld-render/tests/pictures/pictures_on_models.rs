@@ -19,7 +19,7 @@ const GREY: u8 = 160;
 /// Of the pictures here.
 const SIDE: u32 = 120;
 
-fn with(config: RenderConfig) -> Option<[Renderer; 2]> {
+fn with(config: &RenderConfig) -> Option<[Renderer; 2]> {
     let with = |backend| renderer(&RenderConfig { backend, ..config.clone() });
     Some([with(Backend::Raster)?, with(Backend::Raycast)?])
 }
@@ -81,7 +81,9 @@ const WHOLE: [[f32; 2]; 2] = [[0.0, 0.0], [1.0, 1.0]];
 #[test]
 fn a_picture_lies_where_its_places_say() {
     for anti_aliasing in [AntiAliasing::Off, AntiAliasing::Msaa4] {
-        let Some(renderers) = with(RenderConfig { anti_aliasing, ..RenderConfig::default() }) else { return };
+        let Some(renderers) = with(&RenderConfig { anti_aliasing, ..RenderConfig::default() }) else {
+            return;
+        };
         let world = shown(&board(Some(quarters(64)), WHOLE, [Wrap::Repeat; 2]));
         let plain = shown(&board(None, WHOLE, [Wrap::Repeat; 2]));
         let mut frames = Vec::new();
@@ -108,7 +110,7 @@ fn a_picture_lies_where_its_places_say() {
 
 #[test]
 fn beyond_its_edges_lies_what_the_wrap_says() {
-    let Some(mut renderers) = with(RenderConfig::default()) else { return };
+    let Some(mut renderers) = with(&RenderConfig::default()) else { return };
     let image = quarters(64);
     let wraps = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
     let places = [[-0.8_f32, -1.3], [2.2, 1.7]];
@@ -133,14 +135,15 @@ fn beyond_its_edges_lies_what_the_wrap_says() {
 
 /// A board of black and grey squares of one pixel each.
 fn chequered(side: u32) -> Asset {
-    let pixels = (0..side * side).flat_map(|k| [if (k % side + k / side) % 2 == 0 { GREY } else { 0 }; 3]);
+    let pixels =
+        (0..side * side).flat_map(|k| [if (k % side + k / side).is_multiple_of(2) { GREY } else { 0 }; 3]);
     let image = ModelImage { width: side, height: side, pixels: pixels.collect() };
     board(Some(image), WHOLE, [Wrap::Repeat; 2])
 }
 
 #[test]
 fn what_is_finer_than_a_pixel_is_its_mean() {
-    let Some(mut renderers) = with(RenderConfig::default()) else { return };
+    let Some(mut renderers) = with(&RenderConfig::default()) else { return };
     let spread = |frame: &Frame| {
         let inner = (0..60)
             .flat_map(|x| (0..60).map(move |y| (0.2 + 0.01 * f64::from(x), 0.2 + 0.01 * f64::from(y))));
@@ -166,7 +169,7 @@ fn what_is_finer_than_a_pixel_is_its_mean() {
 /// A picture on a ball, seen at every slant, with texels as large as pixels, larger and smaller.
 #[test]
 fn both_backends_blur_alike() {
-    let Some([mut raster, mut raycast]) = with(RenderConfig::default()) else { return };
+    let Some([mut raster, mut raycast]) = with(&RenderConfig::default()) else { return };
     for (side, distance) in [(16, 4.0), (128, 5.0), (512, 7.0), (512, 20.0)] {
         let mut asset = ball([1.0; 3], Finish { metallic: 0.0, roughness: 0.9, emission: [0.0; 3] });
         let model = Arc::make_mut(asset.model.as_mut().expect("it has a model"));
@@ -174,7 +177,7 @@ fn both_backends_blur_alike() {
             vertex.place = [vertex.normal[1], vertex.normal[2]].map(|part| 0.5 - 0.5 * part);
         }
         // Stripes of four pixels in two colours.
-        let pixel = |k: u32| if (k % side / 4 + k / side / 8) % 2 == 0 { RED } else { BLUE };
+        let pixel = |k: u32| if (k % side / 4 + k / side / 8).is_multiple_of(2) { RED } else { BLUE };
         model.images = vec![ModelImage {
             width: side,
             height: side,
@@ -203,7 +206,7 @@ fn both_backends_blur_alike() {
 
 #[test]
 fn pictures_follow_the_scene_and_nothing_before() {
-    let Some(renderers) = with(RenderConfig::default()) else { return };
+    let Some(renderers) = with(&RenderConfig::default()) else { return };
     let first = shown(&board(Some(quarters(64)), WHOLE, [Wrap::Repeat; 2]));
     let mut both = first.clone();
     // Another picture under another name, and one that comes and goes.
@@ -225,7 +228,7 @@ fn pictures_follow_the_scene_and_nothing_before() {
 #[test]
 fn pictures_that_are_too_large_are_shown_smaller() {
     let small = RenderConfig { texture_memory: 4 << 20, ..RenderConfig::default() };
-    let Some(renderers) = with(small) else { return };
+    let Some(renderers) = with(&small) else { return };
     // 16 MiB each with a third more for the levels, and there are four.
     let mut world = shown(&board(Some(quarters(2048)), WHOLE, [Wrap::Clamp; 2]));
     for (number, name) in (0..).zip(["one", "two"]) {
@@ -245,7 +248,7 @@ fn pictures_that_are_too_large_are_shown_smaller() {
 #[test]
 fn more_pictures_than_rows_are_refused() {
     let small = RenderConfig { texture_memory: 4 << 20, ..RenderConfig::default() };
-    let Some([mut raster, _]) = with(small) else { return };
+    let Some([mut raster, _]) = with(&small) else { return };
     let mut asset = board(Some(quarters(4)), WHOLE, [Wrap::Clamp; 2]);
     let model = Arc::make_mut(asset.model.as_mut().expect("it has a model"));
     model.images = vec![quarters(2); 1025];
