@@ -15,7 +15,7 @@ fn read(document: &Value, bytes: &[u8]) -> Result<Surface, GlbError> {
 }
 
 /// How a cube of that material takes light.
-fn finish(material: Value) -> Finish {
+fn finish(material: &Value) -> Finish {
     let (mut document, bytes) = plain_model(&cuboid([0.0; 3], [1.0; 3]));
     document["materials"] = json!([material]);
     document["meshes"][0]["primitives"][0]["material"] = json!(0);
@@ -49,7 +49,7 @@ fn factors_are_those_of_the_material() {
             Finish { emission: [1000.0; 3], ..dull },
         ),
     ] {
-        assert_eq!(finish(material.clone()), expected, "{material}");
+        assert_eq!(finish(&material), expected, "{material}");
     }
 }
 
@@ -171,7 +171,7 @@ fn what_has_pictures_and_shines_reads_back() {
 
 #[test]
 fn large_pictures_are_halved() {
-    let (document, bytes) = painted_document(&png(300, 100, &[99; 90_000]));
+    let (document, bytes) = painted_document(&png(300, 100, &vec![99; 90_000]));
     let limits = |texture| GlbLimits { texture, ..GlbLimits::default() };
     for (most, size) in [(1024, (300, 100)), (299, (150, 50)), (50, (37, 12)), (1, (1, 1))] {
         let surface = read_glb(&container(&document, &bytes), &limits(most)).unwrap();
