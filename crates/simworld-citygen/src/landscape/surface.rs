@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use simworld_core::asset::{Asset, Hull, Material, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{Asset, Hull, Material, Model, ModelPart, ModelVertex};
 use simworld_core::geometry::{Point3, Pose, pose_facing};
 use simworld_core::ground::{Cover, Ground, GroundData};
 use simworld_core::hash::StateHash;
@@ -50,6 +50,7 @@ pub(super) fn asset(ground: &Ground) -> (Asset, Pose) {
             ],
             normal: normal.into(),
             color: color(covers[index]).map(|channel| (channel * shade).min(1.0)),
+            ..ModelVertex::default()
         }
     };
     let triangles: Vec<[u32; 3]> = (0..(columns - 1) * (rows - 1))
@@ -68,11 +69,12 @@ pub(super) fn asset(ground: &Ground) -> (Asset, Pose) {
         parts: vec![ModelPart {
             name: "land".to_owned(),
             triangles: triangles.len() as u32,
-            paint: Paint::Own,
+            ..ModelPart::default()
         }],
         triangles,
         // What bodies meet is the ground itself; a model has to have a hull all the same.
         hulls: vec![Hull { points: [corners(0.0), corners(tall as f32)].concat() }],
+        ..Model::default()
     };
     let collider = Shape::cuboid(size.x, size.y, tall);
     let asset = Asset {
