@@ -159,7 +159,7 @@ impl Works {
         self.timing.begin();
         if is_cast {
             let store = self.coats.texels();
-            let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu, store.layout()));
+            let raycast = self.raycast.get_or_insert_with(|| Raycast::new(&self.gpu, store));
             // A ray of a table is no pixel that something could be smaller than.
             let min_pixels = if table.is_some() { 0.0 } else { config.min_pixels };
             let views = &sight.views[..];
@@ -170,6 +170,7 @@ impl Works {
                 layout: &layout,
                 falling: &sight.falling,
                 min_pixels,
+                store: store.group(),
                 finest: table.is_some() || self.residents.finest,
                 table,
             };
@@ -181,8 +182,7 @@ impl Works {
                 casts.push(Cast::Alone);
             }
             raycast.prepare(&self.gpu, &casts, &sight.falling, table.is_some());
-            let (scenery, planes) = (&self.scenery, &self.planes);
-            raycast.draw(&self.gpu, &mut encoder, &mut self.timing, scenery, planes, &layout, store.group());
+            raycast.draw(&self.gpu, &mut encoder, &mut self.timing, &self.scenery, &self.planes, &layout);
         } else {
             self.list(config, scene, requests, &sight, in_color)?;
             if in_color {

@@ -18,7 +18,7 @@ use simworld_core::scene::Scene;
 use crate::RenderError;
 use crate::batch::{Layout, Projection, ViewRequest};
 use crate::falling::Falling;
-use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, Timing, raycast_source, runs};
+use crate::gpu::{Features, Globals, Gpu, Planes, Scenery, Texels, Timing, raycast_source, runs};
 use crate::resident::Residents;
 use crate::view::View;
 
@@ -94,8 +94,9 @@ pub(crate) struct Raycast {
     pieces: wgpu::Buffer,
     /// Pieces of four words that are on the device.
     sent: usize,
-    /// The layout of the pictures of models, which paint alone reads.
-    store: wgpu::BindGroupLayout,
+    /// The pictures of models, which paint alone reads, and their layout.
+    store: wgpu::BindGroup,
+    store_layout: wgpu::BindGroupLayout,
 }
 
 /// What is looked at, and how.
@@ -106,6 +107,8 @@ pub(crate) struct Look<'a> {
     pub layout: &'a Layout,
     pub falling: &'a [Falling],
     pub min_pixels: f64,
+    /// The pictures of models.
+    pub store: &'a wgpu::BindGroup,
     /// Whether everything is seen at its finest level.
     pub finest: bool,
     /// The rays of the only view, where they are those of a table: directions of length one in the optical frame.
@@ -113,7 +116,7 @@ pub(crate) struct Look<'a> {
 }
 
 impl Raycast {
-    pub(crate) fn new(gpu: &Gpu, store: &wgpu::BindGroupLayout) -> Self {
+    pub(crate) fn new(gpu: &Gpu, store: &Texels) -> Self {
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("raycast"),
             source: wgpu::ShaderSource::Wgsl(raycast_source().into()),
@@ -132,7 +135,8 @@ impl Raycast {
             placed: buffer(1024),
             pieces: buffer(1024),
             sent: 0,
-            store: store.clone(),
+            store: store.group().clone(),
+            store_layout: store.layout().clone(),
         }
     }
 
@@ -172,6 +176,7 @@ impl Raycast {
             ensure(gpu, &mut self.rays, rays)?;
             gpu.queue.write_buffer(&self.rays, 0, bytemuck::cast_slice(rays));
         }
+        self.store = look.store.clone();
         let eyes = self.eyes(look);
         ensure(gpu, &mut self.views, &eyes)?;
         gpu.queue.write_buffer(&self.views, 0, bytemuck::cast_slice(&eyes));
@@ -241,7 +246,7 @@ impl Raycast {
         let steps = [Some(Step::Find), color.map(|_| Step::Light), normals, Some(last), fall];
         self.prepared = steps.into_iter().flatten().map(|step| (step, by_table)).collect();
         for key in &self.prepared {
-            let (module, store) = (&self.module, &self.store);
+            let (module, store) = (&self.module, &self.store_layout);
             self.pipelines.entry(*key).or_insert_with(|| pipeline(gpu, module, store, *key));
         }
     }
@@ -255,7 +260,6 @@ impl Raycast {
         scenery: &Scenery,
         planes: &Planes,
         layout: &Layout,
-        store: &wgpu::BindGroup,
     ) {
         let [width, height] = layout.largest;
         let [color, depth, who] = &planes.raw;
@@ -277,7 +281,7 @@ impl Raycast {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
             if matches!(key.0, Step::Paint(_)) {
-                pass.set_bind_group(1, store, &[]);
+                pass.set_bind_group(1, &self.store, &[]);
             }
             let tile = if matches!(key.0, Step::Paint(_) | Step::Fall) { PAINTED } else { TILE };
             pass.dispatch_workgroups(width.div_ceil(tile), height.div_ceil(tile), layout.spans.len() as u32);
