@@ -5,5 +5,6 @@ mod delivery_is_deterministic;
 mod delivery_is_physical;
 mod delivery_reads_its_prompt;
 mod delivery_takes_bad_input;
+mod effort_follows_bodies;
 mod experiments_resume;
 mod reports_open;

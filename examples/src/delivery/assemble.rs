@@ -232,7 +232,8 @@ fn spawn_couriers(
         let first = index / doors.len();
         let mut row = (first..first + MOST_PLACES).map(|place| door.access + along * (PLACE * place as f64));
         let spot = row.find(|spot| is_free(world, *spot)).ok_or(AssembleError::NoPlace)?;
-        let pose = pose_facing(Point3::new(spot.x, spot.y, 0.0), door.facing);
+        let feet = world.ground().map_or(Point3::new(spot.x, spot.y, 0.0), |ground| ground.point(spot));
+        let pose = pose_facing(feet, door.facing);
         let height = rng.normal_clamped(1.74, 0.08, 1.55, 1.95);
         let shape = Shape::Capsule { radius: COURIER.0, height };
         let desc = EntityDesc::new(EntityKind::Person, pose, shape)

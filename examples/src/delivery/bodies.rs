@@ -123,14 +123,21 @@ impl CourierBodies {
         }
     }
 
+    /// Moves points in the plane; where the ground is not flat they keep to it.
     fn move_points(&mut self, world: &mut World, dt: f64) -> Result<(), DynamicsError> {
+        let ground = world.ground().cloned();
         for (id, courier) in &mut self.couriers {
             let (Some(point), Some(entity)) = (&mut courier.point, world.entity(*id)) else { continue };
             if entity.attachment.is_some() {
                 continue; // its carrier moves it
             }
             point.advance(dt);
-            let BodyState { pose, twist } = point.state();
+            let BodyState { mut pose, mut twist } = point.state();
+            if let Some(ground) = &ground {
+                let rise = ground.height(pose.translation.vector.xy().into()) - pose.translation.vector.z;
+                pose.translation.vector.z += rise;
+                twist.linear.z = rise / dt;
+            }
             world.set_motion(*id, pose, twist)?;
         }
         Ok(())

@@ -8,11 +8,11 @@
 use serde_json::{Value as Json, json};
 use simworld_agents::model::{ChatModel, ChatReply, ChatRequest, Part, Scripted};
 
-/// A brisk walk, decimetres a second; what such a walk covers of a way in a second with all waits, m; and what a metre of it costs in
-/// energy.
-const BRISK: i64 = 19;
-const PROGRESS: f64 = 1.9 / 1.25;
-const TIRING: f64 = 0.1 * 1.9 / 1.4;
+/// A brisk walk, decimetres a second: the fastest that is no run; what such a walk covers of a way in a second with all waits, m; and
+/// what a metre of it costs in energy with empty hands (`EnergyConfig::per_metre`).
+const BRISK: i64 = 21;
+const PROGRESS: f64 = 2.1 / 1.25;
+const TIRING: f64 = 0.122;
 /// What a second is worth, cents.
 const WAGE: f64 = 3.0;
 /// How far ahead it plans, s.

@@ -43,8 +43,6 @@ pub struct BatteryConfig {
     pub at_purchase: f64,
     /// Mass of scooter and rider, kg, in [1, 1000]. A scooter of 15 kg and a person of 75 kg.
     pub mass: f64,
-    /// Mass of a parcel, kg, in [0, 1000]. Chosen: a meal for two, 2 kg.
-    pub parcel: f64,
     /// Coefficient of rolling resistance, in [0, 1]. Small tyres on asphalt: 0.015.
     pub rolling: f64,
     /// Drag coefficient times frontal area, m², in [0, 10]. Who stands upright: 0.6 m².
@@ -68,7 +66,6 @@ impl Default for BatteryConfig {
             capacity: 280.0,
             at_purchase: 1.0,
             mass: 90.0,
-            parcel: 2.0,
             rolling: 0.015,
             drag_area: 0.6,
             efficiency: 0.7,
@@ -85,7 +82,6 @@ impl BatteryConfig {
         within("battery.capacity", self.capacity, 0.1, 1e5)?;
         within("battery.at_purchase", self.at_purchase, 0.01, 1.0)?;
         within("battery.mass", self.mass, 1.0, 1000.0)?;
-        within("battery.parcel", self.parcel, 0.0, 1000.0)?;
         within("battery.rolling", self.rolling, 0.0, 1.0)?;
         within("battery.drag_area", self.drag_area, 0.0, 10.0)?;
         within("battery.efficiency", self.efficiency, 0.01, 1.0)?;
@@ -95,9 +91,9 @@ impl BatteryConfig {
         within("battery.dragging_effort", self.dragging_effort, 1.0, 100.0)
     }
 
-    /// What a metre takes out of the battery at a speed in m/s with so many parcels, Wh.
-    pub fn per_metre(&self, speed: f64, parcels: usize) -> f64 {
-        let mass = self.mass + self.parcel * parcels as f64;
+    /// What a metre takes out of the battery at a speed in m/s with a load in kg, Wh.
+    pub fn per_metre(&self, speed: f64, load: f64) -> f64 {
+        let mass = self.mass + load;
         let rolling = mass * GRAVITY * self.rolling;
         let air = 0.5 * AIR * self.drag_area * speed * speed;
         (rolling + air) / self.efficiency / WATT_HOUR
@@ -116,7 +112,7 @@ impl Turn<'_> {
         if self.config.battery.power == Power::Unlimited {
             return;
         }
-        let used = moved * self.config.battery.per_metre(speed, self.state.carried_by(index));
+        let used = moved * self.config.battery.per_metre(speed, self.state.couriers[index].exertion.load);
         let courier = &mut self.state.couriers[index];
         let left = (courier.charge - used).max(0.0);
         courier.tally.power += courier.charge - left;
@@ -185,10 +181,10 @@ mod tests {
     fn a_full_battery_lasts_as_far_as_riders_say() {
         let battery = BatteryConfig::default();
         assert_eq!(battery.validate(), Ok(()));
-        let range = battery.capacity / battery.per_metre(25.0 / 3.6, 0) / 1000.0;
+        let range = battery.capacity / battery.per_metre(25.0 / 3.6, 0.0) / 1000.0;
         // The maker says 30 km at 15 km/h; riders get 20 at full speed.
         assert!((18.0..30.0).contains(&range), "{range} km");
-        assert!(battery.per_metre(6.0, 3) > battery.per_metre(6.0, 0));
-        assert!(battery.per_metre(6.0, 0) > battery.per_metre(3.0, 0));
+        assert!(battery.per_metre(6.0, 6.0) > battery.per_metre(6.0, 0.0));
+        assert!(battery.per_metre(6.0, 0.0) > battery.per_metre(3.0, 0.0));
     }
 }

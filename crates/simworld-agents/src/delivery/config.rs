@@ -103,6 +103,8 @@ pub struct OrderConfig {
     pub allowance: f64,
     /// The walking speed on which the allowance is reckoned, m/s, in [0.1, 50]. Ancestor: 1.6.
     pub allowance_speed: f64,
+    /// Mass of a parcel, kg, in [0.01, 1000]. Chosen: a meal for two, 2 kg.
+    pub parcel: f64,
     /// Deduction for each second late, cents, in [0, 10⁶]. Ancestor: $0.30.
     pub late_per_second: Cents,
     /// Share of the price that is paid however late, in [0, 1]. Ancestor: 0.5.
@@ -124,6 +126,7 @@ impl Default for OrderConfig {
             told_within: EVERYWHERE,
             allowance: 1.25,
             allowance_speed: 1.6,
+            parcel: 2.0,
             late_per_second: Cents(30),
             late_floor: 0.5,
         }
@@ -146,18 +149,24 @@ impl Default for AuctionConfig {
     }
 }
 
-/// What moving costs and rest gives. Energy has no unit; a courier is full at `capacity`.
+/// What moving costs and rest gives. A courier is full at `capacity`.
+///
+/// On foot moving costs the metabolic energy of core's [`Exertion`], by the speed walked, the slope, the parcels carried and the snow
+/// that lies. `walking`, `walking_speed` and `body` say how many joules a unit of energy is ([`joules`](Self::joules)), and so keep
+/// the scale of what the task asks: by default 2,379 J, a full courier 238 kJ or 57 kcal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct EnergyConfig {
     /// A full courier, in [1, 10⁶]. Ancestor and sibling: 100.
     pub capacity: f64,
-    /// Cost of a metre on foot at `walking_speed`, in [0, 1000]. Ancestor and sibling agree on 0.1 within 20 %.
+    /// Cost of a metre on level pavement at `walking_speed` with empty hands, in [0, 1000]. Ancestor and sibling agree on 0.1
+    /// within 20 %.
     pub walking: f64,
     /// The speed at which a metre costs `walking`, m/s, in [0.1, 50]. A comfortable walk: 1.4.
     pub walking_speed: f64,
-    /// The cost of a metre grows with (speed / `walking_speed`) to this power, in [0, 5]. Chosen: 1.
-    pub growth: f64,
+    /// Mass of the body for which a metre costs `walking`, and of every courier whose entity says none, kg, in [1, 1000]. The mass
+    /// that people have under physics: 75.
+    pub body: f64,
     /// Cost of a metre on a scooter, in [0, 1000]. Ancestor and sibling: 0.01.
     pub riding: f64,
     /// What a second of rest gives back, in [0, 1000]. Chosen: 0.1, so that a rest from empty to `ready` takes
@@ -175,7 +184,7 @@ impl Default for EnergyConfig {
             capacity: 100.0,
             walking: 0.1,
             walking_speed: 1.4,
-            growth: 1.0,
+            body: 75.0,
             riding: 0.01,
             rest: 0.1,
             ready: 20.0,
@@ -347,6 +356,7 @@ impl OrderConfig {
         within("orders.told_within", self.told_within, 100.0, EVERYWHERE)?;
         within("orders.allowance", self.allowance, 0.1, 100.0)?;
         within("orders.allowance_speed", self.allowance_speed, 0.1, 50.0)?;
+        within("orders.parcel", self.parcel, 0.01, 1000.0)?;
         within("orders.late_per_second", self.late_per_second.0, 0, 1_000_000)?;
         within("orders.late_floor", self.late_floor, 0.0, 1.0)
     }
@@ -357,7 +367,7 @@ impl EnergyConfig {
         within("energy.capacity", self.capacity, 1.0, 1e6)?;
         within("energy.walking", self.walking, 0.0, 1000.0)?;
         within("energy.walking_speed", self.walking_speed, 0.1, 50.0)?;
-        within("energy.growth", self.growth, 0.0, 5.0)?;
+        within("energy.body", self.body, 1.0, 1000.0)?;
         within("energy.riding", self.riding, 0.0, 1000.0)?;
         within("energy.rest", self.rest, 0.0, 1000.0)?;
         within("energy.ready", self.ready, 1e-3, self.capacity)?;

@@ -1,6 +1,7 @@
 //! Everything the task knows, as data: what a snapshot keeps and the state hash covers.
 
 use serde::{Deserialize, Serialize};
+use simworld_core::exertion::{Exertion, Terrain};
 use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
 use simworld_core::seed::StreamRng;
@@ -99,6 +100,10 @@ pub(super) struct Courier {
     pub(super) id: EntityId,
     /// As of the last step it was in the scene.
     pub(super) position: Point2,
+    /// Height of its feet then, m.
+    pub(super) height: f64,
+    /// Who walks with what on what.
+    pub(super) exertion: Exertion,
     pub(super) energy: f64,
     pub(super) exhausted: bool,
     pub(super) low: bool,
@@ -182,8 +187,10 @@ pub(super) struct State {
     pub(super) last_clearing: Option<f64>,
     /// Factor of the weather on speeds.
     pub(super) pace: f64,
-    /// Factor of the weather on what moving costs.
+    /// Factor of the weather on what moving costs, beside that of the ground.
     pub(super) effort: f64,
+    /// What the snow makes of the pavement.
+    pub(super) terrain: Terrain,
 }
 
 impl State {

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::Point2;
+use simworld_core::exertion::{Exertion, Terrain};
+use simworld_core::geometry::Point3;
 use simworld_core::hash::StateHasher;
 use simworld_core::id::EntityId;
 use simworld_core::scene::Scene;
@@ -144,7 +145,7 @@ impl DeliveryTask {
             let body = scene
                 .entity(*id)
                 .ok_or_else(|| missing(&format!("courier {id}"), "spawn the agents before the reset"))?;
-            couriers.push(self.courier(*id, body.planar()));
+            couriers.push(self.courier(*id, body.position()));
         }
         let mut seats: Vec<(EntityId, u32)> = agents.iter().copied().zip(0..).collect();
         seats.sort_unstable();
@@ -175,13 +176,16 @@ impl DeliveryTask {
             last_clearing: None,
             pace: 1.0,
             effort: 1.0,
+            terrain: Terrain::Paved,
         })
     }
 
-    fn courier(&self, id: EntityId, position: Point2) -> Courier {
+    fn courier(&self, id: EntityId, place: Point3) -> Courier {
         Courier {
             id,
-            position,
+            position: place.xy(),
+            height: place.z,
+            exertion: Exertion { body: self.config.energy.body, ..Exertion::default() },
             energy: self.config.energy.capacity,
             exhausted: false,
             low: false,

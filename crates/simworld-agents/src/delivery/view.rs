@@ -7,7 +7,7 @@ use super::board::Tender;
 use super::config::DeliveryConfig;
 use super::money::{Account, Cents};
 use super::order::{Order, OrderId, Stage};
-use super::state::{BidResult, Courier, Errand, State};
+use super::state::{BidResult, Courier, Errand, Ride, State};
 
 /// A courier's view of the task; it borrows, and costs nothing until asked.
 #[derive(Clone, Copy)]
@@ -134,6 +134,24 @@ impl<'a> CourierView<'a> {
         self.courier().energy
     }
 
+    /// What a metre at a speed in m/s costs it of energy as things are now, on level ground: riding, or on foot with what it carries
+    /// and pushes, in this weather and on what lies on the pavement.
+    pub fn per_metre(&self, speed: f64) -> f64 {
+        let (courier, energy) = (self.courier(), &self.config.energy);
+        let afoot = || energy.per_metre(&courier.exertion, speed);
+        let cost = match courier.ride {
+            Ride::Riding(_) => energy.riding,
+            Ride::Dragging(_) => afoot() * self.config.battery.dragging_effort,
+            Ride::None | Ride::Ordered | Ride::Beside(_) => afoot(),
+        };
+        cost * self.state.effort
+    }
+
+    /// Mass of the parcels that it carries, kg.
+    pub fn load(&self) -> f64 {
+        self.courier().exertion.load
+    }
+
     /// Whether it lies low until it has rested or drunk.
     pub fn is_exhausted(&self) -> bool {
         self.courier().exhausted
@@ -146,7 +164,7 @@ impl<'a> CourierView<'a> {
 
     /// Whether it bought a scooter.
     pub fn has_scooter(&self) -> bool {
-        self.courier().ride != super::state::Ride::None
+        self.courier().ride != Ride::None
     }
 
     /// Whether it rides.

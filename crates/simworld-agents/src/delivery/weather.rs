@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use simworld_core::environment::Weather;
+use simworld_core::exertion::Terrain;
 use simworld_core::seam::TaskError;
 
 use super::config::within;
@@ -15,7 +16,8 @@ const HEAVY_SNOW: f64 = 5.0;
 /// Warmer than this tires, °C.
 const WARM: f64 = 25.0;
 
-/// How weather slows and tires. In clear and temperate weather nothing changes.
+/// How weather slows and tires. In clear and temperate weather nothing changes. Snow that lies is the ground that one walks on, and
+/// tires by [`Terrain::factor`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WeatherConfig {
@@ -26,15 +28,13 @@ pub struct WeatherConfig {
     pub snow_slows: f64,
     /// How much more a metre tires in heavy rain, as a share, in [0, 10]. Chosen: 0.1.
     pub rain_tires: f64,
-    /// How much more in heavy snowfall, in [0, 10]. Pandolf (1976), the coefficient of trodden snow: 0.3.
-    pub snow_tires: f64,
     /// How much more for each kelvin above 25 °C, in [0, 1]. Chosen: 0.02.
     pub heat_tires: f64,
 }
 
 impl Default for WeatherConfig {
     fn default() -> Self {
-        Self { rain_slows: 0.1, snow_slows: 0.3, rain_tires: 0.1, snow_tires: 0.3, heat_tires: 0.02 }
+        Self { rain_slows: 0.1, snow_slows: 0.3, rain_tires: 0.1, heat_tires: 0.02 }
     }
 }
 
@@ -43,7 +43,6 @@ impl WeatherConfig {
         within("weather.rain_slows", self.rain_slows, 0.0, 0.9)?;
         within("weather.snow_slows", self.snow_slows, 0.0, 0.9)?;
         within("weather.rain_tires", self.rain_tires, 0.0, 10.0)?;
-        within("weather.snow_tires", self.snow_tires, 0.0, 10.0)?;
         within("weather.heat_tires", self.heat_tires, 0.0, 1.0)
     }
 
@@ -53,11 +52,12 @@ impl WeatherConfig {
         (1.0 - self.rain_slows * rain) * (1.0 - self.snow_slows * snow)
     }
 
-    /// The factor on what a metre costs of energy: 1 in clear and temperate weather.
+    /// The factor on what a metre costs of energy beside that of the snow that lies ([`Terrain::of_pavement`]): 1 in clear and
+    /// temperate weather.
     pub fn effort(&self, weather: &Weather) -> f64 {
-        let (rain, snow) = shares(weather);
+        let (rain, _) = shares(weather);
         let heat = (weather.temperature - WARM).max(0.0);
-        1.0 + self.rain_tires * rain + self.snow_tires * snow + self.heat_tires * heat
+        1.0 + self.rain_tires * rain + self.heat_tires * heat
     }
 }
 
@@ -73,6 +73,7 @@ impl Turn<'_> {
         let weather = &self.scene.environment().weather;
         let pace = self.config.weather.pace(weather);
         self.state.effort = self.config.weather.effort(weather);
+        self.state.terrain = Terrain::of_pavement(&weather.cover());
         if pace == self.state.pace {
             return;
         }
@@ -97,7 +98,7 @@ mod tests {
         let rain = Weather { rain: 5.0, ..clear };
         assert!((config.pace(&rain) - 0.95).abs() < 1e-12 && (config.effort(&rain) - 1.05).abs() < 1e-12);
         let blizzard = Weather { snow: 50.0, ..clear };
-        assert!((config.pace(&blizzard) - 0.7).abs() < 1e-12);
+        assert!((config.pace(&blizzard) - 0.7).abs() < 1e-12 && config.effort(&blizzard) == 1.0);
         let hot = Weather { temperature: 35.0, ..clear };
         assert!((config.effort(&hot) - 1.2).abs() < 1e-12 && config.pace(&hot) == 1.0);
     }

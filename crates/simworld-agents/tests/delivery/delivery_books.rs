@@ -9,18 +9,17 @@ use simworld_agents::delivery::{
 };
 use simworld_agents::mind::Mind;
 use simworld_core::command::Command;
-use simworld_core::environment::Environment;
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Point2, Point3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::intent::Intent;
-use simworld_core::scene::{EntityKind, Scene, World};
+use simworld_core::scene::{EntityKind, World};
 use simworld_core::seam::{Task, TaskError, TaskOutput};
 use simworld_core::seed::{Seed, StreamRng};
 use simworld_core::testing::check_task;
 use simworld_core::value::Value as Fact;
 
-fn busy() -> DeliveryConfig {
+pub(crate) fn busy() -> DeliveryConfig {
     let mut config = DeliveryConfig::default();
     config.orders.per_customer_hour = 60.0;
     config.auction.window = 3.0;
@@ -156,7 +155,7 @@ proptest! {
         config.orders.hunger_rate = numbers[0];
         config.orders.least_factor = numbers[1];
         config.energy.rest = numbers[2];
-        config.energy.growth = numbers[3];
+        config.energy.body = numbers[3] * 100.0;
         config.speed.slowest = numbers[4];
         config.prices.volatility = numbers[5];
         config.auction.window = numbers[6];
@@ -179,14 +178,14 @@ proptest! {
     }
 }
 
-fn minds(count: usize) -> Vec<Box<dyn Mind<DeliveryTask>>> {
+pub(crate) fn minds(count: usize) -> Vec<Box<dyn Mind<DeliveryTask>>> {
     let stream = Seed(3).stream("test/minds");
     let kind = |index: usize| PolicyKind::ALL[index % 12];
     let bold = Persona { openness: 0.8, agreeableness: 1.0, ..Persona::default() };
     (0..count).map(|index| kind(index).mind(bold, stream.indexed(index as u64))).collect()
 }
 
-fn play(town: &mut Town, minds: &mut [Box<dyn Mind<DeliveryTask>>], steps: usize) {
+pub(crate) fn play(town: &mut Town, minds: &mut [Box<dyn Mind<DeliveryTask>>], steps: usize) {
     for _ in 0..steps {
         let mut intents = Vec::new();
         for (index, mind) in minds.iter_mut().enumerate() {
@@ -223,100 +222,6 @@ fn softmin_draws_by_its_weights() {
         let deviation = (share * (1.0 - share) / f64::from(draws)).sqrt();
         assert!((won / f64::from(draws) - share).abs() < 4.5 * deviation, "{wins:?} against {weights:?}");
     }
-}
-
-/// What the energy of a courier must be, reckoned beside the task from positions and events alone.
-struct Reckoned {
-    energy: f64,
-    at: Point2,
-    riding: bool,
-    dragging: bool,
-}
-
-impl Reckoned {
-    fn step(&mut self, town: &Town, who: EntityId, config: &DeliveryConfig) {
-        let happened = |name: &str| {
-            town.simulation.world().events().iter().any(|event| {
-                matches!(&event.kind, EventKind::Task { name: other, who: Some(actor), .. } if other == name && *actor == who)
-            })
-        };
-        if happened("scooter_mounted") {
-            (self.riding, self.dragging) = (true, false);
-        }
-        if happened("scooter_lost") {
-            (self.riding, self.dragging) = (false, false);
-        }
-        let now = town.task.view(who).unwrap().position();
-        let (moved, dt) = ((now - self.at).norm(), 0.1);
-        self.at = now;
-        let speed = moved / dt;
-        let energy = &config.energy;
-        if speed < 0.1 {
-            self.energy = (self.energy + energy.rest * dt).min(energy.capacity);
-        } else {
-            let metre = match (self.riding, self.dragging) {
-                (true, _) => energy.riding,
-                (_, true) => energy.walking * speed / energy.walking_speed * config.battery.dragging_effort,
-                _ => energy.walking * speed / energy.walking_speed,
-            };
-            let rain = (town.simulation.world().environment().weather.rain / 10.0).min(1.0);
-            self.energy = (self.energy - moved * metre * (1.0 + 0.1 * rain)).max(0.0);
-        }
-        if happened("battery_empty") {
-            (self.riding, self.dragging) = (false, true);
-        }
-        if happened("battery_swapped") {
-            self.dragging = false;
-        }
-        if happened("drink_bought") {
-            self.energy = (self.energy + config.prices.drink_energy).min(energy.capacity);
-        }
-    }
-}
-
-#[test]
-fn energy_is_the_integral_of_its_formula() {
-    let mut config = busy();
-    config.energy.walking = 0.3;
-    config.initial_money = Cents(30_000);
-    config.prices.scooter = Cents(500);
-    config.battery = BatteryConfig { power: Power::Battery, capacity: 3.0, ..BatteryConfig::default() };
-    let mut town = Town::new(config.clone(), 6, 7);
-    let mut players = minds(6);
-    let mut reckoned: Vec<Reckoned> = town
-        .couriers
-        .iter()
-        .map(|who| {
-            let view = town.task.view(*who).unwrap();
-            Reckoned { energy: view.energy(), at: view.position(), riding: false, dragging: false }
-        })
-        .collect();
-    for step in 0..3000 {
-        if step % 500 == 0 {
-            let mut sky = Environment::default();
-            sky.weather.rain = f64::from(step / 500 % 3) * 6.0;
-            town.simulation.submit(Command::SetEnvironment(sky));
-        }
-        if step % 100 == 99 {
-            let thirst: Vec<(usize, Intent)> =
-                (0..6).map(|index| (index, CourierAction::PurchaseDrinks.into())).collect();
-            town.step(&thirst);
-        } else {
-            play(&mut town, &mut players, 1);
-        }
-        for (who, reckoned) in town.couriers.clone().into_iter().zip(&mut reckoned) {
-            reckoned.step(&town, who, &config);
-            let energy = town.task.view(who).unwrap().energy();
-            assert!(
-                (energy - reckoned.energy).abs() < 1e-9,
-                "step {step}: {energy}, not {}",
-                reckoned.energy
-            );
-        }
-    }
-    let seen =
-        ["scooter_mounted", "battery_empty", "battery_swapped", "drink_bought"].map(|name| town.count(name));
-    assert!(seen.iter().all(|count| *count > 0), "{seen:?}");
 }
 
 /// Any action, about any order, at any price.

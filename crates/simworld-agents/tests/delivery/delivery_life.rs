@@ -12,8 +12,6 @@ use simworld_agents::episode::{Agent, Episode};
 use simworld_agents::executor::RuleExecutor;
 use simworld_agents::language::GrammarPlanner;
 use simworld_agents::mind::Silent;
-use simworld_core::command::Command;
-use simworld_core::environment::Environment;
 use simworld_core::geometry::Point2;
 use simworld_core::id::EntityId;
 use simworld_core::net::{
@@ -23,14 +21,14 @@ use simworld_core::scene::{EntityKind, Role, Scene, World};
 use simworld_core::seam::Task;
 use simworld_core::seed::Seed;
 
-const ORDER: OrderId = OrderId(0);
+pub(crate) const ORDER: OrderId = OrderId(0);
 
 fn purse(town: &Town, courier: usize) -> Cents {
     town.task.ledger().unwrap().balance(Account::Courier(courier))
 }
 
 /// Courier 0 wins the only order at its ceiling less a dollar; what it will be paid.
-fn win(town: &mut Town) -> Cents {
+pub(crate) fn win(town: &mut Town) -> Cents {
     let price = town.task.orders()[0].ceiling - Cents(100);
     town.act(0, CourierAction::BidOrder { order: ORDER, price }).unwrap();
     town.until("order_awarded", 20);
@@ -225,7 +223,7 @@ fn at_the_store_means_going_there() {
 }
 
 /// Ground speed of the first courier, m/s.
-fn speed(town: &Town) -> f64 {
+pub(crate) fn speed(town: &Town) -> f64 {
     town.simulation.world().entity(town.couriers[0]).unwrap().twist.ground_speed()
 }
 
@@ -253,7 +251,8 @@ fn an_empty_scooter_is_pushed_to_the_station_and_charged_for_money() {
     }
     assert!((speed(&town) - 0.9).abs() < 1e-9, "{} m/s", speed(&town));
     let spent = energy - town.task.view(town.couriers[0]).unwrap().energy();
-    let expected = 0.9 * 0.1 * (0.9 / 1.4) * 1.5;
+    // Half as much again as 112.5 + 112.5 · 0.9² W take for a second, of which 333 W are 0.14 a second.
+    let expected = 0.14 * (112.5 + 112.5 * 0.81) / 333.0 * 1.5;
     assert!((spent - expected).abs() < 0.1 * expected, "{spent} for a second of pushing");
     let pushed = town.simulation.world().attached(town.couriers[0], Role::Part).expect("a hand at its bar");
     assert_eq!(town.simulation.world().entity(pushed).unwrap().kind, EntityKind::Scooter);
@@ -268,36 +267,6 @@ fn an_empty_scooter_is_pushed_to_the_station_and_charged_for_money() {
     town.step(&[]);
     assert!(speed(&town) > 6.0, "{} m/s", speed(&town));
     assert!(town.task.view(town.couriers[0]).unwrap().charge().unwrap() < 1.0);
-}
-
-#[test]
-fn rain_and_snow_slow_and_tire() {
-    let mut spent = Vec::new();
-    for (rain, snow, pace) in [(0.0, 0.0, 1.0), (10.0, 0.0, 0.9), (0.0, 5.0, 0.7)] {
-        let mut town = Town::new(quiet(), 1, 1);
-        win(&mut town);
-        town.act(0, CourierAction::PickUpOrder { order: ORDER }).unwrap();
-        town.step(&[]);
-        assert!((speed(&town) - 1.4).abs() < 1e-9);
-        // It comes on while the courier is under way.
-        let mut sky = Environment::default();
-        (sky.weather.rain, sky.weather.snow) = (rain, snow);
-        town.simulation.submit(Command::SetEnvironment(sky));
-        town.step(&[]);
-        town.step(&[]);
-        assert!((speed(&town) - 1.4 * pace).abs() < 1e-9, "{} m/s at {rain}, {snow}", speed(&town));
-        let before = (town.task.report().unwrap().couriers[0].clone(), town.log.len());
-        for _ in 0..30 {
-            town.step(&[]);
-        }
-        let row = town.task.report().unwrap().couriers[0].clone();
-        spent.push((row.energy - before.0.energy) / (row.distance - before.0.distance) / pace);
-    }
-    // A metre costs more by the factor of the weather, at the same speed.
-    assert!(
-        (spent[1] / spent[0] - 1.1).abs() < 1e-6 && (spent[2] / spent[0] - 1.3).abs() < 1e-6,
-        "{spent:?}"
-    );
 }
 
 #[test]

@@ -4,6 +4,7 @@
 mod couriers_think;
 mod delivery_books;
 mod delivery_common;
+mod delivery_effort;
 mod delivery_life;
 #[path = "../shared/thought_common/mod.rs"]
 mod thought_common;

@@ -86,7 +86,7 @@ struct Means<'a> {
 impl<'a> Means<'a> {
     fn of(view: &CourierView<'a>) -> Self {
         let speed = working_speed(view);
-        let per_metre = view.config().energy.per_metre(speed, view.is_riding());
+        let per_metre = view.per_metre(speed);
         Self { view: *view, speed, per_metre, backlog: backlog(view) }
     }
 

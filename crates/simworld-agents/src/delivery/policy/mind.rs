@@ -167,7 +167,7 @@ fn work(view: &CourierView<'_>) -> Option<CourierAction> {
 /// Drinks when what is left of the energy does not carry the work in hand to its end; whoever is free rests instead.
 fn drink(view: &CourierView<'_>) -> Option<CourierAction> {
     let energy = &view.config().energy;
-    let needed = backlog(view) * energy.per_metre(view.speed(), view.is_riding());
+    let needed = backlog(view) * view.per_metre(view.speed());
     let low = view.is_exhausted() || view.energy() < (0.5 * energy.low).min(needed);
     let room = energy.capacity - view.energy() >= view.config().prices.drink_energy * 0.5;
     let works = view.held_orders().next().is_some();

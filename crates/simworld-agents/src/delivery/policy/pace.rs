@@ -1,6 +1,6 @@
 //! What time is worth to a courier, how fast it walks for it, and whether work can be done in time.
 
-use simworld_core::ops;
+use simworld_core::exertion::Exertion;
 
 use crate::delivery::{CourierView, HeldOrder};
 
@@ -24,16 +24,21 @@ pub(super) fn usual_time(view: &CourierView<'_>, speed: f64) -> f64 {
 
 /// The walking speed at which a metre costs least, time and energy together, m/s.
 ///
-/// A second is worth `w` = usual pay / usual time, a metre at speed v costs w / v of time and k vᵍ of energy with the growth g;
-/// the sum is least at v = (w / (g k))^(1 / (g + 1)).
+/// A second is worth `w` = usual pay / usual time, so a metre at speed v costs w / v of time beside what it takes of drinks. The
+/// cost of walking has one lowest point over speed and jumps where one begins to run, from where on faster is cheaper: the
+/// speeds of a grid are compared, and the fastest walk.
 pub(super) fn brisk(view: &CourierView<'_>) -> f64 {
-    let (limits, energy) = (&view.config().speed, &view.config().energy);
+    /// Speeds that are compared.
+    const SPEEDS: u32 = 24;
+    let limits = &view.config().speed;
     let unit = view.drink_price().dollars() / view.config().prices.drink_energy;
-    let growth = energy.growth.max(0.1);
-    let k = energy.walking * unit / ops::pow(energy.walking_speed, growth);
     let worth = usual_pay(view) / usual_time(view, 0.5 * (limits.walking + limits.fastest));
-    let best = ops::pow(worth / (growth * k).max(1e-9), 1.0 / (growth + 1.0));
-    best.clamp(limits.walking, limits.fastest)
+    let cost = |speed: f64| worth / speed + unit * view.per_metre(speed);
+    let step = (limits.fastest - limits.walking) / f64::from(SPEEDS);
+    let grid = (0..=SPEEDS).map(|index| limits.walking + step * f64::from(index));
+    let fastest_walk = Exertion::change_to_running().clamp(limits.walking, limits.fastest);
+    let cheaper = |a: &f64, b: &f64| cost(*a).total_cmp(&cost(*b));
+    grid.chain([fastest_walk]).min_by(cheaper).unwrap_or(limits.walking)
 }
 
 /// The speed at which a courier works, m/s.

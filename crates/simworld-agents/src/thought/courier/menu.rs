@@ -36,7 +36,8 @@ cancel_share_order(order): takes that back, or steps back from an offer that you
 go_to_meet_point(order): goes to where an order changes hands, and accepts the offer if it is another's
 purchase_scooter(), purchase_drinks(): buys one
 swap_battery(): goes to a charging station and swaps the battery of the scooter
-adjust_speed(decimetres_per_second): moves at another speed from now on; the faster one walks, the more a metre tires
+adjust_speed(decimetres_per_second): moves at another speed from now on; a metre tires the more, the faster one walks, and most at a \
+     run, from 2.1 m/s on; parcels, climbs and snow tire too
 do_nothing(): lets the moment pass";
 
 impl<'a> CourierMenu<'a> {
