@@ -30,7 +30,7 @@ fn walked(config: &RunConfig) -> f64 {
     let place = |world: &World, who: &EntityId| world.entity(*who).expect("couriers live").position();
     let mut at: Vec<Point3> =
         couriers.iter().map(|who| place(assembly.episode.simulation().world(), who)).collect();
-    let (mut spent, mut laden, mut steps) = (vec![0.0; couriers.len()], 0, 0);
+    let (mut spent, mut laden, mut steps) = (vec![0.0; couriers.len()], 0_u32, 0_u32);
     while !assembly.episode.is_over() {
         let world = assembly.episode.simulation().world();
         for (index, who) in couriers.iter().enumerate() {
@@ -42,7 +42,7 @@ fn walked(config: &RunConfig) -> f64 {
             let load = load_of(world, *who);
             let walker = Exertion { body: 75.0, load, terrain: ground };
             spent[index] += walker.energy(&from, &to, dt) * per_joule;
-            (laden, steps) = (laden + usize::from(load > 0.0), steps + 1);
+            (laden, steps) = (laden + u32::from(load > 0.0), steps + 1);
         }
         assembly.episode.step().expect("the run goes on");
     }
@@ -51,7 +51,7 @@ fn walked(config: &RunConfig) -> f64 {
         assert!((row.energy - spent).abs() < 1e-6, "{} of energy, not {spent}", row.energy);
     }
     assert!(spent.iter().sum::<f64>() > 20.0, "{spent:?}");
-    f64::from(laden) / f64::from(steps.max(1))
+    f64::from(laden) / f64::from(steps.max(1_u32))
 }
 
 #[test]
