@@ -20,6 +20,7 @@ pub mod id;
 pub mod intent;
 pub mod kinematic;
 pub mod limbs;
+pub mod links;
 pub mod net;
 pub mod ops;
 pub mod passage;

@@ -37,6 +37,7 @@ use crate::geometry::{Aabb, Point2, Ray, Vector3};
 use crate::ground::Ground;
 use crate::id::EntityId;
 use crate::limbs::JointAngles;
+use crate::links::Links;
 use crate::net::{Aspect, RoadNetwork};
 use crate::traffic::RoadLeg;
 
@@ -145,6 +146,11 @@ pub trait Scene: Sync {
 
     /// How somebody holds its limbs, if whoever moves it says so.
     fn joints(&self, _id: EntityId) -> Option<&JointAngles> {
+        None
+    }
+
+    /// What of an entity moves for itself, if whoever moves it says so: it is drawn as these links.
+    fn links(&self, _id: EntityId) -> Option<Links<'_>> {
         None
     }
 
@@ -257,6 +263,9 @@ macro_rules! forward_scene {
             }
             fn joints(&self, id: EntityId) -> Option<&JointAngles> {
                 (**self).joints(id)
+            }
+            fn links(&self, id: EntityId) -> Option<Links<'_>> {
+                (**self).links(id)
             }
             fn names(&self) -> Option<&NameIndex> {
                 (**self).names()

@@ -3,6 +3,7 @@
 
 mod bonds;
 mod digests;
+mod drawn;
 mod error;
 mod gestures;
 mod journal;
@@ -35,6 +36,7 @@ use crate::hash::{StateDigest, StateHash, StateHasher};
 use crate::id::{AssetId, EntityId};
 use crate::intent::Intent;
 use crate::limbs::JointAngles;
+use crate::links::KeptLinks;
 use crate::net::{Aspect, NetworkPatch, PatchError, RoadNetwork};
 use crate::traffic::{RoadLeg, TrafficOrder};
 
@@ -71,6 +73,8 @@ pub struct World {
     free: Vec<u32>,
     /// How people hold their limbs; no part of what is saved.
     joints: BTreeMap<EntityId, JointAngles>,
+    /// What moves for itself of those that have such; no part of what is saved either.
+    links: BTreeMap<EntityId, KeptLinks>,
     /// Who moves its arms to say something, and in which tick that ends; follows from the attributes.
     gestures: BTreeMap<EntityId, Tick>,
     /// Slots with a bond, ascending.
@@ -221,6 +225,7 @@ impl World {
         }
         self.set_bond(slot, None);
         self.joints.remove(&id);
+        self.links.remove(&id);
         self.infos[slot] = None;
         if is_called(&desc.info) {
             Arc::make_mut(&mut self.names).remove(id, &desc.info);
@@ -249,18 +254,6 @@ impl World {
         check_twist(id, &twist)?;
         self.twists[slot] = twist;
         self.place(id, pose);
-        Ok(())
-    }
-
-    /// Says how somebody holds its limbs: for whoever draws it. It has no part in digests or snapshots, since it follows from
-    /// what moves it, which says it anew every step.
-    ///
-    /// # Errors
-    /// No such entity.
-    pub fn set_joints(&mut self, id: EntityId, joints: JointAngles) -> Result<(), WorldError> {
-        self.check_alive(id)?;
-        self.joints.insert(id, joints);
-        self.touch(id.index());
         Ok(())
     }
 

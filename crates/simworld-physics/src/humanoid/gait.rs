@@ -19,8 +19,8 @@ use crate::convert::to_vector;
 
 /// Lengths as shares of the height (Winter 2009, figure 4.1): hips, thigh, shank, ankle, and from the middle to a leg.
 const HIP: f64 = 0.530;
-const THIGH: f64 = 0.245;
-const SHANK: f64 = 0.246;
+pub(super) const THIGH: f64 = 0.245;
+pub(super) const SHANK: f64 = 0.246;
 const ANKLE: f64 = 0.039;
 const BESIDE: f64 = 0.052;
 /// A leg is never quite straight.
@@ -123,7 +123,7 @@ fn reach(ahead: f64, below: f64, thigh: f64, shank: f64, slope: f64) -> LegAngle
     let hip_flexion = ops::atan2(ahead, below) + cosine(shank, thigh, way);
     // The sole lies on the ground.
     let ankle_dorsiflexion = knee_flexion - hip_flexion + ops::atan2(slope, 1.0);
-    LegAngles { hip_flexion, knee_flexion, ankle_dorsiflexion }
+    LegAngles { hip_flexion, knee_flexion, ankle_dorsiflexion, ..LegAngles::default() }
 }
 
 impl Humanoid {
@@ -222,12 +222,12 @@ impl Humanoid {
         if !self.has_limbs() {
             return None;
         }
-        if let Some(limp) = self.plan.limp {
-            return Some(limp);
+        if let Some(found) = self.plan.limp.or_else(|| self.rising_joints()) {
+            return Some(found);
         }
         let gait = &self.motion.gait;
         match self.motion.posture {
-            Posture::Seated | Posture::Aboard => return Some(JointAngles::seated()),
+            Posture::Seated | Posture::Aboard => return Some(JointAngles::seated(self.height)),
             Posture::Standing if !gait.is_standing() || self.is_crouched() => {}
             Posture::Standing | Posture::Riding => return Some(JointAngles::default()),
         }
@@ -257,9 +257,18 @@ impl Humanoid {
         // Straight below the hip a leg that bears is bent a little; the swing of the arms is about that.
         let arm = |other: usize| {
             let (ahead, up) = ankles[other];
-            ArmAngles { shoulder_flexion: SWING * ops::atan2(ahead, hips - up), elbow_flexion }
+            let shoulder_flexion = SWING * ops::atan2(ahead, hips - up);
+            ArmAngles { shoulder_flexion, elbow_flexion, ..ArmAngles::default() }
         };
-        JointAngles { left_leg, right_leg, left_arm: arm(1), right_arm: arm(0), hip_drop: hip - hips }
+        let (left_arm, right_arm) = (arm(1), arm(0));
+        JointAngles {
+            left_leg,
+            right_leg,
+            left_arm,
+            right_arm,
+            hip_drop: hip - hips,
+            ..JointAngles::default()
+        }
     }
 }
 

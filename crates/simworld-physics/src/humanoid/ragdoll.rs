@@ -6,6 +6,7 @@
 //! figure 4.1, after Dempster 1955 and Drillis and Contini 1966); forearm and hand are one limb, and so are shank and
 //! foot. Joints end where those of adults do (Norkin and White, Measurement of Joint Motion, 2016), rounded.
 
+use nalgebra::UnitQuaternion;
 use rapier3d_f64::dynamics::{MotorModel, RevoluteJointBuilder, SphericalJointBuilder};
 use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
 use rapier3d_f64::prelude::{
@@ -14,8 +15,10 @@ use rapier3d_f64::prelude::{
 };
 use serde::{Deserialize, Serialize};
 use simworld_core::asset::Material;
-use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
+use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles, NeckAngles, Side};
 use simworld_core::ops;
+
+use crate::convert::from_pose;
 
 /// What clothes are made of: it decides how far somebody slides.
 const CLOTHES: Material = Material::Fabric;
@@ -172,28 +175,31 @@ impl Ragdoll {
 
     /// How the limbs lie, seen from what they hang on.
     pub(super) fn angles(&self, physics: &PhysicsWorld, trunk: RigidBodyHandle) -> JointAngles {
-        // Backwards about the axis to the left, of a hanging limb.
-        let turn = |limb: usize| {
+        let turned = |limb: usize| {
             let parent = LIMBS[limb].parent.map_or(trunk, |index| self.limbs[index]);
             let (parent, child) = (physics.bodies.get(parent), physics.bodies.get(self.limbs[limb]));
-            let (Some(parent), Some(child)) = (parent, child) else { return 0.0 };
-            let between = parent.rotation().inverse() * *child.rotation();
-            2.0 * ops::atan2(between.y * between.w.signum(), between.w.abs())
+            let (Some(parent), Some(child)) = (parent, child) else { return UnitQuaternion::identity() };
+            from_pose(parent.position()).rotation.inverse() * from_pose(child.position()).rotation
         };
-        let arm = |first: usize| ArmAngles {
-            shoulder_flexion: -turn(first),
-            elbow_flexion: (-turn(first + 1)).max(0.0),
+        // Of a hinge: backwards about the axis to the left, of a hanging limb.
+        let bent = |limb: usize| {
+            let between = turned(limb);
+            2.0 * ops::atan2(between.j * between.w.signum(), between.w.abs())
         };
-        let leg = |first: usize| LegAngles {
-            hip_flexion: -turn(first),
-            knee_flexion: turn(first + 1).max(0.0),
-            ankle_dorsiflexion: 0.0,
+        let arm = |side: Side, first: usize| {
+            let elbow_flexion = (-bent(first + 1)).max(0.0);
+            ArmAngles { elbow_flexion, ..ArmAngles::default() }.with_upper_arm(side, &turned(first))
+        };
+        let leg = |side: Side, first: usize| {
+            let knee_flexion = bent(first + 1).max(0.0);
+            LegAngles { knee_flexion, ..LegAngles::default() }.with_thigh(side, &turned(first))
         };
         JointAngles {
-            left_arm: arm(1),
-            left_leg: leg(3),
-            right_arm: arm(5),
-            right_leg: leg(7),
+            left_arm: arm(Side::Left, 1),
+            left_leg: leg(Side::Left, 3),
+            right_arm: arm(Side::Right, 5),
+            right_leg: leg(Side::Right, 7),
+            neck: NeckAngles::of(&turned(0)),
             hip_drop: 0.0,
         }
     }
@@ -309,5 +315,39 @@ mod tests {
                 assert!(if knee { from == 0.0 && to > 2.0 } else { to == 0.0 && from < -2.0 });
             }
         }
+    }
+
+    /// Angles that are told put every limb where the engine has it.
+    #[test]
+    fn angles_are_those_of_the_limbs() {
+        let build = Build { height: 1.75, mass: 75.0 };
+        let mut physics = PhysicsWorld::new();
+        physics.gravity = Vector::new(0.0, 0.0, -9.81);
+        physics.insert(RigidBodyBuilder::fixed(), ColliderBuilder::cuboid(50.0, 50.0, 0.5));
+        let frame = RigidBodyBuilder::dynamic().translation(Vector::new(0.0, 0.0, 1.0));
+        let trunk = physics.insert(frame, ColliderBuilder::capsule_z(0.6, 0.2)).0;
+        let limbs = Ragdoll::of(&mut physics, trunk, build);
+        physics.bodies[trunk].set_angvel(Vector::new(2.0, 4.0, 1.0), true);
+        let (mut aside, mut about) = (0.0_f64, 0.0_f64);
+        for _ in 0..240 {
+            physics.step();
+            let angles = limbs.angles(&physics, trunk);
+            let rotation = |handle: RigidBodyHandle| from_pose(physics.bodies[handle].position()).rotation;
+            let of_trunk = rotation(trunk);
+            let told = [
+                (0, angles.neck.trunk_from_head()),
+                (1, angles.left_arm.trunk_from_upper_arm(Side::Left)),
+                (3, angles.left_leg.trunk_from_thigh(Side::Left)),
+                (5, angles.right_arm.trunk_from_upper_arm(Side::Right)),
+                (7, angles.right_leg.trunk_from_thigh(Side::Right)),
+            ];
+            for (limb, trunk_from_limb) in told {
+                let off = (of_trunk * trunk_from_limb).angle_to(&rotation(limbs.limbs[limb]));
+                assert!(off < 1e-6, "limb {limb}: {off}");
+            }
+            aside = aside.max(angles.left_leg.hip_abduction.abs());
+            about = about.max(angles.right_arm.shoulder_rotation.abs());
+        }
+        assert!(aside > 0.1 && about > 0.05, "it sprawled: {aside}, {about}");
     }
 }

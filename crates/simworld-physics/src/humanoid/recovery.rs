@@ -10,11 +10,13 @@ use rapier3d_f64::prelude::{
 };
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point3, Pose, Vector2, Vector3, pose_facing};
+use simworld_core::limbs::{JointAngles, LegAngles};
 use simworld_core::ops;
 use simworld_core::scene::{FallCause, Footing};
 
 use super::Humanoid;
 use super::balance::CENTER;
+use super::gait::{SHANK, THIGH};
 use super::ragdoll::Ragdoll;
 use super::walk::SKIN;
 use crate::body::BodyContext;
@@ -32,6 +34,8 @@ const LYING: f64 = 1.0;
 const RISING: f64 = 2.5;
 /// Who has fallen goes on no faster than people walk, m/s (Weidmann 1993).
 const WALK: f64 = 1.34;
+/// Hip and knee of who is half-way up, beyond those on the way from lying to standing, radians.
+const CROUCH: [f64; 2] = [1.0, 1.9];
 /// How far around the middle of the body a place to stand is looked for, m.
 const PLACES: [f64; 4] = [0.0, 0.3, 0.6, 1.0];
 /// How long to wait before looking for a place again, s.
@@ -46,8 +50,8 @@ pub(super) enum Recovery {
     Falling { limbs: Ragdoll, resting: f64 },
     /// Lying for so long, s.
     Down { limbs: Ragdoll, lying: f64 },
-    /// Getting up for so long, s, from where it lay as seen from where it stands.
-    Rising { since: f64, stand_from_lying: Pose },
+    /// Getting up for so long, s, from where it lay as seen from where it stands, and from how its limbs lay.
+    Rising { since: f64, stand_from_lying: Pose, limbs: Box<JointAngles> },
 }
 
 impl Recovery {
@@ -134,8 +138,8 @@ impl Humanoid {
                 self.motion.wanted_speed = self.motion.wanted_speed.min(WALK);
                 self.plan.got_up = true;
             }
-            Recovery::Rising { since, stand_from_lying } => {
-                self.motion.recovery = Recovery::Rising { since: since + dt, stand_from_lying };
+            Recovery::Rising { since, stand_from_lying, limbs } => {
+                self.motion.recovery = Recovery::Rising { since: since + dt, stand_from_lying, limbs };
             }
             Recovery::Upright => {}
         }
@@ -146,7 +150,8 @@ impl Humanoid {
         let stand_from_lying = stand.inverse() * self.state.pose;
         self.motion.recovery = Recovery::Down { limbs, lying: 0.0 };
         self.stand_up(stand, physics, trunk);
-        self.motion.recovery = Recovery::Rising { since: 0.0, stand_from_lying };
+        let limbs = Box::new(self.plan.limp.unwrap_or_default());
+        self.motion.recovery = Recovery::Rising { since: 0.0, stand_from_lying, limbs };
     }
 
     /// Is upright again at once, at a pose.
@@ -219,10 +224,8 @@ impl Humanoid {
 
     /// The pose that is seen of somebody who gets up and stands at a pose.
     pub(super) fn seen_rising(&self, stand: &Pose) -> Option<Pose> {
-        let Recovery::Rising { since, stand_from_lying } = &self.motion.recovery else { return None };
-        let share = (since / RISING).clamp(0.0, 1.0);
-        // Slow at both ends.
-        let share = share * share * (3.0 - 2.0 * share);
+        let Recovery::Rising { since, stand_from_lying, .. } = &self.motion.recovery else { return None };
+        let share = risen(*since);
         let from = stand * stand_from_lying;
         // The middle of the body comes up on a straight line; the feet find their place under it.
         let middle = Point3::new(0.0, 0.0, CENTER * self.height);
@@ -230,6 +233,31 @@ impl Humanoid {
         let place = (from * middle).coords.lerp(&(stand * middle).coords, share);
         Some(Pose::from_parts((place - rotation * middle.coords).into(), rotation))
     }
+
+    /// How the limbs of who gets up are held: from how they lay to those of who stands, through a crouch, with the feet where
+    /// they will stand.
+    pub(super) fn rising_joints(&self) -> Option<JointAngles> {
+        let Recovery::Rising { since, limbs, .. } = &self.motion.recovery else { return None };
+        let share = risen(*since);
+        let mut joints = limbs.toward(&JointAngles::default(), share);
+        let crouch = 4.0 * share * (1.0 - share);
+        for leg in [&mut joints.left_leg, &mut joints.right_leg] {
+            leg.hip_flexion += CROUCH[0] * crouch;
+            leg.knee_flexion = (leg.knee_flexion + CROUCH[1] * crouch).min(CROUCH[1]);
+        }
+        let length = |leg: &LegAngles| {
+            THIGH * ops::cos(leg.hip_flexion) + SHANK * ops::cos(leg.hip_flexion - leg.knee_flexion)
+        };
+        let longest = length(&joints.left_leg).max(length(&joints.right_leg));
+        joints.hip_drop = share * (THIGH + SHANK - longest) * self.height;
+        Some(joints)
+    }
+}
+
+/// The share of its way up that somebody has come, who has been getting up for so long, s; slow at both ends.
+fn risen(since: f64) -> f64 {
+    let share = (since / RISING).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
 }
 
 /// What of somebody hardly moves.

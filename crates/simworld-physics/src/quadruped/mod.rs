@@ -13,6 +13,7 @@ mod model;
 mod physics_body;
 mod readings;
 mod recovery;
+mod stride;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
@@ -26,6 +27,7 @@ use control::Walk;
 pub use model::QuadrupedModel;
 pub use readings::{Command, ImuReading, Readings};
 use recovery::Task;
+use stride::Stride;
 
 use crate::body::Detail;
 use crate::error::{PhysicsError, check_range};
@@ -141,6 +143,8 @@ struct Motion {
     readings: Readings,
     /// Velocity of the trunk at the start of the last substep, m/s.
     before: Vector3,
+    /// How its legs swing while it is led over the ground.
+    stride: Stride,
     /// For how long it still remembers a blow, s.
     shaken: f64,
     news: News,

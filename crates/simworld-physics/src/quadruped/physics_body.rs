@@ -1,5 +1,6 @@
 //! How a quadruped takes part in a physics world, on its legs or as a cylinder.
 
+use nalgebra::{Quaternion, UnitQuaternion};
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::query::Ray;
 use rapier3d_f64::math::Vector;
@@ -9,7 +10,8 @@ use rapier3d_f64::prelude::{
 use simworld_core::event::EventKind;
 use simworld_core::geometry::{Pose, Twist, Vector3, pose_facing};
 use simworld_core::id::EntityId;
-use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
+use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles, Side};
+use simworld_core::ops;
 use simworld_core::scene::{FOOTING, Scene, World, WorldError};
 use simworld_core::seam::{BodyState, Embodiment};
 
@@ -59,8 +61,10 @@ impl PhysicsBody for Quadruped {
     }
 
     fn roam(&mut self, around: &Surroundings<'_>, dt: f64) {
+        let before = self.state.pose;
         self.cheap.roam(around, dt);
         self.state = self.cheap.state();
+        self.stride_from(&before);
     }
 
     fn sense(&mut self, around: &Surroundings<'_>, dt: f64) {
@@ -108,9 +112,10 @@ impl PhysicsBody for Quadruped {
 
     fn settle(&mut self, state: &BodyState) {
         if self.motion.links.is_none() {
+            let before = self.state.pose;
             self.cheap.settle(state);
             self.state = self.cheap.state();
-            return;
+            return self.stride_from(&before);
         }
         let down = Vector3::new(0.0, 0.0, -self.config.model.standing_height());
         let arm = state.pose.rotation * down;
@@ -160,8 +165,7 @@ impl PhysicsBody for Quadruped {
 
     fn report(&mut self, id: EntityId, world: &mut World) -> Result<(), WorldError> {
         if self.motion.links.is_none() {
-            let standing = self.standing(self.config.model.standing_height());
-            world.set_joints(id, joint_angles(&standing))?;
+            world.set_joints(id, joint_angles(&self.strided()))?;
             return self.cheap.report(id, world);
         }
         let footing = self.footing();
@@ -244,17 +248,26 @@ impl Quadruped {
 
 /// How the legs are for whoever draws them: the fore legs as arms, the hind legs as legs.
 fn joint_angles([front_left, front_right, rear_left, rear_right]: &PerJoint) -> JointAngles {
-    let arm = |[_, thigh, knee]: &[f64; 3]| ArmAngles { shoulder_flexion: -thigh, elbow_flexion: -knee };
-    let leg = |[_, thigh, knee]: &[f64; 3]| LegAngles {
-        hip_flexion: -thigh,
-        knee_flexion: *knee,
-        ankle_dorsiflexion: 0.0,
+    // The first joint turns about x all that hangs on it, the second about y.
+    let turned = |first: f64, thigh: f64| {
+        let turn = |axis: Vector3, angle: f64| {
+            let (sin, cos) = ops::sin_cos(0.5 * angle);
+            UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, axis * sin))
+        };
+        turn(Vector3::x(), first) * turn(Vector3::y(), thigh)
+    };
+    let arm = |side: Side, [first, thigh, knee]: &[f64; 3]| {
+        ArmAngles { elbow_flexion: -knee, ..ArmAngles::default() }
+            .with_upper_arm(side, &turned(*first, *thigh))
+    };
+    let leg = |side: Side, [first, thigh, knee]: &[f64; 3]| {
+        LegAngles { knee_flexion: *knee, ..LegAngles::default() }.with_thigh(side, &turned(*first, *thigh))
     };
     JointAngles {
-        left_arm: arm(front_left),
-        right_arm: arm(front_right),
-        left_leg: leg(rear_left),
-        right_leg: leg(rear_right),
-        hip_drop: 0.0,
+        left_arm: arm(Side::Left, front_left),
+        right_arm: arm(Side::Right, front_right),
+        left_leg: leg(Side::Left, rear_left),
+        right_leg: leg(Side::Right, rear_right),
+        ..JointAngles::default()
     }
 }

@@ -8,6 +8,7 @@ mod description;
 mod error;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod import;
+mod looks;
 mod motor;
 mod physics_body;
 mod solids;
@@ -34,6 +35,7 @@ pub use import::mjcf;
 pub use import::urdf;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 pub use import::{ImportLimits, ImportOptions, Imported, Note};
+use looks::Looks;
 use motor::Motor;
 use tree::Tree;
 
@@ -106,6 +108,7 @@ pub struct Robot {
     id: Option<EntityId>,
     state: BodyState,
     motion: Motion,
+    looks: Looks,
 }
 
 /// Everything about a robot that changes and is not in its [`BodyState`].
@@ -153,7 +156,8 @@ impl Robot {
         let poses = poses.into_iter().map(|pose| state.pose * lift * pose).collect();
         let motion = Motion { links: None, sensed, commands, torques, poses };
         let root_from_entity = lift.inverse();
-        Ok(Self { config, tree, motors, digest, root_from_entity, id: None, state, motion })
+        let looks = Looks::of(&config.description, &tree);
+        Ok(Self { config, tree, motors, digest, root_from_entity, id: None, state, motion, looks })
     }
 
     /// Its data.

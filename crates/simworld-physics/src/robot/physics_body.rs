@@ -3,6 +3,7 @@
 use rapier3d_f64::prelude::{PhysicsWorld, RigidBodyHandle};
 use simworld_core::geometry::Twist;
 use simworld_core::id::EntityId;
+use simworld_core::scene::{World, WorldError};
 use simworld_core::seam::BodyState;
 
 use super::articulation::{Links, Plan, Start, part_from_body, root_twist};
@@ -89,6 +90,18 @@ impl PhysicsBody for Robot {
 
     fn place(&mut self, state: &BodyState) {
         self.state = *state;
+    }
+
+    fn report(&mut self, id: EntityId, world: &mut World) -> Result<(), WorldError> {
+        let entity_from_world = self.state.pose.inverse();
+        if self.motion.links.is_some() {
+            self.looks.follow(&entity_from_world, &self.motion.poses);
+        } else {
+            // Carried, or just put somewhere: as its joints are.
+            let entity_from_root = self.root_from_entity.inverse();
+            self.looks.follow(&entity_from_root, &self.tree.poses(&self.motion.sensed.positions));
+        }
+        self.looks.tell(id, world)
     }
 }
 

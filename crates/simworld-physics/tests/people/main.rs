@@ -6,6 +6,7 @@ mod blows;
 mod common;
 mod country;
 mod crowds;
+mod drawn;
 mod falls;
 mod far;
 mod mishaps;

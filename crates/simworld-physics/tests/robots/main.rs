@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod drawn;
 mod quadruped;
 mod quadruped_falls;
 mod quadruped_land;

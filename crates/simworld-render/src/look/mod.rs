@@ -1,5 +1,6 @@
 //! How a kind of entity looks: its rigid parts, their meshes, sizes and colours, with deterministic variation by id.
 
+mod afar;
 mod buildings;
 mod creatures;
 mod people;
@@ -12,6 +13,7 @@ mod vehicles;
 
 use simworld_core::geometry::Pose;
 use simworld_core::id::AssetId;
+use simworld_core::links::Links;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
@@ -120,6 +122,9 @@ impl Looks {
     /// Dresses an entity: its rigid parts at every level of detail. What is the same at several stands there once.
     pub(crate) fn dress(&self, entity: &EntityRef<'_>, scene: &dyn Scene, out: &mut Vec<resident::Part>) {
         let whole = |mesh, look| resident::Part { mesh, pose: *entity.pose, look, details: Detail::EVERY };
+        if let Some(links) = scene.links(entity.id) {
+            return self.articulated(entity, &links, out);
+        }
         if let Some(id) = entity.info.asset.filter(|id| model_of(scene, *id).is_some()) {
             return out.push(whole(Drawn::Model(id), self.of_model(entity, id)));
         }
@@ -162,6 +167,22 @@ impl Looks {
                     }),
                 }
             }
+        }
+    }
+
+    /// What has links is drawn as these: each its solid, where it is.
+    fn articulated(&self, entity: &EntityRef<'_>, links: &Links<'_>, out: &mut Vec<resident::Part>) {
+        /// Shells and joints of robots, in turn, where nobody said a colour.
+        const SHELLS: [[f32; 3]; 2] = [[0.72, 0.73, 0.75], [0.2, 0.21, 0.23]];
+        let plain = self.plain(entity);
+        for (index, (form, entity_from_link)) in links.iter().enumerate() {
+            let (mesh, size) = (primitive(&form.shape), form.shape.size());
+            let scale = [size.x as f32, size.y as f32, size.z as f32];
+            let unit = if mesh == MeshId::Cuboid { 1.0 } else { scale[0] * 0.5 };
+            let color = form.color.or(entity.info.color).unwrap_or(SHELLS[index % 2]);
+            let look = Look { mesh, scale, unit, color, ..plain };
+            let pose = entity.pose * entity_from_link;
+            out.push(resident::Part { mesh: Drawn::Own(mesh), pose, look, details: Detail::EVERY });
         }
     }
 
@@ -344,6 +365,7 @@ fn furniture(look: &mut Look, kind: EntityKind, bits: u64) {
 #[cfg(test)]
 mod tests {
     use simworld_core::geometry::{Point3, pose_facing};
+    use simworld_core::links::LinkForm;
     use simworld_core::scene::{EntityDesc, Scene, World};
 
     use super::*;
@@ -414,6 +436,31 @@ mod tests {
             }
         }
         assert!(wrong.is_empty(), "triangles far, between and near: {wrong:?}");
+    }
+
+    /// What has links is drawn as these, each where it is, in its own form and colour.
+    #[test]
+    fn instances_are_where_links_are() {
+        let mut world = World::new();
+        let pose = pose_facing(Point3::new(4.0, -2.0, 1.0), 0.6);
+        let id = world.spawn(EntityDesc::new(EntityKind::Robot, pose, Shape::cuboid(1.0, 1.0, 1.0))).unwrap();
+        let forms: std::sync::Arc<[LinkForm]> = std::sync::Arc::from([
+            LinkForm { shape: Shape::Cylinder { radius: 0.1, height: 0.4 }, color: Some([0.1, 0.2, 0.3]) },
+            LinkForm { shape: Shape::Sphere { radius: 0.2 }, color: None },
+            LinkForm { shape: Shape::cuboid(0.5, 0.1, 0.2), color: None },
+        ]);
+        let links = [0.3, 0.9, 1.4].map(|x| pose_facing(Point3::new(x, 0.1, 0.5 * x), 2.0 * x));
+        world.set_links(id, &forms, &links).unwrap();
+        let mut parts = Vec::new();
+        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        let meshes: Vec<MeshId> = parts.iter().map(|part| part.look.mesh).collect();
+        assert_eq!(meshes, [MeshId::Cylinder, MeshId::Sphere, MeshId::Cuboid]);
+        for (part, link) in parts.iter().zip(&links) {
+            assert!((part.pose.to_homogeneous() - (pose * link).to_homogeneous()).norm() < 1e-12);
+            assert_eq!(part.details, Detail::EVERY);
+        }
+        assert_eq!(parts[0].look.color, [0.1, 0.2, 0.3]);
+        assert_eq!(parts[2].look.scale, [0.5, 0.1, 0.2]);
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! People: what they wear, from their seed or from what they are called, and their parts in their posture.
 
 use simworld_core::geometry::{Pose, Vector3};
+use simworld_core::limbs::Side;
 use simworld_core::scene::{EntityRef, Scene};
 
+use super::afar::stance_of;
 use super::posture::{Posture, pitch, posture_of};
 use super::{Detail, Look, Part, pick};
 use crate::mesh::MeshId;
@@ -204,10 +206,12 @@ impl Figure {
         let [pelvis, chest] = posture.trunk(h);
         put(MeshId::Pelvis, pelvis, self.legs, self.legs);
         put(MeshId::Chest, chest, self.shirt, self.shirt);
-        let neck = chest * at(Vector3::z() * (NECK * h)) * turn(-posture.lean - posture.gaze);
+        let held = Pose::from_parts(Vector3::zeros().into(), posture.neck.trunk_from_head());
+        let neck = chest * at(Vector3::z() * (NECK * h)) * held * turn(-posture.lean - posture.gaze);
         put(head_of(self.hair), neck, self.skin, self.hair_color);
-        for (side, leg) in [1.0, -1.0].into_iter().zip(&posture.legs) {
-            let thigh = at(posture.hip(side, h)) * turn(-leg.hip_flexion);
+        for (side, leg) in Side::BOTH.into_iter().zip(&posture.legs) {
+            let hip = posture.hip(side.sign(), h);
+            let thigh = Pose::from_parts(hip.into(), leg.trunk_from_thigh(side));
             let knee = thigh * at(Vector3::z() * (-THIGH * h)) * turn(leg.knee_flexion);
             let ankle = knee * at(Vector3::z() * (-SHANK * h)) * turn(-leg.ankle_dorsiflexion);
             let shank = if self.bare_shanks { self.skin } else { self.legs };
@@ -276,19 +280,81 @@ pub(super) fn dress(
     if let Some(color) = super::own_color(entity, scene) {
         figure.shirt = color;
     }
-    if detail == Detail::Far {
-        let posture = entity.attachment.is_some();
-        let walking = entity.twist.ground_speed() > 0.2;
-        let mesh = if posture {
-            MeshId::Sitting
-        } else if walking {
-            MeshId::Walking
-        } else {
-            MeshId::Standing
-        };
-        figure.emit_far(mesh, Pose::identity(), parts);
-        return;
+    let seed = f64::from(look.seed);
+    if detail == Detail::Far
+        && let Some(mesh) = stance_of(entity, scene, height, seed)
+    {
+        return figure.emit_far(mesh, Pose::identity(), parts);
     }
-    let posture = posture_of(entity, scene, height, f64::from(look.seed));
+    let posture = posture_of(entity, scene, height, seed);
+    // Who lies, crouches, climbs is seen to do so from afar too, by the parts of the level before.
     figure.emit(&posture, &Pose::identity(), detail, parts);
+}
+
+#[cfg(test)]
+mod tests {
+    use simworld_core::geometry::{Point3, pose_facing};
+    use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles, NeckAngles};
+    use simworld_core::scene::{EntityDesc, EntityKind, Shape, World};
+
+    use super::*;
+    use crate::look::{Looks, resident};
+
+    /// Feet, hands and head are where the angles of all joints put them, whatever they are.
+    #[test]
+    fn limbs_are_where_their_joints_put_them() {
+        let h = 1.75;
+        let mut world = World::new();
+        let pose = pose_facing(Point3::new(2.0, 1.0, 0.3), 0.4);
+        let id = world
+            .spawn(EntityDesc::new(EntityKind::Person, pose, Shape::Capsule { radius: 0.25, height: h }))
+            .unwrap();
+        let leg = LegAngles {
+            hip_flexion: 0.4,
+            hip_abduction: 0.5,
+            hip_rotation: 0.3,
+            knee_flexion: 0.9,
+            ..LegAngles::default()
+        };
+        let arm = ArmAngles {
+            shoulder_flexion: 1.0,
+            shoulder_abduction: 0.7,
+            shoulder_rotation: -0.4,
+            elbow_flexion: 1.2,
+        };
+        let neck = NeckAngles { flexion: 0.5, tilt: 0.2, turn: 0.6 };
+        let joints =
+            JointAngles { left_leg: leg, right_leg: leg, left_arm: arm, right_arm: arm, neck, hip_drop: 0.1 };
+        world.set_joints(id, joints).unwrap();
+        let mut parts = Vec::new();
+        Looks::default().dress(&world.entity(id).unwrap(), &world, &mut parts);
+        let of = |mesh: MeshId| -> Vec<&resident::Part> {
+            parts.iter().filter(|part| part.look.mesh == mesh).collect()
+        };
+        let hips = Vector3::z() * (crate::mesh::people::HIP * h - 0.1);
+        for (side, (foot, forearm)) in
+            Side::BOTH.into_iter().zip(of(MeshId::Foot).iter().zip(of(MeshId::Forearm)))
+        {
+            let hip = hips + Vector3::y() * (crate::mesh::people::HIP_WIDTH * h * side.sign());
+            let thigh = leg.trunk_from_thigh(side);
+            let down = -Vector3::z() * h;
+            let ankle = hip + thigh * down * THIGH + thigh * pitch(leg.knee_flexion) * down * SHANK;
+            let seen = foot.pose.translation.vector;
+            assert!((seen - (pose * Point3::from(ankle)).coords).norm() < 1e-9, "{side:?} foot");
+            let shoulder = Posture::shoulder(side.sign(), h);
+            let chest = hips + Vector3::z() * (crate::mesh::people::WAIST * h);
+            let elbow = chest + shoulder + arm.trunk_from_upper_arm(side) * down * UPPER_ARM;
+            let seen = forearm.pose.translation.vector;
+            // Broad people have broad shoulders.
+            assert!((seen - (pose * Point3::from(elbow)).coords).norm() < 0.06, "{side:?} elbow");
+            let bent = forearm
+                .pose
+                .rotation
+                .angle_to(&(pose.rotation * arm.trunk_from_upper_arm(side) * pitch(-arm.elbow_flexion)));
+            assert!(bent < 1e-6, "{side:?} forearm");
+        }
+        let heads = [MeshId::HeadShort, MeshId::HeadLong, MeshId::HeadBun, MeshId::HeadBald];
+        let head = parts.iter().find(|part| heads.contains(&part.look.mesh)).expect("a head");
+        assert!(head.pose.rotation.angle_to(&(pose.rotation * neck.trunk_from_head())) < 1e-6);
+    }
 }

@@ -5,7 +5,7 @@
 
 use nalgebra::UnitQuaternion;
 use simworld_core::geometry::{Pose, Vector3, yaw_of};
-use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles};
+use simworld_core::limbs::{ArmAngles, JointAngles, LegAngles, NeckAngles, Side};
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, EntityRef, Gesture, Role, Scene};
 
@@ -34,8 +34,9 @@ pub(super) struct Posture {
     pub hips: Vector3,
     /// How far the trunk leans forward.
     pub lean: f64,
-    /// How far the head looks up.
+    /// How far the head looks up, beside what the neck does.
     pub gaze: f64,
+    pub neck: NeckAngles,
     /// Left, right.
     pub legs: [LegAngles; 2],
     pub arms: [Arm; 2],
@@ -59,14 +60,14 @@ impl Posture {
     fn standing(height: f64, seed: f64) -> Self {
         // Nobody stands like a soldier: the weight is on one leg.
         let ease = 0.05 + 0.06 * seed;
-        let leg =
-            |ease: f64| LegAngles { hip_flexion: ease * 0.5, knee_flexion: ease, ankle_dorsiflexion: 0.0 };
+        let leg = |ease: f64| leg(ease * 0.5, ease, 0.0);
         let arm = |side: f64, seed: f64| hang(side, 0.05 * seed, 0.1, 0.18 + 0.1 * seed);
         let legs = if seed < 0.5 { [leg(0.02), leg(ease)] } else { [leg(ease), leg(0.02)] };
         let mut posture = Self {
             hips: Vector3::zeros(),
             lean: 0.0,
             gaze: 0.0,
+            neck: NeckAngles::default(),
             legs,
             arms: [arm(1.0, seed), arm(-1.0, 1.0 - seed)],
         };
@@ -76,13 +77,20 @@ impl Posture {
 
     /// What the angles of its joints say.
     fn jointed(joints: &JointAngles, height: f64) -> Self {
-        let arm = |arm: &ArmAngles, side: f64| hang(side, arm.shoulder_flexion, 0.08, arm.elbow_flexion);
+        let arm = |arm: &ArmAngles, side: Side| {
+            if arm.shoulder_abduction == 0.0 && arm.shoulder_rotation == 0.0 {
+                // Told in the plane of the way alone, it hangs past the hips.
+                return hang(side.sign(), arm.shoulder_flexion, 0.08, arm.elbow_flexion);
+            }
+            Arm { shoulder: arm.trunk_from_upper_arm(side), elbow: arm.elbow_flexion }
+        };
         Self {
             hips: Vector3::z() * (HIP * height - joints.hip_drop),
             lean: 0.0,
             gaze: 0.0,
+            neck: joints.neck,
             legs: [joints.left_leg, joints.right_leg],
-            arms: [arm(&joints.left_arm, 1.0), arm(&joints.right_arm, -1.0)],
+            arms: [arm(&joints.left_arm, Side::Left), arm(&joints.right_arm, Side::Right)],
         }
     }
 
@@ -95,11 +103,11 @@ impl Posture {
         let leg = |phase: f64| {
             let cosine = ops::cos(std::f64::consts::TAU * phase);
             let (bent, lifted) = if running { (0.45, 1.25) } else { (0.1, 0.95) };
-            LegAngles {
-                hip_flexion: swing * cosine + if running { 0.2 } else { 0.06 },
-                knee_flexion: bent * 0.5 + bent * bump(phase, 0.14, 0.16) + lifted * bump(phase, 0.72, 0.26),
-                ankle_dorsiflexion: 0.12 * bump(phase, 0.95, 0.12) - 0.4 * bump(phase, 0.58, 0.14),
-            }
+            leg(
+                swing * cosine + if running { 0.2 } else { 0.06 },
+                bent * 0.5 + bent * bump(phase, 0.14, 0.16) + lifted * bump(phase, 0.72, 0.26),
+                0.12 * bump(phase, 0.95, 0.12) - 0.4 * bump(phase, 0.58, 0.14),
+            )
         };
         let arm = |phase: f64, side: f64| {
             let cosine = ops::cos(std::f64::consts::TAU * phase);
@@ -110,6 +118,7 @@ impl Posture {
             hips: Vector3::zeros(),
             lean: if running { 0.14 } else { 0.03 },
             gaze: 0.0,
+            neck: NeckAngles::default(),
             legs: [leg(phase), leg(phase + 0.5)],
             arms: [arm(phase, 1.0), arm(phase + 0.5, -1.0)],
         };
@@ -123,15 +132,12 @@ impl Posture {
 
     /// On a seat at the origin, thighs level.
     fn sitting(height: f64, seed: f64) -> Self {
-        let leg = |spread: f64| LegAngles {
-            hip_flexion: 1.48,
-            knee_flexion: 1.42 + spread,
-            ankle_dorsiflexion: 0.0,
-        };
+        let leg = |spread: f64| leg(1.48, 1.42 + spread, 0.0);
         Self {
             hips: Vector3::new(0.0, 0.0, 0.055 * height),
             lean: -0.06 + 0.2 * seed * seed,
             gaze: 0.0,
+            neck: NeckAngles::default(),
             legs: [leg(0.1 * seed), leg(-0.25 * seed)],
             arms: [hang(1.0, 0.45, 0.12, 0.75), hang(-1.0, 0.4, 0.12, 0.8)],
         }
@@ -139,10 +145,9 @@ impl Posture {
 
     /// In the seat of a vehicle: legs ahead, hands at the wheel.
     fn driving(height: f64) -> Self {
-        let leg = LegAngles { hip_flexion: 1.3, knee_flexion: 0.65, ankle_dorsiflexion: 0.0 };
         Self {
             lean: -0.22,
-            legs: [leg; 2],
+            legs: [leg(1.3, 0.65, 0.0); 2],
             arms: [hang(1.0, 1.05, 0.0, 0.5), hang(-1.0, 1.05, 0.0, 0.5)],
             ..Self::sitting(height, 0.0)
         }
@@ -231,7 +236,12 @@ fn step_on(ankle: &Vector3, height: f64) -> LegAngles {
         ((thigh * thigh + distance * distance - shank * shank) / (2.0 * thigh * distance)).clamp(-1.0, 1.0),
     );
     let hip = ops::atan2(sole.x, -sole.z) + lead;
-    LegAngles { hip_flexion: hip, knee_flexion: knee, ankle_dorsiflexion: knee - hip }
+    leg(hip, knee, knee - hip)
+}
+
+/// A leg in the plane of the way.
+fn leg(hip_flexion: f64, knee_flexion: f64, ankle_dorsiflexion: f64) -> LegAngles {
+    LegAngles { hip_flexion, knee_flexion, ankle_dorsiflexion, ..LegAngles::default() }
 }
 
 /// How somebody holds its body now.
@@ -246,7 +256,7 @@ pub(super) fn posture_of(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64,
     posture
 }
 
-fn held(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64, seed: f64) -> Posture {
+pub(super) fn held(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64, seed: f64) -> Posture {
     match entity.attachment.map(|bond| (bond.role, scene.entity(bond.parent))) {
         Some((Role::Aboard, Some(vehicle)))
             if matches!(vehicle.kind, EntityKind::Bicycle | EntityKind::Motorcycle) =>
@@ -257,11 +267,12 @@ fn held(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64, seed: f64) -> Po
             posture.hips += offset.translation.vector;
             posture
         }
+        // Hands and feet are where the vehicle has its wheel and its floor.
         Some((Role::Aboard, _)) => Posture::driving(height),
-        Some((Role::Seated, _)) => Posture::sitting(height, seed),
-        _ => match scene.joints(entity.id) {
-            Some(joints) => Posture::jointed(joints, height),
-            None => moving(entity, height, seed),
+        bond => match (scene.joints(entity.id), bond) {
+            (Some(joints), _) => Posture::jointed(joints, height),
+            (None, Some((Role::Seated, _))) => Posture::sitting(height, seed),
+            (None, _) => moving(entity, height, seed),
         },
     }
 }

@@ -3,13 +3,22 @@
 use super::builder::{Builder, Material, P, Ring, V3, share, unit};
 use super::primitives::{BOTTOM, HIGH, LOW, TOP};
 
-/// A dog of a few pixels, fitted to its box.
-pub(crate) fn dog() -> Builder {
+/// The way of a paw of a dog of a few pixels from under its hip, at most, in heights of the dog.
+pub(crate) const FAR_STRIDE: f64 = 0.26;
+
+/// A dog of a few pixels, fitted to its box: the left fore paw and the right hind paw ahead by that share of a stride, the others as far
+/// behind.
+pub(crate) fn dog(ahead: f32) -> Builder {
     let mut mesh = Builder::new([0.9, 0.3, 0.6], 1.0);
     mesh.cuboid(share(-0.36, -0.28, 0.5), share(0.3, 0.28, 0.8), Material::Body);
     mesh.cuboid(share(0.26, -0.22, 0.7), share(0.5, 0.22, 1.0), Material::Body);
-    for (x, y) in [(0.24, 0.2), (0.24, -0.2), (-0.3, 0.2), (-0.3, -0.2)] {
-        mesh.cuboid(share(x - 0.05, y - 0.1, 0.0), share(x + 0.05, y + 0.1, 0.5), Material::Body);
+    for (x, y, sign) in [(0.24, 0.2, 1.0), (0.24, -0.2, -1.0), (-0.3, 0.2, -1.0), (-0.3, -0.2, 1.0)] {
+        // Lengths are shares of the length of the box, and a stride is one of its height.
+        let paw = 0.6 * FAR_STRIDE as f32 * sign * ahead;
+        let ring = |x: f32, z: f32| {
+            [[0.05, -0.1], [0.05, 0.1], [-0.05, 0.1], [-0.05, -0.1]].map(|[dx, dy]| share(x + dx, y + dy, z))
+        };
+        mesh.hexa(ring(x + paw, 0.0), ring(x, 0.5), Material::Body);
     }
     mesh
 }

@@ -2,21 +2,84 @@
 
 use nalgebra::UnitQuaternion;
 use simworld_core::geometry::{Pose, Vector3};
+use simworld_core::ops;
 
+use super::MeshId;
 use super::builder::{Builder, Material};
 use super::people::{
-    Grain, HIP, HIP_WIDTH, Hair, NECK, SHANK, SHOULDER, SHOULDER_WIDTH, THIGH, UPPER_ARM, WAIST, chest, foot,
-    forearm, head, pelvis, shank, thigh, upper_arm,
+    FOREARM, Grain, HIP, HIP_WIDTH, Hair, NECK, SHANK, SHOULDER, SHOULDER_WIDTH, THIGH, UPPER_ARM, WAIST,
+    chest, foot, forearm, head, pelvis, shank, thigh, upper_arm,
 };
 
 /// How the limbs of a person are held.
 #[derive(Clone, Copy)]
 pub(crate) enum Stance {
     Standing,
-    /// In the middle of a stride.
-    Walking,
+    /// In a stride: by how much of it the left foot is ahead of the right one.
+    Walking(f64),
     /// Legs bent; the origin is on the seat.
     Sitting,
+}
+
+/// Lengths as shares of the height, angles in radians, the left limb first.
+struct Held {
+    /// Of the hips over the origin.
+    hips: f64,
+    /// Thighs forward, shanks back.
+    legs: [[f64; 2]; 2],
+    /// Upper arms forward.
+    arms: [f64; 2],
+    elbow: f64,
+}
+
+impl Stance {
+    /// Each with the mesh of somebody who holds its limbs so.
+    pub(crate) const ALL: [(Self, MeshId); 6] = [
+        (Self::Standing, MeshId::Standing),
+        (Self::Walking(1.0), MeshId::Walking),
+        (Self::Walking(0.5), MeshId::WalkingLeft),
+        (Self::Walking(-0.5), MeshId::WalkingRight),
+        (Self::Walking(-1.0), MeshId::WalkingFarRight),
+        (Self::Sitting, MeshId::Sitting),
+    ];
+
+    fn held(self) -> Held {
+        match self {
+            Self::Standing => Held { hips: HIP, legs: [[0.03, 0.06]; 2], arms: [0.03; 2], elbow: 0.2 },
+            Self::Walking(ahead) => {
+                let leg = |ahead: f64| {
+                    let bent = if ahead > 0.0 { 0.12 } else { 0.3 };
+                    [0.05 + 0.37 * ahead, bent * ahead.abs()]
+                };
+                Held {
+                    hips: HIP - 0.02 * ahead * ahead,
+                    legs: [leg(ahead), leg(-ahead)],
+                    arms: [-0.35 * ahead, 0.35 * ahead],
+                    elbow: 0.35,
+                }
+            }
+            Self::Sitting => Held { hips: 0.055, legs: [[1.48, 1.45]; 2], arms: [0.45; 2], elbow: 0.8 },
+        }
+    }
+
+    /// Where the ankles and the hands are, the left ones first, in heights.
+    pub(crate) fn ends(self) -> [[Vector3; 2]; 2] {
+        let Held { hips, legs, arms, elbow } = self.held();
+        let hang = |[x, y, z]: [f64; 3], upper: f64, lengths: [f64; 2], lower: f64| {
+            let along = |f: fn(f64) -> f64| lengths[0] * f(upper) + lengths[1] * f(lower);
+            Vector3::new(x + along(ops::sin), y, z - along(ops::cos))
+        };
+        let sides = [1.0, -1.0];
+        let foot = |k: usize| {
+            let [thigh, knee] = legs[k];
+            hang([0.0, HIP_WIDTH * sides[k], hips], thigh, [THIGH, SHANK], thigh - knee)
+        };
+        let hand = |k: usize| {
+            let shoulder = [0.0, SHOULDER_WIDTH * sides[k], hips + WAIST + SHOULDER];
+            hang(shoulder, arms[k], [UPPER_ARM, FOREARM], arms[k] + elbow)
+        };
+        [[foot(0), foot(1)], [hand(0), hand(1)]]
+    }
 }
 
 /// A part at an offset, its limb turned forward.
@@ -28,11 +91,7 @@ fn place(parent: &Pose, offset: [f64; 3], forward: f64) -> Pose {
 pub(crate) fn person(stance: Stance) -> Builder {
     let mut mesh = Builder::new([1.0; 3], 1.0);
     let grain = Grain::Rough;
-    let (hips, flexion, knees, arms, elbow) = match stance {
-        Stance::Standing => (HIP, [0.03, 0.03], [0.06, 0.06], [0.03, 0.03], 0.2),
-        Stance::Walking => (0.51, [0.42, -0.32], [0.12, 0.3], [-0.35, 0.35], 0.35),
-        Stance::Sitting => (0.055, [1.48, 1.48], [1.45, 1.45], [0.45, 0.45], 0.8),
-    };
+    let Held { hips, legs: held, arms, elbow } = stance.held();
     let hips = place(&Pose::identity(), [0.0, 0.0, hips], 0.0);
     let waist = place(&hips, [0.0, 0.0, WAIST], 0.0);
     let body = |_| Material::Body;
@@ -45,8 +104,8 @@ pub(crate) fn person(stance: Stance) -> Builder {
         |material| if material == Material::Second as u32 { Material::Hair } else { Material::Skin };
     mesh.append(&head(grain, Hair::Short), &neck, &of_head);
     for (k, side) in [1.0, -1.0].into_iter().enumerate() {
-        let hip = place(&hips, [0.0, HIP_WIDTH * side, 0.0], flexion[k]);
-        let knee = place(&hip, [0.0, 0.0, -THIGH], -knees[k]);
+        let hip = place(&hips, [0.0, HIP_WIDTH * side, 0.0], held[k][0]);
+        let knee = place(&hip, [0.0, 0.0, -THIGH], -held[k][1]);
         mesh.append(&thigh(grain), &hip, &legs);
         mesh.append(&shank(grain), &knee, &legs);
         mesh.append(&foot(grain), &place(&knee, [0.0, 0.0, -SHANK], 0.0), &|_| Material::Dark);

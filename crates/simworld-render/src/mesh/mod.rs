@@ -2,9 +2,9 @@
 
 mod builder;
 mod buildings;
-mod creatures;
+pub(crate) mod creatures;
 pub(crate) mod cycles;
-mod figures;
+pub(crate) mod figures;
 mod fittings;
 mod heavy;
 mod nature;
@@ -121,9 +121,16 @@ meshes! {
     Backpack = Plain, people::backpack();
     ShoulderBag = Plain, people::shoulder_bag();
     Standing = Plain, figures::person(Stance::Standing);
-    Walking = Plain, figures::person(Stance::Walking);
+    Walking = Plain, figures::person(Stance::Walking(1.0));
+    WalkingLeft = Plain, figures::person(Stance::Walking(0.5));
+    WalkingRight = Plain, figures::person(Stance::Walking(-0.5));
+    WalkingFarRight = Plain, figures::person(Stance::Walking(-1.0));
     Sitting = Plain, figures::person(Stance::Sitting);
-    Dog = Plain, creatures::dog();
+    Dog = Plain, creatures::dog(0.0);
+    DogLeft = Plain, creatures::dog(0.5);
+    DogFarLeft = Plain, creatures::dog(1.0);
+    DogRight = Plain, creatures::dog(-0.5);
+    DogFarRight = Plain, creatures::dog(-1.0);
     Robot = Plain, creatures::robot();
     Parcel = Plain, street::parcel();
     DogTrunk = Plain, creatures::dog_trunk();

@@ -12,7 +12,11 @@ impl MeshId {
     /// Balls reach far beyond their things: a person is half as high as its ball is wide, a tree a quarter.
     pub(crate) const fn speck(self) -> Option<(f64, Self)> {
         Some(match self {
-            Self::Standing | Self::Walking => (16.0, Self::SpeckPerson),
+            Self::Standing
+            | Self::Walking
+            | Self::WalkingLeft
+            | Self::WalkingRight
+            | Self::WalkingFarRight => (16.0, Self::SpeckPerson),
             Self::Lamp => (60.0, Self::SpeckLamp),
             Self::FarCar => (15.0, Self::SpeckCar),
             Self::FarCrown => (44.0, Self::SpeckCrown),

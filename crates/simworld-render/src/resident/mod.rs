@@ -97,7 +97,7 @@ impl Dressed {
         };
         let parts = self.own.len();
         self.parts.extend(self.own.drain(..).map(with_instance));
-        let (is_restless, ball) = (entity.gesture().is_some(), ball_of(&entity));
+        let (is_restless, ball) = (entity.gesture().is_some(), ball_of(&entity, scene));
         let there = There { id: entity.id, kind: entity.kind, ball, is_restless };
         self.bodies.push(Body { slot, parts, there: Some(there) });
     }
@@ -440,10 +440,12 @@ fn is_closed(mesh: Drawn) -> bool {
     matches!(mesh, Drawn::Own(mesh) if mesh.closed().is_some())
 }
 
-/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them.
-fn ball_of(entity: &EntityRef<'_>) -> Ball {
-    let half = entity.bounds.half_extents().norm();
-    Ball { center: entity.bounds.center(), radius: half + overhang(entity.kind) }
+/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them; links may reach farther.
+fn ball_of(entity: &EntityRef<'_>, scene: &dyn Scene) -> Ball {
+    let (center, half) = (entity.bounds.center(), entity.bounds.half_extents().norm());
+    let of_links =
+        scene.links(entity.id).map_or(0.0, |links| links.radius() + (entity.position() - center).norm());
+    Ball { center, radius: (half + overhang(entity.kind)).max(of_links) }
 }
 
 /// Whether it throws a shadow that one would miss; surfaces lie flat.

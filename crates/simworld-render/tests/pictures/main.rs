@@ -5,6 +5,7 @@ mod arrays_and_photos_say_what_was_seen;
 mod backends_agree;
 mod bad_input_is_refused;
 mod batches_are_their_views;
+mod bodies_are_drawn_where_they_are;
 mod boxes_hold_what_is_seen;
 mod common;
 mod depth_is_exact;

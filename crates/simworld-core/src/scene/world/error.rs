@@ -70,6 +70,16 @@ pub enum WorldError {
         /// The load.
         child: EntityId,
     },
+    /// Links without a place, or places without a link.
+    #[error("{poses} poses for the {forms} links of {id}: give one each")]
+    Links {
+        /// The entity.
+        id: EntityId,
+        /// How many links it has.
+        forms: usize,
+        /// How many poses were given.
+        poses: usize,
+    },
     /// A slot that should be free is in use.
     #[error("{id} is in use: only a removed entity can be restored")]
     InUse {

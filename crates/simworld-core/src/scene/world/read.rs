@@ -11,6 +11,7 @@ use crate::geometry::{Aabb, Ray};
 use crate::ground::Ground;
 use crate::id::EntityId;
 use crate::limbs::JointAngles;
+use crate::links::{KeptLinks, Links};
 use crate::net::{Aspect, RoadNetwork};
 use crate::scene::{ClassIndex, EntityRef, NameIndex, RayCast, RayHit, Scene};
 use crate::traffic::RoadLeg;
@@ -77,6 +78,10 @@ impl Scene for World {
 
     fn joints(&self, id: EntityId) -> Option<&JointAngles> {
         self.joints.get(&id)
+    }
+
+    fn links(&self, id: EntityId) -> Option<Links<'_>> {
+        self.links.get(&id).map(KeptLinks::view)
     }
 
     fn names(&self) -> Option<&NameIndex> {
