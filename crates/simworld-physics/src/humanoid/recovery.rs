@@ -243,7 +243,7 @@ impl Humanoid {
         let crouch = 4.0 * share * (1.0 - share);
         for leg in [&mut joints.left_leg, &mut joints.right_leg] {
             leg.hip_flexion += CROUCH[0] * crouch;
-            leg.knee_flexion = (leg.knee_flexion + CROUCH[1] * crouch).min(CROUCH[1]);
+            leg.knee_flexion = (leg.knee_flexion + CROUCH[1] * crouch).min(leg.knee_flexion.max(CROUCH[1]));
         }
         let length = |leg: &LegAngles| {
             THIGH * ops::cos(leg.hip_flexion) + SHANK * ops::cos(leg.hip_flexion - leg.knee_flexion)

@@ -6,14 +6,14 @@ use simworld_core::scene::{EntityRef, Scene};
 
 use super::posture::{Posture, held};
 use crate::mesh::MeshId;
-use crate::mesh::figures::Stance;
+use crate::mesh::figures::{Ends, Stance};
 use crate::mesh::people::{FOREARM, SHANK, THIGH, UPPER_ARM};
 
-/// Feet and hands of a figure are no farther than this from those of whom it stands for, in heights. Arms may swing as those of
+/// Hips, feet and hands of a figure are no farther than this from those of whom it stands for, in heights. Arms may swing as those of
 /// who runs.
-const NEAR: [f64; 2] = [0.26, 0.4];
+const NEAR: [f64; 3] = [0.1, 0.26, 0.4];
 
-/// The figure whose feet and hands are nearest to those of somebody; none if even those are elsewhere, as of who lies or crouches.
+/// The figure whose hips, feet and hands are nearest to those of somebody; none if even those are elsewhere, as of who lies or crouches.
 /// Gestures and loads are not seen from afar.
 pub(super) fn stance_of(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64, seed: f64) -> Option<MeshId> {
     let ends = held(entity, scene, height, seed).ends(height);
@@ -31,8 +31,8 @@ pub(super) fn stance_of(entity: &EntityRef<'_>, scene: &dyn Scene, height: f64, 
 }
 
 impl Posture {
-    /// Where the ankles and the hands are, the left ones first, in heights; frame of the entity.
-    pub(super) fn ends(&self, height: f64) -> [[Vector3; 2]; 2] {
+    /// Where the hips, the ankles and the hands are.
+    pub(super) fn ends(&self, height: f64) -> Ends {
         let [_, chest] = self.trunk(height);
         let down = -Vector3::z();
         let foot = |k: usize| {
@@ -48,7 +48,7 @@ impl Posture {
             let at = chest * nalgebra::Point3::from(Self::shoulder(side.sign(), height) + reach * height);
             at.coords / height
         };
-        [[foot(0), foot(1)], [hand(0), hand(1)]]
+        [[self.hips / height; 2], [foot(0), foot(1)], [hand(0), hand(1)]]
     }
 }
 

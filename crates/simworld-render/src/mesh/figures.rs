@@ -32,6 +32,9 @@ struct Held {
     elbow: f64,
 }
 
+/// Hips, ankles and hands of somebody, the left ones first, in heights; frame of its entity.
+pub(crate) type Ends = [[Vector3; 2]; 3];
+
 impl Stance {
     /// Each with the mesh of somebody who holds its limbs so.
     pub(crate) const ALL: [(Self, MeshId); 6] = [
@@ -62,8 +65,8 @@ impl Stance {
         }
     }
 
-    /// Where the ankles and the hands are, the left ones first, in heights.
-    pub(crate) fn ends(self) -> [[Vector3; 2]; 2] {
+    /// Where the hips, the ankles and the hands are, the left ones first, in heights.
+    pub(crate) fn ends(self) -> Ends {
         let Held { hips, legs, arms, elbow } = self.held();
         let hang = |[x, y, z]: [f64; 3], upper: f64, lengths: [f64; 2], lower: f64| {
             let along = |f: fn(f64) -> f64| lengths[0] * f(upper) + lengths[1] * f(lower);
@@ -78,7 +81,7 @@ impl Stance {
             let shoulder = [0.0, SHOULDER_WIDTH * sides[k], hips + WAIST + SHOULDER];
             hang(shoulder, arms[k], [UPPER_ARM, FOREARM], arms[k] + elbow)
         };
-        [[foot(0), foot(1)], [hand(0), hand(1)]]
+        [[Vector3::z() * hips; 2], [foot(0), foot(1)], [hand(0), hand(1)]]
     }
 }
 
