@@ -9,6 +9,7 @@ use simworld_core::geometry::{Point2, Point3, Pose, Twist, Vector3, pose_facing}
 use simworld_core::id::EntityId;
 use simworld_core::limbs::JointAngles;
 use simworld_core::links::LinkForm;
+use simworld_core::ops;
 use simworld_core::scene::{EntityKind, Shape, World};
 use simworld_render::{Backend, RenderConfig, Renderer};
 
@@ -57,7 +58,7 @@ fn who_has_fallen_lies_low() {
     let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
     for (away, field) in PLACES {
         let camera = camera(field);
-        let pixel = 2.0 * away * (0.5 * field).tan() / 200.0;
+        let pixel = 2.0 * away * ops::tan(0.5 * field) / 200.0;
         let mut world = World::new();
         let id = person(&mut world, away);
         let [ys, zs] = seen(&mut renderer, &world, id, &camera, away).expect("it stands there");
@@ -90,7 +91,7 @@ fn who_crouches_is_low_and_who_sits_is_on_the_seat() {
     let Some(mut renderer) = renderer(&RenderConfig::default()) else { return };
     for (away, field) in PLACES {
         let camera = camera(field);
-        let pixel = 2.0 * away * (0.5 * field).tan() / 200.0;
+        let pixel = 2.0 * away * ops::tan(0.5 * field) / 200.0;
         let mut world = World::new();
         let id = person(&mut world, away);
         // As physics has it of who crouches: 0.7 of the height.
