@@ -219,7 +219,7 @@ impl Bodies {
                     self.newcomers += 1;
                 }
                 (Home::Moving, false) => (*home, members_changed) = (Home::Nowhere, true),
-                (Home::Nowhere, false) | (Home::Moving | Home::Fixed, true) | (Home::Fixed, false) => {}
+                (Home::Nowhere, false) | (Home::Moving, true) | (Home::Fixed, _) => {}
             }
         }
         members_changed
@@ -240,10 +240,14 @@ impl Bodies {
         self.changed.clear();
         let is_there = |number: &u32| self.boxes[*number as usize] != Box3::EMPTY;
         self.movers = was_moving.into_iter().filter(is_there).collect();
-        self.movers.iter().for_each(|number| self.homes[*number as usize] = Home::Moving);
+        for number in &self.movers {
+            self.homes[*number as usize] = Home::Moving;
+        }
         let stands = |number: &u32| is_there(number) && self.homes[*number as usize] == Home::Nowhere;
         let still: Vec<u32> = (0..count as u32).filter(stands).collect();
-        still.iter().for_each(|number| self.homes[*number as usize] = Home::Fixed);
+        for number in &still {
+            self.homes[*number as usize] = Home::Fixed;
+        }
         self.standing = still.len();
         self.lay_out_standing(shapes, residents, &still);
         self.lay_out_movers();

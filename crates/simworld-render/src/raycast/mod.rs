@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 
 use bodies::{Bodies, Followed};
 use bytemuck::{Pod, Zeroable};
-use shape::Shapes;
+use shape::{MOST_PIECES, Shapes};
 use simworld_core::scene::Scene;
 
 use crate::RenderError;
@@ -157,6 +157,10 @@ impl Raycast {
         self.noted.dedup();
         let followed = self.bodies.follow(scene, &mut self.shapes, residents, &self.noted);
         self.noted.clear();
+        let pieces = self.shapes.pieces.len();
+        if pieces > MOST_PIECES {
+            return Err(RenderError::TooMany { count: pieces, limit: MOST_PIECES });
+        }
         if followed != Followed::Nothing {
             self.send_trees(gpu, followed)?;
         }

@@ -13,9 +13,12 @@ use super::halves::{Rounding, pair};
 use crate::mesh::{Drawn, MeshId, MeshLibrary, Vertex};
 use crate::models::{ModelMesh, model_of};
 
-/// Triangles a leaf.
+/// Triangles a leaf; and of very large meshes, as many as its code can tell.
 const LEAF: usize = 3;
-/// Levels of the tree of a mesh at most, as in rays.wgsl: three million triangles have no more.
+const LARGE_LEAF: usize = 8;
+/// Pieces that the codes of the nodes of all meshes can tell, as in rays.wgsl; at eight a triangle they are no more than the tree of one mesh has room for.
+pub(super) const MOST_PIECES: usize = 1 << 26;
+/// Levels of the tree of a mesh at most, as in rays.wgsl.
 const LEVELS: u32 = 10;
 /// Pieces of four words that a triangle and a node take, as in rays.wgsl.
 const TRIANGLE: u32 = 5;
@@ -95,7 +98,8 @@ impl Shapes {
             low: std::array::from_fn(|axis| 3.0 * anchors[index].low[axis] + offsets[index].low[axis]),
             high: std::array::from_fn(|axis| 3.0 * anchors[index].high[axis] + offsets[index].high[axis]),
         };
-        let tree = Tree::build(&(0..corners.len()).map(nominal).collect::<Vec<_>>(), LEAF, LEVELS);
+        let leaf = if corners.len() <= LEAF << (2 * LEVELS) { LEAF } else { LARGE_LEAF };
+        let tree = Tree::build(&(0..corners.len()).map(nominal).collect::<Vec<_>>(), leaf, LEVELS);
         let first = self.pieces.len() as u32;
         let normals = first + corners.len() as u32 * TRIANGLE;
         let aside = if spots.is_empty() { ASIDE } else { MODEL_ASIDE };
