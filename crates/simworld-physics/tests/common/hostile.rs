@@ -5,7 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use simworld_core::action::Action;
-use simworld_core::asset::{Asset, Hull, Model, ModelPart, ModelVertex, Paint};
+use simworld_core::asset::{Asset, Finish, Hull, Model, ModelPart, ModelVertex, Paint};
 use simworld_core::geometry::{Point3, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityDesc, EntityKind, Scene, Shape, World};
@@ -130,16 +130,27 @@ fn model(corners: &[[f32; 3]]) -> (Model, Shape) {
     let corners: Vec<[f32; 3]> =
         corners.iter().map(|corner| std::array::from_fn(|axis| corner[axis] - origin[axis])).collect();
     let size = [x, y, z].map(|[low, high]| f64::from(high - low));
-    let vertex =
-        |position: &[f32; 3]| ModelVertex { position: *position, normal: [0.0, 0.0, 1.0], color: [1.0; 3] };
+    let vertex = |position: &[f32; 3]| ModelVertex {
+        position: *position,
+        normal: [0.0, 0.0, 1.0],
+        color: [1.0; 3],
+        ..ModelVertex::default()
+    };
     let count = corners.len() as u32;
     let triangles: Vec<[u32; 3]> = (2..count).map(|third| [0, third - 1, third]).collect();
-    let part = ModelPart { name: "part".to_owned(), triangles: triangles.len() as u32, paint: Paint::Own };
+    let part = ModelPart {
+        name: "part".to_owned(),
+        triangles: triangles.len() as u32,
+        paint: Paint::Own,
+        finish: Finish::default(),
+        texture: None,
+    };
     let model = Model {
         vertices: corners.iter().map(vertex).collect(),
         triangles,
         hulls: vec![Hull { points: corners }],
         parts: vec![part],
+        images: Vec::new(),
     };
     (model, Shape::Box { size: Vector3::from(size) })
 }
