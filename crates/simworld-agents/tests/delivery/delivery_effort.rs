@@ -123,7 +123,7 @@ fn metabolic_power(speed: f64, load: f64, ground: f64) -> f64 {
     if speed > (0.5 * 9.81 * 0.93_f64).sqrt() {
         return (3.5 + ground * 0.2 * 60.0 * speed) * 20.1 / 60.0 * whole;
     }
-    1.5 * body + 2.0 * whole * (load / body).powi(2) + ground * whole * 1.5 * speed * speed
+    1.5 * body + 2.0 * whole * (load / body) * (load / body) + ground * whole * 1.5 * speed * speed
 }
 
 fn load_of(town: &Town, who: EntityId) -> f64 {
