@@ -151,7 +151,7 @@ impl Default for AuctionConfig {
 
 /// What moving costs and rest gives. A courier is full at `capacity`.
 ///
-/// On foot moving costs the metabolic energy of core's [`Exertion`], by the speed walked, the slope, the parcels carried and the snow
+/// On foot moving costs the metabolic energy of core's [`Exertion`](simworld_core::exertion::Exertion), by the speed walked, the slope, the parcels carried and the snow
 /// that lies. `walking`, `walking_speed` and `body` say how many joules a unit of energy is ([`joules`](Self::joules)), and so keep
 /// the scale of what the task asks: by default 2,379 J, a full courier 238 kJ or 57 kcal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
