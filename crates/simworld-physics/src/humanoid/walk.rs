@@ -28,6 +28,8 @@ const HALVINGS: usize = 14;
 pub(crate) const SKIN: f64 = 0.02;
 /// Free width that a person needs on a step to take it, m.
 const TREAD: f64 = 0.1;
+/// Forms with a smaller radius are slender, m.
+const SLENDER: f64 = 0.1;
 /// How close something must be for the character controller to be asked, beyond the way of a substep, m.
 pub(super) const NEARBY: f64 = 0.1;
 /// How far the soles of someone standing on the ground may be off it, m.
@@ -263,7 +265,11 @@ impl Humanoid {
                 self.plan.way = Vector3::new(wish.x, wish.y, -self.feet().z);
                 self.stand_on_level_ground(around);
                 self.motion.pace.go(wish.xy().norm(), 0.0);
-            } else if company == Company::Alone && !was_grounded && self.is_over_ground(half_extent, reach) {
+            } else if company == Company::Alone
+                && !was_grounded
+                && self.radius < SLENDER
+                && self.is_over_ground(half_extent, reach)
+            {
                 // Casts of a slender form against a solid of 200 km find faces that lean, along which it would slide.
                 let height = self.feet().z;
                 self.motion.grounded = height + wish.z <= 0.0;
