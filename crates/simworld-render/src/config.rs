@@ -67,7 +67,7 @@ pub enum AntiAliasing {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LevelOfDetail {
-    /// With fewer triangles the fewer pixels they are wide. Rays meet the finest level all the same.
+    /// With fewer triangles the fewer pixels they are wide, by triangles and by rays. The beams of scanners meet the finest level all the same.
     #[default]
     ByPixels,
     /// As finely as those that fill the picture: both backends draw the same then.
