@@ -17,6 +17,7 @@ pub mod experiment;
 pub mod folder;
 pub mod look;
 pub mod minds;
+pub mod model;
 pub mod report;
 pub mod robot;
 pub mod served;

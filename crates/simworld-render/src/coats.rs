@@ -12,6 +12,7 @@ use simworld_core::scene::Scene;
 
 use crate::RenderError;
 use crate::gpu::{Gpu, LAYER, ROW, Texels};
+use crate::mesh::ModelId;
 use crate::models::model_of;
 use crate::threads;
 
@@ -64,9 +65,11 @@ impl Coats {
         &mut self,
         gpu: &Gpu,
         scene: &dyn Scene,
-        drawn: &BTreeMap<AssetId, u32>,
+        drawn: &BTreeMap<ModelId, u32>,
     ) -> Result<(), RenderError> {
-        let there = || drawn.keys().filter_map(|id| Some((*id, model_of(scene, *id)?.1)));
+        let mut assets: Vec<AssetId> = drawn.keys().map(|id| id.asset).collect();
+        assets.dedup();
+        let there = || assets.iter().filter_map(|id| Some((*id, model_of(scene, *id)?.1)));
         let known = self.models.iter().map(|(id, model)| (*id, model));
         if there()
             .map(|(id, model)| (id, Arc::as_ptr(model)))

@@ -19,6 +19,7 @@ mod mesh;
 mod models;
 mod npy;
 mod occlusion;
+mod poses;
 mod raster;
 mod raycast;
 mod renderer;

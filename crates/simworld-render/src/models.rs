@@ -1,16 +1,18 @@
 //! Models of assets on the device: uploaded once, drawn as often as entities are made from them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use simworld_core::asset::{Asset, Model, Paint};
+use simworld_core::asset::{Asset, Model, ModelVertex, POSE_RATE, Paint};
 use simworld_core::id::AssetId;
-use simworld_core::scene::Scene;
+use simworld_core::scene::{EntityRef, Scene};
 
 use crate::RenderError;
 use crate::draw_list::Batch;
 use crate::gpu::Gpu;
-use crate::mesh::{Drawn, Vertex};
+use crate::mesh::{ClipPose, Drawn, ModelId, Vertex};
+use crate::poses::Poses;
+use crate::threads;
 
 /// Says that a material is a colour of its own: 10 bits a channel, as square roots.
 const OWN_COLOR: u32 = 1 << 31;
@@ -21,15 +23,20 @@ const ENTITY_COLOR: u32 = 1 << 30;
 #[derive(Default)]
 pub(crate) struct Models {
     held: BTreeMap<AssetId, Held>,
+    /// Grows with every look.
+    now: u64,
 }
 
 /// One on the device.
 struct Held {
     /// Another scene may have another one under the same id.
     model: Arc<Model>,
+    /// At rest.
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     count: u32,
+    /// Its vertices in other poses.
+    poses: Poses<wgpu::Buffer>,
 }
 
 impl Models {
@@ -38,35 +45,72 @@ impl Models {
         self.held.is_empty()
     }
 
-    /// Uploads the models of a list that are not on the device yet, and lets go of those that no scene has any more. True if there
-    /// were any of the first.
+    /// Uploads the models of a list that are not on the device yet, in their poses, and lets go of those that no scene has any more. True
+    /// if there were any of the first.
     pub(crate) fn hold(
         &mut self,
         gpu: &Gpu,
         scene: &dyn Scene,
         batches: &[&[Batch]],
     ) -> Result<bool, RenderError> {
-        let mut is_new = false;
         self.held.retain(|_, held| Arc::strong_count(&held.model) > 1);
-        for batch in batches.iter().copied().flatten() {
-            let Drawn::Model(id) = batch.mesh else { continue };
+        self.now += 1;
+        let drawn = batches.iter().copied().flatten().filter_map(|batch| match batch.mesh {
+            Drawn::Model(id) => Some(id),
+            Drawn::Own(_) => None,
+        });
+        let wanted: BTreeSet<ModelId> = drawn.collect();
+        let mut is_new = false;
+        let mut missing = Vec::new();
+        for ModelId { asset: id, pose } in wanted {
             let Some((asset, model)) = model_of(scene, id) else { continue };
-            if self.held.get(&id).is_some_and(|held| Arc::ptr_eq(&held.model, model)) {
-                continue;
+            if !self.held.get(&id).is_some_and(|held| Arc::ptr_eq(&held.model, model)) {
+                self.held.insert(id, Held::upload(gpu, asset, model)?);
+                is_new = true;
             }
-            let held = Held::upload(gpu, asset, model)?;
-            self.held.insert(id, held);
-            is_new = true;
+            if let (Some(pose), Some(held)) = (pose, self.held.get_mut(&id))
+                && !held.poses.want(pose, self.now)
+            {
+                missing.push((id, asset, model, pose));
+            }
+        }
+        is_new |= !missing.is_empty();
+        let posed = threads::each(missing, |(id, asset, model, pose)| {
+            (id, pose, ModelMesh::of(asset, model, Some(pose)).in_triangles())
+        });
+        for (id, pose, vertices) in posed {
+            let Some(held) = self.held.get_mut(&id) else { continue };
+            let bytes = bytemuck::cast_slice(&vertices);
+            let buffer = match held.poses.spare(self.now) {
+                Some(spare) => {
+                    gpu.queue.write_buffer(&spare, 0, bytes);
+                    spare
+                }
+                None => gpu.upload("pose", wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST, bytes),
+            };
+            held.poses.keep(pose, buffer, self.now);
         }
         Ok(is_new)
     }
 
     /// Draws a batch of a model.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, id: AssetId, instances: std::ops::Range<u32>) {
-        let Some(held) = self.held.get(&id) else { return };
-        pass.set_vertex_buffer(0, held.vertices.slice(..));
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, id: ModelId, instances: std::ops::Range<u32>) {
+        let Some(held) = self.held.get(&id.asset) else { return };
+        let vertices = id.pose.and_then(|pose| held.poses.get(pose)).unwrap_or(&held.vertices);
+        pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(held.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..held.count, 0, instances);
+    }
+}
+
+impl ModelId {
+    /// The model of an asset as an entity that has it plays it now.
+    pub(crate) fn of(entity: &EntityRef<'_>, asset: AssetId, model: &Model, seconds: f64) -> Self {
+        let playing = model.rig.as_ref().and_then(|rig| {
+            let (clip, since) = entity.playing(rig, seconds)?;
+            Some(ClipPose { clip: clip as u32, number: rig.clips()[clip].pose_at(since) })
+        });
+        Self { asset, pose: playing }
     }
 }
 
@@ -78,10 +122,9 @@ pub(crate) fn model_of(scene: &dyn Scene, id: AssetId) -> Option<(&Asset, &Arc<M
 
 impl Held {
     fn upload(gpu: &Gpu, asset: &Asset, model: &Arc<Model>) -> Result<Self, RenderError> {
-        let ModelMesh { mut vertices, spots, indices } = ModelMesh::of(asset, model);
-        for (vertex, spot) in vertices.iter_mut().zip(spots) {
-            vertex.offset = spot;
-        }
+        let mesh = ModelMesh::of(asset, model, None);
+        let indices = mesh.indices.clone();
+        let vertices = mesh.in_triangles();
         let largest = size_of_val(&vertices[..]).max(size_of_val(&indices[..])) as u64;
         let limit = gpu.device.limits().max_buffer_size;
         if largest > limit {
@@ -93,6 +136,7 @@ impl Held {
             vertices: buffer(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
             indices: buffer(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
             count: indices.len() as u32,
+            poses: Poses::of_bytes(size_of_val(&vertices[..]) as u64),
         })
     }
 }
@@ -109,10 +153,20 @@ pub(crate) struct ModelMesh {
 }
 
 impl ModelMesh {
-    pub(crate) fn of(asset: &Asset, model: &Model) -> Self {
+    /// A model at rest, or in a pose; vertices and triangles are the same ones in all of them.
+    pub(crate) fn of(asset: &Asset, model: &Model, pose: Option<ClipPose>) -> Self {
         const NOBODY: (u32, u32) = (u32::MAX, 0);
         let size = asset.collider.size();
         let size: [f32; 3] = [size.x as f32, size.y as f32, size.z as f32];
+        let posed = pose
+            .zip(model.rig.as_ref())
+            .map(|(pose, rig)| rig.pose(pose.clip as usize, f64::from(pose.number) / POSE_RATE));
+        let placed = |corner: usize| {
+            let ModelVertex { position, normal, .. } = model.vertices[corner];
+            let Some(posed) = &posed else { return (position, normal) };
+            let turned = posed.normals[corner];
+            (posed.positions[corner], if turned == [0.0; 3] { normal } else { turned })
+        };
         let mut mesh = Self {
             vertices: Vec::with_capacity(model.vertices.len()),
             spots: Vec::with_capacity(model.vertices.len()),
@@ -126,11 +180,12 @@ impl ModelMesh {
                 if home.0 != number {
                     *home = (number, mesh.vertices.len() as u32);
                     let vertex = &model.vertices[*corner as usize];
+                    let (position, normal) = placed(*corner as usize);
                     let factor = if part.paint == Paint::Entity { ENTITY_COLOR } else { 0 };
                     mesh.vertices.push(Vertex {
-                        anchor: std::array::from_fn(|axis| vertex.position[axis] / size[axis]),
+                        anchor: std::array::from_fn(|axis| position[axis] / size[axis]),
                         offset: [0.0; 3],
-                        normal: std::array::from_fn(|axis| vertex.normal[axis] * size[axis]),
+                        normal: std::array::from_fn(|axis| normal[axis] * size[axis]),
                         material: packed(vertex.color) | factor,
                     });
                     let [right, down] = vertex.place;
@@ -141,6 +196,14 @@ impl ModelMesh {
         }
         mesh
     }
+
+    /// Its vertices with the places on pictures and the parts where other meshes have their offsets.
+    fn in_triangles(mut self) -> Vec<Vertex> {
+        for (vertex, spot) in self.vertices.iter_mut().zip(self.spots) {
+            vertex.offset = spot;
+        }
+        self.vertices
+    }
 }
 
 fn packed(color: [f32; 3]) -> u32 {
@@ -150,7 +213,7 @@ fn packed(color: [f32; 3]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use simworld_core::asset::{ModelPart, ModelVertex};
+    use simworld_core::asset::ModelPart;
     use simworld_core::scene::{EntityKind, Shape};
 
     use super::*;
@@ -165,7 +228,7 @@ mod tests {
             ..Model::default()
         };
         let asset = Asset::new("sheet", EntityKind::Prop, Shape::cuboid(1.0, 1.0, 1.0));
-        let ModelMesh { vertices, spots, indices } = ModelMesh::of(&asset, &model);
+        let ModelMesh { vertices, spots, indices } = ModelMesh::of(&asset, &model, None);
         assert_eq!(indices, [0, 1, 2, 3, 4, 5]);
         assert_eq!(spots.iter().map(|spot| spot[2]).collect::<Vec<_>>(), [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let of_entity: Vec<bool> =

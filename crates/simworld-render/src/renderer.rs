@@ -16,6 +16,9 @@ use crate::{Frame, RenderConfig, RenderError, Views};
 /// It keeps its buffers from picture to picture, and what stands still of a scene on the device; a picture depends on scene, camera
 /// and configuration alone.
 ///
+/// Software draws one batch at a time, and has much of it to do on one thread: so a renderer on a software adapter has a second device, made when
+/// a batch is handed in while another is under way, and these draw in turn.
+///
 /// Many cameras of one scene are drawn in one call and one submission:
 ///
 /// ```
@@ -42,10 +45,19 @@ use crate::{Frame, RenderConfig, RenderError, Views};
 pub struct Renderer {
     config: RenderConfig,
     works: Works,
-    /// What is under way, by ticket.
-    pending: BTreeMap<u64, Pending>,
+    /// Of a software adapter, for every other batch while one is under way.
+    second: Option<Box<Works>>,
+    /// What is under way and where, by ticket.
+    pending: BTreeMap<u64, (Which, Pending)>,
     /// Of [`render`](Self::render).
     one: Views,
+}
+
+/// Which device of a renderer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Which {
+    First,
+    Second,
 }
 
 /// Tickets of all renderers of this process, so that none passes for another's.
@@ -87,7 +99,7 @@ impl Renderer {
         config.validate()?;
         let works = Works::new(config)?;
         let config = RenderConfig { shadow_resolution: works.shadow_resolution, ..config.clone() };
-        Ok(Self { config, works, pending: BTreeMap::new(), one: Views::new() })
+        Ok(Self { config, works, second: None, pending: BTreeMap::new(), one: Views::new() })
     }
 
     /// Its settings.
@@ -173,12 +185,33 @@ impl Renderer {
         requests: &[ViewRequest],
         options: &ViewOptions,
     ) -> Result<Ticket, RenderError> {
-        let (encoder, layout) = self.draw(scene, requests, *options)?;
-        let outcome = self.works.submit(encoder, layout, *options);
-        let pending = self.mended(outcome)?;
+        let which = self.free_device();
+        let (encoder, layout) = self.draw(which, scene, requests, *options)?;
+        let outcome = self.at(which).submit(encoder, layout, *options);
+        let pending = self.mended(which, outcome)?;
         let number = TICKETS.fetch_add(1, Ordering::Relaxed);
-        self.pending.insert(number, pending);
+        self.pending.insert(number, (which, pending));
         Ok(Ticket(number))
+    }
+
+    /// The device with least to do, the first of two alike; a second one is made only where the adapter is software.
+    fn free_device(&mut self) -> Which {
+        let busy = |which| self.pending.values().filter(|(other, _)| *other == which).count();
+        let is_software = self.works.gpu.info.device_type == wgpu::DeviceType::Cpu;
+        // The loss of the first is told before anything else is drawn.
+        let is_lost = self.works.gpu.lost().is_some();
+        if !is_software || is_lost || busy(Which::First) <= busy(Which::Second) {
+            return Which::First;
+        }
+        if self.second.is_none() {
+            // Without one it goes as it would have gone.
+            self.second = Works::new(&self.config).ok().map(Box::new);
+        }
+        if self.second.is_some() { Which::Second } else { Which::First }
+    }
+
+    fn at(&mut self, which: Which) -> &mut Works {
+        device_of(&mut self.works, &mut self.second, which)
     }
 
     /// Waits for a batch that was handed in.
@@ -187,9 +220,9 @@ impl Renderer {
     /// A ticket of another renderer or of a lost device, or a failing adapter. The views are then unspecified.
     #[expect(clippy::needless_pass_by_value, reason = "a ticket is good for one batch")]
     pub fn take(&mut self, ticket: Ticket, views: &mut Views) -> Result<(), RenderError> {
-        let pending = self.pending.remove(&ticket.0).ok_or(RenderError::Ticket)?;
-        let outcome = self.works.take(pending, views);
-        self.mended(outcome)
+        let (which, pending) = self.pending.remove(&ticket.0).ok_or(RenderError::Ticket)?;
+        let outcome = self.at(which).take(pending, views);
+        self.mended(which, outcome)
     }
 
     /// Draws a batch, and leaves it on the device. It goes on without waiting for it, unless three batches before it are still under way.
@@ -202,14 +235,15 @@ impl Renderer {
         requests: &[ViewRequest],
         options: &ViewOptions,
     ) -> Result<DeviceViews<'_>, RenderError> {
-        let (encoder, layout) = self.draw(scene, requests, *options)?;
+        let (encoder, layout) = self.draw(Which::First, scene, requests, *options)?;
         let outcome = self.works.leave(encoder);
-        self.mended(outcome)?;
+        self.mended(Which::First, outcome)?;
         Ok(DeviceViews { works: &self.works, layout, options: *options })
     }
 
     fn draw(
         &mut self,
+        which: Which,
         scene: &dyn Scene,
         requests: &[ViewRequest],
         options: ViewOptions,
@@ -220,11 +254,12 @@ impl Renderer {
         if options.channels.is_empty() {
             return Err(RenderError::NoChannels);
         }
-        let outcome = match self.works.gpu.lost() {
+        let works = device_of(&mut self.works, &mut self.second, which);
+        let outcome = match works.gpu.lost() {
             Some(reason) => Err(RenderError::Lost { reason }),
-            None => self.works.draw(&self.config, scene, requests, options, None),
+            None => works.draw(&self.config, scene, requests, options, None),
         };
-        self.mended(outcome)
+        self.mended(which, outcome)
     }
 
     /// Whether [`cast`](Self::cast) may be asked for.
@@ -246,30 +281,39 @@ impl Renderer {
             Some(reason) => Err(RenderError::Lost { reason }),
             None => self.works.draw(&self.config, scene, &[*request], options, Some(rays)),
         };
-        let (encoder, layout) = self.mended(outcome)?;
+        let (encoder, layout) = self.mended(Which::First, outcome)?;
         let outcome = self.works.submit(encoder, layout, options);
-        let pending = self.mended(outcome)?;
+        let pending = self.mended(Which::First, outcome)?;
         let outcome = self.works.take(pending, views);
-        self.mended(outcome)
+        self.mended(Which::First, outcome)
     }
 
     /// The outcome; where it is an error of the device that follows from its loss, that, and a new device for the next call. After
     /// other errors of the device, such as a lack of memory, the next call has buffers of its own size.
-    fn mended<T>(&mut self, outcome: Result<T, RenderError>) -> Result<T, RenderError> {
+    fn mended<T>(&mut self, which: Which, outcome: Result<T, RenderError>) -> Result<T, RenderError> {
         if outcome.is_err() {
-            self.works.distrust();
+            self.at(which).distrust();
         }
         if let Err(RenderError::Device(_) | RenderError::OutOfMemory | RenderError::Lost { .. }) = &outcome {
+            let works = device_of(&mut self.works, &mut self.second, which);
             // The loss is told when nothing is under way any more; an error of waiting is that of the outcome.
-            let _ = self.works.gpu.wait();
-            if let Some(reason) = self.works.gpu.lost() {
-                self.pending.clear();
-                self.works = Works::new(&self.config)?;
+            let _ = works.gpu.wait();
+            if let Some(reason) = works.gpu.lost() {
+                self.pending.retain(|_, (other, _)| *other != which);
+                *works = Works::new(&self.config)?;
                 return Err(RenderError::Lost { reason });
             }
-            self.works.relieve(&self.config);
+            works.relieve(&self.config);
         }
         outcome
+    }
+}
+
+/// A device of a renderer; the first where there is no second.
+fn device_of<'a>(works: &'a mut Works, second: &'a mut Option<Box<Works>>, which: Which) -> &'a mut Works {
+    match (which, second) {
+        (Which::Second, Some(second)) => second,
+        _ => works,
     }
 }
 

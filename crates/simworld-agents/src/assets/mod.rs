@@ -7,7 +7,7 @@ mod import;
 mod prior;
 mod surface;
 
-pub use glb::{GlbError, GlbLimits, Moment, export_glb, read_glb, read_glb_at};
+pub use glb::{GlbError, GlbLimits, Moment, export_glb, read_glb, read_glb_at, read_rigged_glb};
 pub use import::{
     Facing, ImportConfig, ImportError, ImportReport, Imported, Repair, Thing, Unit, import_glb,
 };

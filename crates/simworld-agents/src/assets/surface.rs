@@ -1,6 +1,7 @@
 //! Surfaces: triangles with their looks, before they are known to be a solid.
 
-use simworld_core::asset::{ModelImage, ModelPart, light_of};
+use nalgebra::Matrix4;
+use simworld_core::asset::{Local, ModelImage, ModelPart, RigDesc, light_of};
 use simworld_core::geometry::{Point3, Vector3};
 
 /// Triangles with their looks. Body axes (x forward, y left, z up); unit and origin are those of where it came from.
@@ -20,6 +21,8 @@ pub struct Surface {
     pub parts: Vec<ModelPart>,
     /// The pictures that lie on its parts.
     pub images: Vec<ModelImage>,
+    /// How its points move, if they do: one vertex of the rig for each. Its first joint is all of it.
+    pub rig: Option<RigDesc>,
 }
 
 impl Surface {
@@ -82,6 +85,24 @@ impl Surface {
         self.normals = kept.iter().map(|point| self.normals[*point]).collect();
         self.colors = kept.iter().map(|point| self.colors[*point]).collect();
         self.places = kept.iter().map(|point| self.places[*point]).collect();
+        self.pick_rig(&kept);
+    }
+
+    /// Of the rig, those vertices are left that belong to these of the former points.
+    pub(super) fn pick_rig(&mut self, kept: &[usize]) {
+        if let Some(rig) = &mut self.rig {
+            rig.vertices = kept.iter().map(|point| rig.vertices[*point]).collect();
+        }
+    }
+
+    /// Moves the rig along with its points: everything hangs on the first joint.
+    pub(super) fn carry_rig(&mut self, map: &Matrix4<f64>) {
+        if let Some(joint) = self.rig.as_mut().and_then(|rig| rig.joints.first_mut())
+            && let Local::Matrix(columns) = &mut joint.rest
+        {
+            let moved = map * Matrix4::from_column_slice(columns);
+            columns.copy_from_slice(moved.as_slice());
+        }
     }
 }
 

@@ -11,4 +11,5 @@ mod loaders_survive_mutations;
 mod materials_are_read;
 mod models_are_imported;
 mod models_are_posed;
+mod models_move;
 mod things_are_made_from_words;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Asset, Finish, Model, Season};
+use super::{Asset, Channel, Finish, Joint, Local, Model, RigDesc, Season};
 use crate::hash::StateHasher;
 
 /// The content address of an asset or of a file: XXH3 with 128 bits, 32 hex digits in files.
@@ -140,6 +140,52 @@ fn content_of(model: &Model, hasher: &mut StateHasher) {
         hasher.u64(u64::from(image.width)).u64(u64::from(image.height));
         hasher.u64(image.pixels.len() as u64).bytes(&image.pixels);
     }
+    hasher.u64(u64::from(model.rig.is_some()));
+    if let Some(rig) = &model.rig {
+        rig_of(rig.desc(), hasher);
+    }
+}
+
+fn rig_of(rig: &RigDesc, hasher: &mut StateHasher) {
+    let singles = |hasher: &mut StateHasher, numbers: &[f32]| {
+        hasher.u64(numbers.len() as u64);
+        for number in numbers {
+            hasher.bytes(&number.to_bits().to_le_bytes());
+        }
+    };
+    hasher.u64(rig.joints.len() as u64);
+    for Joint { parent, rest } in &rig.joints {
+        hasher.u64(parent.map_or(u64::MAX, u64::from));
+        let (is_matrix, numbers) = match rest {
+            Local::Matrix(columns) => (true, columns.to_vec()),
+            Local::Parts { translation, rotation, scale } => {
+                (false, translation.iter().chain(rotation).chain(scale).copied().collect())
+            }
+        };
+        numbers.iter().fold(hasher.u64(u64::from(is_matrix)), |hasher, number| hasher.f64(*number));
+    }
+    hasher.u64(rig.bones.len() as u64);
+    for bone in &rig.bones {
+        bone.joint_from_skin
+            .iter()
+            .fold(hasher.u64(u64::from(bone.joint)), |hasher, number| hasher.f64(*number));
+    }
+    hasher.u64(rig.vertices.len() as u64);
+    for vertex in &rig.vertices {
+        for numbers in [&vertex.position[..], &vertex.normal, &vertex.weights] {
+            singles(hasher, numbers);
+        }
+        vertex.bones.iter().fold(&mut *hasher, |hasher, bone| hasher.u64(u64::from(*bone)));
+    }
+    hasher.u64(rig.clips.len() as u64);
+    for clip in &rig.clips {
+        hasher.str(&clip.name).u64(clip.channels.len() as u64);
+        for Channel { joint, path, curve } in &clip.channels {
+            hasher.u64(u64::from(*joint)).u64(*path as u64).u64(curve.interpolation as u64);
+            singles(hasher, &curve.times);
+            singles(hasher, &curve.values);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -149,8 +195,8 @@ mod tests {
 
     use super::*;
     use crate::asset::{
-        Affordance, AffordanceSet, Hull, Material, ModelImage, ModelPart, ModelTexture, ModelVertex, Seasons,
-        Wrap,
+        Affordance, AffordanceSet, Bone, Clip, Curve, Hull, Interpolation, Material, ModelImage, ModelPart,
+        ModelTexture, ModelVertex, Path, Rig, Seasons, SkinVertex, Wrap,
     };
     use crate::scene::{EntityKind, Place, Shape};
 
@@ -167,7 +213,23 @@ mod tests {
             parts: vec![ModelPart { name: "seat".to_owned(), triangles: 1, ..ModelPart::default() }],
             hulls: vec![Hull { points: corners.to_vec() }],
             images: vec![ModelImage { width: 2, height: 1, pixels: vec![9; 6] }],
+            rig: None,
         }
+    }
+
+    /// With a rig of one joint and one clip, as somebody changes it.
+    fn moves(model: &mut Model, change: fn(&mut RigDesc)) {
+        let curve =
+            Curve { interpolation: Interpolation::Linear, times: vec![0.0, 1.0], values: vec![0.0; 6] };
+        let channel = Channel { joint: 0, path: Path::Translation, curve };
+        let mut desc = RigDesc {
+            joints: vec![Joint::default()],
+            bones: vec![Bone::of(0)],
+            vertices: vec![SkinVertex::default(); model.vertices.len()],
+            clips: vec![Clip { name: "go".to_owned(), channels: vec![channel] }],
+        };
+        change(&mut desc);
+        model.rig = Some(Rig::new(desc).unwrap());
     }
 
     #[test]
@@ -212,6 +274,23 @@ mod tests {
             spoilt(|model| lies(model, [Wrap::Repeat, Wrap::Clamp])),
             spoilt(|model| model.images[0].pixels[5] = 8),
             spoilt(|model| (model.images[0].width, model.images[0].height) = (1, 2)),
+            spoilt(|model| moves(model, |_| {})),
+            spoilt(|model| {
+                moves(model, |rig| {
+                    let rest = Local::Matrix(Bone::of(0).joint_from_skin);
+                    rig.joints.push(Joint { parent: Some(0), rest });
+                });
+            }),
+            spoilt(|model| {
+                moves(model, |rig| rig.joints.push(Joint { parent: Some(0), ..Joint::default() }))
+            }),
+            spoilt(|model| moves(model, |rig| rig.bones[0].joint_from_skin[12] = 1.0)),
+            spoilt(|model| moves(model, |rig| rig.vertices[0].position[0] = 1.0)),
+            spoilt(|model| moves(model, |rig| rig.vertices[0].bones[3] = 1)),
+            spoilt(|model| moves(model, |rig| rig.clips[0].name.push('!'))),
+            spoilt(|model| moves(model, |rig| rig.clips[0].channels[0].path = Path::Scale)),
+            spoilt(|model| moves(model, |rig| rig.clips[0].channels[0].curve.times[1] = 2.0)),
+            spoilt(|model| moves(model, |rig| rig.clips[0].channels[0].curve.values[5] = 2.0)),
         ];
         let distinct: BTreeSet<ContentId> = others.iter().map(Asset::content_id).collect();
         assert_eq!(distinct.len(), others.len());

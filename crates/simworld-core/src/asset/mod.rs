@@ -10,6 +10,7 @@ mod image;
 mod library;
 mod material;
 mod model;
+mod rig;
 mod row;
 mod season;
 mod standard;
@@ -23,6 +24,10 @@ pub use finish::{BRIGHTEST, Finish, ModelTexture, Wrap};
 pub use image::{LONGEST_IMAGE, MOST_PIXELS, ModelImage, light_of};
 pub use material::Material;
 pub use model::{FARTHEST_PLACE, Hull, LARGEST_MODEL, Model, ModelError, ModelPart, ModelVertex, Paint};
+pub use rig::{
+    Bone, Channel, Clip, Curve, Interpolation, Joint, LONGEST_CLIP_NAME, Local, MOST_WORK, POSE_RATE, Path,
+    PosedModel, Rig, RigDesc, RigError, SkinVertex,
+};
 pub use season::{Season, Seasons};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::finish::{BRIGHTEST, Finish, ModelTexture};
 use super::image::{LONGEST_IMAGE, MOST_PIXELS, ModelImage};
+use super::rig::Rig;
 use crate::geometry::Vector3;
 
 /// Why a model is none.
@@ -93,6 +94,14 @@ pub enum ModelError {
         /// How many they have.
         pixels: u64,
     },
+    /// Its rig carries other vertices.
+    #[error("its rig carries {rig} vertices, and it has {vertices}: give as many, in the same order")]
+    Rig {
+        /// How many the rig carries.
+        rig: usize,
+        /// How many there are.
+        vertices: usize,
+    },
     /// It does not fit its collider.
     #[error(
         "it is {model:?} m long, wide and high, and its collider {collider:?}: give a collider that is as large, and stand \
@@ -118,7 +127,8 @@ const MISFIT: f64 = 0.02;
 /// A solid with a surface: triangles to look at, and convex hulls to meet.
 ///
 /// Body frame in metres, x forward, y left, z up; the origin is the middle of its bottom. An entity whose shape is larger than
-/// its asset's collider has the model stretched by the ratio of both boxes in each direction.
+/// its asset's collider has the model stretched by the ratio of both boxes in each direction. Vertices and hulls are the model at rest: what a
+/// rig moves is seen to move, and is met where it rests.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
@@ -133,6 +143,9 @@ pub struct Model {
     /// The pictures that lie on its parts.
     #[serde(default)]
     pub images: Vec<ModelImage>,
+    /// How it moves, if it does.
+    #[serde(default)]
+    pub rig: Option<Rig>,
 }
 
 /// A corner of triangles.
@@ -244,6 +257,10 @@ impl Model {
                 checked("a point of hull", index, *point, LARGEST_MODEL)?;
             }
         }
+        if let Some(rig) = self.rig.as_ref().map(|rig| rig.desc().vertices.len()).filter(|rig| *rig != count)
+        {
+            return Err(ModelError::Rig { rig, vertices: count });
+        }
         self.validate_looks()?;
         self.fits(collider)
     }
@@ -305,7 +322,7 @@ mod tests {
             triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
             parts: vec![ModelPart { name: "wedge".to_owned(), triangles: 4, ..ModelPart::default() }],
             hulls: vec![Hull { points: corners.to_vec() }],
-            images: Vec::new(),
+            ..Model::default()
         }
     }
 

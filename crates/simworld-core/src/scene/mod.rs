@@ -7,6 +7,7 @@ mod gesture;
 mod interaction;
 mod kind;
 mod naming;
+mod playing;
 pub(crate) mod quadtree;
 mod ray;
 mod relation;
@@ -26,6 +27,7 @@ pub use interaction::{
 };
 pub use kind::{EntityKind, Place};
 pub use naming::NameIndex;
+pub use playing::{CLIP, CLIP_ONCE, CLIP_RATE, CLIP_SINCE};
 pub use relation::Relation;
 pub use shape::{Shape, ShapeError};
 pub use world::{Mark, World, WorldError, WorldSnapshot};

@@ -18,7 +18,7 @@ use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Scene, Shape};
 use simworld_core::seed::{Seed, Stream};
 
-use crate::mesh::{Drawn, MeshId};
+use crate::mesh::{Drawn, MeshId, ModelId};
 use crate::models::model_of;
 use crate::resident;
 use street::Streets;
@@ -125,8 +125,10 @@ impl Looks {
         if let Some(links) = scene.links(entity.id) {
             return self.articulated(entity, &links, out);
         }
-        if let Some(id) = entity.info.asset.filter(|id| model_of(scene, *id).is_some()) {
-            return out.push(whole(Drawn::Model(id), self.of_model(entity, id)));
+        let modelled = entity.info.asset.and_then(|id| Some((id, model_of(scene, id)?.1)));
+        if let Some((id, model)) = modelled {
+            let posed = ModelId::of(entity, id, model, scene.clock().seconds());
+            return out.push(whole(Drawn::Model(posed), self.of_model(entity, id)));
         }
         let bits = self.bits(entity);
         let dresser: Dresser = match entity.kind {

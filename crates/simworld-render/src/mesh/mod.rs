@@ -299,11 +299,27 @@ impl MeshId {
     }
 }
 
+/// The model of an asset in one of its poses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ModelId {
+    pub asset: AssetId,
+    /// None where it stands as it rests.
+    pub pose: Option<ClipPose>,
+}
+
+/// A pose of a clip of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ClipPose {
+    pub clip: u32,
+    /// Which of the [poses](simworld_core::asset::Clip::poses) of the clip.
+    pub number: u32,
+}
+
 /// What is drawn of an entity: a mesh of this crate, or the model of its asset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Drawn {
     // Before the large surfaces, as all small things.
-    Model(AssetId),
+    Model(ModelId),
     Own(MeshId),
 }
 

@@ -9,7 +9,8 @@ use simworld_core::geometry::Vector3;
 use simworld_core::scene::Scene;
 
 use super::bvh::{Box3, Child, NONE, Tree, WIDTH};
-use super::shape::{Shape, Shapes, bound};
+use super::shape::Shapes;
+use super::soup::{Shape, bound};
 use crate::look::Detail;
 use crate::mesh::Drawn;
 use crate::resident::{Instance, Residents};
@@ -295,8 +296,7 @@ impl Bodies {
 
     /// Finds where the instances of these slots are, and of which leaves they are.
     fn place(&mut self, scene: &dyn Scene, shapes: &mut Shapes, residents: &Residents, slots: &[u32]) {
-        let numbers = slots.iter().flat_map(|slot| residents.numbers_of(*slot));
-        numbers.for_each(|number| shapes.learn(scene, residents.cards[number as usize].mesh));
+        shapes.learn(scene, residents.models.keys());
         let count = threads::worth(slots.len(), SHARE);
         let wide = slots.len().div_ceil(count).max(1);
         let placer = Placer { shapes, residents, origin: self.origin };

@@ -7,6 +7,7 @@ mod bodies;
 mod bvh;
 mod halves;
 mod shape;
+mod soup;
 
 use std::collections::BTreeMap;
 
@@ -167,15 +168,13 @@ impl Raycast {
         if ensure(gpu, &mut self.pieces, &self.shapes.pieces)? {
             self.sent = 0;
         }
-        if self.sent < self.shapes.pieces.len() {
-            let offset = self.sent as u64 * 16;
-            gpu.queue.write_buffer(
-                &self.pieces,
-                offset,
-                bytemuck::cast_slice(&self.shapes.pieces[self.sent..]),
-            );
-            self.sent = self.shapes.pieces.len();
+        let (sent, count) = (self.sent, self.shapes.pieces.len());
+        let rewritten = self.shapes.rewritten.drain(..).filter(|run| run.end <= sent);
+        for run in rewritten.chain((sent < count).then_some(sent..count)) {
+            let offset = run.start as u64 * 16;
+            gpu.queue.write_buffer(&self.pieces, offset, bytemuck::cast_slice(&self.shapes.pieces[run]));
         }
+        self.sent = count;
         if let Some(rays) = look.table {
             ensure(gpu, &mut self.rays, rays)?;
             gpu.queue.write_buffer(&self.rays, 0, bytemuck::cast_slice(rays));

@@ -13,15 +13,17 @@ use std::sync::Arc;
 
 pub(crate) use grid::{Ball, Grid};
 pub(crate) use instance::{Instance, MOST_SLOTS, split};
+use simworld_core::asset::{Asset, Model};
 use simworld_core::clock::Tick;
 use simworld_core::geometry::{Aabb, Point3, Pose, Vector3};
-use simworld_core::id::{AssetId, EntityId};
+use simworld_core::id::EntityId;
 use simworld_core::net::Aspect;
 use simworld_core::scene::{EntityKind, EntityRef, Mark, Scene};
 
 use crate::classes::class_of;
 use crate::look::{Look, Looks, overhang};
-use crate::mesh::Drawn;
+use crate::mesh::{Drawn, ModelId};
+use crate::models::model_of;
 use crate::occlusion::Block;
 use crate::threads;
 
@@ -90,6 +92,8 @@ impl Dressed {
         };
         self.own.clear();
         looks.dress(&entity, scene, &mut self.own);
+        let plays = |part: &Part| matches!(part.mesh, Drawn::Model(ModelId { pose: Some(_), .. }));
+        let is_restless = entity.gesture().is_some() || self.own.iter().any(plays);
         let class = class_of(entity.kind);
         let with_instance = |part: Part| {
             let instance = Instance::new(&part.pose, &part.look, entity.id, class);
@@ -97,7 +101,7 @@ impl Dressed {
         };
         let parts = self.own.len();
         self.parts.extend(self.own.drain(..).map(with_instance));
-        let (is_restless, ball) = (entity.gesture().is_some(), ball_of(&entity, scene));
+        let ball = ball_of(&entity, scene);
         let there = There { id: entity.id, kind: entity.kind, ball, is_restless };
         self.bodies.push(Body { slot, parts, there: Some(there) });
     }
@@ -128,7 +132,7 @@ pub(crate) struct Residents {
     signals: Vec<Aspect>,
     /// Slots of those that show signals.
     signalling: BTreeSet<u32>,
-    /// Slots of those whose arms move with the clock, whatever else changes.
+    /// Slots of those whose arms or models move with the clock, whatever else changes.
     restless: BTreeSet<u32>,
     tick: Tick,
     /// Those that are dressed anew, with who is there.
@@ -140,8 +144,8 @@ pub(crate) struct Residents {
     resurfaced: bool,
     /// Whether every view draws the finest level, however small it is.
     pub finest: bool,
-    /// Assets that are drawn as their models, and by how many instances.
-    pub models: BTreeMap<AssetId, u32>,
+    /// Models that are drawn, in which poses, and by how many instances.
+    pub models: BTreeMap<ModelId, u32>,
 }
 
 impl Residents {
@@ -440,12 +444,27 @@ fn is_closed(mesh: Drawn) -> bool {
     matches!(mesh, Drawn::Own(mesh) if mesh.closed().is_some())
 }
 
-/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them; links may reach farther.
+/// The ball around an entity, the same for all its instances: that around the bounds, and what overhangs them; links may reach farther, and so may what a rig moves.
 fn ball_of(entity: &EntityRef<'_>, scene: &dyn Scene) -> Ball {
     let (center, half) = (entity.bounds.center(), entity.bounds.half_extents().norm());
-    let of_links =
-        scene.links(entity.id).map_or(0.0, |links| links.radius() + (entity.position() - center).norm());
-    Ball { center, radius: (half + overhang(entity.kind)).max(of_links) }
+    let aside = (entity.position() - center).norm();
+    let of_links = scene.links(entity.id).map_or(0.0, |links| links.radius() + aside);
+    let of_rig = entity
+        .info
+        .asset
+        .and_then(|id| rig_radius(entity, model_of(scene, id)?))
+        .map_or(0.0, |far| far + aside);
+    Ball { center, radius: (half + overhang(entity.kind)).max(of_links).max(of_rig) }
+}
+
+/// How far the rig of its model may lead from the origin of an entity, m, whatever it plays.
+fn rig_radius(entity: &EntityRef<'_>, (asset, model): (&Asset, &Arc<Model>)) -> Option<f64> {
+    let [low, high] = model.rig.as_ref()?.bounds();
+    let (own, collider) = (entity.info.shape.size(), asset.collider.size());
+    let far = Vector3::from_fn(|axis, _| {
+        f64::from(low[axis].abs().max(high[axis].abs())) * own[axis] / collider[axis]
+    });
+    Some(far.norm())
 }
 
 /// Whether it throws a shadow that one would miss; surfaces lie flat.

@@ -19,6 +19,7 @@ mod look;
 mod maps_have_one_scale;
 mod memory_runs_out;
 mod models_are_drawn;
+mod models_move;
 mod models_take_light;
 mod normals_are_those_of_the_solids;
 mod only_changes_are_sent;

@@ -20,6 +20,8 @@ pub struct GlbLimits {
     pub depth: usize,
     /// The most pixels of all its pictures together.
     pub pixels: u64,
+    /// The most numbers in the curves of its animations, counted once for each that uses them.
+    pub keys: u64,
     /// The longest side of a picture that stays one, pixels: larger ones are halved until they are no longer than that. 0 to 4096; at 0
     /// pictures become colours of vertices.
     pub texture: u32,
@@ -35,6 +37,7 @@ impl Default for GlbLimits {
             nodes: 10_000,
             depth: 64,
             pixels: 3 * 4096 * 4096,
+            keys: 8_000_000,
             texture: 1024,
         }
     }

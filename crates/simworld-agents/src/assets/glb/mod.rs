@@ -2,7 +2,7 @@
 //!
 //! Files come from strangers. Everything must stand in the one file: no address is followed, and no other file is opened.
 //! Lengths, counts, indices and depths are checked before memory is taken for them. What is read: the triangles of one scene,
-//! where its nodes put them, or its skins' joints, at rest or at a moment of an animation; with normals, and colours from
+//! where its nodes put them, or its skins' joints, at rest or at a moment of an animation, and how its animations move them; with normals, and colours from
 //! materials and vertices; PNG or JPEG textures of the base colour; metal, roughness and light of its own, one of each for a
 //! primitive; and the extensions `KHR_texture_transform`, `KHR_mesh_quantization`, `KHR_materials_unlit` and
 //! `KHR_materials_emissive_strength`. Sparse accessors, morph targets, compressed meshes, other extensions that a file requires, and
@@ -17,8 +17,10 @@ mod limits;
 mod paint;
 mod picture;
 mod pose;
+mod rig;
 mod scene;
 mod write;
+mod write_rig;
 
 pub use error::GlbError;
 pub use limits::GlbLimits;
@@ -42,5 +44,18 @@ pub fn read_glb(bytes: &[u8], limits: &GlbLimits) -> Result<Surface, GlbError> {
 /// As there; also an animation that is not there, or is damaged.
 pub fn read_glb_at(bytes: &[u8], limits: &GlbLimits, moment: Option<Moment>) -> Result<Surface, GlbError> {
     let (document, bytes) = container::open(bytes, limits)?;
-    scene::surface(accessor::Data { document: &document, bytes }, limits, moment)
+    scene::surface(accessor::Data { document: &document, bytes }, limits, moment, false)
+}
+
+/// As [`read_glb_at`], with the rig by which the file's animations move it, if they move something that is seen.
+///
+/// # Errors
+/// As there; also any animation that is damaged.
+pub fn read_rigged_glb(
+    bytes: &[u8],
+    limits: &GlbLimits,
+    moment: Option<Moment>,
+) -> Result<Surface, GlbError> {
+    let (document, bytes) = container::open(bytes, limits)?;
+    scene::surface(accessor::Data { document: &document, bytes }, limits, moment, true)
 }

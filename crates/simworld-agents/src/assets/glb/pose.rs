@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix4, Quaternion, Translation3, UnitQuaternion, Vector4};
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::Vector3;
+use simworld_core::asset::{Curve, Interpolation, Local, Path};
 
 use super::accessor::{Column, Data, Number, get, unsupported};
-use super::document::{Channel, Curve, Node};
+use super::document::{Channel, Node};
 use super::error::GlbError;
 use super::limits::GlbLimits;
 use super::paint::is_share;
@@ -20,25 +20,21 @@ pub struct Moment {
     pub seconds: f64,
 }
 
-/// Where a node is, as its file and its animation say: translation, rotation and scale, or a matrix.
-#[derive(Clone, Debug)]
-struct Local {
-    translation: [f64; 3],
-    rotation: [f64; 4],
-    scale: [f64; 3],
-    matrix: Option<[f64; 16]>,
+/// The nodes of a file at a moment.
+pub(super) struct Tree {
+    /// Parent from node.
+    pub(super) locals: Vec<Local>,
+    pub(super) parents: Vec<Option<usize>>,
+    /// World from node.
+    pub(super) places: Vec<Matrix4<f64>>,
 }
 
-/// World from node, for every node of the file.
-pub(super) fn places(
-    data: Data<'_>,
-    limits: &GlbLimits,
-    moment: Option<Moment>,
-) -> Result<Vec<Matrix4<f64>>, GlbError> {
+/// Every node of the file, at rest or at a moment of an animation.
+pub(super) fn tree(data: Data<'_>, limits: &GlbLimits, moment: Option<Moment>) -> Result<Tree, GlbError> {
     let nodes = &data.document.nodes;
-    let mut locals: Vec<Local> = nodes.iter().map(Local::of).collect();
+    let mut locals: Vec<Local> = nodes.iter().map(local).collect();
     if let Some(moment) = moment {
-        animate(data, moment, &mut locals)?;
+        animate(data, limits, moment, &mut locals)?;
     }
     let wrong = |node, how| GlbError::Tree { node, how, deepest: limits.depth };
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
@@ -58,7 +54,7 @@ pub(super) fn places(
         if depth > limits.depth {
             return Err(wrong(index, "lies too deep"));
         }
-        let here = above * locals[index].matrix(index)?;
+        let here = above * matrix(&locals[index], index)?;
         places[index] = Some(here);
         open.extend(nodes[index].children.iter().map(|child| (*child, here, depth + 1)));
     }
@@ -66,162 +62,112 @@ pub(super) fn places(
     let place = |(index, place): (usize, Option<Matrix4<f64>>)| {
         place.ok_or_else(|| wrong(index, "hangs in two places, or below itself"))
     };
-    places.into_iter().enumerate().map(place).collect()
+    let places = places.into_iter().enumerate().map(place).collect::<Result<_, _>>()?;
+    Ok(Tree { locals, parents, places })
 }
 
-impl Local {
-    fn of(node: &Node) -> Self {
-        Self {
+fn local(node: &Node) -> Local {
+    node.matrix.map_or_else(
+        || Local::Parts {
             translation: node.translation.unwrap_or_default(),
             rotation: node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]),
             scale: node.scale.unwrap_or([1.0; 3]),
-            matrix: node.matrix,
-        }
-    }
+        },
+        Local::Matrix,
+    )
+}
 
-    fn matrix(&self, index: usize) -> Result<Matrix4<f64>, GlbError> {
-        let matrix = if let Some(columns) = self.matrix {
-            Matrix4::from_column_slice(&columns)
-        } else {
-            let [x, y, z, w] = self.rotation;
-            let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)
-                .ok_or(GlbError::Number { what: "node", index })?;
-            let shift = Translation3::from(self.translation);
-            let scale = Vector3::from(self.scale);
-            shift.to_homogeneous() * turn.to_homogeneous() * Matrix4::new_nonuniform_scaling(&scale)
-        };
-        if matrix.iter().all(|number| number.is_finite()) {
-            Ok(matrix)
-        } else {
-            Err(GlbError::Number { what: "node", index })
+fn matrix(local: &Local, index: usize) -> Result<Matrix4<f64>, GlbError> {
+    let wrong = GlbError::Number { what: "node", index };
+    let matrix = match local {
+        Local::Matrix(columns) => Matrix4::from_column_slice(columns),
+        Local::Parts { translation, rotation: [x, y, z, w], scale } => {
+            let turn = UnitQuaternion::try_new(Quaternion::new(*w, *x, *y, *z), 1e-9).ok_or(wrong.clone())?;
+            let scale = Matrix4::new_nonuniform_scaling(&(*scale).into());
+            Translation3::from(*translation).to_homogeneous() * turn.to_homogeneous() * scale
         }
-    }
+    };
+    if matrix.iter().all(|number| number.is_finite()) { Ok(matrix) } else { Err(wrong) }
 }
 
 /// Puts the channels of an animation into the nodes that they move.
-fn animate(data: Data<'_>, moment: Moment, locals: &mut [Local]) -> Result<(), GlbError> {
-    let animation = get("animation", &data.document.animations, moment.animation)?;
+fn animate(data: Data<'_>, limits: &GlbLimits, moment: Moment, locals: &mut [Local]) -> Result<(), GlbError> {
     if !moment.seconds.is_finite() {
         return Err(GlbError::Number { what: "animation", index: moment.animation });
     }
-    let refused = |reason: &str| unsupported("animation", moment.animation, reason);
-    for Channel { sampler, target } in &animation.channels {
-        // Channels without a node are for extensions.
-        let Some(node) = target.node else { continue };
-        get("node", locals, node)?;
-        if locals[node].matrix.is_some() {
-            return Err(refused("it moves a node that has a matrix: export translation, rotation and scale"));
-        }
-        let curve = get("animation sampler", &animation.samplers, *sampler)?;
-        let local = &mut locals[node];
-        match target.path.as_str() {
-            "translation" => local.translation = sample(data, curve, moment, Mixing::Linear)?,
-            "scale" => local.scale = sample(data, curve, moment, Mixing::Linear)?,
-            "rotation" => local.rotation = sample(data, curve, moment, Mixing::Spherical)?,
-            "weights" => return Err(refused("it moves the weights of morph targets, which are not read")),
-            _ => return Err(refused("it moves something that glTF 2.0 does not know")),
+    for Moved { node, path, curve } in channels(data, limits, moment.animation, &mut 0)? {
+        let Local::Parts { translation, rotation, scale } = &mut locals[node] else { continue };
+        match path {
+            Path::Translation => *translation = curve.at(moment.seconds),
+            Path::Rotation => *rotation = curve.at(moment.seconds),
+            Path::Scale => *scale = curve.at(moment.seconds),
         }
     }
     Ok(())
 }
 
-/// How one goes from key to key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Mixing {
-    Linear,
-    /// Along the shorter arc of unit quaternions.
-    Spherical,
+/// What a channel of an animation moves.
+pub(super) struct Moved {
+    pub(super) node: usize,
+    pub(super) path: Path,
+    pub(super) curve: Curve,
 }
 
-/// A curve at a moment.
-fn sample<const N: usize>(
+/// The channels of an animation; `used` are the numbers of curves that were read before, and these are added.
+pub(super) fn channels(
     data: Data<'_>,
-    curve: &Curve,
-    moment: Moment,
-    mixing: Mixing,
-) -> Result<[f64; N], GlbError> {
-    let refused = |reason: &str| unsupported("animation", moment.animation, reason);
-    let times = data.column(curve.input, &[("SCALAR", 1)], |number, _| number == Number::F32)?;
-    let shape = if N == 4 { ("VEC4", 4) } else { ("VEC3", 3) };
-    let values = data.column(curve.output, &[shape], is_share)?;
-    let cubic = curve.interpolation == "CUBICSPLINE";
-    if !cubic && !matches!(curve.interpolation.as_str(), "LINEAR" | "STEP") {
-        return Err(refused("its keys are joined in a way that glTF 2.0 does not know"));
-    }
-    if times.count.checked_mul(if cubic { 3 } else { 1 }) != Some(values.count) {
-        return Err(refused("it has not one value for each of its keys: export the file again"));
-    }
-    let ascends = (1..times.count).all(|row| times.real(row, 0) > times.real(row - 1, 0));
-    if !ascends || !times.real(0, 0).is_finite() {
-        return Err(refused("the times of its keys do not ascend: export the file again"));
-    }
-    let value = |row: usize| -> [f64; N] { values.reals(row) };
-    let key = |row: usize| value(if cubic { row * 3 + 1 } else { row });
-    let (next, share, span) = between(&times, moment.seconds);
-    let mixed = match next.checked_sub(1) {
-        None => key(0),
-        Some(last) if next == times.count => key(last),
-        Some(before) if cubic => {
-            let (out, into) = (value(before * 3 + 2), value(next * 3));
-            hermite([key(before), out, into, key(next)], share, span)
+    limits: &GlbLimits,
+    index: usize,
+    used: &mut u64,
+) -> Result<Vec<Moved>, GlbError> {
+    let animation = get("animation", &data.document.animations, index)?;
+    let refused = |reason: &str| unsupported("animation", index, reason);
+    let mut moved = Vec::new();
+    for Channel { sampler, target } in &animation.channels {
+        // Channels without a node are for extensions.
+        let Some(node) = target.node else { continue };
+        if get("node", &data.document.nodes, node)?.matrix.is_some() {
+            return Err(refused("it moves a node that has a matrix: export translation, rotation and scale"));
         }
-        Some(before) if curve.interpolation == "STEP" => key(before),
-        Some(before) => mix(key(before), key(next), share, mixing),
-    };
-    if mixed.iter().all(|number| number.is_finite()) {
-        Ok(mixed)
-    } else {
-        Err(GlbError::Number { what: "accessor", index: curve.output })
+        let path = match target.path.as_str() {
+            "translation" => Path::Translation,
+            "scale" => Path::Scale,
+            "rotation" => Path::Rotation,
+            "weights" => return Err(refused("it moves the weights of morph targets, which are not read")),
+            _ => return Err(refused("it moves something that glTF 2.0 does not know")),
+        };
+        let sampler = get("animation sampler", &animation.samplers, *sampler)?;
+        let interpolation = match sampler.interpolation.as_str() {
+            "STEP" => Interpolation::Step,
+            "LINEAR" => Interpolation::Linear,
+            "CUBICSPLINE" => Interpolation::Cubic,
+            _ => return Err(refused("its keys are joined in a way that glTF 2.0 does not know")),
+        };
+        let times = data.column(sampler.input, &[("SCALAR", 1)], |number, _| number == Number::F32)?;
+        let shape = if path == Path::Rotation { ("VEC4", 4) } else { ("VEC3", 3) };
+        let values = data.column(sampler.output, &[shape], is_share)?;
+        let numbers = times.count as u64 + values.count as u64 * path.width() as u64;
+        *used += numbers;
+        if *used > limits.keys {
+            return Err(GlbError::TooMany { what: "numbers in animations", got: *used, most: limits.keys });
+        }
+        let curve =
+            Curve { interpolation, times: numbers_of(&times, 1), values: numbers_of(&values, path.width()) };
+        if let Some(fault) = curve.fault(path.width()) {
+            return Err(refused(&format!("a curve of it {fault}: export the file again")));
+        }
+        moved.push(Moved { node, path, curve });
     }
+    Ok(moved)
 }
 
-/// The first key after a time; how far it is between that and the one before, and the time between the two.
-fn between(times: &Column<'_>, seconds: f64) -> (usize, f64, f64) {
-    let (mut low, mut high) = (0, times.count);
-    while low < high {
-        let middle = low.midpoint(high);
-        if times.real(middle, 0) <= seconds { low = middle + 1 } else { high = middle }
-    }
-    if low == 0 || low == times.count {
-        return (low, 0.0, 0.0);
-    }
-    let (before, after) = (times.real(low - 1, 0), times.real(low, 0));
-    (low, (seconds - before) / (after - before), after - before)
+fn numbers_of(column: &Column<'_>, width: usize) -> Vec<f32> {
+    let row = |row| (0..width).map(move |which| column.real(row, which) as f32);
+    (0..column.count).flat_map(row).collect()
 }
 
-fn mix<const N: usize>(a: [f64; N], b: [f64; N], share: f64, mixing: Mixing) -> [f64; N] {
-    let line = |weights: [f64; 2]| std::array::from_fn(|axis| a[axis] * weights[0] + b[axis] * weights[1]);
-    if mixing == Mixing::Linear {
-        return line([1.0 - share, share]);
-    }
-    let cosine: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
-    let side = if cosine < 0.0 { -1.0 } else { 1.0 };
-    let angle = simworld_core::ops::acos((cosine * side).min(1.0));
-    let sine = simworld_core::ops::sin(angle);
-    if sine < 1e-6 {
-        return line([1.0 - share, share * side]);
-    }
-    let weight = |part: f64| simworld_core::ops::sin(part * angle) / sine;
-    line([weight(1.0 - share), weight(share) * side])
-}
-
-/// A cubic between two keys with the tangents that leave the one and come into the other (glTF 2.0, C.5).
-fn hermite<const N: usize>([a, out, into, b]: [[f64; N]; 4], t: f64, span: f64) -> [f64; N] {
-    let (square, cube) = (t * t, t * t * t);
-    std::array::from_fn(|axis| {
-        (2.0 * cube - 3.0 * square + 1.0) * a[axis]
-            + span * (cube - 2.0 * square + t) * out[axis]
-            + (3.0 * square - 2.0 * cube) * b[axis]
-            + span * (cube - square) * into[axis]
-    })
-}
-
-/// World from mesh for each joint of a skin.
-pub(super) fn joints(
-    data: Data<'_>,
-    skin: usize,
-    places: &[Matrix4<f64>],
-) -> Result<Vec<Matrix4<f64>>, GlbError> {
+/// The joints of a skin: which node each is, and joint from mesh.
+pub(super) fn joints(data: Data<'_>, skin: usize) -> Result<Vec<(usize, Matrix4<f64>)>, GlbError> {
     let found = get("skin", &data.document.skins, skin)?;
     let inverse = match found.inverse_bind_matrices {
         Some(index) => {
@@ -234,13 +180,12 @@ pub(super) fn joints(
         None => None,
     };
     let joint = |(rank, node): (usize, &usize)| {
-        let place = get("node", places, *node)?;
+        get("node", &data.document.nodes, *node)?;
         let bind = inverse
             .as_ref()
             .map_or_else(Matrix4::identity, |column| Matrix4::from_column_slice(&column.reals::<16>(rank)));
-        let matrix = place * bind;
-        if matrix.iter().all(|number| number.is_finite()) {
-            Ok(matrix)
+        if bind.iter().all(|number| number.is_finite()) {
+            Ok((*node, bind))
         } else {
             Err(GlbError::Number { what: "skin", index: skin })
         }
@@ -248,22 +193,22 @@ pub(super) fn joints(
     found.joints.iter().enumerate().map(joint).collect()
 }
 
-/// Which joints bear a vertex, and how much each.
+/// Which joints of a skin bear a vertex, and how much each.
 pub(super) struct Bearing<'a> {
     sets: Vec<(Column<'a>, Column<'a>)>,
-    joints: &'a [Matrix4<f64>],
+    joints: usize,
     weights: usize,
 }
 
 impl<'a> Bearing<'a> {
-    /// Of a primitive with these attributes and so many vertices.
+    /// Of a primitive with these attributes and so many vertices, on a skin of so many joints.
     pub(super) fn new(
         data: Data<'a>,
         attributes: &std::collections::BTreeMap<String, usize>,
         vertices: usize,
-        joints: &'a [Matrix4<f64>],
+        joints: usize,
     ) -> Result<Self, GlbError> {
-        /// More joints than these a vertex are not read.
+        /// More sets of four joints a vertex are not read.
         const SETS: usize = 4;
         let mut sets = Vec::new();
         let mut last = 0;
@@ -286,9 +231,9 @@ impl<'a> Bearing<'a> {
         Ok(Self { sets, joints, weights: last })
     }
 
-    /// World from mesh for a vertex: the joints' matrices in the shares of its weights; none if no joint bears it.
-    pub(super) fn of(&self, vertex: usize) -> Result<Option<Matrix4<f64>>, GlbError> {
-        let (mut sum, mut total) = (Matrix4::zeros(), 0.0);
+    /// The joints that bear a vertex with their shares, the largest first, together 1; none if no joint bears it.
+    pub(super) fn of(&self, vertex: usize) -> Result<Vec<(usize, f64)>, GlbError> {
+        let mut shares = Vec::new();
         for (bones, weights) in &self.sets {
             for which in 0..4 {
                 let weight = weights.real(vertex, which);
@@ -296,12 +241,19 @@ impl<'a> Bearing<'a> {
                     return Err(GlbError::Number { what: "accessor", index: self.weights });
                 }
                 if weight > 0.0 {
-                    sum += get("joint", self.joints, bones.whole(vertex, which) as usize)? * weight;
-                    total += weight;
+                    let joint = bones.whole(vertex, which) as usize;
+                    if joint >= self.joints {
+                        let (index, count) = (joint as u64, self.joints as u64);
+                        return Err(GlbError::Missing { what: "joint", index, count });
+                    }
+                    shares.push((joint, weight));
                 }
             }
         }
-        Ok((total > 0.0).then(|| sum / total))
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let total: f64 = shares.iter().map(|(_, weight)| weight).sum();
+        shares.iter_mut().for_each(|(_, weight)| *weight /= total);
+        Ok(shares)
     }
 }
 

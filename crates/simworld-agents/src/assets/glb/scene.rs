@@ -4,12 +4,13 @@ use nalgebra::{Matrix3, Matrix4};
 use simworld_core::asset::{ModelPart, Paint};
 use simworld_core::geometry::{Point3, Vector3};
 
-use super::accessor::{Data, Number, get, unsupported};
+use super::accessor::{Column, Data, Number, get, unsupported};
 use super::document::{Node, Primitive, TRIANGLES};
 use super::error::GlbError;
 use super::limits::GlbLimits;
 use super::paint::{Painter, Says, is_share, same_length};
-use super::pose::{Bearing, Moment, joints, moved, places};
+use super::pose::{Bearing, Moment, Tree, joints, moved, tree};
+use super::rig::{Frame, Rigging};
 use crate::assets::surface::Surface;
 
 /// The farthest that a point may be from the origin, in units of the file.
@@ -18,17 +19,23 @@ const FARTHEST: f64 = 1e9;
 /// The longest name of a part that is kept, characters.
 const LONGEST_NAME: usize = 64;
 
-/// Everything that the scene of a file shows, at rest or at a moment of an animation.
+/// Everything that the scene of a file shows, at rest or at a moment of an animation; with how it moves, if that is asked for.
 pub(super) fn surface(
     data: Data<'_>,
     limits: &GlbLimits,
     moment: Option<Moment>,
+    clips: bool,
 ) -> Result<Surface, GlbError> {
     let document = data.document;
     let scene = get("scene", &document.scenes, document.scene.unwrap_or(0))?;
-    let places = places(data, limits, moment)?;
-    let mut gatherer =
-        Gatherer { data, limits, painter: Painter::new(data, limits), surface: Surface::default() };
+    let mut gatherer = Gatherer {
+        data,
+        limits,
+        tree: &tree(data, limits, moment)?,
+        painter: Painter::new(data, limits),
+        surface: Surface::default(),
+        rigging: (clips && !document.animations.is_empty()).then(Rigging::default),
+    };
     let mut seen = vec![false; document.nodes.len()];
     let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
     while let Some(index) = open.pop() {
@@ -38,32 +45,59 @@ pub(super) fn surface(
             return Err(GlbError::Tree { node: index, how, deepest: limits.depth });
         }
         if let Some(mesh) = node.mesh {
-            let joints = node.skin.map(|skin| joints(data, skin, &places)).transpose()?;
-            gatherer.mesh(mesh, node, &places[index], joints.as_deref())?;
+            gatherer.mesh(mesh, &Stand::of(data, gatherer.tree, index)?, node)?;
         }
         open.extend(node.children.iter().rev());
     }
     if gatherer.surface.triangles.is_empty() {
         return Err(GlbError::Empty);
     }
-    Ok(Surface { images: gatherer.painter.into_images(), ..gatherer.surface })
+    let rig = gatherer.rigging.map(|rigging| rigging.finish(data, limits, gatherer.tree)).transpose()?;
+    Ok(Surface { images: gatherer.painter.into_images(), rig: rig.flatten(), ..gatherer.surface })
 }
 
 struct Gatherer<'a> {
     data: Data<'a>,
     limits: &'a GlbLimits,
+    tree: &'a Tree,
     painter: Painter<'a>,
     surface: Surface,
+    rigging: Option<Rigging>,
+}
+
+/// Where a mesh stands: on a node, and on the joints of that node's skin.
+struct Stand {
+    node: usize,
+    /// World from node.
+    place: Matrix4<f64>,
+    skin: Option<Skin>,
+}
+
+/// A skin as it is now.
+struct Skin {
+    index: usize,
+    /// Of each joint its node, joint from mesh, and world from mesh.
+    joints: Vec<(usize, Matrix4<f64>, Matrix4<f64>)>,
+}
+
+impl Stand {
+    fn of(data: Data<'_>, tree: &Tree, node: usize) -> Result<Self, GlbError> {
+        let found = get("node", &data.document.nodes, node)?;
+        let skin = |index: usize| {
+            let place = |(node, bind): (usize, Matrix4<f64>)| {
+                let map = tree.places[node] * bind;
+                let sound = map.iter().all(|number| number.is_finite());
+                if sound { Ok((node, bind, map)) } else { Err(GlbError::Number { what: "skin", index }) }
+            };
+            let joints = joints(data, index)?.into_iter().map(place).collect::<Result<_, _>>()?;
+            Ok(Skin { index, joints })
+        };
+        Ok(Self { node, place: tree.places[node], skin: found.skin.map(skin).transpose()? })
+    }
 }
 
 impl Gatherer<'_> {
-    fn mesh(
-        &mut self,
-        index: usize,
-        node: &Node,
-        here: &Matrix4<f64>,
-        joints: Option<&[Matrix4<f64>]>,
-    ) -> Result<(), GlbError> {
+    fn mesh(&mut self, index: usize, stand: &Stand, node: &Node) -> Result<(), GlbError> {
         let mesh = get("mesh", &self.data.document.meshes, index)?;
         for primitive in &mesh.primitives {
             if primitive.mode != TRIANGLES {
@@ -83,7 +117,7 @@ impl Gatherer<'_> {
             let material =
                 primitive.material.and_then(|index| self.data.document.materials.get(index)?.name.as_ref());
             let name = node.name.as_ref().or(mesh.name.as_ref()).or(material);
-            self.primitive(index, primitive, name.map_or("", String::as_str), here, joints)?;
+            self.primitive(index, primitive, name.map_or("", String::as_str), stand)?;
         }
         Ok(())
     }
@@ -93,8 +127,7 @@ impl Gatherer<'_> {
         mesh: usize,
         primitive: &Primitive,
         name: &str,
-        here: &Matrix4<f64>,
-        joints: Option<&[Matrix4<f64>]>,
+        stand: &Stand,
     ) -> Result<(), GlbError> {
         let column = |name: &str| primitive.attributes.get(name).copied();
         let Some(index) = column("POSITION") else {
@@ -106,7 +139,7 @@ impl Gatherer<'_> {
         afford("vertices", self.surface.points.len(), positions.count, self.limits.vertices)?;
         let triangles = self.triangles(mesh, primitive, positions.count)?;
 
-        let maps = self.maps(primitive, positions.count, here, joints)?;
+        let maps = self.maps(primitive, &positions, stand)?;
         let map = |row: usize| maps.get(row).unwrap_or(&maps[0]);
         let first = self.surface.points.len() as u32;
         for row in 0..positions.count {
@@ -142,19 +175,43 @@ impl Gatherer<'_> {
         Ok(())
     }
 
-    /// From the mesh to the body for each vertex of a primitive that joints bear; for all of them alike without joints.
+    /// From the mesh to the body for each vertex of a primitive that joints bear; for all of them alike without joints. The rig learns
+    /// who carries them.
     fn maps(
-        &self,
+        &mut self,
         primitive: &Primitive,
-        vertices: usize,
-        here: &Matrix4<f64>,
-        joints: Option<&[Matrix4<f64>]>,
+        positions: &Column<'_>,
+        stand: &Stand,
     ) -> Result<Vec<Map>, GlbError> {
-        let Some(joints) = joints else { return Ok(vec![Map::new(here)]) };
-        let bearing = Bearing::new(self.data, &primitive.attributes, vertices, joints)?;
-        // What no joint bears stays with its node.
-        let map = |row| Ok(Map::new(&bearing.of(row)?.unwrap_or(*here)));
-        (0..vertices).map(map).collect()
+        let Stand { node, place, skin } = stand;
+        // Whom no joint bears stays with the node.
+        let own = |rigging: &mut Rigging| rigging.bone(Frame::Node(*node), *node, &Matrix4::identity());
+        let Some(Skin { index, joints }) = skin else {
+            if let Some(rigging) = &mut self.rigging {
+                let bone = own(rigging)?;
+                (0..positions.count).for_each(|row| rigging.carry(positions.reals(row), [(bone, 1.0)]));
+            }
+            return Ok(vec![Map::new(place)]);
+        };
+        let bearing = Bearing::new(self.data, &primitive.attributes, positions.count, joints.len())?;
+        let mut maps = Vec::with_capacity(positions.count);
+        for row in 0..positions.count {
+            let shares = bearing.of(row)?;
+            if let Some(rigging) = &mut self.rigging {
+                let bone = |(rank, share): &(usize, f64)| {
+                    let (node, bind, _) = &joints[*rank];
+                    Ok((rigging.bone(Frame::Skin { skin: *index, rank: *rank }, *node, bind)?, *share))
+                };
+                let mut bones = shares.iter().map(bone).collect::<Result<Vec<_>, GlbError>>()?;
+                if bones.is_empty() {
+                    bones.push((own(rigging)?, 1.0));
+                }
+                rigging.carry(positions.reals(row), bones);
+            }
+            let blended: Matrix4<f64> = shares.iter().map(|(rank, share)| joints[*rank].2 * *share).sum();
+            maps.push(Map::new(if shares.is_empty() { place } else { &blended }));
+        }
+        Ok(maps)
     }
 
     fn triangles(

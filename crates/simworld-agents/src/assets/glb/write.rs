@@ -1,13 +1,15 @@
-//! Models as GLB files: one mesh, a primitive and a material for each part, colours at the vertices, pictures as PNG.
+//! Models as GLB files: one mesh, a primitive and a material for each part, colours at the vertices, pictures as PNG, and how they move.
 
 use serde_json::{Value, json};
 use simworld_core::asset::{Model, ModelImage, ModelPart, ModelVertex, Paint, Wrap};
+
+use super::write_rig::{Written, rig};
 
 /// Targets of buffer views: what vertices have, and indices.
 const VERTICES: u32 = 34_962;
 const INDICES: u32 = 34_963;
 
-/// Writes a model as a GLB file, y up and z to the front, in metres. Hulls are not written; [`read_glb`](super::read_glb) gives
+/// Writes a model as a GLB file, y up and z to the front, in metres, with its clips as animations. Hulls are not written; [`read_glb`](super::read_glb) gives
 /// its triangles back.
 ///
 /// A part that takes the colour of its entity is written without colours and picture. A picture that has another number of bytes than its
@@ -16,14 +18,22 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
     let mut file = File::default();
     let rows = |of: fn(&ModelVertex) -> [f32; 3]| model.vertices.iter().map(of).collect::<Vec<_>>();
     let turned = |[x, y, z]: [f32; 3]| [y, z, x];
-    let positions: Vec<_> = rows(|vertex| vertex.position).into_iter().map(turned).collect();
-    let normals: Vec<_> = rows(|vertex| vertex.normal).into_iter().map(turned).collect();
+    // What a rig carries stands in the frame of its skin.
+    let skin = model.rig.as_ref().map(|rig| &rig.desc().vertices);
+    let positions: Vec<_> = match skin {
+        Some(vertices) => vertices.iter().map(|vertex| vertex.position).collect(),
+        None => rows(|vertex| vertex.position).into_iter().map(turned).collect(),
+    };
+    let normals: Vec<_> = match skin {
+        Some(vertices) => vertices.iter().map(|vertex| vertex.normal).collect(),
+        None => rows(|vertex| vertex.normal).into_iter().map(turned).collect(),
+    };
+    file.rig = model.rig.as_ref().map(|own| rig(own.desc(), &mut file));
     let position = file.column(&positions);
     let fold = |from: f32, pick: fn(f32, f32) -> f32| -> [f32; 3] {
         std::array::from_fn(|axis| positions.iter().map(|row| row[axis]).fold(from, pick))
     };
-    file.accessors[position]["min"] = json!(fold(f32::INFINITY, f32::min));
-    file.accessors[position]["max"] = json!(fold(f32::NEG_INFINITY, f32::max));
+    file.bound(position, json!(fold(f32::INFINITY, f32::min)), json!(fold(f32::NEG_INFINITY, f32::max)));
     let (normal, color) = (file.column(&normals), file.column(&rows(|vertex| vertex.color)));
     let is_textured = model.parts.iter().any(|part| part.texture.is_some());
     let place = is_textured
@@ -32,11 +42,12 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
     for (part, triangles) in model.runs().filter(|(_, triangles)| !triangles.is_empty()) {
         let corners = triangles.as_flattened();
         let view = file.append(corners.iter().flat_map(|x| x.to_le_bytes()), Some(INDICES));
-        file.accessors.push(
-            json!({"bufferView": view, "componentType": 5125, "count": corners.len(), "type": "SCALAR"}),
-        );
-        let indices = file.accessors.len() - 1;
+        let indices = file.accessor_of(view, 5125, corners.len(), "SCALAR");
         let mut attributes = json!({"POSITION": position, "NORMAL": normal});
+        if let Some(Written { joints, weights, .. }) = &file.rig {
+            attributes["JOINTS_0"] = json!(joints);
+            attributes["WEIGHTS_0"] = json!(weights);
+        }
         if part.paint == Paint::Own {
             attributes["COLOR_0"] = json!(color);
             if let (Some(place), true) = (place, part.texture.is_some()) {
@@ -52,7 +63,7 @@ pub fn export_glb(model: &Model) -> Vec<u8> {
 
 /// A file as it grows.
 #[derive(Default)]
-struct File {
+pub(super) struct File {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -63,16 +74,32 @@ struct File {
     samplers: Vec<Value>,
     /// Whether something shines brighter than a factor can say.
     shines: bool,
+    rig: Option<Written>,
 }
 
 impl File {
-    /// Adds rows of real numbers; the number of their accessor.
-    fn column<const N: usize>(&mut self, rows: &[[f32; N]]) -> usize {
+    /// Adds rows of real numbers of vertices; the number of their accessor.
+    pub(super) fn column<const N: usize>(&mut self, rows: &[[f32; N]]) -> usize {
         let view = self.append(rows.iter().flatten().flat_map(|x| x.to_le_bytes()), Some(VERTICES));
-        let shape = format!("VEC{N}");
+        self.accessor_of(view, 5126, rows.len(), &format!("VEC{N}"))
+    }
+
+    /// Adds so many rows of numbers of a component type; the number of their accessor.
+    pub(super) fn accessor(&mut self, bytes: Vec<u8>, kind: u32, count: usize, shape: &str) -> usize {
+        let view = self.append(bytes, None);
+        self.accessor_of(view, kind, count, shape)
+    }
+
+    fn accessor_of(&mut self, view: usize, kind: u32, count: usize, shape: &str) -> usize {
         self.accessors
-            .push(json!({"bufferView": view, "componentType": 5126, "count": rows.len(), "type": shape}));
+            .push(json!({"bufferView": view, "componentType": kind, "count": count, "type": shape}));
         self.accessors.len() - 1
+    }
+
+    /// Says between what the numbers of an accessor are.
+    pub(super) fn bound(&mut self, accessor: usize, least: Value, most: Value) {
+        self.accessors[accessor]["min"] = least;
+        self.accessors[accessor]["max"] = most;
     }
 
     /// Adds bytes to the buffer, from a multiple of four on, and a view of them; the view's number.
@@ -135,6 +162,12 @@ impl File {
             "meshes": [{"primitives": self.primitives}], "materials": self.materials,
             "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": self.bytes.len()}],
         });
+        if let Some(Written { nodes, skins, animations, .. }) = self.rig {
+            document["scenes"] = json!([{"nodes": [0, 1]}]);
+            document["nodes"] = json!(nodes);
+            document["skins"] = skins;
+            document["animations"] = json!(animations);
+        }
         if !self.textures.is_empty() {
             document["samplers"] = json!(self.samplers);
             document["textures"] = json!(self.textures);

@@ -13,6 +13,8 @@ pub struct ImportConfig {
     pub limits: GlbLimits,
     /// The moment of an animation in which it is taken; at rest without one.
     pub moment: Option<Moment>,
+    /// Whether it keeps its animations, and moves by them.
+    pub clips: bool,
     /// What its numbers are.
     pub unit: Unit,
     /// Which way it looks.
@@ -35,6 +37,7 @@ impl Default for ImportConfig {
         Self {
             limits: GlbLimits::default(),
             moment: None,
+            clips: true,
             unit: Unit::Guess,
             facing: Facing::AsGiven,
             hulls: 32,

@@ -1,6 +1,6 @@
 //! Why a file becomes no asset.
 
-use simworld_core::asset::AssetError;
+use simworld_core::asset::{AssetError, RigError};
 use thiserror::Error;
 
 use crate::assets::glb::GlbError;
@@ -12,6 +12,11 @@ pub enum ImportError {
     /// It cannot be read.
     #[error("the model cannot be read: {0}")]
     Glb(#[from] GlbError),
+    /// Its animations move it in a way that cannot be kept.
+    #[error(
+        "its animations cannot be kept: {0}; or import it at rest, with `clips` off in the configuration of the import"
+    )]
+    Rig(#[from] RigError),
     /// None of its triangles has an area.
     #[error("none of its {triangles} triangles has an area: export the model again")]
     NoArea {

@@ -13,15 +13,16 @@ use std::sync::Arc;
 
 pub use config::{Facing, ImportConfig, Unit};
 pub use error::ImportError;
+use nalgebra::{Matrix3, Matrix4, Translation3};
 pub use repair::Repair;
 use serde::{Deserialize, Serialize};
-use simworld_core::asset::{Asset, ContentId, Model, ModelVertex, Paint};
+use simworld_core::asset::{Asset, ContentId, Model, ModelVertex, Paint, Rig, RigError};
 use simworld_core::geometry::{Point3, Vector3};
 use simworld_core::scene::{EntityKind, Shape};
 
 use self::decompose::{Fineness, Solid, decompose};
 use self::measure::{Bulk, enclosed};
-use super::glb::read_glb_at;
+use super::glb::{read_glb_at, read_rigged_glb};
 use super::prior::SizePrior;
 use super::surface::Surface;
 use crate::generation::SizeHint;
@@ -72,6 +73,8 @@ pub struct ImportReport {
     pub center_of_mass: [f64; 3],
     /// Convex solids.
     pub hulls: usize,
+    /// What it can do: the names of its clips.
+    pub clips: Vec<String>,
 }
 
 /// Makes an asset of a GLB file.
@@ -101,7 +104,8 @@ pub struct ImportReport {
 /// things have, or one without volume; see [`ImportError`].
 pub fn import_glb(bytes: &[u8], thing: &Thing, config: &ImportConfig) -> Result<Imported, ImportError> {
     let config = config.checked()?;
-    let mut surface = read_glb_at(bytes, &config.limits, config.moment)?;
+    let read = if config.clips { read_rigged_glb } else { read_glb_at };
+    let mut surface = read(bytes, &config.limits, config.moment)?;
     let mut repair = mend(&mut surface, &config)?;
     let class = SizePrior::of(&thing.words);
     let (scale, quarter_turned) = place(&mut surface, thing, class.as_ref(), &config)?;
@@ -122,6 +126,7 @@ pub fn import_glb(bytes: &[u8], thing: &Thing, config: &ImportConfig) -> Result<
         volume: bulk.volume,
         center_of_mass: bulk.center.into(),
         hulls: solids.len(),
+        clips: surface.rig.iter().flat_map(|rig| &rig.clips).map(|clip| clip.name.clone()).collect(),
     };
     let digest = ContentId::of_bytes(bytes);
     let asset = Asset {
@@ -176,6 +181,12 @@ fn place(
     if turns {
         surface.points.iter_mut().for_each(|point| *point = Point3::new(-point.y, point.x, point.z));
         surface.normals.iter_mut().for_each(|normal| *normal = Vector3::new(-normal.y, normal.x, normal.z));
+        let quarter = Matrix3::from_rows(&[
+            -Vector3::y().transpose(),
+            Vector3::x().transpose(),
+            Vector3::z().transpose(),
+        ]);
+        surface.carry_rig(&quarter.to_homogeneous());
     }
     let before = extent(surface);
     let scale = scale::scale(before, thing.size, class, config.unit, &thing.words)?;
@@ -190,6 +201,8 @@ fn place(
             // What is drawn and what is met are the same points.
             *point = point.map(|number| f64::from(number as f32));
         }
+        let shift = Translation3::from(-foot.coords * scale).to_homogeneous();
+        surface.carry_rig(&(shift * Matrix4::new_scaling(scale)));
     }
     Ok((scale, turns))
 }
@@ -233,7 +246,7 @@ fn asset(
     bulk: Bulk,
 ) -> Result<Asset, ImportError> {
     let color = mean_color(&surface);
-    let model = model(surface, solids);
+    let model = model(surface, solids)?;
     let [low, high] = model.bounds().ok_or(ImportError::NoSolid)?;
     let [length, width, height] = std::array::from_fn(|axis| f64::from(high[axis]) - f64::from(low[axis]));
     let (kind, density) = match class {
@@ -252,8 +265,13 @@ fn asset(
     Ok(Asset { mass, material, color, licence, model: Some(Arc::new(model)), ..asset })
 }
 
-fn model(surface: Surface, solids: Vec<Solid>) -> Model {
+fn model(mut surface: Surface, solids: Vec<Solid>) -> Result<Model, RigError> {
     let single = |[x, y, z]: [f64; 3]| [x as f32, y as f32, z as f32];
+    let rig = surface.rig.take().map(|mut rig| {
+        let normals: Vec<[f32; 3]> = surface.normals.iter().map(|normal| single((*normal).into())).collect();
+        rig.face(&normals);
+        Rig::new(rig)
+    });
     let looks = surface.colors.iter().zip(&surface.places);
     let vertices = surface.points.iter().zip(&surface.normals).zip(looks);
     let vertices = vertices
@@ -264,13 +282,14 @@ fn model(surface: Surface, solids: Vec<Solid>) -> Model {
             place: *place,
         })
         .collect();
-    Model {
+    Ok(Model {
         vertices,
         triangles: surface.triangles,
         parts: surface.parts,
         hulls: solids.into_iter().map(|solid| solid.hull).collect(),
         images: surface.images,
-    }
+        rig: rig.transpose()?,
+    })
 }
 
 /// The mean colour of what has one of its own, by area.

@@ -48,17 +48,19 @@ fn share(surface: &mut Surface, normals: &[Vector3]) {
     };
     let mut order: Vec<u32> = (0..normals.len() as u32).collect();
     order.sort_unstable_by_key(|corner| (bits(*corner), *corner));
-    let (mut points, mut colors, mut places, mut kept) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut former, mut kept) = (Vec::new(), Vec::new());
     let mut corners = vec![0u32; normals.len()];
     for same in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
         for corner in same {
-            corners[*corner as usize] = points.len() as u32;
+            corners[*corner as usize] = former.len() as u32;
         }
-        points.push(surface.points[point(same[0]) as usize]);
-        colors.push(surface.colors[point(same[0]) as usize]);
-        places.push(surface.places[point(same[0]) as usize]);
+        former.push(point(same[0]) as usize);
         kept.push(normals[same[0] as usize]);
     }
     surface.triangles = corners.as_chunks::<3>().0.to_vec();
-    (surface.points, surface.colors, surface.places, surface.normals) = (points, colors, places, kept);
+    surface.points = former.iter().map(|point| surface.points[*point]).collect();
+    surface.colors = former.iter().map(|point| surface.colors[*point]).collect();
+    surface.places = former.iter().map(|point| surface.places[*point]).collect();
+    surface.pick_rig(&former);
+    surface.normals = kept;
 }
