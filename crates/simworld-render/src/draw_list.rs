@@ -10,7 +10,7 @@ use crate::gpu::Casters;
 use crate::look::Detail;
 use crate::mesh::{Drawn, Extent};
 use crate::occlusion::Occlusion;
-use crate::resident::{Ball, Residents};
+use crate::resident::{Ball, Card, Residents};
 use crate::shadow::ShadowView;
 use crate::view::View;
 
@@ -62,6 +62,8 @@ pub(crate) struct DrawList {
 
 /// As many blocks, the nearest of them, hide what is behind them.
 const MOST_BLOCKS: usize = 192;
+/// A texel of a shadow says less than a pixel: there is a silhouette and nothing else, and its edge is spread over two texels.
+const SHADOW_SHARE: f64 = 0.33;
 /// Blocks of fewer pixels across hide nothing.
 const LEAST_BLOCK: f64 = 24.0;
 
@@ -123,9 +125,13 @@ impl DrawList {
 
     /// What throws shadows into a map, as finely as its texels show: the same for every eye.
     fn shadows(&mut self, residents: &Residents, shadow: &ShadowView) -> ShadowList {
-        let detail = |ball: &Ball| {
-            let texels = 2.0 * ball.radius / shadow.texel;
-            if residents.finest { Detail::Near } else { Detail::of(ball.radius, texels) }.bit()
+        let texels = |ball: &Ball| 2.0 * ball.radius / shadow.texel * SHADOW_SHARE;
+        let level = |card: &Card, ball: &Ball| {
+            if residents.finest {
+                (Detail::Near.bit(), card.mesh)
+            } else {
+                (Detail::of(ball.radius, texels(ball)).bit(), card.mesh.at_pixels(texels(ball)))
+            }
         };
         let reaches = |ball: &Ball| shadow.reaches(&ball.center, ball.radius);
         let mut layers = [std::mem::take(&mut self.seen), std::mem::take(&mut self.shading)];
@@ -134,8 +140,9 @@ impl DrawList {
             |cell, _| reaches(cell),
             |number, ball| {
                 let card = &residents.cards[number as usize];
-                if card.casts && card.details & detail(ball) != 0 && reaches(ball) {
-                    let entry = (card.mesh, 0, card.slot, card.part, number);
+                let (detail, mesh) = level(card, ball);
+                if card.casts && card.details & detail != 0 && reaches(ball) {
+                    let entry = (mesh, 0, card.slot, card.part, number);
                     layers[usize::from(card.mobile)].push(entry);
                 }
             },

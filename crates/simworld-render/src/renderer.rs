@@ -170,7 +170,7 @@ impl Renderer {
         options: &ViewOptions,
         views: &mut Views,
     ) -> Result<(), RenderError> {
-        let ticket = self.submit(scene, requests, options)?;
+        let ticket = self.hand_in(Which::First, scene, requests, *options)?;
         self.take(ticket, views)
     }
 
@@ -186,8 +186,18 @@ impl Renderer {
         options: &ViewOptions,
     ) -> Result<Ticket, RenderError> {
         let which = self.free_device();
-        let (encoder, layout) = self.draw(which, scene, requests, *options)?;
-        let outcome = self.at(which).submit(encoder, layout, *options);
+        self.hand_in(which, scene, requests, *options)
+    }
+
+    fn hand_in(
+        &mut self,
+        which: Which,
+        scene: &dyn Scene,
+        requests: &[ViewRequest],
+        options: ViewOptions,
+    ) -> Result<Ticket, RenderError> {
+        let (encoder, layout) = self.draw(which, scene, requests, options)?;
+        let outcome = self.at(which).submit(encoder, layout, options);
         let pending = self.mended(which, outcome)?;
         let number = TICKETS.fetch_add(1, Ordering::Relaxed);
         self.pending.insert(number, (which, pending));
@@ -198,9 +208,7 @@ impl Renderer {
     fn free_device(&mut self) -> Which {
         let busy = |which| self.pending.values().filter(|(other, _)| *other == which).count();
         let is_software = self.works.gpu.info.device_type == wgpu::DeviceType::Cpu;
-        // The loss of the first is told before anything else is drawn.
-        let is_lost = self.works.gpu.lost().is_some();
-        if !is_software || is_lost || busy(Which::First) <= busy(Which::Second) {
+        if !is_software || busy(Which::First) <= busy(Which::Second) {
             return Which::First;
         }
         if self.second.is_none() {

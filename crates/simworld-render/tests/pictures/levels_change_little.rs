@@ -3,7 +3,7 @@
 use crate::common::{put, renderer};
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::geometry::Point3;
-use simworld_core::scene::{EntityKind, Shape, World};
+use simworld_core::scene::{EntityKind, Scene, Shape, World};
 use simworld_render::{Backend, Frame, LevelOfDetail, RenderConfig, ViewOptions, ViewRequest, Views};
 
 fn kinds() -> [(EntityKind, Shape); 6] {
@@ -46,6 +46,38 @@ fn little_of_a_picture_changes_where_a_level_does() {
         println!("{kind}: at most {:.3} % of the picture is another", worst * 100.0);
         some |= worst > 0.0;
         assert!(worst < 0.02, "{kind}: {worst} of the picture is another");
+    }
+    assert!(some, "there is one level alone");
+}
+
+/// A shadow is thrown by fewer triangles than are seen: on the ground beside somebody near, little is lit that was dark, or dark that was lit.
+#[test]
+fn little_of_a_shadow_changes_where_a_level_does() {
+    let [by_texels, finest] = [LevelOfDetail::ByPixels, LevelOfDetail::Finest].map(|level_of_detail| {
+        RenderConfig { level_of_detail, backend: Backend::Raster, ..RenderConfig::default() }
+    });
+    let (Some(mut coarse), Some(mut fine)) = (renderer(&by_texels), renderer(&finest)) else { return };
+    let (mut a, mut b) = (Frame::new(), Frame::new());
+    let mut some = false;
+    for (kind, shape) in kinds().into_iter().filter(|(kind, _)| *kind != EntityKind::Building) {
+        let mut world = World::new();
+        put(&mut world, EntityKind::Ground, [0.0, 0.0, -0.1], 0.0, Shape::cuboid(200.0, 200.0, 0.1));
+        put(&mut world, kind, [0.0; 3], 0.0, shape);
+        let mut environment = *world.environment();
+        (environment.sun.azimuth, environment.sun.elevation) = (2.6, 0.7);
+        environment.weather.cloud_cover = 0.0;
+        world.set_environment(environment).expect("a sun in range");
+        for (renderer, frame) in [(&mut coarse, &mut a), (&mut fine, &mut b)] {
+            renderer.render(&world, &from_afar(9.0), frame).expect("it is drawn");
+        }
+        // The ground is the same surface in both.
+        let ground = |pixel: &usize| a.ids[*pixel] == b.ids[*pixel] && a.depth[*pixel] == b.depth[*pixel];
+        let bright = |frame: &Frame, pixel: usize| i32::from(frame.rgb[pixel * 3 + 1]);
+        let differs = |pixel: &usize| (bright(&a, *pixel) - bright(&b, *pixel)).abs() > 12;
+        let share = (0..a.ids.len()).filter(ground).filter(differs).count() as f64 / a.ids.len() as f64;
+        println!("{kind}: {:.3} % of the picture is lit otherwise", share * 100.0);
+        some |= share > 0.0;
+        assert!(share < 0.01, "{kind}: {share} of the picture is lit otherwise");
     }
     assert!(some, "there is one level alone");
 }

@@ -118,6 +118,35 @@ fn metal_and_roughness_are_those_of_the_equations() {
     }
 }
 
+/// A smooth ball is lit smoothly: no pixel within it is far from what is around it, wherever its triangles end and its own shadow begins.
+#[test]
+fn no_pixel_of_a_ball_stands_out() {
+    let Some(renderers) = backends() else { return };
+    for (name, mut renderer) in ["raster", "raycast"].into_iter().zip(renderers) {
+        for azimuth in [0.2, 0.6, 1.0, 1.4, 1.8] {
+            let (world, id) = alone(&ball([0.9; 3], Finish::default()), FOOT);
+            let mut world = lit(world);
+            let mut environment = *world.environment();
+            environment.sun.azimuth = azimuth * std::f64::consts::PI;
+            world.set_environment(environment).expect("a sun in range");
+            let frame = draw(&mut renderer, &world, &camera());
+            for (x, y) in (1..119).flat_map(|x| (1..89).map(move |y| (x, y))) {
+                let around = [(0, 0), (1, 0), (2, 0), (0, 1), (2, 1), (0, 2), (1, 2), (2, 2)];
+                let around = around.map(|(right, down)| (x + right - 1, y + down - 1));
+                let within = |(x, y): &(u32, u32)| frame.entity_at(*x, *y) == Some(id);
+                if !within(&(x, y)) || !around.iter().all(within) {
+                    continue;
+                }
+                let own = frame.rgb_at(x, y).expect("on the picture")[1];
+                let others = around.map(|(x, y)| frame.rgb_at(x, y).expect("on the picture")[1]);
+                let (least, most) = (others.iter().min().unwrap(), others.iter().max().unwrap());
+                let is_between = own + 12 >= *least && own <= most.saturating_add(12);
+                assert!(is_between, "{name}, sun at {azimuth} π: {own} at {x}, {y} among {others:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_is_dull_looks_as_the_solid_that_it_is() {
     let Some(renderers) = backends() else { return };
