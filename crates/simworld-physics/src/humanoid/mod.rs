@@ -6,6 +6,7 @@ mod balance;
 mod burial;
 mod crouch;
 mod gait;
+mod gap;
 mod hold;
 mod pace;
 mod physics_body;

@@ -15,7 +15,7 @@ use simworld_core::ops::wrap_angle;
 use simworld_core::scene::{FallCause, Footing};
 
 use super::balance::{look_down, own_way};
-use super::{ColliderForm, Humanoid, Posture, Stand, Surefootedness, hold};
+use super::{ColliderForm, Humanoid, Posture, Stand, Surefootedness, gap, hold};
 use crate::body::{BodyContext, Detail, Surroundings};
 use crate::claims::Claim;
 use crate::convert::{from_vector, to_pose, to_vector};
@@ -329,7 +329,7 @@ impl Humanoid {
         let way = wish.xy().norm();
         let share = if was_grounded { self.motion.pace.told(way) } else { 1.0 };
         let result = walk(moved, Vector::new(wish.x * share, wish.y * share, wish.z));
-        moved += result.translation;
+        moved += gap::kept(solid, &place(moved), result.translation, &queries);
         self.motion.grounded = result.grounded;
         let mut support = None;
         if was_grounded
