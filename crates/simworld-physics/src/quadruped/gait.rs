@@ -23,6 +23,8 @@ const FEEL_DEPTH: f64 = 0.12;
 const CATCH: f64 = 0.05;
 /// Feet come down no farther than this from under their hips, m.
 const REACH: f64 = 0.17;
+/// Nor do they come down closer to one another than this, m: shanks would meet.
+const APART: f64 = 0.06;
 /// A foot is aimed so far into the ground, m.
 const PRESS: f64 = 0.006;
 /// The share of the swing in which the foot goes up and in which it goes ahead.
@@ -201,10 +203,28 @@ impl Gait {
         let stand = gait.duty / gait.frequency;
         let step = (is + about.cross(&arm)) * (stand * 0.5) + (is - wanted) * CATCH;
         let step = step * (REACH / step.norm().max(REACH));
-        let place = hip + is * left + step;
+        let place =
+            self.off_others(foot, hip + is * left + step, |other| hip_of(model, sensed, other, heading));
         let plane = self.height_below(&place);
         let height = look(&place).map_or(plane, |ground| ground + model.foot_radius);
         Point3::new(place.x, place.y, height.clamp(plane - 0.2, plane + 0.2))
+    }
+
+    /// A place for a foot, put off where the others stand or come down, towards where its own hip is as seen from theirs.
+    fn off_others(&self, foot: usize, place: Vector3, hip: impl Fn(usize) -> Vector3) -> Vector3 {
+        let mut place = place;
+        for (other, state) in self.feet.iter().enumerate().filter(|(other, _)| *other != foot) {
+            let there = if state.swings { state.to } else { state.grip };
+            let away = (hip(foot) - hip(other)).xy().normalize();
+            let between = (place - there.coords).xy();
+            let (along, aside) = (between.dot(&away), away.perp(&between).abs());
+            if aside < APART {
+                let least = (APART * APART - aside * aside).sqrt();
+                let missing = away * (least - along).max(0.0);
+                place += Vector3::new(missing.x, missing.y, 0.0);
+            }
+        }
+        place
     }
 
     /// Where the middle of a foot is to be now, and how fast; none for a foot that stands and bears.
@@ -251,4 +271,36 @@ fn hip_of(model: &QuadrupedModel, sensed: &Sensed, foot: usize, heading: f64) ->
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), heading);
     let beside = Vector3::new(leg.hip.x, leg.hip.y + leg.offset, 0.0);
     sensed.trunk.translation.vector + turn * beside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Feet 0.38 and 0.25 m apart, as they stand under the trunk of the default model.
+    fn places() -> [Vector3; 4] {
+        std::array::from_fn(|foot| {
+            let (ahead, left) =
+                (if foot < 2 { 0.19 } else { -0.19 }, if foot.is_multiple_of(2) { 0.127 } else { -0.127 });
+            Vector3::new(ahead, left, 0.02)
+        })
+    }
+
+    #[test]
+    fn feet_come_down_beside_those_that_stand() {
+        let gait = Gait::standing(places());
+        let put = |foot: usize, x: f64, y: f64| {
+            let place = gait.off_others(foot, Vector3::new(x, y, 0.02), |other| places()[other]);
+            (place - Vector3::new(x, y, 0.02)).xy()
+        };
+        assert_eq!(put(2, -0.1, 0.13), Vector2::zeros(), "far enough from all");
+        // A hind foot that would come down on the fore foot, or beyond it, does so behind it.
+        for x in [0.15, 0.19, 0.25] {
+            let moved = put(2, x, 0.127);
+            assert!((x + moved.x - (0.19 - APART)).abs() < 1e-9 && moved.y.abs() < 1e-9, "{x}: {moved}");
+        }
+        let moved = put(0, -0.19, 0.127 + 0.03);
+        let away = ops::hypot(moved.x, 0.03);
+        assert!((away - APART).abs() < 1e-9 && moved.x > 0.0, "{moved}");
+    }
 }
