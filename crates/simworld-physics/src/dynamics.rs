@@ -14,6 +14,7 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{Mark, Scene, World};
 use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
+use crate::apart::Filter;
 use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
 use crate::cells::Cells;
 use crate::claims::Claims;
@@ -102,6 +103,8 @@ pub struct PhysicsDynamics {
     pub(crate) interest: Vec<Point3>,
     /// An empty set, lent to queries that must not know rigid bodies.
     pub(crate) nobody: RigidBodySet,
+    /// Which solids of one body meet, where the engine has to ask.
+    pub(crate) filter: Filter,
     // Scratch space of a step.
     /// Where those bodies are in the list to which something may have been done in the world, ascending.
     pub(crate) displaced: Vec<usize>,
@@ -173,6 +176,7 @@ impl PhysicsDynamics {
             conditions: Conditions::default(),
             interest: Vec::new(),
             nobody: RigidBodySet::new(),
+            filter: Filter::default(),
             displaced: Vec::new(),
             moving: Vec::new(),
             near: Cells::new(2.0 * near),
@@ -316,7 +320,7 @@ impl PhysicsDynamics {
             }
         }
         self.advance_mirrors(share);
-        self.physics.step();
+        self.physics.step_with_events(&self.filter, &());
         self.check_finite()?;
         self.strain_grasps(dt);
         self.contacts.unsolved.clear();
@@ -398,6 +402,7 @@ impl Dynamics for PhysicsDynamics {
         self.take_actions(world);
         self.choose_roamers();
         self.roam(dt);
+        self.filter.follow(&self.bodies);
         self.take_substeps(dt)?;
         self.write_back(world)?;
         self.part_fallen_riders(world)?;

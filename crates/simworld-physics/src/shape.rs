@@ -54,6 +54,22 @@ pub(crate) fn marked(tag: BodyTag, material: Material) -> u128 {
     tag.to_user_data() | (material as u128) << MATERIAL_BITS
 }
 
+/// How many bits it has.
+const MATERIAL_LENGTH: u32 = 8;
+
+/// Where the number of a solid stands in a mark, above the material.
+const NUMBER_BITS: u32 = MATERIAL_BITS + MATERIAL_LENGTH;
+
+/// A mark with the number of the solid among those of its body.
+pub(crate) fn numbered(mark: u128, number: u16) -> u128 {
+    mark | u128::from(number) << NUMBER_BITS
+}
+
+/// The number of a solid among those of its body, by its mark; 0 for what has none.
+pub(crate) fn number_of(data: u128) -> u16 {
+    (data >> NUMBER_BITS) as u16
+}
+
 /// Set in the mark of somebody on foot.
 const WALKER: u128 = 1 << 127;
 
@@ -82,7 +98,7 @@ pub(crate) fn is_walker(data: u128) -> bool {
 
 /// What a collider is made of, by its mark.
 pub(crate) fn material_of(data: u128) -> Material {
-    let index = ((data & !(WALKER | ON_WHEELS)) >> MATERIAL_BITS) as usize;
+    let index = ((data >> MATERIAL_BITS) & ((1 << MATERIAL_LENGTH) - 1)) as usize;
     Material::ALL.get(index).copied().unwrap_or_default()
 }
 
@@ -161,6 +177,11 @@ mod tests {
         let cart = on_wheels(mark);
         assert_eq!((BodyTag::from_user_data(cart), material_of(cart)), (tag, Material::Ice));
         assert!(is_on_wheels(cart) && !is_on_wheels(walker) && !is_walker(cart));
+        assert!(Material::ALL.len() < 1 << MATERIAL_LENGTH);
+        let last = numbered(mark, u16::MAX);
+        assert_eq!((BodyTag::from_user_data(last), material_of(last)), (tag, Material::Ice));
+        assert!(number_of(last) == u16::MAX && !is_walker(last) && !is_on_wheels(last));
+        assert_eq!((number_of(walker), number_of(cart)), (0, 0));
     }
 
     #[test]

@@ -7,8 +7,8 @@ use parry3d_f64::mass_properties::MassProperties;
 use rapier3d_f64::dynamics::{JointAxesMask, Multibody, RevoluteJointBuilder};
 use rapier3d_f64::math::{Pose as RapierPose, Rotation, Vector};
 use rapier3d_f64::prelude::{
-    CoefficientCombineRule, ColliderBuilder, ColliderHandle, ContactPair, JointAxis, PhysicsWorld, RigidBody,
-    RigidBodyBuilder, RigidBodyHandle, RigidBodyType, SharedShape,
+    ActiveHooks, CoefficientCombineRule, Collider, ColliderBuilder, ColliderHandle, ContactPair, JointAxis,
+    PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType, SharedShape,
 };
 use serde::{Deserialize, Serialize};
 use simworld_core::asset::Material;
@@ -16,9 +16,10 @@ use simworld_core::geometry::{Pose, Twist, Vector3};
 use simworld_core::id::EntityId;
 
 use super::QuadrupedModel;
+use super::meeting::{TRUNK, number};
 use crate::convert::{from_pose, from_vector, to_pose, to_vector};
 use crate::joint::JointReading;
-use crate::shape::{BodyTag, marked};
+use crate::shape::{BodyTag, marked, numbered};
 
 /// Radii of thigh and shank as shares of their lengths.
 pub(super) const THIGH: f64 = 0.1;
@@ -61,12 +62,17 @@ pub(super) struct Sensed {
     pub(super) loads: [f64; 4],
 }
 
-fn dressed(solid: ColliderBuilder, id: EntityId, material: Material) -> ColliderBuilder {
+/// Whether the engine asks if thighs and trunk meet.
+fn hooks(model: &QuadrupedModel) -> ActiveHooks {
+    if model.thighs_are_clear() { ActiveHooks::empty() } else { ActiveHooks::FILTER_CONTACT_PAIRS }
+}
+
+fn dressed(solid: ColliderBuilder, (id, number): (EntityId, u16), material: Material) -> ColliderBuilder {
     solid
         .density(0.0)
         .friction(material.friction())
         .friction_combine_rule(CoefficientCombineRule::GeometricMean)
-        .user_data(marked(BodyTag::Entity(id), material))
+        .user_data(numbered(marked(BodyTag::Entity(id), material), number))
 }
 
 /// Moments of inertia of a rod along z.
@@ -98,7 +104,7 @@ impl Links {
         }
         let links = Self { bodies, feet };
         let Some(multibody) = links.multibody_mut(physics) else { return links };
-        multibody.set_self_contacts_enabled(false);
+        multibody.set_self_contacts_enabled(true);
         let mut displacement = [0.0; ROOT + 12];
         displacement[ROOT..].copy_from_slice(angles.as_flattened());
         for dof in 0..ROOT + 12 {
@@ -158,8 +164,16 @@ impl Links {
             speeds[leg][joint] = velocity[ROOT + place];
         }
         let root = physics.bodies.get(trunk)?;
+        let whose = |handle| {
+            physics
+                .colliders
+                .get(handle)
+                .map(|collider: &Collider| BodyTag::from_user_data(collider.user_data))
+        };
+        // A foot that meets another leg does not stand.
         let loads = self.feet.map(|foot| {
-            let pairs = physics.contact_pairs_with(foot);
+            let of_others = |pair: &&ContactPair| whose(pair.collider1) != whose(pair.collider2);
+            let pairs = physics.contact_pairs_with(foot).filter(of_others);
             pairs.map(ContactPair::total_impulse_magnitude).sum::<f64>() / dt
         });
         Some(Sensed {
@@ -265,7 +279,8 @@ fn make_trunk(
         collider.set_position_wrt_parent(RapierPose::from_parts(Vector::ZERO, turned));
         collider.set_mass(0.0);
         collider.set_friction(Material::Plastic.friction());
-        collider.user_data = marked(BodyTag::Entity(id), Material::Plastic);
+        collider.set_active_hooks(hooks(model));
+        collider.user_data = numbered(marked(BodyTag::Entity(id), Material::Plastic), TRUNK);
     }
     physics.bodies[trunk].recompute_mass_properties_from_colliders(&physics.colliders);
 }
@@ -316,11 +331,14 @@ fn hang_leg(
         let middle = RapierPose::from_translation(Vector::new(0.0, 0.0, -length * 0.5));
         ColliderBuilder::capsule_z((length * 0.5 - radius).max(0.0), radius).position(middle)
     };
-    physics.insert_collider(dressed(bone(geometry.thigh, thigh_radius), id, Material::Plastic), Some(upper));
-    physics.insert_collider(dressed(bone(geometry.shank, shank_radius), id, Material::Plastic), Some(lower));
+    let thigh = dressed(bone(geometry.thigh, thigh_radius), (id, number(leg, 1)), Material::Plastic);
+    let thigh = thigh.active_hooks(hooks(model));
+    physics.insert_collider(thigh, Some(upper));
+    let shank = dressed(bone(geometry.shank, shank_radius), (id, number(leg, 2)), Material::Plastic);
+    physics.insert_collider(shank, Some(lower));
     let sole = RapierPose::from_translation(Vector::new(0.0, 0.0, -geometry.shank));
     let foot = ColliderBuilder::ball(model.foot_radius).position(sole);
-    let foot = physics.insert_collider(dressed(foot, id, Material::Rubber), Some(lower));
+    let foot = physics.insert_collider(dressed(foot, (id, number(leg, 2)), Material::Rubber), Some(lower));
     for link in &bodies[bodies.len() - 3..] {
         physics.bodies[*link].recompute_mass_properties_from_colliders(&physics.colliders);
     }

@@ -31,6 +31,7 @@ impl QuadrupedModel {
             base: Base::Free,
             links: vec![trunk],
             joints: Vec::new(),
+            apart: Vec::new(),
         };
         for leg in 0..LEGS.len() {
             self.describe_leg(leg, &mut description);

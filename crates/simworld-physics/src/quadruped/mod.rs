@@ -9,11 +9,14 @@ mod control;
 mod description;
 mod gait;
 mod kinematics;
+mod meeting;
 mod model;
 mod physics_body;
 mod readings;
 mod recovery;
 mod stride;
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
@@ -29,6 +32,7 @@ pub use readings::{Command, ImuReading, Readings};
 use recovery::Task;
 use stride::Stride;
 
+use crate::apart::Apart;
 use crate::body::Detail;
 use crate::error::{PhysicsError, check_range};
 use crate::humanoid::{Humanoid, HumanoidConfig};
@@ -234,6 +238,11 @@ impl Quadruped {
     /// Joints, feet and inertial measuring unit; at rest at the origin while it is not on its legs.
     pub fn readings(&self) -> &Readings {
         &self.motion.readings
+    }
+
+    /// Which of its solids meet, if the engine has to ask.
+    pub(crate) fn apart(&self) -> Option<Arc<Apart>> {
+        self.config.model.apart()
     }
 
     /// How it fares on its feet.

@@ -8,18 +8,19 @@ use parry3d_f64::mass_properties::MassProperties;
 use rapier3d_f64::dynamics::{GenericJointBuilder, JointAxesMask, Multibody, MultibodyLinkId};
 use rapier3d_f64::math::{DVector, Matrix, Pose as RapierPose};
 use rapier3d_f64::prelude::{
-    CoefficientCombineRule, ColliderBuilder, JointAxis, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
-    RigidBodyType,
+    ActiveHooks, CoefficientCombineRule, ColliderBuilder, JointAxis, PhysicsWorld, RigidBodyBuilder,
+    RigidBodyHandle, RigidBodyType,
 };
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Pose, Twist, Vector3};
 use simworld_core::id::EntityId;
 
 use super::description::{Base, RobotDescription};
+use super::meeting::Meeting;
 use super::solids::solid;
 use super::tree::{Hinge, Lump, Part, Tree};
 use crate::convert::{from_pose, from_vector, to_pose, to_vector};
-use crate::shape::{BodyTag, marked};
+use crate::shape::{BodyTag, marked, numbered};
 
 /// The engine's stops give way before they hold: they stand so far inside the ends of a joint, rad or m.
 const STOP: f64 = 1e-3;
@@ -61,6 +62,7 @@ pub(super) struct Plan<'a> {
     pub(super) id: EntityId,
     pub(super) description: &'a RobotDescription,
     pub(super) tree: &'a Tree,
+    pub(super) meeting: &'a Meeting,
 }
 
 fn mass_properties(lump: &Lump, center: &Vector3) -> MassProperties {
@@ -105,6 +107,8 @@ impl Plan<'_> {
     /// Gives a rigid body the solids of its part.
     fn dress(&self, part: &Part, index: usize, rigid: RigidBodyHandle, physics: &mut PhysicsWorld) {
         let body_from_part = part_from_body(self.tree, index).inverse();
+        let hooks =
+            if self.meeting.is_asked { ActiveHooks::FILTER_CONTACT_PAIRS } else { ActiveHooks::empty() };
         for (link, place, part_from_solid) in &part.solids {
             let data = &self.description.links[*link].solids[*place];
             let Some((shape, form_from_shape)) = solid(&data.form) else { continue };
@@ -114,7 +118,11 @@ impl Plan<'_> {
                 .friction(data.material.friction())
                 .friction_combine_rule(CoefficientCombineRule::GeometricMean)
                 .restitution(data.material.restitution())
-                .user_data(marked(BodyTag::Entity(self.id), data.material));
+                .active_hooks(hooks)
+                .user_data(numbered(
+                    marked(BodyTag::Entity(self.id), data.material),
+                    self.meeting.number(*link, *place),
+                ));
             physics.insert_collider(collider, Some(rigid));
         }
         physics.bodies[rigid].recompute_mass_properties_from_colliders(&physics.colliders);
@@ -170,7 +178,7 @@ impl Plan<'_> {
         let joint = GenericJointBuilder::new(locked)
             .local_frame1(to_pose(&(parent_from_joint * along)))
             .local_frame2(to_pose(&along))
-            .contacts_enabled(false);
+            .contacts_enabled(self.meeting.meets_parent[part]);
         physics.insert_multibody_joint(parent, rigid, joint);
         rigid
     }
@@ -203,7 +211,7 @@ impl Links {
         let Some(link) = self.link(physics) else { return };
         let PhysicsWorld { multibody_joints, bodies, .. } = physics;
         let Some(multibody) = multibody_joints.get_multibody_mut(link.multibody) else { return };
-        multibody.set_self_contacts_enabled(false);
+        multibody.set_self_contacts_enabled(plan.meeting.is_any);
         // Only now it knows whether its root moves.
         multibody.forward_kinematics(bodies, true);
         multibody.damping_mut().fill(0.0);

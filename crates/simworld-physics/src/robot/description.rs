@@ -9,12 +9,16 @@ use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Vector3};
 
 use super::error::{RobotError, check};
+use super::meeting::Meeting;
 use super::tree::Tree;
+use crate::apart::Kinds;
 
 /// More links than this are no robot.
 pub const MOST_LINKS: usize = 1000;
 /// More joints that move than this are no robot: what a substep costs grows with the third power of their number.
 pub const MOST_JOINTS: usize = 128;
+/// More solids than this are no robot.
+pub const MOST_SOLIDS: usize = 4096;
 /// The greatest number of corners of a convex solid.
 pub const MOST_CORNERS: usize = 256;
 /// Beyond this length nothing is taken, m.
@@ -35,6 +39,7 @@ const FAR: f64 = 1e4;
 ///     base: Base::Fixed,
 ///     links: vec![LinkDescription::new("stand"), bob],
 ///     joints: vec![hinge],
+///     apart: Vec::new(),
 /// };
 /// pendulum.validate()?;
 /// assert_eq!(pendulum.mass(), 1.0);
@@ -51,6 +56,8 @@ pub struct RobotDescription {
     pub links: Vec<LinkDescription>,
     /// Its joints.
     pub joints: Vec<JointDescription>,
+    /// Pairs of links that pass through one another, beside those that a joint holds together. All others meet.
+    pub apart: Vec<[String; 2]>,
 }
 
 /// How the link that everything hangs on is held.
@@ -91,6 +98,9 @@ pub struct LinkSolid {
     pub link_from_solid: Pose,
     /// What it is made of: its friction and how it bounces.
     pub material: Material,
+    /// Which solids of its own robot it meets.
+    #[serde(default)]
+    pub kinds: Kinds,
 }
 
 /// The form of a solid, in a frame in its middle, m.
@@ -175,6 +185,9 @@ pub struct JointDescription {
     pub armature: f64,
     /// A spring in it: stiffness, N m/rad, 0 to 1e6, and the angle at which it rests.
     pub spring: [f64; 2],
+    /// Whether the links that it holds together meet one another as others do. If not, they pass through one another, as links
+    /// do that overlap at their joint; a link without solids between two others is passed over here.
+    pub meets: bool,
 }
 
 impl Default for JointDescription {
@@ -193,6 +206,7 @@ impl Default for JointDescription {
             friction: 0.0,
             armature: 0.0,
             spring: [0.0; 2],
+            meets: false,
         }
     }
 }
@@ -203,7 +217,25 @@ impl RobotDescription {
     /// # Errors
     /// What is wrong first.
     pub fn validate(&self) -> Result<(), RobotError> {
-        Tree::of(self).map(|_| ())
+        let tree = Tree::of(self)?;
+        Meeting::of(self, &tree).map(|_| ())
+    }
+
+    /// Lets those links pass through one another that are within one another by more than a millimetre where all joints are at 0, or
+    /// at the end of their way that is nearest to it: what touches there would be pushed apart for good. The readers of files do so;
+    /// the pairs are returned.
+    ///
+    /// # Errors
+    /// A description that is no robot.
+    pub fn part_at_rest(&mut self) -> Result<Vec<[String; 2]>, RobotError> {
+        let tree = Tree::of(self)?;
+        let meeting = Meeting::of(self, &tree)?;
+        let found = meeting.overlaps(self, &tree, &tree.positions(self, |_| 0.0));
+        let name = |link: usize| self.links[link].name.clone();
+        let pairs: Vec<[String; 2]> =
+            found.into_iter().map(|(one, other)| [name(one), name(other)]).collect();
+        self.apart.extend(pairs.iter().cloned());
+        Ok(pairs)
     }
 
     /// The mass of all of it, kg.
@@ -229,7 +261,7 @@ impl LinkDescription {
     /// With one more solid.
     #[must_use]
     pub fn with_solid(mut self, form: Form, link_from_solid: Pose, material: Material) -> Self {
-        self.solids.push(LinkSolid { form, link_from_solid, material });
+        self.solids.push(LinkSolid { form, link_from_solid, material, kinds: Kinds::default() });
         self
     }
 

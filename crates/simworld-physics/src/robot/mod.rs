@@ -9,12 +9,14 @@ mod error;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod import;
 mod looks;
+mod meeting;
 mod motor;
 mod physics_body;
 mod solids;
 mod tree;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use simworld_core::action::{Action, ActionSet};
@@ -26,7 +28,7 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 use articulation::{Links, Sensed, lowest};
 pub use description::{
     Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid, MOST_CORNERS, MOST_JOINTS,
-    MOST_LINKS, RobotDescription,
+    MOST_LINKS, MOST_SOLIDS, RobotDescription,
 };
 pub use error::RobotError;
 #[cfg(feature = "mjcf")]
@@ -36,9 +38,12 @@ pub use import::urdf;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 pub use import::{ImportLimits, ImportOptions, Imported, Note};
 use looks::Looks;
+use meeting::Meeting;
 use motor::Motor;
 use tree::Tree;
 
+use crate::apart::Apart;
+pub use crate::apart::Kinds;
 use crate::error::{PhysicsError, check_range};
 use crate::joint::{JointCommand, JointReading};
 
@@ -95,12 +100,15 @@ impl From<RobotDescription> for RobotConfig {
 /// [`PhysicsDynamics::body_as_mut`](crate::PhysicsDynamics::body_as_mut) gives it out. Joints are counted as
 /// [`joint_names`](Self::joint_names) has them: those that move, each after those that it hangs on.
 ///
-/// The entity's frame is `height` below that of the first link, and moves with it. Links of one robot pass through one
-/// another.
+/// The entity's frame is `height` below that of the first link, and moves with it. Links meet one another but for those on one
+/// joint, and others that the [description](RobotDescription::apart) sets apart.
 #[derive(Clone, Debug)]
 pub struct Robot {
     config: RobotConfig,
     tree: Tree,
+    meeting: Meeting,
+    /// What the engine asks about its solids, if it has to.
+    apart: Option<Arc<Apart>>,
     motors: Vec<Motor>,
     /// Of the configuration: a saved state is taken up by the same robot alone.
     digest: u64,
@@ -131,6 +139,8 @@ impl Robot {
     /// A description that is no robot, a setting out of range, or a position of a joint that is not there.
     pub fn new(state: BodyState, config: RobotConfig) -> Result<Self, PhysicsError> {
         let tree = Tree::of(&config.description)?;
+        let meeting = Meeting::of(&config.description, &tree)?;
+        let apart = meeting.is_asked.then(|| Arc::new(meeting.apart.clone()));
         check_range("RobotConfig", "substep", config.substep, 1e-4..=0.0051, "1e-4 to 0.0051 s")?;
         let positions = start_positions(&config, &tree)?;
         let height = match (config.height, config.description.base) {
@@ -157,7 +167,19 @@ impl Robot {
         let motion = Motion { links: None, sensed, commands, torques, poses };
         let root_from_entity = lift.inverse();
         let looks = Looks::of(&config.description, &tree);
-        Ok(Self { config, tree, motors, digest, root_from_entity, id: None, state, motion, looks })
+        Ok(Self {
+            config,
+            tree,
+            meeting,
+            apart,
+            motors,
+            digest,
+            root_from_entity,
+            id: None,
+            state,
+            motion,
+            looks,
+        })
     }
 
     /// Its data.
@@ -238,6 +260,11 @@ impl Robot {
         Some(self.tree.poses(positions).get(part)? * part_from_link)
     }
 
+    /// Which of its solids meet, if the engine has to ask.
+    pub(crate) fn apart(&self) -> Option<&Arc<Apart>> {
+        self.apart.as_ref()
+    }
+
     fn place_of(&self, link: &str) -> Option<(usize, Pose)> {
         let place = self.config.description.links.iter().position(|known| known.name == link)?;
         self.tree.links.get(place).copied()
@@ -254,14 +281,8 @@ fn start_positions(config: &RobotConfig, tree: &Tree) -> Result<Vec<f64>, Physic
         }
         check_range("RobotConfig", "positions", *position, -1e4..=1e4, "-1e4 to 1e4 rad or m")?;
     }
-    Ok(tree
-        .hinges()
-        .map(|(_, hinge)| {
-            let joint = &joints[hinge.joint];
-            let wanted = config.positions.get(&joint.name).copied().unwrap_or(0.0);
-            joint.ends().map_or(wanted, |[low, high]| wanted.clamp(low, high))
-        })
-        .collect())
+    let wished = |joint: &JointDescription| config.positions.get(&joint.name).copied().unwrap_or(0.0);
+    Ok(tree.positions(&config.description, wished))
 }
 
 impl Embodiment for Robot {

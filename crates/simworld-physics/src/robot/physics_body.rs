@@ -14,7 +14,7 @@ impl PhysicsBody for Robot {
     fn attach(&mut self, id: EntityId, physics: &mut PhysicsWorld) -> RigidBodyHandle {
         self.id = Some(id);
         let world_from_root = self.state.pose * self.root_from_entity.inverse();
-        let plan = Plan { id, description: &self.config.description, tree: &self.tree };
+        let plan = self.plan(id);
         let root = plan.root(&world_from_root, physics);
         self.assemble(physics, root);
         root
@@ -53,7 +53,7 @@ impl PhysicsBody for Robot {
         if self.motion.links.is_none() {
             return self.assemble(physics, root);
         }
-        let plan = Plan { id, description: &self.config.description, tree: &self.tree };
+        let plan = self.plan(id);
         if let Some(links) = &self.motion.links {
             links.mind_stops(physics, &plan, (&self.motion.sensed, &self.motion.torques), dt);
             links.act(physics, root, &self.tree, &self.motion.torques);
@@ -106,6 +106,10 @@ impl PhysicsBody for Robot {
 }
 
 impl Robot {
+    fn plan(&self, id: EntityId) -> Plan<'_> {
+        Plan { id, description: &self.config.description, tree: &self.tree, meeting: &self.meeting }
+    }
+
     /// Hangs the other parts on the first one's rigid body, with the robot where its state says.
     fn assemble(&mut self, physics: &mut PhysicsWorld, root: RigidBodyHandle) {
         let Some(id) = self.id else { return };
@@ -114,7 +118,7 @@ impl Robot {
         let arm = self.state.pose.rotation * entity_from_root.translation.vector;
         let Twist { linear, angular } = self.state.twist;
         let twist = Twist { linear: linear + angular.cross(&arm), angular };
-        let plan = Plan { id, description: &self.config.description, tree: &self.tree };
+        let plan = self.plan(id);
         let start = Start { world_from_root, twist, positions: &self.motion.sensed.positions };
         let links = plan.build(physics, root, &start);
         self.motion.poses = links.poses(physics, root, &self.tree);

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, UnitQuaternion};
 use simworld_core::geometry::{Pose, Vector3};
 
 use super::description::{
-    JointDescription, JointKind, LinkDescription, MOST_JOINTS, MOST_LINKS, RobotDescription,
+    JointDescription, JointKind, LinkDescription, MOST_JOINTS, MOST_LINKS, MOST_SOLIDS, RobotDescription,
 };
 use super::error::RobotError;
 
@@ -223,6 +223,18 @@ impl Tree {
         self.parts.iter().enumerate().filter_map(|(part, data)| Some((part, data.hinge.as_ref()?)))
     }
 
+    /// Positions of the joints as near to those wished for as their ends let them.
+    pub(super) fn positions(
+        &self,
+        description: &RobotDescription,
+        wished: impl Fn(&JointDescription) -> f64,
+    ) -> Vec<f64> {
+        let joints = self.hinges().map(|(_, hinge)| &description.joints[hinge.joint]);
+        joints
+            .map(|joint| joint.ends().map_or(wished(joint), |[low, high]| wished(joint).clamp(low, high)))
+            .collect()
+    }
+
     /// Where the parts stand in the frame of the first, with the joints at such positions.
     pub(super) fn poses(&self, positions: &[f64]) -> Vec<Pose> {
         let mut poses: Vec<Pose> = Vec::with_capacity(self.parts.len());
@@ -245,6 +257,7 @@ fn check_numbers(description: &RobotDescription) -> Result<(), RobotError> {
     few("links", description.links.len(), MOST_LINKS)?;
     let movable = description.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
     few("joints that move", movable, MOST_JOINTS)?;
+    few("solids", description.links.iter().map(|link| link.solids.len()).sum(), MOST_SOLIDS)?;
     description.links.iter().try_for_each(LinkDescription::check)?;
     description.joints.iter().try_for_each(JointDescription::check)
 }

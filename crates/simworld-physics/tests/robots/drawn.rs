@@ -45,6 +45,7 @@ fn boom() -> RobotDescription {
             JointDescription::new("foot of the lamp", JointKind::Fixed, ["arm", "lamp"])
                 .at(Vector3::new(1.4, 0.0, 0.1)),
         ],
+        ..RobotDescription::default()
     }
 }
 

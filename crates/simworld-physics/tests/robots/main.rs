@@ -4,6 +4,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod drawn;
+mod meeting;
 mod quadruped;
 mod quadruped_falls;
 mod quadruped_land;

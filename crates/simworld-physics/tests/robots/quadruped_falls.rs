@@ -8,9 +8,11 @@ use simworld_core::geometry::{Point3, Vector3};
 use simworld_core::hash::{StateHash, StateHasher};
 use simworld_core::id::EntityId;
 use simworld_core::ops;
-use simworld_core::scene::{FallCause, Footing, Scene};
+use simworld_core::scene::{EntityKind, FallCause, Footing, Scene, Shape};
 use simworld_core::seam::Dynamics;
-use simworld_physics::{Command, Detail, PhysicsConfig, PhysicsDynamics, QuadrupedConfig};
+use simworld_physics::{
+    Command, Detail, JointCommand, PhysicsConfig, PhysicsDynamics, QuadrupedConfig, QuadrupedModel,
+};
 
 /// The length of a substep on legs, s.
 const SUBSTEP: f64 = 1.0 / 200.0;
@@ -271,4 +273,73 @@ fn saved_at_any_moment_it_goes_on_to_the_bit() {
             assert_eq!(digest(&again), digest(&stage));
         }
     }
+}
+
+/// Where thigh and shank of a leg run, from its readings: hip, knee and foot as seen from the trunk, m.
+fn bones(stage: &Stage, dog: EntityId, leg: usize) -> [Vector3; 3] {
+    let model = QuadrupedModel::default();
+    let [aside, thigh, knee] = stage.quadruped(dog).readings().joints[leg].map(|joint| joint.angle);
+    let (ahead, left) = (if leg < 2 { 1.0 } else { -1.0 }, if leg.is_multiple_of(2) { 1.0 } else { -1.0 });
+    let turned = |place: Vector3| {
+        let (sin, cos) = ops::sin_cos(aside);
+        let place = Vector3::new(place.x, cos * place.y - sin * place.z, sin * place.y + cos * place.z);
+        Vector3::new(ahead * model.hip[0], left * model.hip[1], 0.0) + place
+    };
+    let down = |angle: f64| -Vector3::new(ops::sin(angle), 0.0, ops::cos(angle));
+    let hip = Vector3::new(0.0, left * model.hip_offset, 0.0);
+    let middle = hip + down(thigh) * model.thigh;
+    [hip, middle, middle + down(thigh + knee) * model.shank].map(turned)
+}
+
+/// The least distance of the axes of two legs, m.
+fn between(one: [Vector3; 3], other: [Vector3; 3]) -> f64 {
+    let along = |bones: [Vector3; 3]| {
+        (0..100).map(move |at| {
+            let share = f64::from(at % 50) / 49.0;
+            let first = usize::from(at >= 50);
+            bones[first].lerp(&bones[first + 1], share)
+        })
+    };
+    along(one).flat_map(|a| along(other).map(move |b| (a - b).norm())).fold(f64::INFINITY, f64::min)
+}
+
+/// In free fall the fore leg of a side is led back and the hind leg forward, by all that their motors give.
+#[test]
+fn legs_that_are_led_against_one_another_touch() {
+    let mut stage = fine(Material::Asphalt);
+    let mut pose = at(0.0, 0.0, 0.0);
+    pose.translation.z = 6.0;
+    let dog = stage.legged_dog(pose);
+    let hold = |angle| JointCommand { angle, stiffness: 40.0, damping: 1.0, ..JointCommand::default() };
+    let back = [hold(0.0), hold(1.5), hold(-1.0)];
+    let ahead = [hold(0.0), hold(-0.6), hold(-1.0)];
+    stage.quadruped_mut(dog).control_joints([back, back, ahead, ahead]).unwrap();
+    let (mut least, mut loads) = (f64::INFINITY, 0.0_f64);
+    for _ in 0..160 {
+        stage.tick(0.005);
+        least = least.min(between(bones(&stage, dog, 0), bones(&stage, dog, 2)));
+        loads = stage.quadruped(dog).readings().feet.iter().copied().fold(loads, f64::max);
+    }
+    let shanks = 2.0 * 0.06 * QuadrupedModel::default().shank;
+    println!("axes of legs come within {least:.4} m, shanks are {shanks:.4} m thick together");
+    assert!(least > shanks - 0.005, "{least}");
+    assert!(least < shanks + 0.03, "they came to one another: {least}");
+    assert!(loads == 0.0, "a foot on a leg stands on nothing: {loads} N");
+}
+
+/// Whose thighs begin within the trunk, since the hips are narrow, stands and walks as well.
+#[test]
+fn narrow_hips_are_no_trouble() {
+    let mut stage = Stage::new();
+    let model = QuadrupedModel { trunk_radius: 0.1, hip_offset: 0.06, ..QuadrupedModel::default() };
+    let id = stage.spawn(EntityKind::Dog, at(0.0, 0.0, 0.0), Shape::cuboid(0.7, 0.35, 0.5));
+    let config = QuadrupedConfig { model, ..QuadrupedConfig::default() };
+    stage.physics.add_quadruped(&stage.world, id, config).unwrap();
+    stage.run(10);
+    stage.command(id, forward(0.4));
+    for _ in 0..40 {
+        stage.run(1);
+        assert!(stage.up(id) > 0.97, "{}", stage.up(id));
+    }
+    assert!(stage.position(id).x > 1.0, "{}", stage.position(id));
 }

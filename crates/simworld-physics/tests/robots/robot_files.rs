@@ -10,7 +10,7 @@ use simworld_core::geometry::{Point3, Vector3, pose_facing};
 use simworld_core::id::EntityId;
 use simworld_core::scene::{EntityKind, Scene, Shape};
 use simworld_physics::robot::{Base, Form, ImportLimits, ImportOptions, Imported, JointKind, mjcf, urdf};
-use simworld_physics::{Robot, RobotConfig, RobotDescription, RobotError};
+use simworld_physics::{JointCommand, Robot, RobotConfig, RobotDescription, RobotError};
 
 /// A trunk with a leg that turns and a foot that slides, by URDF.
 const LEG_URDF: &str = r#"<?xml version="1.0"?>
@@ -287,6 +287,100 @@ fn what_is_approximated_stands_in_the_report() {
         assert!(report.contains(word), "{report}\nlacks {word:?}");
     }
     assert_eq!(read.description.mass(), 1002.0);
+}
+
+/// A post that stands, an arm on it and a hand that folds back on the post, by both formats.
+fn folding(contact: &str, hand: &str) -> [String; 2] {
+    let beam = "<inertial><origin xyz='.25 0 0'/><mass value='1'/><inertia ixx='.002' iyy='.02' izz='.02'/></inertial>\
+        <collision><origin xyz='.25 0 0'/><geometry><box size='.4 .04 .04'/></geometry></collision>";
+    let joint = |name: &str, parent: &str, child: &str, x: f64| {
+        format!(
+            "<joint name='{name}' type='revolute'><origin xyz='{x} 0 0'/><parent link='{parent}'/><child link='{child}'/>\
+             <axis xyz='0 0 1'/><limit lower='-3.1' upper='3.1' effort='5' velocity='50'/></joint>"
+        )
+    };
+    let urdf = format!(
+        "<robot name='folding'><link name='world'/><link name='post'><collision><geometry><box size='.2 .2 .5'/></geometry>\
+         </collision></link><link name='arm'>{beam}</link><link name='hand'>{beam}</link>\
+         <joint name='weld' type='fixed'><parent link='world'/><child link='post'/></joint>{}{}</robot>",
+        joint("shoulder", "post", "arm", 0.15),
+        joint("elbow", "arm", "hand", 0.35)
+    );
+    let inertial = "<inertial pos='.25 0 0' mass='1' diaginertia='.002 .02 .02'/>";
+    let mjcf = format!(
+        "<mujoco><compiler angle='radian'/><worldbody><body name='post'><geom type='box' size='.1 .1 .25'/>\
+         <body name='arm' pos='.15 0 0'>{inertial}<joint name='shoulder' range='-3.1 3.1'/>\
+         <geom type='box' size='.2 .02 .02' pos='.25 0 0'/>\
+         <body name='hand' pos='.35 0 0'>{inertial}<joint name='elbow' range='-3.1 3.1'/>\
+         <geom type='box' size='.2 .02 .02' pos='.25 0 0' {hand}/></body></body></body></worldbody>{contact}\
+         <actuator><motor joint='shoulder' forcerange='-5 5'/><motor joint='elbow' forcerange='-5 5'/></actuator></mujoco>"
+    );
+    [urdf, mjcf]
+}
+
+/// Where a joint comes to rest that is driven on while the other one is held at 0.
+fn driven(read: Imported, joint: &str) -> f64 {
+    let mut stage = Stage::new();
+    let id = put(&mut stage, read.description);
+    stage.tick(0.01);
+    for _ in 0..150 {
+        let body: &mut Robot = stage.physics.body_as_mut(id).unwrap();
+        for name in ["shoulder", "elbow"] {
+            let at = body.joint(name).unwrap();
+            let driven = JointCommand { torque: 1.0, damping: 0.3, ..JointCommand::default() };
+            let command = if name == joint { driven } else { body.servo(at, 0.0, 8.0) };
+            body.command(at, command).unwrap();
+        }
+        stage.tick(0.02);
+    }
+    let body: &Robot = stage.physics.body_as(id).unwrap();
+    body.reading(body.joint(joint).unwrap()).unwrap().angle
+}
+
+/// Links without a joint between them meet in URDF; in MJCF those do that contype, conaffinity and exclude let, and what hangs on a
+/// body that stands as the world does meets that.
+#[test]
+fn links_meet_as_their_format_says() {
+    let [urdf, mjcf] = folding("", "");
+    let stopped = [read_urdf(&urdf).unwrap(), read_mjcf(&mjcf).unwrap()].map(|read| {
+        assert_eq!(read.report.iter().filter(|note| note.what.contains("within one another")).count(), 0);
+        driven(read, "elbow")
+    });
+    assert!(stopped.iter().all(|angle| *angle > 1.5 && *angle < 3.0), "{stopped:?}");
+    assert!((stopped[0] - stopped[1]).abs() < 1e-3, "{stopped:?}");
+    // The arm against the post, on which it hangs.
+    let shoulder =
+        [read_urdf(&urdf).unwrap(), read_mjcf(&mjcf).unwrap()].map(|read| driven(read, "shoulder"));
+    assert!(shoulder[0] > 3.0 && shoulder[1] < 2.5 && shoulder[1] > 1.5, "{shoulder:?}");
+    for (contact, hand) in [
+        ("<contact><exclude body1='post' body2='hand'/></contact>", ""),
+        ("", "contype='0' conaffinity='0'"),
+        ("", "contype='2' conaffinity='4'"),
+    ] {
+        let through = driven(read_mjcf(&folding(contact, hand)[1]).unwrap(), "elbow");
+        assert!(through > 3.09, "{contact}{hand}: {through}");
+    }
+    let meets = driven(read_mjcf(&folding("", "contype='2' conaffinity='1'")[1]).unwrap(), "elbow");
+    assert!((meets - stopped[1]).abs() < 1e-3, "{meets}");
+    let none = folding("<contact><exclude body1='post' body2='foot'/></contact>", "");
+    assert!(error_of(read_mjcf(&none[1]), "no foot").contains("\"foot\""));
+    let half = folding("", "contype='0.5'");
+    assert!(error_of(read_mjcf(&half[1]), "half a bit").contains("contype"));
+}
+
+/// What is within something else at rest passes through it for good, and the report says so.
+#[test]
+fn links_that_overlap_at_rest_pass_through_one_another_and_stand_in_the_report() {
+    let [urdf, mjcf] = folding("", "");
+    let urdf = urdf.replace("0.35 0 0'/><parent link='arm'", "-0.2 0 0'/><parent link='arm'");
+    let mjcf = mjcf.replace("name='hand' pos='.35 0 0'", "name='hand' pos='-.2 0 0'");
+    for read in [read_urdf(&urdf).unwrap(), read_mjcf(&mjcf).unwrap()] {
+        let pairs: Vec<&[String; 2]> =
+            read.description.apart.iter().filter(|pair| pair.contains(&"hand".to_owned())).collect();
+        assert!(pairs.iter().any(|pair| pair.contains(&"post".to_owned())), "{pairs:?}");
+        let report = read.report.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+        assert!(report.contains("links \"post\" and \"hand\": are within one another"), "{report}");
+    }
 }
 
 /// A cube of a metre as STL, and an angle of two boxes as OBJ.

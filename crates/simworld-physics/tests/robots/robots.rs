@@ -44,7 +44,13 @@ fn chain(count: usize) -> RobotDescription {
         joints.push(hinge.at(place).about(Vector3::y()));
         links.push(LinkDescription::new(&name).with_mass(1.0, down, [1e-7; 3]));
     }
-    RobotDescription { name: "chain".to_owned(), base: Base::Fixed, links, joints }
+    RobotDescription {
+        name: "chain".to_owned(),
+        base: Base::Fixed,
+        links,
+        joints,
+        ..RobotDescription::default()
+    }
 }
 
 fn starting_at(description: RobotDescription, positions: &[(&str, f64)]) -> RobotConfig {
@@ -128,6 +134,7 @@ fn crane() -> RobotDescription {
             elbow.at(Vector3::new(0.5, 0.0, 0.0)).within([-1.0, 1.5]).with_motor(8.0, 0.01),
             wrist.at(Vector3::new(0.5, 0.0, 0.0)).within([-0.5, 0.5]).with_motor(6.0, 0.01),
         ],
+        ..RobotDescription::default()
     }
 }
 
@@ -221,6 +228,7 @@ fn sliding_joints_fall_as_anything_does_and_springs_swing_by_their_formula() {
         base: Base::Fixed,
         links: vec![LinkDescription::new("stand"), bob.clone()],
         joints: vec![JointDescription { spring, ..slide.clone() }],
+        ..RobotDescription::default()
     };
     let mut stage = Stage::new();
     let free = add(&mut stage, Point3::new(0.0, 0.0, 20.0), starting_at(make([0.0; 2]), &[]));
@@ -286,6 +294,7 @@ fn mass_and_inertia_in_the_engine_are_those_of_the_description() {
         base: Base::Fixed,
         links: vec![LinkDescription::new("stand"), lower, upper],
         joints: vec![weld, hinge],
+        ..RobotDescription::default()
     };
     assert_eq!(description.mass(), 4.0);
     let mut stage = Stage::new();

@@ -160,7 +160,13 @@ fn arm(stage: &mut Stage) -> EntityId {
     let joint = JointDescription::new("shoulder", JointKind::Revolute, ["stand", "arm"]);
     let joint = joint.about(-Vector3::y()).within([-1.0, 1.0]).with_motor(200.0, 0.01);
     let links = vec![LinkDescription::new("stand"), arm];
-    let description = RobotDescription { name: "arm".into(), base: Base::Fixed, links, joints: vec![joint] };
+    let description = RobotDescription {
+        name: "arm".into(),
+        base: Base::Fixed,
+        links,
+        joints: vec![joint],
+        ..RobotDescription::default()
+    };
     let pose = pose_facing(Point3::new(0.0, 0.0, 1.0), 0.0);
     let id = stage.spawn(EntityKind::Robot, pose, Shape::cuboid(0.2, 0.2, 0.2));
     stage.physics.add_robot(&stage.world, id, RobotConfig::from(description)).unwrap();

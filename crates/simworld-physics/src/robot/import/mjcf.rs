@@ -13,8 +13,9 @@
 //! ```
 //!
 //! The frame of a link has its origin at its first joint, where that of its body may have it elsewhere. A body with a free joint
-//! moves freely; any other one hangs on a link `world` that stands still. A joint without an actuator has no motor. Tendons,
-//! equalities, sensors and contact settings are passed over.
+//! moves freely; any other one hangs on a link `world` that stands still. A joint without an actuator has no motor. Geoms of one
+//! robot meet as `contype`, `conaffinity`, `exclude` and the rule for parents and children say, unless their bodies are within one
+//! another where the joints rest, which the report then says. Tendons, equalities, sensors and other contact settings are passed over.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +29,7 @@ use crate::robot::description::{Base, JointDescription, JointKind, LinkDescripti
 use crate::robot::{RobotDescription, RobotError};
 
 /// The link that everything hangs on that does not move freely.
-const WORLD: &str = "world";
+pub(super) const WORLD: &str = "world";
 
 /// Reads a robot from the text of a file.
 ///
@@ -62,13 +63,14 @@ pub fn from_str(text: &str, options: &ImportOptions) -> Result<Imported, RobotEr
     if let Some(base) = options.base {
         description.base = base;
     }
+    super::mjcf_contacts::read(root, &mut description, &mut reading)?;
     finish(description, reading, gains)
 }
 
 fn pass_over(root: Node<'_, '_>, reading: &mut Reading<'_>) {
     for node in root.children().filter(Node::is_element) {
         let name = node.tag_name().name();
-        if matches!(name, "tendon" | "equality" | "contact" | "deformable" | "extension") {
+        if matches!(name, "tendon" | "equality" | "deformable" | "extension") {
             reading.note(place(node), "is passed over");
         }
     }

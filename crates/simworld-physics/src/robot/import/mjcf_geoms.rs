@@ -9,9 +9,9 @@ use super::mjcf_read::{Class, Settings, along_z, some, wrong};
 use super::xml::{place, shortened};
 use super::{Reading, WATER, mesh};
 use crate::convert::from_vector;
-use crate::robot::RobotError;
 use crate::robot::description::{Form, LinkSolid};
 use crate::robot::solids::solid;
+use crate::robot::{Kinds, RobotError};
 
 /// A geom.
 #[derive(Default)]
@@ -48,7 +48,8 @@ pub(super) fn read(
     if !(0.0..=1e7).contains(&density) {
         return Err(wrong(node, "mass", &format!("{density} kg/m³"), "a mass of 0 to 1e7 kg/m³"));
     }
-    let mut geom = Geom { meets: true, ..Geom::default() };
+    let kinds = Kinds { own: bits(class, "contype")?, met: bits(class, "conaffinity")? };
+    let mut geom = Geom { meets: kinds.own != 0 || kinds.met != 0, ..Geom::default() };
     for (form, (shape, form_from_shape)) in &volumes {
         let properties = shape.mass_properties(density);
         let frame = link_from_solid * crate::convert::from_pose(form_from_shape);
@@ -59,11 +60,20 @@ pub(super) fn read(
         let center = frame * nalgebra::Point3::from(from_vector(properties.local_com));
         let inertia = turn.matrix() * inertia * turn.matrix().transpose();
         geom.masses.push((properties.mass(), center.coords, inertia));
-        geom.solids.push(LinkSolid { form: (*form).clone(), link_from_solid, material: material(class)? });
+        let (form, material) = ((*form).clone(), material(class)?);
+        geom.solids.push(LinkSolid { form, link_from_solid, material, kinds });
     }
-    let is_off = |name| Ok::<bool, RobotError>(class.number(name)?.is_some_and(|bits| bits == 0.0));
-    geom.meets = !(is_off("contype")? && is_off("conaffinity")?);
     Ok(geom)
+}
+
+/// Bits as an integer of 32 bits, which may be written with a sign; 1 by default.
+fn bits(class: &Class<'_, '_>, attribute: &str) -> Result<u32, RobotError> {
+    let Some(number) = class.number(attribute)? else { return Ok(1) };
+    if number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(u32::MAX)).contains(&number) {
+        return Ok(number as i64 as u32);
+    }
+    let value = class.get(attribute).unwrap_or_default();
+    Err(wrong(class.node, attribute, value, "an integer of 32 bits"))
 }
 
 /// The material whose friction is nearest to that of the geom, which is 1 unless it says otherwise.

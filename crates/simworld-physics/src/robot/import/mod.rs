@@ -7,6 +7,8 @@ mod mesh;
 #[cfg(feature = "mjcf")]
 pub mod mjcf;
 #[cfg(feature = "mjcf")]
+mod mjcf_contacts;
+#[cfg(feature = "mjcf")]
 mod mjcf_geoms;
 #[cfg(feature = "mjcf")]
 mod mjcf_motors;
@@ -133,10 +135,14 @@ impl<'a> Reading<'a> {
 
 /// Checks a description that was read.
 fn finish(
-    description: RobotDescription,
-    reading: Reading<'_>,
+    mut description: RobotDescription,
+    mut reading: Reading<'_>,
     gains: BTreeMap<String, [f64; 2]>,
 ) -> Result<Imported, RobotError> {
     description.validate()?;
+    for [one, other] in description.part_at_rest()? {
+        let place = format!("links {:?} and {:?}", xml::shortened(&one), xml::shortened(&other));
+        reading.note(place, "are within one another where the joints rest: they pass through one another");
+    }
     Ok(Imported { description, report: reading.report, gains })
 }

@@ -21,7 +21,8 @@
 //! ```
 //!
 //! A first link that is called `world` stands still, any other moves freely, unless the options say otherwise. Pictures,
-//! transmissions, sensors and what simulators add are passed over.
+//! transmissions, sensors and what simulators add are passed over. Links that no joint holds together meet one another, unless they
+//! are within one another where the joints rest, which the report then says.
 
 use std::collections::BTreeMap;
 
@@ -33,7 +34,7 @@ use simworld_core::geometry::{Pose, Vector3};
 use super::xml::{child, children, exactly, number, parse, place, required, shortened};
 use super::{ImportOptions, Imported, Reading, finish, mesh};
 use crate::robot::description::{Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid};
-use crate::robot::{RobotDescription, RobotError};
+use crate::robot::{Kinds, RobotDescription, RobotError};
 
 /// Reads a robot from the text of a file.
 ///
@@ -91,7 +92,8 @@ fn link(node: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<LinkDescription
         })?;
         let link_from_solid = origin(collision)?;
         for form in forms(geometry, reading)? {
-            link.solids.push(LinkSolid { form, link_from_solid, material: Material::Plastic });
+            let (material, kinds) = (Material::Plastic, Kinds::default());
+            link.solids.push(LinkSolid { form, link_from_solid, material, kinds });
         }
     }
     match child(node, "inertial") {
