@@ -49,7 +49,8 @@ pub use grasp::{Grip, Turning};
 pub use humanoid::{ColliderForm, Humanoid, HumanoidConfig, Posture, Surefootedness};
 pub use joint::{JointCommand, JointReading};
 pub use quadruped::{
-    Command, GaitParameters, ImuReading, LEGS, Quadruped, QuadrupedConfig, QuadrupedModel, Readings,
+    Command, GaitParameters, ImuReading, LEGS, Quadruped, QuadrupedConfig, QuadrupedControl, QuadrupedModel,
+    QuadrupedState, Readings,
 };
 /// The physics engine underneath, for bodies of one's own: its types appear in [`PhysicsBody`].
 pub use rapier3d_f64 as rapier;

@@ -1,4 +1,4 @@
-//! What bodies do: an obstacle course, its film, plots, and crowds whose cost is measured.
+//! What bodies do: an obstacle course, its film, plots, crowds whose cost is measured, and a gait beside that in another engine.
 
 mod chart;
 mod course;
@@ -8,6 +8,7 @@ mod mujoco;
 mod plain;
 mod plots;
 mod quarter;
+mod trot;
 
 pub use course::{Course, Embodiment, Outcome, PATIENCE, SECTIONS};
 pub use film::{Film, FilmError};
@@ -16,3 +17,4 @@ pub use mujoco::{Rival, mujoco_boxes};
 pub use plain::{Loop, PlainWalkers, our_boxes, our_step, our_walkers, plain_boxes};
 pub use plots::{Curve, braking_chart, energy_chart};
 pub use quarter::{BUILDINGS, Crowd, Quarter, SOLIDS, Threads};
+pub use trot::{Trot, mujoco_trot, our_trot};

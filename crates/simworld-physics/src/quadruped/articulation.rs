@@ -15,8 +15,8 @@ use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Twist, Vector3};
 use simworld_core::id::EntityId;
 
-use super::QuadrupedModel;
 use super::meeting::{TRUNK, number};
+use super::{QuadrupedModel, QuadrupedState};
 use crate::convert::{from_pose, from_vector, to_pose, to_vector};
 use crate::joint::JointReading;
 use crate::shape::{BodyTag, marked, numbered};
@@ -43,23 +43,6 @@ pub(super) struct Links {
     /// Hip, thigh and shank of one leg after the other.
     bodies: Vec<RigidBodyHandle>,
     feet: [ColliderHandle; 4],
-}
-
-/// What a quadruped feels of itself.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sensed {
-    /// The middle of the trunk.
-    pub(super) trunk: Pose,
-    /// Velocity of the trunk, world frame, m/s and rad/s.
-    pub(super) linear: Vector3,
-    pub(super) angular: Vector3,
-    /// The centre of mass of the whole, world frame, m.
-    pub(super) center: Vector3,
-    /// rad and rad/s.
-    pub(super) angles: PerJoint,
-    pub(super) speeds: PerJoint,
-    /// With how much force the ground holds each foot, N.
-    pub(super) loads: [f64; 4],
 }
 
 /// Whether the engine asks if thighs and trunk meet.
@@ -154,7 +137,12 @@ impl Links {
     }
 
     /// What the body feels of itself; `dt` s is the substep in which the loads on the feet arose.
-    pub(super) fn sense(&self, physics: &PhysicsWorld, trunk: RigidBodyHandle, dt: f64) -> Option<Sensed> {
+    pub(super) fn sense(
+        &self,
+        physics: &PhysicsWorld,
+        trunk: RigidBodyHandle,
+        dt: f64,
+    ) -> Option<QuadrupedState> {
         let multibody = self.multibody(physics)?;
         let velocity = multibody.generalized_velocity();
         let (mut angles, mut speeds) = ([[0.0; 3]; 4], [[0.0; 3]; 4]);
@@ -176,7 +164,7 @@ impl Links {
             let pairs = physics.contact_pairs_with(foot).filter(of_others);
             pairs.map(ContactPair::total_impulse_magnitude).sum::<f64>() / dt
         });
-        Some(Sensed {
+        Some(QuadrupedState {
             trunk: from_pose(root.position()),
             linear: from_vector(root.linvel()),
             angular: from_vector(root.angvel()),

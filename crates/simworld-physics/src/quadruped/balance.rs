@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, UnitQuaternion, Vector6};
 use simworld_core::geometry::Vector3;
 
-use super::articulation::Sensed;
+use super::QuadrupedState;
 
 /// What the body is to do next, world frame.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ const GYRATION: [f64; 3] = [0.10, 0.17, 0.19];
 const LOOSE: [f64; 2] = [2e-3, 1e-4];
 
 /// Force and torque about the centre of mass that bring the body to its aim, N and N m.
-fn wrench(aim: &Aim, sensed: &Sensed, mass: f64, gravity: f64) -> Vector6<f64> {
+fn wrench(aim: &Aim, sensed: &QuadrupedState, mass: f64, gravity: f64) -> Vector6<f64> {
     let (away, slow) = (aim.place - sensed.center, aim.velocity - sensed.linear);
     let [[k, d], [k_up, d_up]] = PLACE;
     let level = (away * k + slow * d).xy();
@@ -100,7 +100,7 @@ fn within_friction(force: &Vector3, normal: &Vector3) -> Vector3 {
 /// Forces of the ground on the feet that bring the body to its aim, world frame, N.
 pub(super) fn hold(
     aim: &Aim,
-    sensed: &Sensed,
+    sensed: &QuadrupedState,
     feet: &[(Vector3, f64); 4],
     normal: &Vector3,
     (mass, gravity): (f64, f64),

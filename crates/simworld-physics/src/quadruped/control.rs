@@ -4,11 +4,11 @@ use nalgebra::UnitQuaternion;
 use simworld_core::geometry::{Pose, Vector2, Vector3};
 use simworld_core::ops;
 
-use super::articulation::{PerJoint, Sensed};
+use super::articulation::PerJoint;
 use super::balance::{Aim, hold};
 use super::gait::{Gait, Look, Way};
 use super::recovery::Task;
-use super::{Command, Quadruped};
+use super::{Command, Quadruped, QuadrupedState};
 
 /// Stiffness and damping of a joint that leads a foot through the air, N m/rad and N m s/rad.
 const SWING: [f64; 2] = [55.0, 1.3];
@@ -51,8 +51,17 @@ pub(super) fn heading_of(trunk: &Pose) -> f64 {
 }
 
 impl Quadruped {
-    /// The torques of the motors for the coming substep, within what they give.
-    pub(super) fn think(&mut self, sensed: &Sensed, field: &Field<'_>) -> PerJoint {
+    /// Takes in what it feels; the torques of the motors for the coming substep, within what they give, are returned.
+    pub(super) fn lead_motors(&mut self, sensed: &QuadrupedState, field: &Field<'_>) -> PerJoint {
+        if std::mem::take(&mut self.motion.is_fresh) {
+            self.start_walk(sensed);
+        }
+        let torques = self.think(sensed, field);
+        self.read(sensed, &torques, field.gravity, field.dt);
+        torques
+    }
+
+    fn think(&mut self, sensed: &QuadrupedState, field: &Field<'_>) -> PerJoint {
         let asked = match self.motion.joints {
             Some(joints) => std::array::from_fn(|leg| {
                 std::array::from_fn(|joint| {
@@ -74,7 +83,7 @@ impl Quadruped {
     }
 
     /// Where the feet are, world frame, m.
-    pub(super) fn feet(&self, sensed: &Sensed) -> [Vector3; 4] {
+    pub(super) fn feet(&self, sensed: &QuadrupedState) -> [Vector3; 4] {
         std::array::from_fn(|leg| {
             let foot = self.config.model.leg(leg).foot(&sensed.angles[leg]);
             (sensed.trunk * nalgebra::Point3::from(foot)).coords
@@ -82,7 +91,7 @@ impl Quadruped {
     }
 
     /// Begins to walk, or to stand, from where it is.
-    pub(super) fn start_walk(&mut self, sensed: &Sensed) {
+    pub(super) fn start_walk(&mut self, sensed: &QuadrupedState) {
         self.motion.walk = Walk {
             gait: Gait::standing(self.feet(sensed)),
             command: Command::default(),
@@ -93,7 +102,7 @@ impl Quadruped {
     }
 
     /// Takes up commands and leads its feet and its trunk accordingly.
-    pub(super) fn walk(&mut self, sensed: &Sensed, field: &Field<'_>) -> PerJoint {
+    pub(super) fn walk(&mut self, sensed: &QuadrupedState, field: &Field<'_>) -> PerJoint {
         let feet = self.feet(sensed);
         self.take_up(sensed, field.dt);
         let Walk { gait, command, heading, .. } = &mut self.motion.walk;
@@ -114,7 +123,7 @@ impl Quadruped {
     }
 
     /// Moves the command that is followed towards the one that was given, and the place and heading with it.
-    fn take_up(&mut self, sensed: &Sensed, dt: f64) {
+    fn take_up(&mut self, sensed: &QuadrupedState, dt: f64) {
         let wanted = self.wanted(sensed, dt);
         let Walk { command, heading, place, gait } = &mut self.motion.walk;
         let towards = |is: f64, to: f64, rate: f64| is + (to - is).clamp(-rate * dt, rate * dt);
@@ -142,7 +151,7 @@ impl Quadruped {
     }
 
     /// The command that follows from what it was told; what is left of steps and turns goes down by what was done.
-    fn wanted(&mut self, sensed: &Sensed, dt: f64) -> Command {
+    fn wanted(&mut self, sensed: &QuadrupedState, dt: f64) -> Command {
         let speeds = self.config.speeds;
         if let Some(command) = self.motion.command {
             return command.within(speeds);
@@ -171,7 +180,7 @@ impl Quadruped {
     }
 
     /// Where trunk and centre of mass are to be.
-    fn aim(&self, sensed: &Sensed) -> Aim {
+    fn aim(&self, sensed: &QuadrupedState) -> Aim {
         let Walk { gait, command, heading, place } = &self.motion.walk;
         let model = &self.config.model;
         let trunk = sensed.trunk.translation.vector;
@@ -190,7 +199,7 @@ impl Quadruped {
     }
 
     /// Leads a foot through the air.
-    fn lead(&self, leg: usize, (place, velocity): &Way, sensed: &Sensed) -> [f64; 3] {
+    fn lead(&self, leg: usize, (place, velocity): &Way, sensed: &QuadrupedState) -> [f64; 3] {
         let geometry = self.config.model.leg(leg);
         let foot = sensed.trunk.inverse_transform_point(&nalgebra::Point3::from(*place)).coords;
         let mut angles = geometry.reach(&foot);
@@ -208,7 +217,7 @@ impl Quadruped {
     }
 
     /// Presses a foot on the ground so that the ground answers with a force.
-    pub(super) fn press(&self, leg: usize, force: &Vector3, sensed: &Sensed) -> [f64; 3] {
+    pub(super) fn press(&self, leg: usize, force: &Vector3, sensed: &QuadrupedState) -> [f64; 3] {
         let force = sensed.trunk.rotation.inverse() * force;
         let jacobian = self.config.model.leg(leg).jacobian(&sensed.angles[leg]);
         let torque = -(jacobian.transpose() * force);

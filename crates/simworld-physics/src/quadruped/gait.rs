@@ -9,8 +9,7 @@ use serde::{Deserialize, Serialize};
 use simworld_core::geometry::{Point3, Vector2, Vector3};
 use simworld_core::ops;
 
-use super::articulation::Sensed;
-use super::{Command, GaitParameters, QuadrupedModel};
+use super::{Command, GaitParameters, QuadrupedModel, QuadrupedState};
 
 /// A foot with less load than this is in the air, N.
 const CONTACT: f64 = 2.0;
@@ -128,7 +127,7 @@ impl Gait {
     pub(super) fn advance(
         &mut self,
         (model, gait): (&QuadrupedModel, &GaitParameters),
-        sensed: &Sensed,
+        sensed: &QuadrupedState,
         feet: &[Vector3; 4],
         (command, heading): (&Command, f64),
         look: Look<'_>,
@@ -168,7 +167,7 @@ impl Gait {
         &mut self,
         model: &QuadrupedModel,
         gait: &GaitParameters,
-        sensed: &Sensed,
+        sensed: &QuadrupedState,
         feet: &[Vector3; 4],
         (command, heading): (&Command, f64),
     ) {
@@ -188,7 +187,7 @@ impl Gait {
     fn foothold(
         &self,
         (model, gait): (&QuadrupedModel, &GaitParameters),
-        sensed: &Sensed,
+        sensed: &QuadrupedState,
         foot: usize,
         (command, heading): (&Command, f64),
         left: f64,
@@ -266,7 +265,7 @@ impl Gait {
 }
 
 /// The point over which a foot stands at rest: beside its hip, world frame, m.
-fn hip_of(model: &QuadrupedModel, sensed: &Sensed, foot: usize, heading: f64) -> Vector3 {
+fn hip_of(model: &QuadrupedModel, sensed: &QuadrupedState, foot: usize, heading: f64) -> Vector3 {
     let leg = model.leg(foot);
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), heading);
     let beside = Vector3::new(leg.hip.x, leg.hip.y + leg.offset, 0.0);

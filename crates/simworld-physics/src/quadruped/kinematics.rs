@@ -43,6 +43,15 @@ impl Leg {
         self.hip + roll(&self.hanging(q).1, ops::sin_cos(q[0]))
     }
 
+    /// Where the centres of mass of hip, thigh and shank are at three angles, trunk frame, m; those of the limbs are so far down them,
+    /// as shares of their lengths.
+    pub(super) fn centers(&self, q: &[f64; 3], [thigh, shank]: [f64; 2]) -> [Vector3; 3] {
+        let offset = Vector3::new(0.0, self.offset, 0.0);
+        let (knee, foot) = self.hanging(q);
+        let hanging = [offset * 0.5, offset.lerp(&knee, thigh), knee.lerp(&foot, shank)];
+        hanging.map(|center| self.hip + roll(&center, ops::sin_cos(q[0])))
+    }
+
     /// The angles that put the foot there, or as near as the leg reaches; the foot stays below the hip.
     pub(super) fn reach(&self, foot: &Vector3) -> [f64; 3] {
         let p = foot - self.hip;

@@ -1,12 +1,13 @@
 //! A quadruped on twelve motors: what it is, what it is told and what it tells.
 //!
 //! `articulation` is its body in the engine, `control` leads it, by `gait`, `balance` and `kinematics`, and `recovery` brings
-//! it back on its feet.
+//! it back on its feet. `elsewhere` lends that control to bodies in other engines.
 
 mod articulation;
 mod balance;
 mod control;
 mod description;
+mod elsewhere;
 mod gait;
 mod kinematics;
 mod meeting;
@@ -27,8 +28,9 @@ use simworld_core::seam::{BodyState, Embodiment, EmbodimentError};
 
 use articulation::Links;
 use control::Walk;
+pub use elsewhere::QuadrupedControl;
 pub use model::QuadrupedModel;
-pub use readings::{Command, ImuReading, Readings};
+pub use readings::{Command, ImuReading, QuadrupedState, Readings};
 use recovery::Task;
 use stride::Stride;
 

@@ -122,6 +122,21 @@ impl QuadrupedModel {
         (self.thigh + self.shank) * 0.64 + self.foot_radius
     }
 
+    /// The angles of the joints of a body that stands on level ground, radians; legs as in [`LEGS`](super::LEGS).
+    pub fn standing_angles(&self) -> [[f64; 3]; 4] {
+        std::array::from_fn(|leg| self.standing(leg, self.standing_height()))
+    }
+
+    /// The centre of mass of the whole, m, in the frame of the middle of the trunk, with the joints at such angles, radians; legs as in
+    /// [`LEGS`](super::LEGS).
+    pub fn center_of_mass(&self, angles: &[[f64; 3]; 4]) -> Vector3 {
+        let limbs = (0..4).flat_map(|leg| {
+            let centers = self.leg(leg).centers(&angles[leg], self.leg_centers);
+            centers.into_iter().zip(self.leg_masses).map(|(center, mass)| center * mass)
+        });
+        limbs.sum::<Vector3>() / self.mass()
+    }
+
     /// Where a joint of a leg ends, from and to, radians; legs as in [`LEGS`](super::LEGS).
     pub fn limits_of(&self, leg: usize, joint: usize) -> [f64; 2] {
         let [low, high] = self.limits[joint];

@@ -15,10 +15,10 @@ use simworld_core::ops;
 use simworld_core::scene::{FOOTING, Scene, World, WorldError};
 use simworld_core::seam::{BodyState, Embodiment};
 
-use super::Quadruped;
-use super::articulation::{Links, PerJoint, Sensed};
+use super::articulation::{Links, PerJoint};
 use super::control::{Field, heading_of};
 use super::recovery::Task;
+use super::{Quadruped, QuadrupedState};
 use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
 use crate::convert::{to_point, to_pose, to_vector};
 use crate::joint::JointReading;
@@ -83,12 +83,7 @@ impl PhysicsBody for Quadruped {
             let (_, hit) = queries.cast_ray_and_get_normal(&ray, SIGHT, true)?;
             (hit.time_of_impact > 0.0 && hit.normal.z > 0.5).then(|| place.z - hit.time_of_impact)
         };
-        if std::mem::take(&mut self.motion.is_fresh) {
-            self.start_walk(&sensed);
-        }
-        let field = Field { look: &look, gravity: around.config().gravity, dt };
-        let torques = self.think(&sensed, &field);
-        self.read(&sensed, &torques, around.config().gravity, dt);
+        self.lead_motors(&sensed, &Field { look: &look, gravity: around.config().gravity, dt });
     }
 
     fn drive(&mut self, context: &mut BodyContext<'_>, dt: f64) {
@@ -227,7 +222,7 @@ impl Quadruped {
     }
 
     /// Notes what can be read of it.
-    fn read(&mut self, sensed: &Sensed, torques: &PerJoint, gravity: f64, dt: f64) {
+    pub(super) fn read(&mut self, sensed: &QuadrupedState, torques: &PerJoint, gravity: f64, dt: f64) {
         let readings = &mut self.motion.readings;
         readings.joints = std::array::from_fn(|leg| {
             std::array::from_fn(|joint| JointReading {

@@ -2,7 +2,7 @@
 
 use nalgebra::UnitQuaternion;
 use serde::{Deserialize, Serialize};
-use simworld_core::geometry::Vector3;
+use simworld_core::geometry::{Pose, Vector3};
 
 use crate::joint::JointReading;
 
@@ -65,4 +65,37 @@ pub struct Readings {
     pub feet: [f64; 4],
     /// The inertial measuring unit.
     pub imu: ImuReading,
+}
+
+/// What a quadruped feels of its own body: all that its [control](super::QuadrupedControl) needs of it. Legs come as in
+/// [`LEGS`](super::LEGS), the joints of each as abduction, thigh and knee.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuadrupedState {
+    /// The middle of the trunk in the world: x forward, y left, z up.
+    pub trunk: Pose,
+    /// Velocity of the middle of the trunk, world frame, m/s.
+    pub linear: Vector3,
+    /// Angular velocity of the trunk, world frame, rad/s.
+    pub angular: Vector3,
+    /// The centre of mass of the whole, world frame, m; [`QuadrupedModel::center_of_mass`](super::QuadrupedModel::center_of_mass)
+    /// reckons it from the joints.
+    pub center: Vector3,
+    /// Angles of the joints, radians.
+    pub angles: [[f64; 3]; 4],
+    /// Speeds of the joints, rad/s.
+    pub speeds: [[f64; 3]; 4],
+    /// With how much force the ground holds each foot, N.
+    pub loads: [f64; 4],
+}
+
+impl QuadrupedState {
+    /// Whether every number of it is finite.
+    pub fn is_finite(&self) -> bool {
+        let Self { trunk, linear, angular, center, angles, speeds, loads } = self;
+        let turn = &trunk.rotation.coords;
+        let body = trunk.translation.vector.iter().chain(turn).chain(linear).chain(angular).chain(center);
+        let joints = angles.as_flattened().iter().chain(speeds.as_flattened());
+        body.chain(joints).chain(loads).all(|number| number.is_finite())
+    }
 }

@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Vector3;
 use simworld_core::scene::{FallCause, Footing};
 
-use super::Quadruped;
-use super::articulation::{PerJoint, Sensed};
+use super::articulation::PerJoint;
 use super::control::Field;
+use super::{Quadruped, QuadrupedState};
 
 /// A trunk whose upward axis points less upward than this has fallen (60° of tilt).
 const FALLEN: f64 = 0.5;
@@ -91,7 +91,7 @@ impl Quadruped {
     }
 
     /// The torques that its task asks for.
-    pub(super) fn act_on_task(&mut self, sensed: &Sensed, field: &Field<'_>) -> PerJoint {
+    pub(super) fn act_on_task(&mut self, sensed: &QuadrupedState, field: &Field<'_>) -> PerJoint {
         let up = (sensed.trunk.rotation * Vector3::z()).z;
         let stands =
             matches!(self.motion.task, Task::Walk | Task::Lie | Task::Lower { .. } | Task::Rise { .. });
@@ -153,12 +153,12 @@ impl Quadruped {
     }
 
     /// Remembers blows: jolts harder than its own legs can give it.
-    fn feel_blows(&mut self, sensed: &Sensed, dt: f64) {
+    fn feel_blows(&mut self, sensed: &QuadrupedState, dt: f64) {
         let jolt = (sensed.linear - self.motion.before).xy().norm();
         self.motion.shaken = if jolt > JOLT * dt { MEMORY } else { (self.motion.shaken - dt).max(0.0) };
     }
 
-    fn lie_limp(&mut self, rests: f64, since: f64, sensed: &Sensed, dt: f64) -> PerJoint {
+    fn lie_limp(&mut self, rests: f64, since: f64, sensed: &QuadrupedState, dt: f64) -> PerJoint {
         let slow = sensed.linear.norm() < RESTING[0] && sensed.angular.norm() < RESTING[1];
         let rests = if slow { rests + dt } else { 0.0 };
         self.motion.task = if rests > REST || since > PATIENCE {
@@ -170,7 +170,7 @@ impl Quadruped {
     }
 
     /// Straightens the legs under the trunk, which its weight is shared by.
-    fn rise(&mut self, since: f64, sensed: &Sensed, field: &Field<'_>) -> PerJoint {
+    fn rise(&mut self, since: f64, sensed: &QuadrupedState, field: &Field<'_>) -> PerJoint {
         let share = (since / RISING).min(1.0);
         let height = FOLDED + (self.config.model.standing_height() - FOLDED) * share;
         self.motion.task = Task::Rise { since: since + field.dt };
@@ -208,7 +208,7 @@ impl Quadruped {
 }
 
 /// Torques that bring the joints to angles and keep them there.
-fn hold_angles(angles: &PerJoint, sensed: &Sensed, [stiffness, damping]: [f64; 2]) -> PerJoint {
+fn hold_angles(angles: &PerJoint, sensed: &QuadrupedState, [stiffness, damping]: [f64; 2]) -> PerJoint {
     std::array::from_fn(|leg| {
         std::array::from_fn(|joint| {
             stiffness * (angles[leg][joint] - sensed.angles[leg][joint]) - damping * sensed.speeds[leg][joint]
@@ -217,7 +217,7 @@ fn hold_angles(angles: &PerJoint, sensed: &Sensed, [stiffness, damping]: [f64; 2
 }
 
 /// What to do with folded legs: rise, or push.
-fn turn_over(sensed: &Sensed, up: f64) -> Task {
+fn turn_over(sensed: &QuadrupedState, up: f64) -> Task {
     if up > UPRIGHT {
         return Task::Rise { since: 0.0 };
     }

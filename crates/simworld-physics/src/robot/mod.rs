@@ -1,7 +1,8 @@
 //! Robots of any build: links on joints with motors of limited torque, described by hand or read from files.
 //!
 //! [`RobotDescription`] is the data, [`PhysicsDynamics::add_robot`](crate::PhysicsDynamics::add_robot) makes a body of it, and
-//! [`Robot`] is where its joints are led and read. Files are read by the modules `urdf` and `mjcf` (features of these names).
+//! [`Robot`] is where its joints are led and read. Files are read by the modules `urdf` and `mjcf` (features of these names); `mjcf` writes them
+//! as well.
 
 mod articulation;
 mod description;
@@ -9,7 +10,12 @@ mod error;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod import;
 mod looks;
+<<<<<<< HEAD
 mod meeting;
+=======
+#[cfg(feature = "mjcf")]
+mod mjcf_write;
+>>>>>>> 7cdc53a (Bodies: the robot dog's control is lent to other engines, robots are written as MJCF, and the trot is compared with MuJoCo)
 mod motor;
 mod physics_body;
 mod solids;

@@ -56,7 +56,7 @@ pub(super) struct Lump {
 }
 
 impl Lump {
-    fn of(link: &LinkDescription, part_from_link: &Pose) -> Self {
+    pub(super) fn of(link: &LinkDescription, part_from_link: &Pose) -> Self {
         let mut inertia = link.inertia;
         if link.mass > 0.0 && inertia.amax() == 0.0 {
             let radius =

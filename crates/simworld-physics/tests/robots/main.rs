@@ -9,4 +9,5 @@ mod quadruped;
 mod quadruped_falls;
 mod quadruped_land;
 mod robot_files;
+mod robot_written;
 mod robots;

@@ -7,11 +7,14 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::common::{Stage, at, ramp};
 use simworld_core::action::{Action, StepDirection};
+use simworld_core::geometry::Pose;
 use simworld_core::geometry::{Point3, Vector3, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, Footing, Scene};
-use simworld_physics::{Command, JointCommand};
+use simworld_physics::{
+    Command, JointCommand, PhysicsError, QuadrupedConfig, QuadrupedControl, QuadrupedState,
+};
 
 fn forward(speed: f64) -> Command {
     Command { forward: speed, ..Command::default() }
@@ -271,4 +274,73 @@ fn without_its_motors_it_sinks_down() {
     stage.quadruped_mut(dog).control_joints([[JointCommand::default(); 3]; 4]).unwrap();
     stage.run(15);
     assert!(stage.position(dog).z < -0.1, "{}", stage.position(dog).z);
+}
+
+/// What a dog will feel at the start of the coming substep of its trunk; its joints and feet tell that afterwards.
+fn trunk_of(stage: &Stage, dog: EntityId) -> QuadrupedState {
+    let state = stage.physics.state(dog).unwrap();
+    let arm = state.pose.rotation * Vector3::z() * QuadrupedConfig::default().model.standing_height();
+    let trunk = Pose::from_parts((state.pose.translation.vector + arm).into(), state.pose.rotation);
+    let (linear, angular) = (state.twist.linear + state.twist.angular.cross(&arm), state.twist.angular);
+    let (angles, speeds, loads) = ([[0.0; 3]; 4], [[0.0; 3]; 4], [0.0; 4]);
+    QuadrupedState { trunk, linear, angular, center: Vector3::zeros(), angles, speeds, loads }
+}
+
+/// The control that is lent to bodies elsewhere is the one that leads the body here, told what that feels.
+#[test]
+fn its_control_alone_gives_the_torques_that_it_gives_here() {
+    let mut stage = Stage::new();
+    let dog = stage.legged_dog(at(1.0, 2.0, 0.5));
+    let mut control = QuadrupedControl::new(QuadrupedConfig::default()).unwrap();
+    let command = Command { forward: 0.6, turning: 0.3, ..Command::default() };
+    let mut greatest = 0.0f64;
+    for turn in 0..600 {
+        if turn == 100 {
+            stage.command(dog, command);
+            control.command(command);
+        }
+        let mut felt = trunk_of(&stage, dog);
+        stage.tick(0.005);
+        let readings = stage.quadruped(dog).readings();
+        felt.angles = readings.joints.map(|leg| leg.map(|joint| joint.angle));
+        felt.speeds = readings.joints.map(|leg| leg.map(|joint| joint.speed));
+        felt.loads = readings.feet;
+        let center = control.config().model.center_of_mass(&felt.angles);
+        felt.center = (felt.trunk * Point3::from(center)).coords;
+        let torques = control.torques(&felt, &|_| Some(0.0), 9.81, 0.005).unwrap();
+        let given = readings.joints.map(|leg| leg.map(|joint| joint.torque));
+        for (ours, theirs) in torques.as_flattened().iter().zip(given.as_flattened()) {
+            assert!((ours - theirs).abs() < 1e-6, "turn {turn}: {torques:?}, {given:?}");
+            greatest = greatest.max(ours.abs());
+        }
+    }
+    assert!(greatest > 10.0, "it has walked: {greatest}");
+    assert_eq!(control.footing(), Footing::Upright);
+}
+
+#[test]
+fn a_control_refuses_what_no_body_feels() {
+    let mut control = QuadrupedControl::new(QuadrupedConfig::default()).unwrap();
+    let angles = control.config().model.standing_angles();
+    let felt = QuadrupedState {
+        trunk: Pose::translation(0.0, 0.0, 0.3),
+        linear: Vector3::zeros(),
+        angular: Vector3::zeros(),
+        center: Vector3::new(0.0, 0.0, 0.25),
+        angles,
+        speeds: [[0.0; 3]; 4],
+        loads: [30.0; 4],
+    };
+    let refused = |felt: &QuadrupedState, gravity, dt| {
+        let refusal = control.clone().torques(felt, &|_| None, gravity, dt).unwrap_err();
+        assert!(matches!(refusal, PhysicsError::Config { .. }));
+        refusal.to_string()
+    };
+    assert!(refused(&felt, f64::NAN, 0.005).contains("gravity"));
+    assert!(refused(&felt, 9.81, 0.1).contains("dt"));
+    let mut mad = felt;
+    mad.speeds[3][1] = f64::INFINITY;
+    assert!(refused(&mad, 9.81, 0.005).contains("finite"));
+    let torques = control.torques(&felt, &|_| Some(f64::NAN), 9.81, 0.005).unwrap();
+    assert!(torques.as_flattened().iter().all(|torque| torque.is_finite()));
 }

@@ -40,7 +40,7 @@ const LEG_URDF: &str = r#"<?xml version="1.0"?>
 </robot>"#;
 
 /// The same by MJCF, with the frame of the foot's body elsewhere than its joint.
-const LEG_MJCF: &str = r#"<mujoco model="leg">
+pub(super) const LEG_MJCF: &str = r#"<mujoco model="leg">
   <compiler angle="radian"/>
   <default>
     <geom friction="0.4"/>
@@ -73,7 +73,7 @@ fn read_urdf(text: &str) -> Result<Imported, RobotError> {
     urdf::from_str(text, &ImportOptions::default())
 }
 
-fn read_mjcf(text: &str) -> Result<Imported, RobotError> {
+pub(super) fn read_mjcf(text: &str) -> Result<Imported, RobotError> {
     mjcf::from_str(text, &ImportOptions::default())
 }
 
@@ -129,7 +129,7 @@ fn a_free_fall_of_a_file_is_a_free_fall() {
     assert!((gained + Vector3::z() * (7.0 * 9.81 * 0.498)).norm() < 1e-9, "{gained}");
 }
 
-fn error_of(read: Result<Imported, RobotError>, of: &str) -> String {
+pub(super) fn error_of(read: Result<Imported, RobotError>, of: &str) -> String {
     match read {
         Ok(_) => panic!("{of} is no robot, and was read"),
         Err(error) => error.to_string(),

@@ -14,6 +14,8 @@ use super::xml::shortened;
 use crate::convert::{from_vector, to_vector};
 use crate::robot::RobotError;
 use crate::robot::description::Form;
+#[cfg(feature = "mjcf")]
+use crate::robot::description::MOST_CORNERS;
 use crate::robot::solids::volume;
 
 /// A hull has at most the points that lie outermost in so many directions.
@@ -247,6 +249,16 @@ fn parts(surface: &Surface, most: u32) -> Vec<Form> {
     hulls
         .filter_map(|(points, _)| hull(&points.iter().map(|point| from_vector(*point)).collect::<Vec<_>>()))
         .collect()
+}
+
+/// The least convex solid around points that lie within 1e4 m, or nearly that of very many; none for points of a plane.
+#[cfg(feature = "mjcf")]
+pub(super) fn around(points: &[Vector3]) -> Option<Form> {
+    if points.len() > MOST_CORNERS {
+        return hull(points);
+    }
+    let form = Form::Convex { points: points.to_vec() };
+    (volume(&form) > 1e-12).then_some(form)
 }
 
 /// The hull of the points that lie outermost in directions all round; none for points of a plane.

@@ -2,11 +2,12 @@
 
 use nalgebra::{Matrix3, UnitQuaternion};
 use rapier3d_f64::math::Vector;
+use roxmltree::Node;
 use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Vector3};
 
 use super::mjcf_read::{Class, Settings, along_z, some, wrong};
-use super::xml::{place, shortened};
+use super::xml::{numbers_up_to, place, shortened};
 use super::{Reading, WATER, mesh};
 use crate::convert::from_vector;
 use crate::robot::description::{Form, LinkSolid};
@@ -157,15 +158,40 @@ fn meshes(
         let (place, name) = (place(node), shortened(name));
         return Err(RobotError::Unknown { place, kind: "mesh", name });
     };
-    let Some(file) = asset.attribute("file") else {
-        reading.note(place(node), "a mesh without a file is passed over");
-        return Ok(Vec::new());
-    };
     let scale = settings.class(*asset, None, "mesh")?.exactly::<3>("scale")?.unwrap_or([1.0; 3]);
+    let Some(file) = asset.attribute("file") else {
+        return corners(*asset, scale, reading);
+    };
     let path = if settings.meshes.is_empty() {
         file.to_owned()
     } else {
         format!("{}/{file}", settings.meshes.trim_end_matches('/'))
     };
     mesh::solids(reading, &place(node), &path, scale)
+}
+
+/// A mesh whose corners stand in the file, which is met as the hull of these.
+fn corners(asset: Node<'_, '_>, scale: [f64; 3], reading: &mut Reading<'_>) -> Result<Vec<Form>, RobotError> {
+    let Some(text) = asset.attribute("vertex") else {
+        reading.note(place(asset), "a mesh without a file and without corners is passed over");
+        return Ok(Vec::new());
+    };
+    let most = 3 * reading.options.limits.triangles;
+    let numbers = numbers_up_to(asset, "vertex", text, 3 * most)?;
+    let (points, rest) = numbers.as_chunks::<3>();
+    if !rest.is_empty() || points.len() > most {
+        return Err(wrong(asset, "vertex", text, "three numbers a corner, and not too many corners"));
+    }
+    let points: Vec<Vector3> =
+        points.iter().map(|at| Vector3::from(*at).component_mul(&Vector3::from(scale))).collect();
+    if points.iter().any(|point: &Vector3| point.iter().any(|part| part.abs() > 1e4 || part.is_nan())) {
+        return Err(wrong(asset, "vertex", text, "corners within 1e4 m of the origin"));
+    }
+    let form = mesh::around(&points);
+    if form.is_none() {
+        reading.note(place(asset), "the mesh is flat: nothing meets this part");
+    } else if asset.attribute("face").is_some() {
+        reading.note(place(asset), "the mesh is met as the hull of its corners");
+    }
+    Ok(form.into_iter().collect())
 }

@@ -85,15 +85,26 @@ pub(super) fn required<'a>(
     })
 }
 
-/// The finite numbers of a text, separated by spaces.
+/// The finite numbers of a text, separated by spaces; of very many the first.
 pub(super) fn numbers(node: Node<'_, '_>, attribute: &str, text: &str) -> Result<Vec<f64>, RobotError> {
+    numbers_up_to(node, attribute, text, 16)
+}
+
+/// The finite numbers of a text, separated by spaces; where there are more than so many, one more than that.
+pub(super) fn numbers_up_to(
+    node: Node<'_, '_>,
+    attribute: &str,
+    text: &str,
+    most: usize,
+) -> Result<Vec<f64>, RobotError> {
     let wrong = |allowed| RobotError::Text {
         place: place(node),
         attribute: attribute.to_owned(),
         value: shortened(text),
         allowed,
     };
-    let numbers: Result<Vec<f64>, _> = text.split_whitespace().take(17).map(str::parse::<f64>).collect();
+    let words = text.split_whitespace().take(most.saturating_add(1));
+    let numbers: Result<Vec<f64>, _> = words.map(str::parse::<f64>).collect();
     let numbers = numbers.map_err(|_| wrong("numbers, separated by spaces"))?;
     if numbers.iter().all(|number| number.is_finite()) { Ok(numbers) } else { Err(wrong("finite numbers")) }
 }

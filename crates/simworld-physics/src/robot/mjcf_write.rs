@@ -1,0 +1,243 @@
+//! A robot as MJCF, the format of `MuJoCo`.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Matrix3, UnitQuaternion};
+use simworld_core::geometry::{Pose, Vector3};
+
+use super::description::{
+    Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid, RobotDescription,
+};
+use super::error::RobotError;
+use super::tree::Lump;
+
+/// Class of the defaults of everything in the robot, so that what is put beside it in the file has its own.
+const CLASS: &str = "robot";
+
+/// The text of a file that [`from_str`](super::mjcf::from_str) and `MuJoCo` read: the same masses, inertias, forms, joints, limits,
+/// springs, frictions and motors.
+///
+/// Lengths are m and angles radians. Joints with a motor have an actuator of the kind `motor` that takes torques or forces, within what
+/// the motor gives, and has the joint's name. Links of the robot pass through one another, as here, and meet what has the usual
+/// `contype` and `conaffinity` of 1. There is no ground in it.
+///
+/// What MJCF has no word for is left out: speeds at which motors drive no further, and how materials bounce. Where two things touch,
+/// `MuJoCo` takes the greater friction of both and this physics the geometric mean: a ground with `priority="1"` and that mean as its
+/// friction makes both the same. `MuJoCo` takes no link without mass that a joint moves.
+///
+/// ```
+/// use simworld_physics::QuadrupedModel;
+/// use simworld_physics::robot::{ImportOptions, mjcf};
+///
+/// let dog = QuadrupedModel::default();
+/// let text = mjcf::to_string(&dog.description())?;
+/// let read = mjcf::from_str(&text, &ImportOptions::default())?;
+/// assert!((read.description.mass() - dog.mass()).abs() < 1e-12);
+/// assert_eq!(read.description.joints[2].effort, Some(36.0)); // a knee
+/// # Ok::<(), simworld_physics::RobotError>(())
+/// ```
+///
+/// # Errors
+/// A description that is no robot, or a name with a character that XML does not have.
+pub fn to_string(description: &RobotDescription) -> Result<String, RobotError> {
+    description.validate()?;
+    let mut writer = Writer::of(description);
+    let held: Vec<&str> = description.joints.iter().map(|joint| joint.child.as_str()).collect();
+    let root = description.links.iter().find(|link| !held.contains(&link.name.as_str()));
+    if let Some(root) = root {
+        writer.top(root)?;
+    }
+    writer.file()
+}
+
+/// The parts of the file on the way.
+struct Writer<'a> {
+    description: &'a RobotDescription,
+    links: BTreeMap<&'a str, &'a LinkDescription>,
+    /// The joints that hang on a link, as they come.
+    joints: BTreeMap<&'a str, Vec<&'a JointDescription>>,
+    bodies: String,
+    meshes: String,
+    /// How many meshes there are.
+    count: usize,
+}
+
+impl<'a> Writer<'a> {
+    fn of(description: &'a RobotDescription) -> Self {
+        let mut joints: BTreeMap<&str, Vec<&JointDescription>> = BTreeMap::new();
+        for joint in &description.joints {
+            joints.entry(&joint.parent).or_default().push(joint);
+        }
+        let links = description.links.iter().map(|link| (link.name.as_str(), link)).collect();
+        Self { description, links, joints, bodies: String::new(), meshes: String::new(), count: 0 }
+    }
+
+    fn file(self) -> Result<String, RobotError> {
+        let name = escaped("the robot", &self.description.name)?;
+        let mut text = format!(
+            "<mujoco model=\"{name}\">\n  <compiler angle=\"radian\"/>\n  <default>\n    \
+             <default class=\"{CLASS}\"><geom contype=\"1\" conaffinity=\"0\" mass=\"0\"/></default>\n  </default>\n"
+        );
+        if self.count > 0 {
+            text += &format!("  <asset>\n{}  </asset>\n", self.meshes);
+        }
+        text += &format!("  <worldbody>\n{}  </worldbody>\n  <actuator>\n", self.bodies);
+        for joint in self.description.joints.iter().filter(|joint| joint.kind != JointKind::Fixed) {
+            let name = escaped("a joint", &joint.name)?;
+            let range = match joint.effort {
+                Some(0.0) => continue,
+                Some(most) => format!(" forcerange=\"{} {most}\"", -most),
+                None => String::new(),
+            };
+            text += &format!("    <motor name=\"{name}\" joint=\"{name}\"{range}/>\n");
+        }
+        Ok(text + "  </actuator>\n</mujoco>\n")
+    }
+
+    /// The link on which everything hangs, and all that does.
+    fn top(&mut self, root: &'a LinkDescription) -> Result<(), RobotError> {
+        let is_free = self.description.base == Base::Free;
+        // So the reader calls what a file's first body hangs on, which no file names.
+        if !is_free && root.name == "world" && root.mass == 0.0 && root.solids.is_empty() {
+            return self.below(root, 2, &format!(" childclass=\"{CLASS}\""));
+        }
+        let name = escaped("a link", &root.name)?;
+        self.bodies += &format!("    <body name=\"{name}\" childclass=\"{CLASS}\">\n");
+        if is_free {
+            self.bodies += "      <freejoint/>\n";
+        }
+        self.inside(root, 3)?;
+        self.bodies += "    </body>\n";
+        Ok(())
+    }
+
+    /// What a body holds: its mass, its solids, and what hangs on it; so many levels in.
+    fn inside(&mut self, link: &'a LinkDescription, level: usize) -> Result<(), RobotError> {
+        let edge = "  ".repeat(level);
+        if link.mass > 0.0 {
+            let lump = Lump::of(link, &Pose::identity());
+            let place = numbers(lump.center.as_slice());
+            let inertia = inertia(&lump.inertia);
+            self.bodies += &format!("{edge}<inertial pos=\"{place}\" mass=\"{}\" {inertia}/>\n", lump.mass);
+        }
+        for solid in &link.solids {
+            let geom = self.geom(solid);
+            self.bodies += &format!("{edge}<geom {geom}/>\n");
+        }
+        self.below(link, level, "")
+    }
+
+    /// The bodies that hang on a link; those directly below it have such attributes.
+    fn below(&mut self, link: &LinkDescription, level: usize, attributes: &str) -> Result<(), RobotError> {
+        let edge = "  ".repeat(level);
+        for joint in self.joints.remove(link.name.as_str()).unwrap_or_default() {
+            // Validated: every joint names links that are there.
+            let Some(child) = self.links.get(joint.child.as_str()).copied() else { continue };
+            let (name, place) = (escaped("a link", &child.name)?, pose(&joint.parent_from_joint));
+            self.bodies += &format!("{edge}<body name=\"{name}\"{place}{attributes}>\n");
+            if joint.kind != JointKind::Fixed {
+                self.bodies += &format!("{edge}  <joint {}/>\n", hinge(joint)?);
+            }
+            self.inside(child, level + 1)?;
+            self.bodies += &format!("{edge}</body>\n");
+        }
+        Ok(())
+    }
+
+    fn geom(&mut self, solid: &LinkSolid) -> String {
+        let (kind, size) = match &solid.form {
+            Form::Box { size } => ("box", (size * 0.5).as_slice().to_vec()),
+            Form::Cylinder { radius, length } => ("cylinder", vec![*radius, length * 0.5]),
+            Form::Sphere { radius } => ("sphere", vec![*radius]),
+            Form::Capsule { radius, length } => ("capsule", vec![*radius, length * 0.5]),
+            Form::Convex { points } => ("mesh", self.mesh(points)),
+        };
+        let form = match kind {
+            "mesh" => format!("mesh=\"mesh {}\"", self.count),
+            _ => format!("size=\"{}\"", numbers(&size)),
+        };
+        let friction = solid.material.friction();
+        format!("type=\"{kind}\" {form}{} friction=\"{friction}\"", pose(&solid.link_from_solid))
+    }
+
+    /// Adds a convex solid as a mesh of its corners, which has no size beside.
+    fn mesh(&mut self, points: &[Vector3]) -> Vec<f64> {
+        self.count += 1;
+        let corners: Vec<f64> = points.iter().flat_map(|point| point.iter().copied()).collect();
+        self.meshes +=
+            &format!("    <mesh name=\"mesh {}\" vertex=\"{}\"/>\n", self.count, numbers(&corners));
+        Vec::new()
+    }
+}
+
+/// The attributes of a joint that moves.
+fn hinge(joint: &JointDescription) -> Result<String, RobotError> {
+    let name = escaped("a joint", &joint.name)?;
+    let kind = if joint.kind == JointKind::Prismatic { "slide" } else { "hinge" };
+    let mut text = format!("name=\"{name}\" type=\"{kind}\" axis=\"{}\"", numbers(joint.axis.as_slice()));
+    if let Some(ends) = joint.ends() {
+        text += &format!(" range=\"{}\"", numbers(&ends));
+    }
+    let [stiffness, rest] = joint.spring;
+    for (attribute, value) in [
+        ("damping", joint.damping),
+        ("frictionloss", joint.friction),
+        ("armature", joint.armature),
+        ("stiffness", stiffness),
+        ("springref", rest),
+    ] {
+        if value != 0.0 {
+            text += &format!(" {attribute}=\"{value}\"");
+        }
+    }
+    Ok(text)
+}
+
+/// The shortest texts that read as the same numbers.
+fn numbers(numbers: &[f64]) -> String {
+    let texts: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    texts.join(" ")
+}
+
+/// The attributes of a place, as far as it is another than the origin.
+fn pose(pose: &Pose) -> String {
+    let mut text = String::new();
+    if pose.translation.vector != Vector3::zeros() {
+        text += &format!(" pos=\"{}\"", numbers(pose.translation.vector.as_slice()));
+    }
+    if pose.rotation != UnitQuaternion::identity() {
+        let q = &pose.rotation;
+        text += &format!(" quat=\"{}\"", numbers(&[q.w, q.i, q.j, q.k]));
+    }
+    text
+}
+
+fn inertia(inertia: &Matrix3<f64>) -> String {
+    let at = |row, column| inertia[(row, column)];
+    let (diagonal, others) = ([at(0, 0), at(1, 1), at(2, 2)], [at(0, 1), at(0, 2), at(1, 2)]);
+    if others == [0.0; 3] {
+        return format!("diaginertia=\"{}\"", numbers(&diagonal));
+    }
+    format!("fullinertia=\"{}\"", numbers(&[diagonal, others].concat()))
+}
+
+/// A name as the value of an attribute.
+fn escaped(of: &str, name: &str) -> Result<String, RobotError> {
+    let mut text = String::with_capacity(name.len());
+    for letter in name.chars() {
+        match letter {
+            '&' => text += "&amp;",
+            '<' => text += "&lt;",
+            '"' => text += "&quot;",
+            // As such a reader would take them for spaces.
+            '\t' | '\n' | '\r' => text += &format!("&#{};", u32::from(letter)),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {
+                let (place, what) =
+                    (format!("the name of {of}, {name:?}"), format!("the character {letter:?}"));
+                return Err(RobotError::Unsupported { place, what, mend: "XML does not have it: rename it" });
+            }
+            other => text.push(other),
+        }
+    }
+    Ok(text)
+}
