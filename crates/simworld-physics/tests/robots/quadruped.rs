@@ -7,13 +7,12 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::common::{Stage, at, ramp};
 use simworld_core::action::{Action, StepDirection};
-use simworld_core::geometry::Pose;
-use simworld_core::geometry::{Point3, Vector3, yaw_of};
+use simworld_core::geometry::{Point3, Pose, Vector3, yaw_of};
 use simworld_core::id::EntityId;
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, Footing, Scene};
 use simworld_physics::{
-    Command, JointCommand, PhysicsError, QuadrupedConfig, QuadrupedControl, QuadrupedState,
+    Command, JointCommand, PhysicsConfig, PhysicsError, QuadrupedConfig, QuadrupedControl, QuadrupedState,
 };
 
 fn forward(speed: f64) -> Command {
@@ -289,7 +288,8 @@ fn trunk_of(stage: &Stage, dog: EntityId) -> QuadrupedState {
 /// The control that is lent to bodies elsewhere is the one that leads the body here, told what that feels.
 #[test]
 fn its_control_alone_gives_the_torques_that_it_gives_here() {
-    let mut stage = Stage::new();
+    // Every step is one substep, in which the control is asked once.
+    let mut stage = Stage::with(PhysicsConfig { substeps: 1, ..PhysicsConfig::default() });
     let dog = stage.legged_dog(at(1.0, 2.0, 0.5));
     let mut control = QuadrupedControl::new(QuadrupedConfig::default()).unwrap();
     let command = Command { forward: 0.6, turning: 0.3, ..Command::default() };
