@@ -74,14 +74,25 @@ impl<'a> Writer<'a> {
 
     fn file(self) -> Result<String, RobotError> {
         let name = escaped("the robot", &self.description.name)?;
-        let mut text = format!(
-            "<mujoco model=\"{name}\">\n  <compiler angle=\"radian\"/>\n  <default>\n    \
-             <default class=\"{CLASS}\"><geom contype=\"1\" conaffinity=\"0\" mass=\"0\"/></default>\n  </default>\n"
-        );
-        if self.count > 0 {
-            text += &format!("  <asset>\n{}  </asset>\n", self.meshes);
+        let mut text = String::new();
+        line(&mut text, 0, &format!("<mujoco model=\"{name}\">"));
+        line(&mut text, 1, "<compiler angle=\"radian\"/>");
+        line(&mut text, 1, "<default>");
+        let geom = "<geom contype=\"1\" conaffinity=\"0\" mass=\"0\"/>";
+        line(&mut text, 2, &format!("<default class=\"{CLASS}\">{geom}</default>"));
+        line(&mut text, 1, "</default>");
+        let parts = [("asset", &self.meshes), ("worldbody", &self.bodies), ("actuator", &self.motors()?)];
+        for (element, inside) in parts.into_iter().filter(|(_, inside)| !inside.is_empty()) {
+            line(&mut text, 1, &format!("<{element}>"));
+            text += inside;
+            line(&mut text, 1, &format!("</{element}>"));
         }
-        text += &format!("  <worldbody>\n{}  </worldbody>\n  <actuator>\n", self.bodies);
+        line(&mut text, 0, "</mujoco>");
+        Ok(text)
+    }
+
+    fn motors(&self) -> Result<String, RobotError> {
+        let mut text = String::new();
         for joint in self.description.joints.iter().filter(|joint| joint.kind != JointKind::Fixed) {
             let name = escaped("a joint", &joint.name)?;
             let range = match joint.effort {
@@ -89,9 +100,9 @@ impl<'a> Writer<'a> {
                 Some(most) => format!(" forcerange=\"{} {most}\"", -most),
                 None => String::new(),
             };
-            text += &format!("    <motor name=\"{name}\" joint=\"{name}\"{range}/>\n");
+            line(&mut text, 2, &format!("<motor name=\"{name}\" joint=\"{name}\"{range}/>"));
         }
-        Ok(text + "  </actuator>\n</mujoco>\n")
+        Ok(text)
     }
 
     /// The link on which everything hangs, and all that does.
@@ -102,44 +113,42 @@ impl<'a> Writer<'a> {
             return self.below(root, 2, &format!(" childclass=\"{CLASS}\""));
         }
         let name = escaped("a link", &root.name)?;
-        self.bodies += &format!("    <body name=\"{name}\" childclass=\"{CLASS}\">\n");
+        line(&mut self.bodies, 2, &format!("<body name=\"{name}\" childclass=\"{CLASS}\">"));
         if is_free {
-            self.bodies += "      <freejoint/>\n";
+            line(&mut self.bodies, 3, "<freejoint/>");
         }
         self.inside(root, 3)?;
-        self.bodies += "    </body>\n";
+        line(&mut self.bodies, 2, "</body>");
         Ok(())
     }
 
     /// What a body holds: its mass, its solids, and what hangs on it; so many levels in.
     fn inside(&mut self, link: &'a LinkDescription, level: usize) -> Result<(), RobotError> {
-        let edge = "  ".repeat(level);
         if link.mass > 0.0 {
             let lump = Lump::of(link, &Pose::identity());
-            let place = numbers(lump.center.as_slice());
-            let inertia = inertia(&lump.inertia);
-            self.bodies += &format!("{edge}<inertial pos=\"{place}\" mass=\"{}\" {inertia}/>\n", lump.mass);
+            let (place, mass, inertia) = (numbers(lump.center.as_slice()), lump.mass, inertia(&lump.inertia));
+            let inertial = format!("<inertial pos=\"{place}\" mass=\"{mass}\" {inertia}/>");
+            line(&mut self.bodies, level, &inertial);
         }
         for solid in &link.solids {
             let geom = self.geom(solid);
-            self.bodies += &format!("{edge}<geom {geom}/>\n");
+            line(&mut self.bodies, level, &format!("<geom {geom}/>"));
         }
         self.below(link, level, "")
     }
 
     /// The bodies that hang on a link; those directly below it have such attributes.
     fn below(&mut self, link: &LinkDescription, level: usize, attributes: &str) -> Result<(), RobotError> {
-        let edge = "  ".repeat(level);
         for joint in self.joints.remove(link.name.as_str()).unwrap_or_default() {
             // Validated: every joint names links that are there.
             let Some(child) = self.links.get(joint.child.as_str()).copied() else { continue };
             let (name, place) = (escaped("a link", &child.name)?, pose(&joint.parent_from_joint));
-            self.bodies += &format!("{edge}<body name=\"{name}\"{place}{attributes}>\n");
+            line(&mut self.bodies, level, &format!("<body name=\"{name}\"{place}{attributes}>"));
             if joint.kind != JointKind::Fixed {
-                self.bodies += &format!("{edge}  <joint {}/>\n", hinge(joint)?);
+                line(&mut self.bodies, level + 1, &format!("<joint {}/>", hinge(joint)?));
             }
             self.inside(child, level + 1)?;
-            self.bodies += &format!("{edge}</body>\n");
+            line(&mut self.bodies, level, "</body>");
         }
         Ok(())
     }
@@ -164,33 +173,37 @@ impl<'a> Writer<'a> {
     fn mesh(&mut self, points: &[Vector3]) -> Vec<f64> {
         self.count += 1;
         let corners: Vec<f64> = points.iter().flat_map(|point| point.iter().copied()).collect();
-        self.meshes +=
-            &format!("    <mesh name=\"mesh {}\" vertex=\"{}\"/>\n", self.count, numbers(&corners));
+        let (name, corners) = (self.count, numbers(&corners));
+        line(&mut self.meshes, 2, &format!("<mesh name=\"mesh {name}\" vertex=\"{corners}\"/>"));
         Vec::new()
     }
+}
+
+/// Adds a line so many levels in.
+fn line(text: &mut String, level: usize, content: &str) {
+    *text += &"  ".repeat(level);
+    *text += content;
+    text.push('\n');
 }
 
 /// The attributes of a joint that moves.
 fn hinge(joint: &JointDescription) -> Result<String, RobotError> {
     let name = escaped("a joint", &joint.name)?;
     let kind = if joint.kind == JointKind::Prismatic { "slide" } else { "hinge" };
-    let mut text = format!("name=\"{name}\" type=\"{kind}\" axis=\"{}\"", numbers(joint.axis.as_slice()));
-    if let Some(ends) = joint.ends() {
-        text += &format!(" range=\"{}\"", numbers(&ends));
-    }
+    let axis = numbers(joint.axis.as_slice());
+    let mut attributes = vec![format!("name=\"{name}\" type=\"{kind}\" axis=\"{axis}\"")];
+    attributes.extend(joint.ends().map(|ends| format!("range=\"{}\"", numbers(&ends))));
     let [stiffness, rest] = joint.spring;
-    for (attribute, value) in [
+    let others = [
         ("damping", joint.damping),
         ("frictionloss", joint.friction),
         ("armature", joint.armature),
         ("stiffness", stiffness),
         ("springref", rest),
-    ] {
-        if value != 0.0 {
-            text += &format!(" {attribute}=\"{value}\"");
-        }
-    }
-    Ok(text)
+    ];
+    let others = others.into_iter().filter(|(_, value)| *value != 0.0);
+    attributes.extend(others.map(|(attribute, value)| format!("{attribute}=\"{value}\"")));
+    Ok(attributes.join(" "))
 }
 
 /// The shortest texts that read as the same numbers.
@@ -201,15 +214,12 @@ fn numbers(numbers: &[f64]) -> String {
 
 /// The attributes of a place, as far as it is another than the origin.
 fn pose(pose: &Pose) -> String {
-    let mut text = String::new();
-    if pose.translation.vector != Vector3::zeros() {
-        text += &format!(" pos=\"{}\"", numbers(pose.translation.vector.as_slice()));
-    }
-    if pose.rotation != UnitQuaternion::identity() {
-        let q = &pose.rotation;
-        text += &format!(" quat=\"{}\"", numbers(&[q.w, q.i, q.j, q.k]));
-    }
-    text
+    let place = (pose.translation.vector != Vector3::zeros())
+        .then(|| format!(" pos=\"{}\"", numbers(pose.translation.vector.as_slice())));
+    let q = &pose.rotation;
+    let turn =
+        (*q != UnitQuaternion::identity()).then(|| format!(" quat=\"{}\"", numbers(&[q.w, q.i, q.j, q.k])));
+    [place, turn].into_iter().flatten().collect()
 }
 
 fn inertia(inertia: &Matrix3<f64>) -> String {
@@ -230,7 +240,9 @@ fn escaped(of: &str, name: &str) -> Result<String, RobotError> {
             '<' => text += "&lt;",
             '"' => text += "&quot;",
             // As such a reader would take them for spaces.
-            '\t' | '\n' | '\r' => text += &format!("&#{};", u32::from(letter)),
+            '\t' => text += "&#9;",
+            '\n' => text += "&#10;",
+            '\r' => text += "&#13;",
             '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {
                 let (place, what) =
                     (format!("the name of {of}, {name:?}"), format!("the character {letter:?}"));

@@ -111,7 +111,8 @@ fn meshes_whose_corners_stand_in_the_file_are_their_hulls() {
     assert_eq!(points[1], Vector3::new(2.0, 0.0, 0.0));
     let flat = with("vertex='0 0 0 1 0 0 0 1 0 1 1 0'").unwrap();
     assert!(flat.description.links[0].solids.is_empty() && flat.report[0].what.contains("flat"), "{flat:?}");
-    let many: String = (0..900).map(|at| format!("{} {} {} ", at % 10, at / 10 % 10, at / 100)).collect();
+    let corner = |at: usize| format!("{} {} {}", at % 10, at / 10 % 10, at / 100);
+    let many = (0..900).map(corner).collect::<Vec<_>>().join(" ");
     let read = with(&format!("vertex='{many}'")).unwrap();
     let Form::Convex { points } = &read.description.links[0].solids[0].form else { panic!("{read:?}") };
     assert!((8..=256).contains(&points.len()), "{}", points.len());
