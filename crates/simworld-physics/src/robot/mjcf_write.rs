@@ -13,6 +13,8 @@ use super::tree::Lump;
 
 /// Class of the defaults of everything in the robot, so that what is put beside it in the file has its own.
 const CLASS: &str = "robot";
+/// What the first body of a file hangs on unless it moves freely; no file names it.
+const WORLD: &str = "world";
 
 /// The text of a file that [`from_str`](super::mjcf::from_str) and `MuJoCo` read: the same masses, inertias, forms, joints, limits,
 /// springs, frictions and motors.
@@ -38,7 +40,8 @@ const CLASS: &str = "robot";
 /// ```
 ///
 /// # Errors
-/// A description that is no robot, or a name with a character that XML does not have.
+/// A description that is no robot, or a name that cannot be written: one with a character that XML does not have, or `world`, which
+/// MJCF calls what stands still.
 pub fn to_string(description: &RobotDescription) -> Result<String, RobotError> {
     description.validate()?;
     let mut writer = Writer::of(description);
@@ -108,11 +111,10 @@ impl<'a> Writer<'a> {
     /// The link on which everything hangs, and all that does.
     fn top(&mut self, root: &'a LinkDescription) -> Result<(), RobotError> {
         let is_free = self.description.base == Base::Free;
-        // So the reader calls what a file's first body hangs on, which no file names.
-        if !is_free && root.name == "world" && root.mass == 0.0 && root.solids.is_empty() {
+        if !is_free && root.name == WORLD && root.mass == 0.0 && root.solids.is_empty() {
             return self.below(root, 2, &format!(" childclass=\"{CLASS}\""));
         }
-        let name = escaped("a link", &root.name)?;
+        let name = body_name(root)?;
         line(&mut self.bodies, 2, &format!("<body name=\"{name}\" childclass=\"{CLASS}\">"));
         if is_free {
             line(&mut self.bodies, 3, "<freejoint/>");
@@ -142,7 +144,7 @@ impl<'a> Writer<'a> {
         for joint in self.joints.remove(link.name.as_str()).unwrap_or_default() {
             // Validated: every joint names links that are there.
             let Some(child) = self.links.get(joint.child.as_str()).copied() else { continue };
-            let (name, place) = (escaped("a link", &child.name)?, pose(&joint.parent_from_joint));
+            let (name, place) = (body_name(child)?, pose(&joint.parent_from_joint));
             line(&mut self.bodies, level, &format!("<body name=\"{name}\"{place}{attributes}>"));
             if joint.kind != JointKind::Fixed {
                 line(&mut self.bodies, level + 1, &format!("<joint {}/>", hinge(joint)?));
@@ -229,6 +231,16 @@ fn inertia(inertia: &Matrix3<f64>) -> String {
         return format!("diaginertia=\"{}\"", numbers(&diagonal));
     }
     format!("fullinertia=\"{}\"", numbers(&[diagonal, others].concat()))
+}
+
+/// The name of a link that is a body.
+fn body_name(link: &LinkDescription) -> Result<String, RobotError> {
+    if link.name == WORLD {
+        let (place, what) = (format!("link {WORLD:?}"), "a link of this name".to_owned());
+        let mend = "MJCF calls so what stands still: rename it";
+        return Err(RobotError::Unsupported { place, what, mend });
+    }
+    escaped("a link", &link.name)
 }
 
 /// A name as the value of an attribute.

@@ -79,6 +79,12 @@ fn robots_of_all_kinds_of_parts_come_back_from_their_files() {
     assert_eq!((held.base, held.links[0].name.as_str(), held.mass()), (Base::Fixed, "world", robot.mass()));
     same(&held, &written_and_read(&held));
 
+    let mut taken = robot.clone();
+    taken.links[3].name = "world".to_owned();
+    taken.joints[2].child = "world".to_owned();
+    let refusal = mjcf::to_string(&taken).unwrap_err().to_string();
+    assert!(refusal.contains("world") && refusal.contains("rename"), "{refusal}");
+
     robot.links[0].name = "trunk\u{1}".to_owned();
     assert!(mjcf::to_string(&robot).is_err(), "no link is called so any more");
     for joint in &mut robot.joints {
