@@ -10,12 +10,9 @@ mod error;
 #[cfg(any(feature = "urdf", feature = "mjcf"))]
 mod import;
 mod looks;
-<<<<<<< HEAD
 mod meeting;
-=======
 #[cfg(feature = "mjcf")]
 mod mjcf_write;
->>>>>>> 7cdc53a (Bodies: the robot dog's control is lent to other engines, robots are written as MJCF, and the trot is compared with MuJoCo)
 mod motor;
 mod physics_body;
 mod solids;

@@ -13,14 +13,10 @@
 //! ```
 //!
 //! The frame of a link has its origin at its first joint, where that of its body may have it elsewhere. A body with a free joint
-<<<<<<< HEAD
 //! moves freely; any other one hangs on a link `world` that stands still. A joint without an actuator has no motor. Geoms of one
 //! robot meet as `contype`, `conaffinity`, `exclude` and the rule for parents and children say, unless their bodies are within one
 //! another where the joints rest, which the report then says. Tendons, equalities, sensors and other contact settings are passed over.
-=======
-//! moves freely; any other one hangs on a link `world` that stands still. A joint without an actuator has no motor. Tendons,
-//! equalities, sensors and contact settings are passed over. [`to_string`] writes a robot as such a file.
->>>>>>> 7cdc53a (Bodies: the robot dog's control is lent to other engines, robots are written as MJCF, and the trot is compared with MuJoCo)
+//! [`to_string`] writes a robot as such a file.
 
 use std::collections::BTreeMap;
 
