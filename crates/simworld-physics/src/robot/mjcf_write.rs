@@ -9,7 +9,9 @@ use super::description::{
     Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid, RobotDescription,
 };
 use super::error::RobotError;
-use super::tree::Lump;
+use super::meeting::Meeting;
+use super::tree::{Lump, Tree};
+use crate::apart::Kinds;
 
 /// Class of the defaults of everything in the robot, so that what is put beside it in the file has its own.
 const CLASS: &str = "robot";
@@ -20,8 +22,8 @@ const WORLD: &str = "world";
 /// springs, frictions and motors.
 ///
 /// Lengths are m and angles radians. Joints with a motor have an actuator of the kind `motor` that takes torques or forces, within what
-/// the motor gives, and has the joint's name. Links of the robot pass through one another, as here, and meet what has the usual
-/// `contype` and `conaffinity` of 1. There is no ground in it.
+/// the motor gives, and has the joint's name. Links that pass through one another here are told by `exclude`, those on one joint too, and kinds of
+/// solids by `contype` and `conaffinity`. There is no ground in it.
 ///
 /// What MJCF has no word for is left out: speeds at which motors drive no further, and how materials bounce. Where two things touch,
 /// `MuJoCo` takes the greater friction of both and this physics the geometric mean: a ground with `priority="1"` and that mean as its
@@ -81,16 +83,38 @@ impl<'a> Writer<'a> {
         line(&mut text, 0, &format!("<mujoco model=\"{name}\">"));
         line(&mut text, 1, "<compiler angle=\"radian\"/>");
         line(&mut text, 1, "<default>");
-        let geom = "<geom contype=\"1\" conaffinity=\"0\" mass=\"0\"/>";
-        line(&mut text, 2, &format!("<default class=\"{CLASS}\">{geom}</default>"));
+        line(&mut text, 2, &format!("<default class=\"{CLASS}\"><geom mass=\"0\"/></default>"));
         line(&mut text, 1, "</default>");
-        let parts = [("asset", &self.meshes), ("worldbody", &self.bodies), ("actuator", &self.motors()?)];
+        // What passes through what is told pair by pair.
+        line(&mut text, 1, "<option><flag filterparent=\"disable\"/></option>");
+        let parts = [
+            ("asset", &self.meshes),
+            ("worldbody", &self.bodies),
+            ("contact", &self.excluded()?),
+            ("actuator", &self.motors()?),
+        ];
         for (element, inside) in parts.into_iter().filter(|(_, inside)| !inside.is_empty()) {
             line(&mut text, 1, &format!("<{element}>"));
             text += inside;
             line(&mut text, 1, &format!("</{element}>"));
         }
         line(&mut text, 0, "</mujoco>");
+        Ok(text)
+    }
+
+    /// The pairs of links that pass through one another; what has no solids meets nothing anyway.
+    fn excluded(&self) -> Result<String, RobotError> {
+        let tree = Tree::of(self.description)?;
+        let meeting = Meeting::of(self.description, &tree)?;
+        let links = &self.description.links;
+        let mut text = String::new();
+        for (one, other) in meeting.apart.links {
+            let [one, other] = [one, other].map(|link| &links[usize::from(link)]);
+            if !one.solids.is_empty() && !other.solids.is_empty() {
+                let (one, other) = (body_name(one)?, body_name(other)?);
+                line(&mut text, 2, &format!("<exclude body1=\"{one}\" body2=\"{other}\"/>"));
+            }
+        }
         Ok(text)
     }
 
@@ -167,8 +191,12 @@ impl<'a> Writer<'a> {
             "mesh" => format!("mesh=\"mesh {}\"", self.count),
             _ => format!("size=\"{}\"", numbers(&size)),
         };
-        let friction = solid.material.friction();
-        format!("type=\"{kind}\" {form}{} friction=\"{friction}\"", pose(&solid.link_from_solid))
+        let (friction, Kinds { own, met }) = (solid.material.friction(), solid.kinds);
+        let kinds = match (own, met) {
+            (1, 1) => String::new(),
+            _ => format!(" contype=\"{own}\" conaffinity=\"{met}\""),
+        };
+        format!("type=\"{kind}\" {form}{} friction=\"{friction}\"{kinds}", pose(&solid.link_from_solid))
     }
 
     /// Adds a convex solid as a mesh of its corners, which has no size beside.

@@ -5,7 +5,7 @@
 use super::robot_files::{LEG_MJCF, error_of, read_mjcf};
 use simworld_core::asset::Material;
 use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
-use simworld_physics::robot::{Base, Form, JointDescription, JointKind, LinkDescription, mjcf};
+use simworld_physics::robot::{Base, Form, JointDescription, JointKind, Kinds, LinkDescription, mjcf};
 use simworld_physics::{QuadrupedModel, RobotDescription};
 
 /// That two robots are the same but for rounding.
@@ -19,14 +19,34 @@ fn same(one: &RobotDescription, other: &RobotDescription) {
             "{a:?} {b:?}"
         );
         for (a, b) in a.solids.iter().zip(&b.solids) {
-            assert_eq!((&a.form, a.material.friction()), (&b.form, b.material.friction()));
+            assert_eq!((&a.form, a.material.friction(), a.kinds), (&b.form, b.material.friction(), b.kinds));
             assert!((a.link_from_solid.to_homogeneous() - b.link_from_solid.to_homogeneous()).norm() < 1e-12);
         }
     }
     for (a, b) in one.joints.iter().zip(&other.joints) {
         let apart = a.parent_from_joint.to_homogeneous() - b.parent_from_joint.to_homogeneous();
         assert!(apart.norm() < 1e-12, "{a:?} {b:?}");
-        assert_eq!(*a, JointDescription { parent_from_joint: a.parent_from_joint, ..b.clone() });
+        let (parent_from_joint, meets) = (a.parent_from_joint, a.meets);
+        assert_eq!(*a, JointDescription { parent_from_joint, meets, ..b.clone() });
+    }
+    same_pairs(one, other);
+}
+
+/// That what joints hold together passes through one another in both, or in none, and so do those that are named.
+fn same_pairs(one: &RobotDescription, other: &RobotDescription) {
+    let has_solids = |name: &str| one.links.iter().any(|link| link.name == name && !link.solids.is_empty());
+    let named = |robot: &RobotDescription, pair: [&str; 2]| {
+        robot.apart.iter().any(|[a, b]| [a.as_str(), b] == pair || [b.as_str(), a] == pair)
+    };
+    for (a, b) in one.joints.iter().zip(&other.joints) {
+        let pair = [a.parent.as_str(), a.child.as_str()];
+        if pair.iter().all(|name| has_solids(name)) {
+            let [a, b] = [(one, a), (other, b)].map(|(robot, joint)| !joint.meets || named(robot, pair));
+            assert_eq!(a, b, "{pair:?}");
+        }
+    }
+    for [a, b] in one.apart.iter().filter(|pair| pair.iter().all(|name| has_solids(name))) {
+        assert!(named(other, [a, b]), "{a} and {b}");
     }
 }
 
@@ -72,6 +92,8 @@ fn robots_of_all_kinds_of_parts_come_back_from_their_files() {
     robot.links.push(wheel);
     let axle = JointDescription::new("axle", JointKind::Continuous, ["trunk", "wheel"]);
     robot.joints.push(axle.about(Vector3::y()).with_motor(2.5, 0.001));
+    robot.links[0].solids[0].kinds = Kinds { own: 2, met: 5 };
+    robot.apart.push(["foot".to_owned(), "trunk".to_owned()]);
     same(&robot, &written_and_read(&robot));
 
     robot.base = Base::Fixed;
