@@ -15,6 +15,8 @@ use crate::apart::Kinds;
 
 /// Class of the defaults of everything in the robot, so that what is put beside it in the file has its own.
 const CLASS: &str = "robot";
+/// The least size that a file may say, m: thinner things are written as thick as that.
+const LEAST: f64 = 1e-6;
 /// What the first body of a file hangs on unless it moves freely; no file names it.
 const WORLD: &str = "world";
 
@@ -184,12 +186,16 @@ impl<'a> Writer<'a> {
             Form::Box { size } => ("box", (size * 0.5).as_slice().to_vec()),
             Form::Cylinder { radius, length } => ("cylinder", vec![*radius, length * 0.5]),
             Form::Sphere { radius } => ("sphere", vec![*radius]),
+            // A capsule without a middle is a ball, and no capsule to MuJoCo.
+            Form::Capsule { radius, length } if *length < 2.0 * LEAST => ("sphere", vec![*radius]),
             Form::Capsule { radius, length } => ("capsule", vec![*radius, length * 0.5]),
             Form::Convex { points } => ("mesh", self.mesh(points)),
         };
         let form = match kind {
             "mesh" => format!("mesh=\"mesh {}\"", self.count),
-            _ => format!("size=\"{}\"", numbers(&size)),
+            _ => {
+                format!("size=\"{}\"", numbers(&size.iter().map(|size| size.max(LEAST)).collect::<Vec<_>>()))
+            }
         };
         let (friction, Kinds { own, met }) = (solid.material.friction(), solid.kinds);
         let kinds = match (own, met) {
