@@ -7,7 +7,7 @@ use simworld_core::asset::Asset;
 use simworld_core::camera::{Camera, Intrinsics};
 use simworld_core::environment::Environment;
 use simworld_core::geometry::{Point3, Twist, pose_facing};
-use simworld_core::scene::{CLIP, EntityDesc, EntityKind, Shape, World};
+use simworld_core::scene::{CLIP, EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_render::{Frame, RenderConfig, RenderError, Renderer};
 use thiserror::Error;
 
