@@ -150,7 +150,7 @@ fn model(corners: &[[f32; 3]]) -> (Model, Shape) {
         triangles,
         hulls: vec![Hull { points: corners }],
         parts: vec![part],
-        images: Vec::new(),
+        ..Model::default()
     };
     (model, Shape::Box { size: Vector3::from(size) })
 }
