@@ -25,8 +25,10 @@ fn metres() -> ImportConfig {
 fn farthest(model: &Model, positions: &[[f32; 3]], wanted: &[[f64; 3]]) -> f64 {
     let rest: Vec<[f32; 3]> = model.vertices.iter().map(|vertex| vertex.position).collect();
     assert_eq!(positions.len(), rest.len());
-    let apart =
-        |a: [f32; 3], b: &[f64; 3]| (0..3).map(|k| (f64::from(a[k]) - b[k]).powi(2)).sum::<f64>().sqrt();
+    let apart = |a: [f32; 3], b: &[f64; 3]| {
+        let part = |axis: usize| f64::from(a[axis]) - b[axis];
+        (0..3).map(|axis| part(axis) * part(axis)).sum::<f64>().sqrt()
+    };
     let nearest =
         |point: &[f32; 3]| wanted.iter().map(|other| apart(*point, other)).fold(f64::INFINITY, f64::min);
     positions.iter().map(nearest).fold(0.0, f64::max)

@@ -282,7 +282,7 @@ mod tests {
                 });
             }),
             spoilt(|model| {
-                moves(model, |rig| rig.joints.push(Joint { parent: Some(0), ..Joint::default() }))
+                moves(model, |rig| rig.joints.push(Joint { parent: Some(0), ..Joint::default() }));
             }),
             spoilt(|model| moves(model, |rig| rig.bones[0].joint_from_skin[12] = 1.0)),
             spoilt(|model| moves(model, |rig| rig.vertices[0].position[0] = 1.0)),

@@ -132,7 +132,7 @@ mod tests {
     fn a_name_goes_before_a_gesture_and_that_before_motion() {
         let all = ["idle", "walk", "wave"];
         let waves = (GESTURE, Value::from("wave"));
-        assert_eq!(plays(&all, 1.0, &[waves.clone()], 0.0).unwrap().0, "wave");
+        assert_eq!(plays(&all, 1.0, std::slice::from_ref(&waves), 0.0).unwrap().0, "wave");
         assert_eq!(plays(&all, 1.0, &[waves.clone(), (CLIP, "Idle".into())], 0.0).unwrap().0, "idle");
         assert_eq!(plays(&all, 1.0, &[waves, (CLIP, "swim".into())], 0.0), None);
     }
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(at(&[(CLIP_SINCE, 3.0.into())], 4.5), 1.5);
         assert_eq!(at(&[(CLIP_SINCE, 3.0.into()), (CLIP_RATE, 2.0.into())], 4.5), 3.0);
         let once = (CLIP_ONCE, Value::Bool(true));
-        assert!((at(&[once.clone()], 9.0) - 2.0).abs() < 1e-5);
+        assert!((at(std::slice::from_ref(&once), 9.0) - 2.0).abs() < 1e-5);
         assert_eq!(at(&[once.clone(), (CLIP_SINCE, 3.0.into())], 1.0), 0.0);
         let back = at(&[once, (CLIP_RATE, (-1.0).into())], 1.5);
         assert!((back - 0.5).abs() < 1e-5, "{back}");

@@ -252,7 +252,9 @@ impl<'a> Bearing<'a> {
         }
         shares.sort_by(|a, b| b.1.total_cmp(&a.1));
         let total: f64 = shares.iter().map(|(_, weight)| weight).sum();
-        shares.iter_mut().for_each(|(_, weight)| *weight /= total);
+        for (_, weight) in &mut shares {
+            *weight /= total;
+        }
         Ok(shares)
     }
 }

@@ -87,7 +87,7 @@ fn check_vertices(desc: &RigDesc) -> Result<(), RigError> {
         }
         let weights = vertex.weights;
         let sum: f32 = weights.iter().sum();
-        if !weights.iter().all(|weight| *weight >= 0.0) || !((sum - 1.0).abs() <= SHARES) {
+        if !weights.iter().all(|weight| *weight >= 0.0) || !(1.0 - SHARES..=1.0 + SHARES).contains(&sum) {
             return Err(RigError::Weights { index, weights });
         }
         let named = vertex.bones.iter().zip(weights).filter(|(_, weight)| *weight > 0.0);

@@ -68,7 +68,7 @@ impl Curve {
             return Some("has not one value for each of its keys");
         }
         let ascends = self.times.windows(2).all(|pair| pair[0] < pair[1]);
-        if !ascends || !(self.times[0] >= 0.0) || !self.end().is_finite() {
+        if !ascends || !(0.0..=f32::MAX).contains(&self.times[0]) || !self.end().is_finite() {
             return Some("has times that do not ascend from 0 on");
         }
         let sound = self.values.iter().all(|value| value.is_finite());

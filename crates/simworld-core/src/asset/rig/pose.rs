@@ -169,7 +169,7 @@ fn reach(
         for axis in 0..3 {
             let ends = [at[axis] - wide[axis], at[axis] + wide[axis]].map(|part| part as f32);
             // What is no number is far too.
-            let far = ends.into_iter().find(|end| !(end.abs() <= LARGEST_MODEL));
+            let far = ends.into_iter().find(|end| !(-LARGEST_MODEL..=LARGEST_MODEL).contains(end));
             if let Some(metres) = far {
                 let name = clip.map_or_else(String::new, |clip| clip.name.clone());
                 return Err(RigError::Far { clip: name, seconds, metres });
