@@ -46,10 +46,10 @@ impl Reach {
 fn targets() -> [Vector3; 5] {
     [
         Vector3::new(0.5, 0.0, 0.5),
+        Vector3::new(0.45, -0.4, 0.25),
         Vector3::new(0.35, 0.35, 0.3),
         Vector3::new(0.0, 0.55, 0.6),
         Vector3::new(-0.3, 0.3, 0.8),
-        Vector3::new(0.45, -0.4, 0.25),
     ]
 }
 
