@@ -51,7 +51,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     thing.size.height = height;
     let imported = import_glb(&bytes, &thing, &ImportConfig::default())?;
     println!("{}\n{}", path.display(), table(&imported));
-    match show(&imported.asset, &imported.report, arguments.clip.as_deref(), &arguments.out) {
+    match show(&imported.asset, arguments.clip.as_deref(), &arguments.out) {
         Ok(shown) => {
             let what = shown.clip.map_or("stands still".to_owned(), |clip| format!("plays {clip:?}"));
             println!("it {what}, {:.1} s:", shown.seconds);

@@ -65,6 +65,9 @@ def forces(model, data, balls):
     pressed, force = np.zeros(len(balls)), np.zeros(6)
     for index in range(data.ncon):
         contact = data.contact[index]
+        # A foot that meets another leg does not stand; the world is body 0.
+        if 0 not in (model.geom_bodyid[contact.geom1], model.geom_bodyid[contact.geom2]):
+            continue
         for place, ball in enumerate(balls):
             if ball in (contact.geom1, contact.geom2):
                 mujoco.mj_contactForce(model, data, index, force)

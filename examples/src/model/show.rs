@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use simworld_agents::assets::ImportReport;
-use simworld_core::asset::Asset;
+use simworld_core::asset::{Asset, Rig};
 use simworld_core::camera::{Camera, Intrinsics};
-use simworld_core::environment::Environment;
-use simworld_core::geometry::{Point3, Twist, pose_facing};
+use simworld_core::geometry::{Point3, pose_facing};
 use simworld_core::scene::{CLIP, EntityDesc, EntityKind, Scene, Shape, World};
 use simworld_render::{Frame, RenderConfig, RenderError, Renderer};
 use thiserror::Error;
@@ -60,16 +58,13 @@ pub struct Shown {
 ///
 /// # Errors
 /// It has no such clip, no adapter is there, or a file cannot be written.
-pub fn show(
-    asset: &Asset,
-    report: &ImportReport,
-    clip: Option<&str>,
-    out: &Path,
-) -> Result<Shown, ShowError> {
+pub fn show(asset: &Asset, clip: Option<&str>, out: &Path) -> Result<Shown, ShowError> {
     let rig = asset.model.as_ref().and_then(|model| model.rig.as_ref());
+    let names = |rig: &Rig| rig.clips().iter().map(|clip| clip.name.clone()).collect();
     let wanted = clip.map(|name| {
         let found = rig.and_then(|rig| Some(rig.clips()[rig.clip(name)?].clone()));
-        found.ok_or_else(|| ShowError::Clip { name: name.to_owned(), clips: report.clips.clone() })
+        found
+            .ok_or_else(|| ShowError::Clip { name: name.to_owned(), clips: rig.map_or_else(Vec::new, names) })
     });
     let played = wanted.transpose()?.or_else(|| rig.and_then(|rig| rig.clips().first().cloned()));
     let seconds = played.as_ref().map_or(6.0, |clip| clip.seconds().clamp(1.0, 20.0));
@@ -106,7 +101,6 @@ pub fn show(
 fn stage(asset: &Asset, clip: Option<&str>) -> Result<World, ShowError> {
     let failed = |error: &dyn std::fmt::Display| ShowError::World(error.to_string());
     let mut world = World::new();
-    world.set_environment(Environment::default()).map_err(|error| failed(&error))?;
     let size = asset.collider.size();
     let lawn = Shape::cuboid(400.0, 400.0, 0.1);
     let mut put = |kind, at: [f64; 3], shape| {
@@ -123,7 +117,6 @@ fn stage(asset: &Asset, clip: Option<&str>) -> Result<World, ShowError> {
     if let Some(clip) = clip {
         desc = desc.with(CLIP, clip);
     }
-    desc.twist = Twist::ZERO;
     world.spawn(desc).map_err(|error| failed(&error))?;
     Ok(world)
 }

@@ -3,6 +3,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod damaged_files;
 mod drawn;
 mod meeting;
 mod quadruped;

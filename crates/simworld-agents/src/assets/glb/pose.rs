@@ -1,6 +1,6 @@
 //! Nodes as an animation has them at a moment, and the joints of skins (glTF 2.0, 3.7.3 and 3.11).
 
-use nalgebra::{Matrix4, Quaternion, Translation3, UnitQuaternion, Vector4};
+use nalgebra::{Matrix4, Vector4};
 use serde::{Deserialize, Serialize};
 use simworld_core::asset::{Curve, Interpolation, Local, Path};
 
@@ -78,16 +78,16 @@ fn local(node: &Node) -> Local {
 }
 
 fn matrix(local: &Local, index: usize) -> Result<Matrix4<f64>, GlbError> {
-    let wrong = GlbError::Number { what: "node", index };
-    let matrix = match local {
-        Local::Matrix(columns) => Matrix4::from_column_slice(columns),
-        Local::Parts { translation, rotation: [x, y, z, w], scale } => {
-            let turn = UnitQuaternion::try_new(Quaternion::new(*w, *x, *y, *z), 1e-9).ok_or(wrong.clone())?;
-            let scale = Matrix4::new_nonuniform_scaling(&(*scale).into());
-            Translation3::from(*translation).to_homogeneous() * turn.to_homogeneous() * scale
-        }
+    let turns = match local {
+        Local::Matrix(_) => true,
+        Local::Parts { rotation, .. } => Vector4::from(*rotation).norm() > 1e-9,
     };
-    if matrix.iter().all(|number| number.is_finite()) { Ok(matrix) } else { Err(wrong) }
+    let matrix = local.matrix();
+    if turns && matrix.iter().all(|number| number.is_finite()) {
+        Ok(matrix)
+    } else {
+        Err(GlbError::Number { what: "node", index })
+    }
 }
 
 /// Puts the channels of an animation into the nodes that they move.
@@ -96,12 +96,7 @@ fn animate(data: Data<'_>, limits: &GlbLimits, moment: Moment, locals: &mut [Loc
         return Err(GlbError::Number { what: "animation", index: moment.animation });
     }
     for Moved { node, path, curve } in channels(data, limits, moment.animation, &mut 0)? {
-        let Local::Parts { translation, rotation, scale } = &mut locals[node] else { continue };
-        match path {
-            Path::Translation => *translation = curve.at(moment.seconds),
-            Path::Rotation => *rotation = curve.at(moment.seconds),
-            Path::Scale => *scale = curve.at(moment.seconds),
-        }
+        locals[node].put(path, &curve, moment.seconds);
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Quaternion, Translation3, UnitQuaternion, Vector3, Vector4};
 
-use super::{Clip, Local, POSE_RATE, Path, RigDesc, RigError, SkinVertex};
+use super::{Channel, Clip, Curve, Local, POSE_RATE, Path, RigDesc, RigError, SkinVertex};
 use crate::asset::LARGEST_MODEL;
 
 /// A model at a moment: of each of its vertices, in their order.
@@ -32,33 +32,38 @@ pub(super) fn pose(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> PosedMo
 /// Body from joint.
 fn joints(desc: &RigDesc, clip: Option<&Clip>, seconds: f64) -> Vec<Matrix4<f64>> {
     let mut locals: Vec<Local> = desc.joints.iter().map(|joint| joint.rest).collect();
-    for channel in clip.iter().flat_map(|clip| &clip.channels) {
-        let Local::Parts { translation, rotation, scale } = &mut locals[channel.joint as usize] else {
-            continue;
-        };
-        match channel.path {
-            Path::Translation => *translation = channel.curve.at(seconds),
-            Path::Rotation => *rotation = channel.curve.at(seconds),
-            Path::Scale => *scale = channel.curve.at(seconds),
-        }
+    for Channel { joint, path, curve } in clip.iter().flat_map(|clip| &clip.channels) {
+        locals[*joint as usize].put(*path, curve, seconds);
     }
     let mut places: Vec<Matrix4<f64>> = Vec::with_capacity(locals.len());
     for (local, joint) in locals.iter().zip(&desc.joints) {
-        let own = matrix(local);
+        let own = local.matrix();
         // Parents come before their children.
         places.push(joint.parent.map_or(own, |parent| places[parent as usize] * own));
     }
     places
 }
 
-fn matrix(local: &Local) -> Matrix4<f64> {
-    match local {
-        Local::Matrix(columns) => Matrix4::from_column_slice(columns),
-        Local::Parts { translation, rotation: [x, y, z, w], scale } => {
-            // Cubics may come through zero: then nothing is turned.
-            let turn = UnitQuaternion::try_new(Quaternion::new(*w, *x, *y, *z), 1e-9).unwrap_or_default();
-            let scale = Matrix4::new_nonuniform_scaling(&Vector3::from(*scale));
-            Translation3::from(*translation).to_homogeneous() * turn.to_homogeneous() * scale
+impl Local {
+    /// Parent from joint. A rotation of no length turns nothing: cubics may come through zero.
+    pub fn matrix(&self) -> Matrix4<f64> {
+        match self {
+            Self::Matrix(columns) => Matrix4::from_column_slice(columns),
+            Self::Parts { translation, rotation: [x, y, z, w], scale } => {
+                let turn = UnitQuaternion::try_new(Quaternion::new(*w, *x, *y, *z), 1e-9).unwrap_or_default();
+                let scale = Matrix4::new_nonuniform_scaling(&Vector3::from(*scale));
+                Translation3::from(*translation).to_homogeneous() * turn.to_homogeneous() * scale
+            }
+        }
+    }
+
+    /// Puts what a curve says at a time, s, into one of its parts; a matrix has none, and stays.
+    pub fn put(&mut self, path: Path, curve: &Curve, seconds: f64) {
+        let Self::Parts { translation, rotation, scale } = self else { return };
+        match path {
+            Path::Translation => *translation = curve.at(seconds),
+            Path::Rotation => *rotation = curve.at(seconds),
+            Path::Scale => *scale = curve.at(seconds),
         }
     }
 }
