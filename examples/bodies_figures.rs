@@ -17,8 +17,8 @@ use simworld_examples::bodies::{
     BUILDINGS, Crowd, Loop, PlainWalkers, Quarter, Rival, SOLIDS, Threads, mujoco_boxes, mujoco_trot,
     our_boxes, our_step, our_trot, our_walkers, plain_boxes,
 };
-use simworld_examples::exit_code;
 use simworld_examples::timing::timed;
+use simworld_examples::{exit_code, processor};
 use simworld_physics::PhysicsDynamics;
 use simworld_physics::proving::{Fleet, Pack, ProvingError};
 use simworld_physics::rapier::prelude::PhysicsWorld;
@@ -120,16 +120,6 @@ fn ms(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// What all threads have taken of the processors so far, s; Linux only. It does not count what others do on the same machine.
-fn processor_time() -> Option<f64> {
-    let tasks = std::fs::read_dir("/proc/self/task").ok()?;
-    let taken = tasks.flatten().filter_map(|task| {
-        let line = std::fs::read_to_string(task.path().join("schedstat")).ok()?;
-        line.split_whitespace().next()?.parse::<f64>().ok()
-    });
-    Some(taken.sum::<f64>() * 1e-9)
-}
-
 /// What a step takes, ms.
 #[derive(Clone, Copy, Debug)]
 struct Cost {
@@ -149,10 +139,10 @@ impl Cost {
 
 /// What some work takes in the mean of so many steps.
 fn cost(steps: usize, work: impl FnOnce() -> Result<(), ProvingError>) -> Result<Cost, ProvingError> {
-    let before = processor_time();
+    let before = processor::of_process();
     let (done, time) = timed(work);
     done?;
-    let taken = before.zip(processor_time()).map(|(before, after)| (after - before) * 1e3);
+    let taken = before.zip(processor::of_process()).map(|(before, after)| (after - before) * 1e3);
     let clock = ms(time);
     Ok(Cost { clock: clock / steps as f64, processor: taken.unwrap_or(clock) / steps as f64 })
 }
@@ -167,18 +157,21 @@ fn per_step(
         .try_fold(Cost::NONE, |best, _| Ok(best.least(cost(steps, || (0..steps).try_for_each(|_| step()))?)))
 }
 
-/// Processor times of a step of two things, ms, in the mean of their first steps: both are made anew and done in turns, so often.
+/// Processor times of a step of two things, ms, in the mean of their first steps: both are made anew and done in turns, so often, and in each
+/// turn several of a kind one after the other, since some systems count processor time by ticks of several milliseconds.
 fn in_turns<A, B>(
-    (turns, steps): (usize, usize),
+    (turns, copies, steps): (usize, usize, usize),
     ours: &(impl Fn() -> Result<A, ProvingError>, impl Fn(&mut A) -> Result<(), ProvingError>),
     plain: &(impl Fn() -> B, impl Fn(&mut B)),
 ) -> Result<Vec<[f64; 2]>, ProvingError> {
     let turn = || {
-        let mut one = ours.0()?;
-        let first = cost(steps, || (0..steps).try_for_each(|_| ours.1(&mut one)))?;
-        let mut other = plain.0();
-        let second = cost(steps, || {
-            (0..steps).for_each(|_| plain.1(&mut other));
+        let mut several = (0..copies).map(|_| ours.0()).collect::<Result<Vec<A>, _>>()?;
+        let first = cost(copies * steps, || {
+            several.iter_mut().try_for_each(|one| (0..steps).try_for_each(|_| ours.1(one)))
+        })?;
+        let mut others: Vec<B> = (0..copies).map(|_| plain.0()).collect();
+        let second = cost(copies * steps, || {
+            others.iter_mut().for_each(|other| (0..steps).for_each(|_| plain.1(other)));
             Ok(())
         })?;
         Ok([first.processor, second.processor])
@@ -202,15 +195,15 @@ fn compared(turns: &[[f64; 2]]) -> String {
 
 fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
     let step = |(world, physics): &mut (World, PhysicsDynamics)| our_step(world, physics);
-    for (count, turns) in [(some(1000, share), 10), (some(10_000, share), 4)] {
+    for (count, turns, copies) in [(some(1000, share), 10, 5), (some(10_000, share), 4, 1)] {
         let ours = (|| our_boxes(count), step);
-        let by_hand = in_turns((turns, 60), &ours, &(|| Loop::new(plain_boxes(count)), Loop::step))?;
+        let by_hand = in_turns((turns, copies, 60), &ours, &(|| Loop::new(plain_boxes(count)), Loop::step))?;
         rows.push([
             format!("a step of {count} boxes that fall into piles for a second, over a loop by hand that reads motions and contacts"),
             compared(&by_hand),
             "1.15".into(),
         ]);
-        let alone = in_turns((turns, 60), &ours, &(|| plain_boxes(count), PhysicsWorld::step))?;
+        let alone = in_turns((turns, copies, 60), &ours, &(|| plain_boxes(count), PhysicsWorld::step))?;
         rows.push(["the same over the engine's step alone".into(), compared(&alone), "-".into()]);
     }
     let count = some(1000, share);
@@ -234,7 +227,7 @@ fn overhead(share: f64, rows: &mut Rows) -> Result<(), ProvingError> {
         "next to nothing".into(),
     ]);
     let walkers = || our_walkers(count);
-    let turns = in_turns((4, 60), &(walkers, step), &(|| PlainWalkers::new(count), PlainWalkers::step))?;
+    let turns = in_turns((4, 1, 60), &(walkers, step), &(|| PlainWalkers::new(count), PlainWalkers::step))?;
     rows.push([
         format!("a step of {count} walkers past posts, over the engine's character controller alone"),
         compared(&turns),

@@ -18,6 +18,7 @@ pub mod folder;
 pub mod look;
 pub mod minds;
 pub mod model;
+pub mod processor;
 pub mod report;
 pub mod robot;
 pub mod served;

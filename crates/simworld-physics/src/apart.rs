@@ -78,12 +78,12 @@ pub(crate) struct Filter(Vec<(EntityId, Arc<Apart>)>);
 
 impl Filter {
     /// Takes in what the bodies say of themselves, which come by ascending id.
-    pub(crate) fn follow(&mut self, bodies: &[Owned]) {
+    pub(crate) fn follow<'a>(&mut self, bodies: impl Iterator<Item = &'a Owned>) {
         self.0.clear();
         for owned in bodies {
             let body = &*owned.body as &dyn Any;
-            let apart = body.downcast_ref::<Robot>().and_then(Robot::apart).map(Arc::clone);
-            let apart = apart.or_else(|| body.downcast_ref::<Quadruped>().and_then(Quadruped::apart));
+            let robot = body.downcast_ref::<Robot>().and_then(Robot::apart).cloned();
+            let apart = robot.or_else(|| body.downcast_ref::<Quadruped>().and_then(Quadruped::apart));
             self.0.extend(apart.map(|apart| (owned.id, apart)));
         }
     }

@@ -143,8 +143,11 @@ impl PhysicsDynamics {
         let (written, bonds, before) = (*entity.pose, bonds_of(id, world), Twist::ZERO);
         let (is_roaming, detail) = (false, Detail::Full);
         let is_adopted = false;
-        let owned = Owned { id, body, rigid, written, bonds, is_adopted, is_roaming, before, detail };
+        let is_inert = body.is_inert();
+        let owned =
+            Owned { id, body, rigid, written, bonds, is_inert, is_adopted, is_roaming, before, detail };
         self.bodies.insert(place, owned);
+        self.roster.is_stale = true;
         self.file_body(rigid);
         Ok(())
     }
@@ -163,6 +166,7 @@ impl PhysicsDynamics {
     pub fn remove(&mut self, id: EntityId) -> Result<(), PhysicsError> {
         let place = self.position(id).map_err(|_| PhysicsError::Bodiless { id })?;
         let mut owned = self.bodies.remove(place);
+        self.roster.is_stale = true;
         owned.body.gather(&mut self.physics, owned.rigid);
         self.physics.remove_body(owned.rigid);
         self.set_slot(id.index(), Slot::Vacant);

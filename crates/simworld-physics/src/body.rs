@@ -144,9 +144,10 @@ pub trait PhysicsBody: Embodiment + Send + Any {
         f64::INFINITY
     }
 
-    /// Whether it looks around at all. What only lies and falls does not, and is not spread over threads for it.
-    fn looks_around(&self) -> bool {
-        true
+    /// Whether it only lies, falls and tumbles, as a crate does. What is inert is never bound, asked for a substep, sensed, driven, observed or
+    /// let report, so that a heap of it costs next to nothing beside the engine; and it is inert for as long as the physics has it.
+    fn is_inert(&self) -> bool {
+        false
     }
 
     /// Looks around before anybody moves and makes up its mind; reads, and changes only itself.

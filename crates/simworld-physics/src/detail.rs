@@ -30,6 +30,10 @@ impl PhysicsDynamics {
     }
 
     pub(crate) fn choose_detail(&mut self) {
+        let is_asked = !self.interest.is_empty();
+        if !std::mem::replace(&mut self.detail_varies, is_asked) && !is_asked {
+            return; // all of them are in full detail since the last step
+        }
         let (points, radius) = (&self.interest, self.config.detail_radius);
         for owned in &mut self.bodies {
             let place = owned.written.translation.vector;

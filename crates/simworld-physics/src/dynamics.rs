@@ -14,7 +14,6 @@ use simworld_core::id::EntityId;
 use simworld_core::scene::{Mark, Scene, World};
 use simworld_core::seam::{BodyState, Dynamics, DynamicsError, Embodiment};
 
-use crate::apart::Filter;
 use crate::body::{BodyContext, Bonds, Detail, PhysicsBody, Surroundings};
 use crate::cells::Cells;
 use crate::claims::Claims;
@@ -26,6 +25,7 @@ use crate::humanoid::{Humanoid, Shove, least_blow};
 use crate::mirror::Moving;
 use crate::movers::Movers;
 use crate::roam::Roamers;
+use crate::roster::Roster;
 use crate::slot_set::SlotSet;
 use crate::solid::Solids;
 use crate::stream::Districts;
@@ -101,10 +101,12 @@ pub struct PhysicsDynamics {
     pub(crate) conditions: Conditions,
     /// Where bodies move in full detail; everywhere, if there are none.
     pub(crate) interest: Vec<Point3>,
+    /// Whether any body may be in reduced detail.
+    pub(crate) detail_varies: bool,
     /// An empty set, lent to queries that must not know rigid bodies.
     pub(crate) nobody: RigidBodySet,
-    /// Which solids of one body meet, where the engine has to ask.
-    pub(crate) filter: Filter,
+    /// Who of the bodies has a say between the engine's steps.
+    pub(crate) roster: Roster,
     // Scratch space of a step.
     /// Where those bodies are in the list to which something may have been done in the world, ascending.
     pub(crate) displaced: Vec<usize>,
@@ -131,6 +133,8 @@ pub(crate) struct Owned {
     /// The pose that the physics wrote last; another one in the world means that somebody moved the entity.
     pub(crate) written: Pose,
     pub(crate) bonds: Bonds,
+    /// Whether it only lies and falls.
+    pub(crate) is_inert: bool,
     /// Whether the physics gave it its body by itself, and gives it again where a saved state has it.
     pub(crate) is_adopted: bool,
     /// Whether it moves by itself, out of the engine.
@@ -175,8 +179,9 @@ impl PhysicsDynamics {
             solids: Solids::default(),
             conditions: Conditions::default(),
             interest: Vec::new(),
+            detail_varies: false,
             nobody: RigidBodySet::new(),
-            filter: Filter::default(),
+            roster: Roster::default(),
             displaced: Vec::new(),
             moving: Vec::new(),
             near: Cells::new(2.0 * near),
@@ -200,7 +205,7 @@ impl PhysicsDynamics {
     /// How many substeps `dt` s take, for what bodies need. And how many times the solver goes over one of them: once where a body asks for
     /// substeps so short that as many passes a second are made as with the usual ones.
     fn substeps(&self, dt: f64) -> (u32, usize) {
-        let asked = self.bodies.iter().filter(|owned| owned.is_in_engine());
+        let asked = self.minds().filter(|owned| owned.is_in_engine());
         let longest = asked.map(|owned| owned.body.longest_substep()).fold(f64::INFINITY, f64::min);
         let iterations = if longest <= SHORT_SUBSTEP { 1 } else { ITERATIONS };
         let longest =
@@ -212,6 +217,7 @@ impl PhysicsDynamics {
     /// Passes on what bodies were told; what they refuse becomes an event.
     fn take_actions(&mut self, world: &mut World) {
         self.grasp_as_told(world);
+        self.call_the_roll();
         for (who, action) in world.actuations() {
             let Ok(place) = self.position(*who) else { continue };
             if let Err(error) = self.bodies[place].body.apply(action) {
@@ -222,7 +228,8 @@ impl PhysicsDynamics {
         for failure in self.failures.drain(..) {
             world.emit(failure);
         }
-        for owned in &mut self.bodies {
+        for place in &self.roster.minds {
+            let owned = &mut self.bodies[*place];
             owned.body.bind(owned.bonds);
         }
     }
@@ -235,7 +242,7 @@ impl PhysicsDynamics {
         let (ground, surface) = (self.ground, self.surface.as_deref());
         let (movers, shoves, holds) = (&self.movers, &*self.shoves, &*self.grasps.holds);
         let sense = |owned: &mut Owned| {
-            if owned.is_in_engine() && owned.body.looks_around() {
+            if !owned.is_inert && owned.is_in_engine() {
                 let (rigid, detail) = (owned.rigid, owned.detail);
                 let first = holds.partition_point(|hold| hold.who < owned.id);
                 let count = holds[first..].partition_point(|hold| hold.who == owned.id);
@@ -255,11 +262,11 @@ impl PhysicsDynamics {
                 owned.body.sense(&around, dt);
             }
         };
-        let looks = |owned: &&Owned| owned.is_in_engine() && owned.body.looks_around();
-        if self.bodies.iter().filter(looks).nth(config.parallel_threshold - 1).is_some() {
+        let in_engine = |place: &&usize| self.bodies[**place].is_in_engine();
+        if self.roster.minds.iter().filter(in_engine).nth(config.parallel_threshold - 1).is_some() {
             self.bodies.par_iter_mut().with_min_len(4).for_each(sense);
         } else {
-            self.bodies.iter_mut().for_each(sense);
+            self.roster.minds.iter().for_each(|place| sense(&mut self.bodies[*place]));
         }
     }
 
@@ -268,7 +275,8 @@ impl PhysicsDynamics {
         let slowest = least_blow(self.config.gravity);
         self.movers.clear();
         let may_fall = |owned: &Owned| owned.is_in_engine() && (&*owned.body as &dyn Any).is::<Humanoid>();
-        self.may_fall = self.bodies.iter().any(may_fall);
+        let may_fall = self.minds().any(may_fall);
+        self.may_fall = may_fall;
         if !self.may_fall {
             return;
         }
@@ -309,7 +317,11 @@ impl PhysicsDynamics {
         self.sense(dt);
         self.claims.clear();
         self.shoves.clear();
-        for owned in self.bodies.iter_mut().filter(|owned| !owned.is_roaming) {
+        for place in &self.roster.minds {
+            let owned = &mut self.bodies[*place];
+            if owned.is_roaming {
+                continue;
+            }
             owned.before = owned.body.state().twist;
             if owned.bonds.carried.is_none() {
                 let (physics, rigid, detail) = (&mut self.physics, owned.rigid, owned.detail);
@@ -320,7 +332,7 @@ impl PhysicsDynamics {
             }
         }
         self.advance_mirrors(share);
-        self.physics.step_with_events(&self.filter, &());
+        self.physics.step_with_events(&self.roster.filter, &());
         self.check_finite()?;
         self.strain_grasps(dt);
         self.contacts.unsolved.clear();
@@ -331,7 +343,11 @@ impl PhysicsDynamics {
             }
             let linear = from_vector(rigid.velocity_at_point(rigid.translation()));
             let twist = Twist { linear, angular: from_vector(rigid.angvel()) };
-            owned.body.observe(&self.physics, owned.rigid);
+            if owned.is_inert {
+                owned.before = owned.body.state().twist;
+            } else {
+                owned.body.observe(&self.physics, owned.rigid);
+            }
             owned.body.settle(&BodyState { pose: from_pose(rigid.position()), twist });
         }
         self.find_contacts();
@@ -365,7 +381,9 @@ impl PhysicsDynamics {
                 owned.written = pose;
                 world.set_motion(owned.id, pose, twist)?;
             }
-            owned.body.report(owned.id, world)?;
+            if !owned.is_inert {
+                owned.body.report(owned.id, world)?;
+            }
         }
         Ok(())
     }
@@ -402,7 +420,6 @@ impl Dynamics for PhysicsDynamics {
         self.take_actions(world);
         self.choose_roamers();
         self.roam(dt);
-        self.filter.follow(&self.bodies);
         self.take_substeps(dt)?;
         self.write_back(world)?;
         self.part_fallen_riders(world)?;

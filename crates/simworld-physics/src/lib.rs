@@ -28,6 +28,7 @@ mod query;
 mod rigid;
 mod roam;
 pub mod robot;
+mod roster;
 mod shape;
 mod slot_set;
 mod snapshot;

@@ -104,8 +104,8 @@ impl PhysicsBody for Rigid {
         physics.insert(body, collider).0
     }
 
-    fn looks_around(&self) -> bool {
-        false
+    fn is_inert(&self) -> bool {
+        true
     }
 
     fn drive(&mut self, _: &mut BodyContext<'_>, _: f64) {}

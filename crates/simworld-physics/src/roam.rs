@@ -41,7 +41,8 @@ pub(crate) struct Roamer {
 impl PhysicsDynamics {
     /// Sends bodies off that can move by themselves where reduced detail will do, and takes them back where it does not.
     pub(crate) fn choose_roamers(&mut self) {
-        for index in 0..self.bodies.len() {
+        for turn in 0..self.roster.minds.len() {
+            let index = self.roster.minds[turn];
             let owned = &self.bodies[index];
             let roams = owned.detail == Detail::Reduced
                 && owned.bonds.carried.is_none()
@@ -120,11 +121,16 @@ impl PhysicsDynamics {
             };
             owned.body.roam(&around, dt);
         };
-        let count = self.bodies.iter().filter(|owned| owned.is_roaming).count();
+        let count = self.minds().filter(|owned| owned.is_roaming).count();
         if count >= config.parallel_threshold {
             self.bodies.par_iter_mut().with_min_len(64).filter(|owned| owned.is_roaming).for_each(roam);
         } else {
-            self.bodies.iter_mut().filter(|owned| owned.is_roaming).for_each(roam);
+            for place in &self.roster.minds {
+                let owned = &mut self.bodies[*place];
+                if owned.is_roaming {
+                    roam(owned);
+                }
+            }
         }
     }
 

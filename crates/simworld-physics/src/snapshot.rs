@@ -160,6 +160,7 @@ impl PhysicsDynamics {
             (owned.detail, owned.is_roaming) = (body.detail, body.is_roaming);
             owned.is_adopted = body.is_adopted;
         }
+        self.roster.is_stale = true;
         self.physics = read.physics;
         self.roamers = Roamers::default();
         (self.ground, self.surface) = (read.ground, surface.cloned());
@@ -173,7 +174,7 @@ impl PhysicsDynamics {
         (0..self.slots.len()).filter(is_traffic).for_each(|slot| self.traffic.insert(slot));
         self.contacts.touching = read.touching;
         self.conditions = read.conditions;
-        self.interest = read.interest;
+        (self.interest, self.detail_varies) = (read.interest, true);
         self.shoves = read.shoves;
         self.grasps = Grasps { list: read.grasps, ..Grasps::default() };
         Ok(())

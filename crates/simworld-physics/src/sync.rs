@@ -102,6 +102,7 @@ impl PhysicsDynamics {
     fn look_at_bodies(&mut self, world: &World) {
         let (physics, slots, stale, displaced) =
             (&mut self.physics, &mut self.slots, &mut self.stale, &mut self.displaced);
+        let roster = &mut self.roster;
         let is_first = self.seen.is_none();
         let mut place = 0;
         displaced.clear();
@@ -111,6 +112,7 @@ impl PhysicsDynamics {
                 physics.remove_body(owned.rigid);
                 slots[owned.id.index()] = Slot::Vacant;
                 stale.insert(owned.id.index());
+                roster.is_stale = true;
                 return false;
             };
             if owned.bonds.scooter.is_some_and(|scooter| !rides(world, owned.id, scooter)) {

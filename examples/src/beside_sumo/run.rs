@@ -11,6 +11,7 @@ use simworld_traffic::{Traffic, TrafficConfig};
 
 use super::files::Files;
 use super::{BesideError, Rate, Workload};
+use crate::processor;
 
 /// What SUMO does: warm up, then count vehicles and processor time.
 const SCRIPT: &str = r#"
@@ -104,17 +105,11 @@ struct Clock {
 impl Clock {
     #[expect(clippy::disallowed_methods, reason = "measuring is what this is for")]
     fn now() -> Self {
-        Self { on_processor: on_processor(), began: Instant::now() }
+        Self { on_processor: processor::of_thread(), began: Instant::now() }
     }
 
     fn elapsed(&self) -> f64 {
-        let used = self.on_processor.zip(on_processor()).map(|(before, after)| after - before);
+        let used = self.on_processor.zip(processor::of_thread()).map(|(before, after)| after - before);
         used.unwrap_or_else(|| self.began.elapsed().as_secs_f64())
     }
-}
-
-/// Time that this thread has run, s: the first number of Linux's `schedstat`, ns.
-fn on_processor() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split(' ').next()?.parse::<f64>().ok().map(|nanoseconds| nanoseconds * 1e-9)
 }
