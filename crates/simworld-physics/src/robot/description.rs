@@ -101,6 +101,9 @@ pub struct LinkSolid {
     /// Which solids of its own robot it meets.
     #[serde(default)]
     pub kinds: Kinds,
+    /// Its colour, linear-light sRGB primaries in [0, 1]; without one it has that of the entity, or else a grey.
+    #[serde(default)]
+    pub color: Option<[f32; 3]>,
 }
 
 /// The form of a solid, in a frame in its middle, m.
@@ -261,7 +264,8 @@ impl LinkDescription {
     /// With one more solid.
     #[must_use]
     pub fn with_solid(mut self, form: Form, link_from_solid: Pose, material: Material) -> Self {
-        self.solids.push(LinkSolid { form, link_from_solid, material, kinds: Kinds::default() });
+        let (kinds, color) = (Kinds::default(), None);
+        self.solids.push(LinkSolid { form, link_from_solid, material, kinds, color });
         self
     }
 
@@ -300,6 +304,9 @@ impl LinkDescription {
 impl LinkSolid {
     fn check(&self, place: &dyn Fn() -> String) -> Result<(), RobotError> {
         check_pose(place, &self.link_from_solid)?;
+        for part in self.color.into_iter().flatten() {
+            check(place, "color", f64::from(part), 0.0..=1.0, "0 to 1")?;
+        }
         let size = |field, value| check(place, field, value, 1e-6..=FAR, "1e-6 to 1e4 m");
         match &self.form {
             Form::Box { size: edges } => edges.iter().try_for_each(|edge| size("size", *edge)),

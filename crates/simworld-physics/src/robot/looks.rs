@@ -7,7 +7,7 @@ use simworld_core::id::EntityId;
 use simworld_core::links::LinkForm;
 use simworld_core::scene::{Shape, World, WorldError};
 
-use super::description::{Form, RobotDescription};
+use super::description::{Form, LinkSolid, RobotDescription};
 use super::tree::Tree;
 
 /// Nothing thinner than this is drawn, m: core takes no smaller solids.
@@ -28,8 +28,9 @@ impl Looks {
         let (mut forms, mut places) = (Vec::new(), Vec::new());
         for (number, part) in tree.parts.iter().enumerate() {
             for (link, place, part_from_solid) in &part.solids {
-                let (shape, solid_from_shape) = drawn(&description.links[*link].solids[*place].form);
-                forms.push(LinkForm { shape, color: None });
+                let LinkSolid { form, color, .. } = &description.links[*link].solids[*place];
+                let (shape, solid_from_shape) = drawn(form);
+                forms.push(LinkForm { shape, color: *color });
                 places.push((number, part_from_solid * solid_from_shape));
             }
         }

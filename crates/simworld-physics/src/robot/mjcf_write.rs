@@ -9,6 +9,7 @@ use super::description::{
     Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid, RobotDescription,
 };
 use super::error::RobotError;
+use super::import::color::values_of;
 use super::meeting::Meeting;
 use super::tree::{Lump, Tree};
 use crate::apart::Kinds;
@@ -25,7 +26,7 @@ const WORLD: &str = "world";
 ///
 /// Lengths are m and angles radians. Joints with a motor have an actuator of the kind `motor` that takes torques or forces, within what
 /// the motor gives, and has the joint's name. Links that pass through one another here are told by `exclude`, those on one joint too, and kinds of
-/// solids by `contype` and `conaffinity`. There is no ground in it.
+/// solids by `contype` and `conaffinity`. Colours are in steps of 1/255 of sRGB. There is no ground in it.
 ///
 /// What MJCF has no word for is left out: speeds at which motors drive no further, and how materials bounce. Where two things touch,
 /// `MuJoCo` takes the greater friction of both and this physics the geometric mean: a ground with `priority="1"` and that mean as its
@@ -202,7 +203,9 @@ impl<'a> Writer<'a> {
             (1, 1) => String::new(),
             _ => format!(" contype=\"{own}\" conaffinity=\"{met}\""),
         };
-        format!("type=\"{kind}\" {form}{} friction=\"{friction}\"{kinds}", pose(&solid.link_from_solid))
+        let color = solid.color.map(|color| format!(" rgba=\"{} 1\"", numbers(&values_of(color))));
+        let place = pose(&solid.link_from_solid);
+        format!("type=\"{kind}\" {form}{place} friction=\"{friction}\"{kinds}{}", color.unwrap_or_default())
     }
 
     /// Adds a convex solid as a mesh of its corners, which has no size beside.

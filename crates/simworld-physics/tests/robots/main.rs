@@ -1,6 +1,7 @@
 //! Robots: the dog on its legs, and robots from files.
 #![allow(clippy::unwrap_used, reason = "what fails in a helper fails the test")]
 
+mod colors;
 #[path = "../common/mod.rs"]
 mod common;
 mod damaged_files;

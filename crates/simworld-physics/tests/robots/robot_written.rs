@@ -5,7 +5,9 @@
 use super::robot_files::{LEG_MJCF, error_of, read_mjcf};
 use simworld_core::asset::Material;
 use simworld_core::geometry::{Point3, Pose, Vector3, pose_facing};
-use simworld_physics::robot::{Base, Form, JointDescription, JointKind, Kinds, LinkDescription, mjcf};
+use simworld_physics::robot::{
+    Base, Form, JointDescription, JointKind, Kinds, LinkDescription, LinkSolid, mjcf,
+};
 use simworld_physics::{QuadrupedModel, RobotDescription};
 
 /// That two robots are the same but for rounding.
@@ -19,7 +21,8 @@ fn same(one: &RobotDescription, other: &RobotDescription) {
             "{a:?} {b:?}"
         );
         for (a, b) in a.solids.iter().zip(&b.solids) {
-            assert_eq!((&a.form, a.material.friction(), a.kinds), (&b.form, b.material.friction(), b.kinds));
+            let seen = |solid: &LinkSolid| (solid.material.friction(), solid.kinds, solid.color);
+            assert_eq!((&a.form, seen(a)), (&b.form, seen(b)));
             assert!((a.link_from_solid.to_homogeneous() - b.link_from_solid.to_homogeneous()).norm() < 1e-12);
         }
     }

@@ -216,14 +216,19 @@ impl Bodies<'_, '_, '_> {
     ) -> Result<LinkDescription, RobotError> {
         let mut link = LinkDescription::new(&Self::name_of(node, "body"));
         let mut masses = super::mjcf_read::Masses::default();
+        // What is seen alone lends its colour to what is met.
+        let mut seen = None;
         for geom in children(node, "geom") {
             let class = self.settings.class(geom, class, "geom")?;
             let solid = super::mjcf_geoms::read(&class, self.settings, self.reading, link_from_body)?;
             masses.add(&solid);
             if solid.meets {
                 link.solids.extend(solid.solids);
+            } else {
+                seen = seen.or(solid.color);
             }
         }
+        super::color::lend(&mut link.solids, seen);
         match child(node, "inertial") {
             Some(inertial) => self.settings.inertial(inertial, &mut link, link_from_body, self.reading)?,
             None => masses.give(&mut link),

@@ -8,7 +8,7 @@ use simworld_core::geometry::{Pose, Vector3};
 
 use super::mjcf_read::{Class, Settings, along_z, some, wrong};
 use super::xml::{numbers_up_to, place, shortened};
-use super::{Reading, WATER, mesh};
+use super::{Reading, WATER, color, mesh};
 use crate::convert::from_vector;
 use crate::robot::description::{Form, LinkSolid};
 use crate::robot::solids::solid;
@@ -20,6 +20,8 @@ pub(super) struct Geom {
     pub(super) solids: Vec<LinkSolid>,
     /// Whether others meet it.
     pub(super) meets: bool,
+    /// What it looks like, if the file says so.
+    pub(super) color: Option<[f32; 3]>,
     /// kg, m and kg m² about that place, link frame.
     pub(super) masses: Vec<(f64, Vector3, Matrix3<f64>)>,
 }
@@ -50,7 +52,8 @@ pub(super) fn read(
         return Err(wrong(node, "mass", &format!("{density} kg/m³"), "a mass of 0 to 1e7 kg/m³"));
     }
     let kinds = Kinds { own: bits(class, "contype")?, met: bits(class, "conaffinity")? };
-    let mut geom = Geom { meets: kinds.own != 0 || kinds.met != 0, ..Geom::default() };
+    let (meets, color) = (kinds.own != 0 || kinds.met != 0, color_of(class, settings)?);
+    let mut geom = Geom { meets, color, ..Geom::default() };
     for (form, (shape, form_from_shape)) in &volumes {
         let properties = shape.mass_properties(density);
         let frame = link_from_solid * crate::convert::from_pose(form_from_shape);
@@ -62,7 +65,7 @@ pub(super) fn read(
         let inertia = turn.matrix() * inertia * turn.matrix().transpose();
         geom.masses.push((properties.mass(), center.coords, inertia));
         let (form, material) = ((*form).clone(), material(class)?);
-        geom.solids.push(LinkSolid { form, link_from_solid, material, kinds });
+        geom.solids.push(LinkSolid { form, link_from_solid, material, kinds, color });
     }
     Ok(geom)
 }
@@ -75,6 +78,18 @@ fn bits(class: &Class<'_, '_>, attribute: &str) -> Result<u32, RobotError> {
     }
     let value = class.get(attribute).unwrap_or_default();
     Err(wrong(class.node, attribute, value, "an integer of 32 bits"))
+}
+
+/// Its own colour, or else that of the material of its looks.
+fn color_of(class: &Class<'_, '_>, settings: &Settings<'_>) -> Result<Option<[f32; 3]>, RobotError> {
+    if let Some(text) = class.get("rgba") {
+        return color::read(class.node, text);
+    }
+    let Some(asset) = class.get("material").and_then(|name| settings.material_assets.get(name)) else {
+        return Ok(None);
+    };
+    let text = settings.class(*asset, None, "material")?.get("rgba");
+    text.map_or(Ok(None), |text| color::read(*asset, text))
 }
 
 /// The material whose friction is nearest to that of the geom, which is 1 unless it says otherwise.

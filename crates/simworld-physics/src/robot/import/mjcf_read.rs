@@ -25,6 +25,8 @@ pub(super) struct Settings<'n> {
     pub(super) meshes: &'n str,
     /// Assets of the kind mesh, by name.
     pub(super) mesh_assets: BTreeMap<&'n str, Node<'n, 'n>>,
+    /// Assets of the kind material, by name.
+    pub(super) material_assets: BTreeMap<&'n str, Node<'n, 'n>>,
     /// Attributes by class and element.
     classes: BTreeMap<&'n str, Defaults<'n>>,
 }
@@ -74,6 +76,7 @@ impl<'n> Settings<'n> {
             euler: ['x', 'y', 'z'],
             meshes: "",
             mesh_assets: BTreeMap::new(),
+            material_assets: BTreeMap::new(),
             classes: BTreeMap::new(),
         };
         for compiler in children(root, "compiler") {
@@ -97,6 +100,9 @@ impl<'n> Settings<'n> {
             let stem = file.rsplit('/').next().and_then(|file| file.split('.').next()).unwrap_or_default();
             settings.mesh_assets.insert(mesh.attribute("name").unwrap_or(stem), mesh);
         }
+        let materials = children(root, "asset").flat_map(|asset| children(asset, "material"));
+        settings.material_assets =
+            materials.filter_map(|material| Some((material.attribute("name")?, material))).collect();
         for default in children(root, "default") {
             settings.learn(default, &Defaults::new());
         }

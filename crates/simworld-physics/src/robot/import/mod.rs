@@ -3,6 +3,7 @@
 //! Files may come from strangers. What is read is bounded, meshes lie in one folder, and nothing panics: what cannot be a robot
 //! is a [`RobotError`] that says where, and what was approximated stands in the report.
 
+pub(super) mod color;
 mod mesh;
 #[cfg(feature = "mjcf")]
 pub mod mjcf;

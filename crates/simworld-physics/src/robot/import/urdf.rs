@@ -20,8 +20,8 @@
 //! # Ok::<(), simworld_physics::RobotError>(())
 //! ```
 //!
-//! A first link that is called `world` stands still, any other moves freely, unless the options say otherwise. Pictures,
-//! transmissions, sensors and what simulators add are passed over. Links that no joint holds together meet one another, unless they
+//! A first link that is called `world` stands still, any other moves freely, unless the options say otherwise. A link has the colour of
+//! its first visual that says one; how visuals look otherwise, transmissions, sensors and what simulators add are passed over. Links that no joint holds together meet one another, unless they
 //! are within one another where the joints rest, which the report then says.
 
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ use simworld_core::asset::Material;
 use simworld_core::geometry::{Pose, Vector3};
 
 use super::xml::{child, children, exactly, number, parse, place, required, shortened};
-use super::{ImportOptions, Imported, Reading, finish, mesh};
+use super::{ImportOptions, Imported, Reading, color, finish, mesh};
 use crate::robot::description::{Base, Form, JointDescription, JointKind, LinkDescription, LinkSolid};
 use crate::robot::{Kinds, RobotDescription, RobotError};
 
@@ -52,9 +52,10 @@ pub fn from_str(text: &str, options: &ImportOptions) -> Result<Imported, RobotEr
         name: root.attribute("name").unwrap_or_default().to_owned(),
         ..RobotDescription::default()
     };
+    let palette = palette_of(root)?;
     for node in root.children().filter(Node::is_element) {
         match node.tag_name().name() {
-            "link" => description.links.push(link(node, &mut reading)?),
+            "link" => description.links.push(link(node, &palette, &mut reading)?),
             "joint" => description.joints.push(joint(node, &mut reading)?),
             "material" | "transmission" | "gazebo" | "sensor" => {}
             other => {
@@ -82,7 +83,44 @@ fn origin(node: Node<'_, '_>) -> Result<Pose, RobotError> {
     Ok(Pose::from_parts(Vector3::new(x, y, z).into(), turn))
 }
 
-fn link(node: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<LinkDescription, RobotError> {
+/// Colours by name of their material.
+type Palette<'a> = BTreeMap<&'a str, [f32; 3]>;
+
+/// The materials of the whole file; those of visuals that say a colour have a name for others as well.
+fn palette_of<'a>(root: Node<'a, '_>) -> Result<Palette<'a>, RobotError> {
+    let mut palette = Palette::new();
+    let visuals = children(root, "link").flat_map(|link| children(link, "visual"));
+    let within = visuals.filter_map(|visual| child(visual, "material"));
+    for material in within.chain(children(root, "material")) {
+        if let (Some(name), Some(color)) = (material.attribute("name"), color_in(material)?) {
+            palette.insert(name, color);
+        }
+    }
+    Ok(palette)
+}
+
+/// The colour that stands within a material.
+fn color_in(material: Node<'_, '_>) -> Result<Option<[f32; 3]>, RobotError> {
+    let Some(node) = child(material, "color") else { return Ok(None) };
+    node.attribute("rgba").map_or(Ok(None), |text| color::read(node, text))
+}
+
+/// The colour of what is seen of a link: of its first visual that has one.
+fn seen_color(link: Node<'_, '_>, palette: &Palette<'_>) -> Result<Option<[f32; 3]>, RobotError> {
+    for material in children(link, "visual").filter_map(|visual| child(visual, "material")) {
+        let named = || material.attribute("name").and_then(|name| palette.get(name)).copied();
+        if let Some(color) = color_in(material)?.or_else(named) {
+            return Ok(Some(color));
+        }
+    }
+    Ok(None)
+}
+
+fn link(
+    node: Node<'_, '_>,
+    palette: &Palette<'_>,
+    reading: &mut Reading<'_>,
+) -> Result<LinkDescription, RobotError> {
     let mut link = LinkDescription::new(required(node, "name", "give every link a name of its own")?);
     for collision in children(node, "collision") {
         let geometry = child(collision, "geometry").ok_or_else(|| RobotError::Missing {
@@ -92,10 +130,11 @@ fn link(node: Node<'_, '_>, reading: &mut Reading<'_>) -> Result<LinkDescription
         })?;
         let link_from_solid = origin(collision)?;
         for form in forms(geometry, reading)? {
-            let (material, kinds) = (Material::Plastic, Kinds::default());
-            link.solids.push(LinkSolid { form, link_from_solid, material, kinds });
+            let (material, kinds, color) = (Material::Plastic, Kinds::default(), None);
+            link.solids.push(LinkSolid { form, link_from_solid, material, kinds, color });
         }
     }
+    color::lend(&mut link.solids, seen_color(node, palette)?);
     match child(node, "inertial") {
         Some(inertial) => weigh(&mut link, inertial, reading)?,
         None => reading.weigh(&mut link, &|| place(node)),
