@@ -171,7 +171,9 @@ fn in_turns<A, B>(
         })?;
         let mut others: Vec<B> = (0..copies).map(|_| plain.0()).collect();
         let second = cost(copies * steps, || {
-            others.iter_mut().for_each(|other| (0..steps).for_each(|_| plain.1(other)));
+            for other in &mut others {
+                (0..steps).for_each(|_| plain.1(other));
+            }
             Ok(())
         })?;
         Ok([first.processor, second.processor])

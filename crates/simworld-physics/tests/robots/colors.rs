@@ -9,8 +9,8 @@ use simworld_core::scene::{EntityKind, Scene, Shape};
 use simworld_physics::robot::{ImportOptions, mjcf, urdf};
 use simworld_physics::{RobotConfig, RobotDescription, RobotError};
 
-fn light(values: [u8; 3]) -> Option<[f32; 3]> {
-    Some(values.map(light_of))
+fn light(values: [u8; 3]) -> [f32; 3] {
+    values.map(light_of)
 }
 
 /// The colours of all solids, link by link.
@@ -44,12 +44,12 @@ fn a_link_of_a_urdf_has_the_colour_of_its_visual() {
     let named = "<visual><material name=\"sea\"/></visual>";
     let robot =
         read_urdf([own, named, ""], "<material name=\"sea\"><color rgba=\"0 0 2 1\"/></material>").unwrap();
-    assert_eq!(colors(&robot), [light([255, 51, 0]), light([0, 0, 255]), None]);
+    assert_eq!(colors(&robot), [Some(light([255, 51, 0])), Some(light([0, 0, 255])), None]);
     let unknown = "<visual><material name=\"nobody's\"/></visual>";
     // What a visual calls its colour others may call it.
     let by_name = "<visual><material name=\"x\"/></visual>";
     let robot = read_urdf([unknown, own, by_name], "").unwrap();
-    assert_eq!(colors(&robot), [None, light([255, 51, 0]), light([255, 51, 0])]);
+    assert_eq!(colors(&robot), [None, Some(light([255, 51, 0])), Some(light([255, 51, 0]))]);
 }
 
 #[test]
@@ -80,10 +80,13 @@ const CART: &str = r#"<mujoco model="cart">
 #[test]
 fn a_geom_of_an_mjcf_has_its_colour() {
     let robot = read_mjcf(CART).unwrap().description;
-    assert_eq!(colors(&robot), [light([0, 255, 0]), light([255, 0, 0]), light([255, 255, 0])]);
+    assert_eq!(
+        colors(&robot),
+        [Some(light([0, 255, 0])), Some(light([255, 0, 0])), Some(light([255, 255, 0]))]
+    );
     let painted = CART.replace("<geom rgba=\"0 1 0 1\"/>", "<geom material=\"chrome\"/>");
     let robot = read_mjcf(&painted.replace("rgba=\"1 0 0 1\" ", "")).unwrap().description;
-    assert_eq!(colors(&robot)[..2], [light([0, 0, 255]), light([51, 102, 153])]);
+    assert_eq!(colors(&robot)[..2], [Some(light([0, 0, 255])), Some(light([51, 102, 153]))]);
 }
 
 #[test]
