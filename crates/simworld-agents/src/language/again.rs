@@ -77,6 +77,11 @@ impl Parser<'_> {
             self.skip_fillers();
             // "Go there again" is no second time.
             if self.ends_there() && !(lone && joined == 0) {
+                // "Turn left, and again, and again": once more than before.
+                if let (true, Some(Clause::Repeat { times, .. })) = (lone, clauses.last_mut()) {
+                    *times += 1;
+                    return true;
+                }
                 let all = all || group > whole && matches!(clauses.last(), Some(Clause::Go { .. }));
                 repeat(clauses, if all { whole } else { group }, 2, all);
                 return true;

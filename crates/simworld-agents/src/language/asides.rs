@@ -35,7 +35,10 @@ const FINITE: &[&str] = &[
     "likes", "keeps", "hurt", "ache", "aches", "hate", "love", "like", "miss", "know", "think", "guess", "suppose",
     "hope", "bet", "swear", "promise", "repeat", "recommend", "suggest", "fell", "fall", "falls", "stopped", "broke",
     "waits", "sits", "stands", "lies", "calls", "begins", "starts", "ends", "closes", "opens", "comes", "happens",
-    "matters", "used", "depends", "looked", "seemed", "just", "never", "always", "aint",
+    "matters", "used", "depends", "looked", "seemed", "just", "never", "always", "aint", "ran", "took", "gave", "brought", "bought", "found",
+    "stood", "sat", "ate", "drank", "spoke", "wrote", "drove", "flew", "hid", "kept", "paid", "rang", "rode", "sang", "sent", "shook", "slept", "spent",
+    "stole", "swam", "threw", "wore", "won", "woke", "began", "became", "caught", "chose", "dug", "drew", "fought", "froze", "grew", "held", "hung",
+    "led", "lent", "meant", "met", "rose", "sold", "spilt", "stuck", "swore", "taught", "tore", "gives", "takes", "leaves", "arrives", "runs",
 ];
 /// What asks for something, so that the words are no aside.
 #[rustfmt::skip]
@@ -238,7 +241,7 @@ fn has_finite(said: &[Lexeme]) -> bool {
 }
 
 /// Whether the words state something of somebody else, and ask for nothing.
-fn says_what_is(said: &[Lexeme]) -> bool {
+pub(super) fn says_what_is(said: &[Lexeme]) -> bool {
     !said.is_empty()
         && said.len() <= LONGEST
         && longest_phrase(said, SUBJECTS).is_some()
@@ -260,6 +263,7 @@ fn is_heading(said: &[Lexeme]) -> bool {
         && longest_phrase(said, NEGATIONS).is_none()
         && !(0..said.len()).any(|at| {
             numbers::times(&said[at..]).is_some()
+                || numbers::number(&said[at..]).is_some_and(|(number, _)| number > 1.0)
                 || numbers::duration(&said[at..]).is_some_and(|(_, words)| words > 1)
         })
         && longest_phrase(said, &["every", "each", "repeat", "rain", "dry", "in case", "when"]).is_none()

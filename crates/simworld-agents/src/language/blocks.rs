@@ -330,13 +330,15 @@ impl Parser<'_> {
             "do this",
             "do the following",
             "repeat the following",
+            "do",
+            "make",
             "do it",
             "do all this",
             "do all of this",
             "do the next thing",
             "do the same",
         ]);
-        if let Some((times, count)) = numbers::times(self.rest()) {
+        if let Some((times, count)) = numbers::times(self.rest()).or_else(|| self.rounds_of()) {
             self.at += count;
             // "Repeat three times: ..." is about all that follows.
             let colon = matches!(self.rest(), [Lexeme { token: Token::Break, .. }, ..]);
@@ -354,6 +356,17 @@ impl Parser<'_> {
         Ok(None)
     }
 
+    /// "Three rounds: fountain, statue".
+    fn rounds_of(&self) -> Option<(u32, usize)> {
+        let (number, words) = numbers::number(self.rest()).filter(|(number, _)| number.fract() == 0.0)?;
+        let unit = longest_phrase(
+            &self.rest()[words..],
+            &["rounds", "round", "laps", "trips", "times around", "times round"],
+        )?;
+        let colon = matches!(self.rest().get(words + unit), Some(Lexeme { token: Token::Break, .. }));
+        (colon && (1.0..=100.0).contains(&number)).then_some((number as u32, words + unit))
+    }
+
     /// After "if": the test, what to do, and what else.
     fn either(&mut self, negated: bool) -> Result<Vec<Clause>, PlanError> {
         let test = self.test()?;
@@ -367,6 +380,7 @@ impl Parser<'_> {
         if then.is_empty() {
             return Err(self.not_understood("say what to do then"));
         }
+        let then = super::conditions::taken_instead(&test, then);
         let end = self.at;
         self.skip_joints();
         let mut otherwise = Vec::new();

@@ -3,12 +3,24 @@
 use simworld_core::scene::{EntityKind, EntityRef, OPEN};
 use simworld_core::seam::{Condition, PlanError, Which};
 
-use super::clause::{Choice, Reference, Target, Test};
+use super::clause::{Choice, Clause, Reference, Target, Test};
 use super::draft::Draft;
 use super::lexicon::class;
 use super::relate::PART;
 use super::resolve::Purpose;
 use super::tests_of::NEARBY;
+
+/// "If the green bench is taken, use the red one": what is chosen in its place is sat on.
+pub(super) fn taken_instead(test: &Test, mut then: Vec<Clause>) -> Vec<Clause> {
+    let of_use =
+        matches!(test, Test::InUse(_)) || matches!(test, Test::Not(test) if matches!(**test, Test::InUse(_)));
+    if let [Clause::Take { what, to: None, .. } | Clause::Board { what, to: None }] = &then[..]
+        && of_use
+    {
+        then = vec![Clause::Sit { on: Some(what.clone()) }];
+    }
+    then
+}
 
 impl Draft<'_> {
     pub(super) fn condition(&mut self, test: &Test) -> Result<Condition, PlanError> {

@@ -76,6 +76,26 @@ const OUTERMOST: &[(&[&str], Side)] = &[
     (&["on the far right", "furthest to the right", "farthest to the right", "furthest right",
     "most to the right"], Side::Right),
 ];
+/// From where one counts.
+const COUNTED: &Phrases = &Phrases::of(&[
+    "counting from here",
+    "counted from here",
+    "counting from you",
+    "counting from where you are",
+    "as seen from here",
+    "seen from here",
+    "from where you are",
+    "from where you stand",
+    "in the row",
+    "in that row",
+    "in line",
+    "in the line",
+]);
+/// From which end of a row one counts.
+const FROM_AN_END: &[(&[&str], Side)] = &[
+    (&["from the left", "from the left hand side", "from the left end", "from left"], Side::Left),
+    (&["from the right", "from the right hand side", "from the right end", "from right"], Side::Right),
+];
 /// What makes a place no more exact.
 #[rustfmt::skip]
 const LOOSELY: &Phrases = &Phrases::of(&[
@@ -129,6 +149,7 @@ impl Parser<'_> {
                 || self.nearest_behind(reference, start, depth)?
                 || self.farthest_behind(reference, depth)?
                 || self.place_in_row(reference)
+                || self.eat_any(COUNTED)
                 || self.sold_there(reference)?
                 || self.spared(reference, depth)
                 || self.stands(reference, depth)?
@@ -284,6 +305,13 @@ impl Parser<'_> {
 
     /// "... in the east", "... in the middle", "... of all".
     fn place_in_row(&mut self, reference: &mut Reference) -> bool {
+        if let Choice::Nth(nth) = reference.choice
+            && let Some((side, words)) = longest(self.rest(), FROM_AN_END)
+        {
+            self.at += words;
+            (reference.choice, reference.place) = (Choice::Side(side), nth);
+            return true;
+        }
         if reference.choice == Choice::Open
             && let Some(compass) = self.in_the_compass()
         {

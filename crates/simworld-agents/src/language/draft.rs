@@ -238,8 +238,18 @@ impl<'a> Draft<'a> {
             }
             Clause::Wave { to } => {
                 self.can(ActionKind::WaveHand)?;
-                let to = self.find(to, Purpose::Any)?.id;
-                self.act(Action::WaveHand { to })
+                let found = self.find(to, Purpose::Any)?;
+                let house = found.kind == EntityKind::Building && matches!(to.target, Target::Named(_));
+                if house
+                    && found
+                        .info
+                        .name
+                        .as_deref()
+                        .is_some_and(|name| name.contains(' ') && !to.text.contains(' '))
+                {
+                    return Err(self.view.not_found(to, Purpose::Any)); // "the pilot" is not the Pilot School
+                }
+                self.act(Action::WaveHand { to: found.id })
             }
             Clause::Say { to, words } => {
                 self.can(ActionKind::Converse)?;
@@ -390,6 +400,12 @@ impl<'a> Draft<'a> {
                 }
             }
         };
+        // "You are needed at the fountain, go there" says one thing twice.
+        let taken_up = to.target == Target::There && side.is_none();
+        let went = matches!(self.last_step(), Some(PlanStep::Navigate { to, .. }) if *to == goal);
+        if taken_up && went && within.is_none() && pace == Pace::Usual {
+            return Ok(());
+        }
         self.navigate(goal, within.unwrap_or(usual), speed_of(pace))
     }
 

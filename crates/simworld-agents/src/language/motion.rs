@@ -71,6 +71,14 @@ pub(super) const SENSES: &[(&[&str], Sense)] = &[
 impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
         self.eat_any(&["first", "then", "next", "finally"]);
+        // "Go another four metres".
+        if let Some(more) = longest_phrase(
+            self.rest(),
+            &["another", "a further", "on another", "on for another", "for another"],
+        ) && numbers::walked(&self.rest()[more..]).is_some()
+        {
+            self.at += more;
+        }
         let pace = self.pace(pace)?;
         self.eat_any(&["on foot", "by foot"]);
         if let Some(goods) = self.goods_gone_for() {
@@ -109,6 +117,13 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         let pace = self.pace(pace)?;
+        if longest_phrase(self.rest(), &["for the", "for that"]).is_some()
+            && numbers::duration(&self.rest()[1..]).is_none()
+            && longest_phrase(&self.rest()[2..], &["next", "last", "rest", "whole", "time", "first"])
+                .is_none()
+        {
+            self.at += 1; // "go for the white one"
+        }
         if let Some(clauses) = self.leads_nowhere(pace, start) {
             return Ok(clauses);
         }
@@ -144,7 +159,35 @@ impl Parser<'_> {
         if self.eat_any(TO_AND_FRO) {
             return self.back_and_forth(pace).map(Some);
         }
+        if self.eat_any(&["via", "by way of"]) {
+            let go = |to| Clause::Go { to, side: None, pace, within: None };
+            let first = go(self.reference(0)?);
+            let on = self.eat_any(&["to", "over to", "on to"]);
+            return if on { Ok(Some(vec![first, go(self.reference(0)?)])) } else { Ok(Some(vec![first])) };
+        }
+        if let Some(to) = self.what_somebody_is_up_to(start) {
+            return Ok(Some(vec![Clause::Go { to, side: None, pace, within: None }]));
+        }
         Ok(None)
+    }
+
+    /// "Go and see what he wants", "go see how Fay is doing": one has to be there for that.
+    fn what_somebody_is_up_to(&mut self, start: usize) -> Option<Reference> {
+        let sees = self.lexemes[start..self.at].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["see", "check", "find", "out"].contains(&word.as_str()))
+        });
+        let here = self.at;
+        if sees && self.eat_any(&["what", "how", "whether", "if", "where", "why"]) {
+            let pronoun = longest_phrase(self.rest(), &["he", "she", "they"]).is_some();
+            if let Some(who) = if pronoun { self.somebody() } else { self.somebody_here() }
+                && !self.ends_at_mark()
+            {
+                self.at = self.mark_from(self.at);
+                return Some(who);
+            }
+        }
+        self.at = here;
+        None
     }
 
     /// "Go back", "keep walking", "go in": no place is named.

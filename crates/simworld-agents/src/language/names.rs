@@ -209,7 +209,9 @@ impl<'a> Names<'a> {
         let singular = said.strip_suffix('s').filter(|word| word.len() > 2);
         let of = |word: &str| {
             let word = Token::Word(word.to_owned());
-            let names = self.bearers(&word).filter(|name| name.tokens.len() > 1);
+            // "All the tents", where each is called "tent".
+            let plural = word != Token::Word(said.clone());
+            let names = self.bearers(&word).filter(|name| name.tokens.len() > 1 || plural);
             names.filter(|name| name.tokens.last() == Some(&word)).map(|name| name.id).collect::<Vec<_>>()
         };
         let sort = std::iter::once(said.as_str()).chain(singular).map(of);

@@ -294,6 +294,48 @@ impl Parser<'_> {
             "could i get",
             "can we have",
             "could we have",
+            "i would rather have",
+            "id rather have",
+            "i need",
+            "id need",
+            "i would need",
+            "ill have",
+            "i will have",
+            "well have",
+            "we will have",
+            "ill take",
+            "i will take",
+            "id kill for",
+            "i would kill for",
+            "id murder",
+            "i feel like",
+            "i could go for",
+            "i could eat",
+            "i could drink",
+            "im in the mood for",
+            "i am in the mood for",
+            "were in the mood for",
+            "we are in the mood for",
+            "what i want is",
+            "what i need is",
+            "what id like is",
+            "what we need is",
+            "make it",
+            "make that",
+            "might i trouble you for",
+            "may i trouble you for",
+            "could i trouble you for",
+            "can i trouble you for",
+            "trouble you for",
+            "could i bother you for",
+            "can i bother you for",
+            "its time for",
+            "it is time for",
+            "time for",
+            "i was hoping for",
+            "im looking for",
+            "i am looking for",
+            "were looking for",
         ]);
         let Some(goods) = self.goods() else { return Ok(None) };
         if self.mark() == Some('?') && self.rest().len() > 1 {
@@ -347,6 +389,14 @@ impl Parser<'_> {
             "away to",
         ]);
         let to = self.reference(0)?;
+        // "Nearest bench, please": which one is said.
+        let chosen = to.choice != super::clause::Choice::Open
+            && matches!(to.target, Target::Any(_) | Target::Named(_))
+            && (self.at..self.lexemes.len()).all(|at| {
+                longest_phrase(&self.lexemes[at..], &["please", "thanks", "pls", "thank", "you", "now"])
+                    .is_some()
+            });
+        let told = told || chosen;
         let is_building = match &to.target {
             Target::Any(class) => class.is_place(),
             Target::Named(ids) => ids.iter().any(|id| {

@@ -271,6 +271,11 @@ impl<'a> Parser<'a> {
     pub(super) fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         let begin = self.at;
         self.skip_fillers();
+        let polite = requests::polite_condition(self.rest());
+        if polite > 0 {
+            self.at += polite;
+            self.skip_fillers();
+        }
         if let Some(mut clauses) = self.marked_topic() {
             clauses.extend(self.statement()?);
             return Ok(clauses);
@@ -325,6 +330,7 @@ impl<'a> Parser<'a> {
             Self::way_asked,
             Self::told_by_another,
             Self::itinerary,
+            Self::goes_somewhere,
             Self::wants_one,
             Self::somebody_gets,
             Self::on_topic,

@@ -41,10 +41,47 @@ impl Parser<'_> {
             return Ok(there);
         }
         if self.peeks("both")
-            && (self.is_capital(self.at + 1) || self.names.exact(&self.rest()[1..]).is_some())
+            && (self.is_capital(self.at + 1)
+                || self.names.exact(&self.rest()[1..]).is_some_and(|(_, words)| {
+                    longest_phrase(self.rest().get(1 + words..).unwrap_or_default(), &["and"]).is_some()
+                }))
             && category(&self.rest()[1..]).is_none()
         {
             self.at += 1; // "both Anna and Ben" are each named
+        }
+        // "Both of them, Greta and Jonas" are each named.
+        let all = longest_phrase(
+            self.rest(),
+            &[
+                "both of them",
+                "all of them",
+                "all three of them",
+                "the two of them",
+                "the three of them",
+                "both",
+                "all three",
+                "all four of them",
+            ],
+        );
+        if let Some(words) = all
+            && matches!(self.rest().get(words), Some(Lexeme { token: Token::Comma | Token::Break, .. }))
+            && self.is_capital(self.at + words + 1)
+        {
+            self.at += words + 1;
+        }
+        // "Professor Hana", "my uncle Ben".
+        let own = longest_phrase(
+            self.rest(),
+            &["my", "our", "your", "his", "her", "their", "the", "my friend", "our friend"],
+        )
+        .unwrap_or(0);
+        let title = own + longest_phrase(&self.rest()[own..], super::reported::TITLES).unwrap_or(0);
+        if title > own && self.is_capital(self.at + title) && self.names.exact(self.rest()).is_none() {
+            let named = self.names.exact(&self.rest()[title..]);
+            let animate = |id: &simworld_core::id::EntityId| {
+                self.view.scene.entity(*id).is_some_and(|entity| super::lexicon::is_animate(entity.kind))
+            };
+            self.at += named.filter(|(ids, _)| ids.iter().any(animate)).map_or(0, |_| title);
         }
         if let Some(one) = self.chosen_of_named() {
             return Ok(one);
@@ -97,6 +134,14 @@ impl Parser<'_> {
             let said = self.at;
             self.described(reference, depth)?;
             if self.at > said {
+                return Ok(());
+            }
+        } else if self.eat_any(&["not the", "and not the", "not that", "not this"]) {
+            // "The second scooter, not the first one".
+            let mut other = reference.clone();
+            self.modifiers(&mut other);
+            self.eat_any(&["one", "ones"]);
+            if self.ends_at_mark() {
                 return Ok(());
             }
         } else if self.eat_any(&["any", "any old", "whichever"]) {

@@ -158,6 +158,13 @@ pub(super) fn coda(lexemes: &[Lexeme]) -> usize {
     if polite && is_whole { end } else { 0 }
 }
 
+/// How many lexemes of a polite condition begin the sentence here: "if you get a moment, ...".
+pub(super) fn polite_condition(lexemes: &[Lexeme]) -> usize {
+    let Some(mark) = lexemes.iter().position(|lexeme| lexeme.token == Token::Comma) else { return 0 };
+    let begins = longest_phrase(lexemes, &["if", "when", "whenever"]).is_some();
+    if begins && mark + 1 < lexemes.len() && coda(&lexemes[..mark]) == mark { mark + 1 } else { 0 }
+}
+
 /// What makes politeness of a condition: "if you can", "when you have time".
 #[rustfmt::skip]
 const POLITE: &[&str] = &[

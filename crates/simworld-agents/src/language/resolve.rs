@@ -181,6 +181,7 @@ impl<'a> View<'a> {
             let spared = if one { &spared[..spared.len().min(1)] } else { &spared[..] };
             found.retain(|(_, id)| spared.iter().all(|(_, other)| other != id));
         }
+        self.leave_others_out(reference, &mut found);
         match reference.choice {
             Choice::Farthest => found.reverse(),
             Choice::Nth(nth) => {
@@ -194,6 +195,24 @@ impl<'a> View<'a> {
         }
         found.drain(..found.len().min(reference.place.saturating_sub(1) as usize));
         Ok(found)
+    }
+
+    /// "The parcel" is none that is called "suitcase", where another is there.
+    fn leave_others_out(&self, reference: &Reference, found: &mut Vec<Ranked>) {
+        let Target::Any(class) = &reference.target else { return };
+        if found.len() < 2 || class.kinds() != [EntityKind::Parcel] {
+            return;
+        }
+        let is_called_so = |(_, id): &Ranked| {
+            let Some(entity) = self.scene.entity(*id) else { return false };
+            let last = entity.info.name.as_ref().and_then(|name| name.split_whitespace().last());
+            last.is_none_or(|last| {
+                class.words.iter().chain(&["letter", "envelope"]).any(|word| word.eq_ignore_ascii_case(last))
+            })
+        };
+        if found.iter().any(is_called_so) {
+            found.retain(is_called_so);
+        }
     }
 
     /// A step of a metre to a side of the agent.

@@ -127,12 +127,58 @@ impl Parser<'_> {
             } else if let Some((more, words)) = numbers::times(self.rest()) {
                 self.at += words;
                 times *= more;
+            } else if let Some(heads) = self.for_so_many().filter(|_| times == 1) {
+                times = heads;
+            } else if times == 1 && self.one_each() {
+                times = 2;
             } else {
                 self.wanted = Some(Goods { name: goods.name.clone(), times: 1 });
                 let whom = whom.or(whom_wished);
                 return Ok(vec![Clause::Buy { goods: goods.name, times, at, whom }]);
             }
         }
+    }
+
+    /// Whether those goods were bought before in the sentence.
+    pub(super) fn is_bought(&self, goods: &Goods) -> bool {
+        !self.wished
+            && goods.times == 1
+            && self.wanted.as_ref().is_some_and(|wanted| wanted.name == goods.name)
+    }
+
+    /// "Coffee for four", "water for the three of us": as many as there are of us.
+    fn for_so_many(&mut self) -> Option<u32> {
+        let start = self.at;
+        if self.eat_any(&["for"]) {
+            self.eat_any(&["the", "all", "all of the", "us"]);
+            let found = numbers::count(self.rest()).filter(|(count, _)| (2..=50).contains(count));
+            if let Some((count, words)) = found {
+                self.at += words;
+                self.eat_any(&["of us", "people", "persons", "of you", "of them"]);
+                if self.ends_clause() {
+                    return Some(count);
+                }
+            }
+        }
+        self.at = start;
+        None
+    }
+
+    /// "A coffee for me and one for my husband": two, of which nobody here gets one.
+    fn one_each(&mut self) -> bool {
+        let start = self.at;
+        self.eat_any(&["for me", "for myself", "for you", "for yourself", "for us"]);
+        let another = self.eat_any(&["and one", "and another", "and another one", "and one more"]);
+        if another && self.eat_any(&["for"]) {
+            self.eat_any(DETERMINERS);
+            if (self.eat_any(OTHERS) || self.eat_any(&["me", "you", "yourself", "myself"]))
+                && self.ends_clause()
+            {
+                return true;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// Remembers what is wanted, and "one" stands for: "what about a coffee? Go and buy one".
@@ -362,8 +408,16 @@ impl Parser<'_> {
         let start = self.at;
         if self.eat_any(&["for"]) {
             self.eat_any(&["all of", "all", "the rest of"]);
+            let own = longest_phrase(self.rest(), &["my", "our", "his", "her", "their", "your"]).is_some();
             self.eat_any(DETERMINERS);
-            if self.eat_any(OTHERS) && self.ends_clause() {
+            while self.eat_any(&[
+                "little", "big", "old", "young", "dear", "poor", "eldest", "youngest", "whole", "other",
+                "best",
+            ]) {}
+            let whose = own
+                && self
+                    .eat_any(&["boy", "girl", "child", "kid", "man", "woman", "lady", "guy", "lad", "dog"]);
+            if (whose || self.eat_any(OTHERS)) && self.ends_clause() {
                 return;
             }
         }

@@ -98,7 +98,9 @@ fn asset_at<'a>(phrase: &[Lexeme], catalogue: &'a Catalogue) -> Option<(&'a Asse
         let (last, head) = words[..count].split_last()?;
         let named = |last: &str| {
             let name = head.iter().copied().chain([last]).collect::<Vec<_>>().join("_");
-            catalogue.get(catalogue.find(&name)?)
+            // "The palm" is an asset called "palm_tree".
+            let id = catalogue.find(&name).or_else(|| catalogue.find(&format!("{name}_tree")))?;
+            catalogue.get(id)
         };
         singulars(last).find_map(|last| named(&last)).map(|asset| (asset, count))
     })

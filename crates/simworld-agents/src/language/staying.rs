@@ -151,7 +151,11 @@ impl Parser<'_> {
 
     pub(super) fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
         let here = self.eat_any(&["here", "right here", "where you are"]);
-        self.eat_any(&["there", "right there"]);
+        let there = self.eat_any(&["there", "right there"]);
+        let moved = matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive));
+        if there && moved && self.ends_at_mark() {
+            return Ok(Vec::new()); // one waits where one went
+        }
         if here && self.ends_at_mark() {
             return Ok(vec![Clause::Stop]); // "wait here, I'll be back soon"
         }

@@ -55,7 +55,9 @@ impl Parser<'_> {
                 || self.done_to_another(clauses, group)
                 || self.but_first(clauses, comma)?
             {
-            } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
+            } else if let Some((times, count)) =
+                numbers::times(&self.rest()[usize::from(comma)..]).filter(|_| !self.when_it_is())
+            {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, if comma { whole } else { group }, times, comma);
             } else if comma && !goes_on || !self.tail(clauses, comma)? {
@@ -98,6 +100,22 @@ impl Parser<'_> {
             )
             .is_some();
         longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after) || earlier
+    }
+
+    /// Whether "near" or the like was said since: whoever walks until he is near something walks straight on.
+    fn says_near(&self, from: usize) -> bool {
+        let near = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["near", "close", "nearby"].contains(&word.as_str()));
+        self.lexemes[from..self.at].iter().any(near)
+    }
+
+    /// "... once it is dark": when, and not how often.
+    fn when_it_is(&self) -> bool {
+        let after = self.rest().get(1..).unwrap_or_default();
+        let subject = longest_phrase(
+            after,
+            &["it", "its", "the", "he", "she", "they", "there", "you", "everybody", "nobody"],
+        );
+        self.peeks("once") && subject.is_some()
     }
 
     /// ", one after the other": how, where it makes no difference.
@@ -182,6 +200,7 @@ impl Parser<'_> {
             clauses.push(Clause::Until { test: Test::Never, body });
             return Ok(true);
         }
+        let said = self.at;
         let test = if self.eat_any(UNTIL) {
             let start = self.at;
             match (self.test(), clauses.last()) {
@@ -214,7 +233,7 @@ impl Parser<'_> {
         }
         let body = match (clauses.pop(), &test) {
             // Whoever walks until he is somewhere goes there.
-            (Some(Clause::Forward), Test::Near { what, .. }) => {
+            (Some(Clause::Forward), Test::Near { what, .. }) if !self.says_near(said) => {
                 let (to, pace) = (what.clone(), Pace::Usual);
                 vec![Clause::Go { to, side: None, pace, within: None }]
             }
@@ -466,6 +485,7 @@ pub(super) fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: b
             clauses.push(Clause::Repeat { times, body: body.clone() });
         }
         _ if times == 1 => clauses.extend(body),
+        [Clause::Halfway { .. }] => clauses.push(Clause::Repeat { times, body: to_and_fro(body) }),
         [Clause::Photo { of, times: 1 }] => clauses.push(Clause::Photo { of: of.clone(), times }),
         _ => clauses.push(Clause::Repeat { times, body }),
     }
@@ -477,7 +497,23 @@ pub(super) fn body_of(clause: Option<Clause>) -> Vec<Clause> {
         None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
         Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],
         Some(Clause::Repeat { times: 1, body }) => body,
-        Some(clause) => vec![clause],
+        Some(clause) => to_and_fro(vec![clause]),
+    }
+}
+
+/// "Run between the fountain and the statue three times": from one to the other, and not to the middle so often.
+fn to_and_fro(body: Vec<Clause>) -> Vec<Clause> {
+    match &body[..] {
+        [Clause::Halfway { from: Some(from), to, pace }] => {
+            let go = |to: &super::clause::Reference| Clause::Go {
+                to: to.clone(),
+                side: None,
+                pace: *pace,
+                within: None,
+            };
+            vec![go(from), go(to)]
+        }
+        _ => body,
     }
 }
 

@@ -69,6 +69,10 @@ const ARRIVES: &Phrases = &Phrases::of(&[
     "drops by", "passes by", "comes closer", "gets closer", "comes nearer", "is closer", "is close enough", "has reached you", "has joined you", "has come", "joins you",
 ]);
 const APPEARS: &Phrases = &Phrases::of(&[
+    "comes into sight",
+    "come into sight",
+    "comes in sight",
+    "is within sight",
     "comes into view",
     "come into view",
     "appear",

@@ -33,7 +33,7 @@ const STATIVES: &Phrases = &Phrases::of(&[
     "is", "are", "was", "were", "has", "have", "had", "looks", "look", "seems", "seem", "feels", "stands",
     "sits", "waits", "lies", "needs", "wants", "likes", "loves", "hates", "lives", "works", "sells", "looked",
     "seemed", "must be", "might be", "could be", "should be", "would like", "would love", "got", "keeps",
-    "left", "forgot", "lost", "asked", "said", "called", "belongs", "just", "hasnt", "isnt", "does", "doesnt",
+    "left", "forgot", "lost", "asked", "said", "called", "belongs", "ordered", "just", "hasnt", "isnt", "does", "doesnt",
     "cant", "will",
 ]);
 /// What makes another thing of a remark: it says when or whether, or that it is an order.
@@ -312,6 +312,14 @@ impl Parser<'_> {
         let what = self.reference(0).ok()?;
         let names_one = matches!(what.target, Target::Named(_) | Target::Any(_) | Target::Id(_))
             && what.choice == Choice::Open;
+        // "Quentin and Petra are friends of mine, wave to them".
+        let mut both = vec![what.clone()];
+        while names_one && self.is_somebody(&what) && self.eat_any(&["and"]) {
+            both.push(self.somebody_here()?);
+        }
+        if both.len() > 1 {
+            self.group = both;
+        }
         if !names_one
             || self.at == start
             || longest_phrase(self.rest(), STATIVES).is_none() && !self.described_by_is()
@@ -375,7 +383,7 @@ impl Parser<'_> {
         self.skip_fillers();
         let takes_up = {
             let after = self.rest().get(1..).unwrap_or_default();
-            let is_pronoun = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["it", "there", "him", "her", "them", "in", "on", "one"].contains(&word.as_str()));
+            let is_pronoun = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["it", "there", "him", "her", "them", "in", "on", "one", "sit", "down"].contains(&word.as_str()));
             self.ends_at_mark() && after.iter().any(is_pronoun)
         };
         takes_up.then(|| self.mention(what))
