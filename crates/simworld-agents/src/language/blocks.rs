@@ -19,7 +19,7 @@ pub(super) const IF: &Phrases = &Phrases::of(&[
     "in the event that", "in the event", "in the event of", "assuming", "assuming that", "supposing",
     "supposing that", "on condition that", "only if", "but only if", "if and only if",
     "if it should happen that", "if it so happens that", "if it turns out that", "if it happens that",
-    "suppose", "suppose that", "lets suppose", "imagine", "imagine that", "say that", "given that", "given", "subject to", "whether", "seeing that", "if you find that", "if you notice that", "if you see that",
+    "suppose", "suppose that", "lets suppose", "imagine", "imagine that", "say that", "given that", "subject to", "whether", "seeing that", "if you find that", "if you notice that", "if you see that",
 ]);
 pub(super) const UNLESS: &Phrases =
     &Phrases::of(&["unless", "if not", "except if", "except when", "but not if", "so long as not"]);
@@ -85,7 +85,7 @@ const REACHING: &Phrases = &Phrases::of(&[
 /// What begins what else is done, and what says so of the condition itself.
 #[rustfmt::skip]
 const ELSE: &Phrases = &Phrases::of(&[
-    "otherwise", "else", "or else", "if not", "or", "failing that", "if that fails", "in any other case",
+    "otherwise", "else", "or else", "if not", "if no", "and if no", "or", "failing that", "if that fails", "in any other case",
     "in all other cases", "should that not be so", "and if not", "but if not", "and otherwise", "but otherwise",
     "if thats not the case", "if that is not the case", "in the other case",
 ]);

@@ -447,7 +447,9 @@ impl Parser<'_> {
             "out to me",
             "me to",
         ]);
-        let at = self.reference(0)?;
+        // "Where's the Registry? Show me".
+        let it = || Reference::to(Target::It, "it".to_owned());
+        let at = if self.ends_clause() { it() } else { self.reference(0)? };
         self.eat_any(&["out"]); // "the tower, point it out"
         self.skip_onlookers(&["to", "for"]);
         Ok(Clause::Point { at })
@@ -467,6 +469,12 @@ impl Parser<'_> {
 
     /// "Wave your hand at Ben".
     pub(super) fn wave(&mut self) -> Result<Clause, PlanError> {
+        // "Anna waves at you, wave back".
+        let start = self.at;
+        if self.eat_any(&["back"]) && self.ends_clause() {
+            return Ok(Clause::Wave { to: Reference::to(Target::Them, "them".to_owned()) });
+        }
+        self.at = start;
         self.eat_any(&[
             "at",
             "to",

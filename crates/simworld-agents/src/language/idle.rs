@@ -21,7 +21,7 @@ const DEMANDS: &Phrases = &Phrases::of(&[
     "if", "unless", "until", "till", "when", "whenever", "before", "after", "then", "without", "but", "except", "only", "instead", "rather",
     "better", "should", "shall", "please", "let", "lets", "other", "others", "another", "ones", "same", "again", "twice", "want", "wants", "need",
     "needs", "would", "left", "right", "north", "south", "east", "west", "largest", "smallest", "tallest", "nearest", "farthest", "or", "behind",
-    "beside", "near", "under", "between", "across", "along", "towards", "inside", "outside", "has to", "have to", "dont", "do not",
+    "beside", "near", "under", "between", "across", "along", "towards", "inside", "outside", "have to", "dont", "do not",
 ]);
 /// More of them, where the words begin with nobody of whom something is told.
 #[rustfmt::skip]
@@ -97,10 +97,9 @@ fn ends_remark(lexeme: &Lexeme) -> bool {
 /// Whether a clause tells something, and nothing of what is here or of what is to be done.
 fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let says = |from: usize| longest_phrase(&clause[from..], STATES).is_some();
-    let of_somebody = longest_phrase(clause, SOMEBODY).is_some();
+    let of_somebody = longest_phrase(clause, SOMEBODY).or(longest_phrase(clause, CALLS)).is_some();
     let tells = of_somebody
         || longest_phrase(clause, SUBJECTS).is_some()
-        || longest_phrase(clause, CALLS).is_some()
         || (1..clause.len().min(4)).any(says)
         || asides::says_what_is(clause);
     let asks = longest_verb(clause).is_some()

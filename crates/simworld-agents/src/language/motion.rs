@@ -385,8 +385,9 @@ impl Parser<'_> {
             measured = numbers::length(self.rest()).is_some();
             self.at += words;
             distance = length;
-        } else if let Some((number, words)) =
-            numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none())
+        } else if let Some((number, words)) = numbers::number(self.rest())
+            .filter(|_| numbers::times(self.rest()).is_none())
+            .filter(|_| numbers::duration(self.rest()).is_none_or(|(_, words)| words < 2))
         {
             self.at += words;
             distance = number;
@@ -404,6 +405,17 @@ impl Parser<'_> {
             "a tad",
         ]);
         direction = direction.or_else(|| self.direction());
+        // "Step forward, two metres".
+        let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+        if comma
+            && !measured
+            && direction.is_some()
+            && number_at == self.at
+            && let Some((length, words)) = numbers::length(&self.rest()[1..])
+        {
+            self.at += 1 + words;
+            (distance, measured) = (length, true);
+        }
         if measured && distance > LONGEST_STEP && distance <= 10_000.0 {
             let course = Course::Relative(direction.unwrap_or(StepDirection::Forward));
             return Ok(Clause::Walk { course, distance, pace: Pace::Usual });

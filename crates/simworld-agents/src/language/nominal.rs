@@ -207,6 +207,9 @@ impl Parser<'_> {
         if is_turn && !matches!(self.rest().first(), Some(Lexeme { token: Token::Number(_), .. })) {
             return self.turn().map(|turn| Some(vec![turn]));
         }
+        if self.peeks("for") && numbers::walked(&self.rest()[1..]).is_some() {
+            self.at += 1; // "turn right and go on for five metres"
+        }
         if numbers::walked(self.rest()).is_none() {
             return Ok(None);
         }
@@ -215,7 +218,10 @@ impl Parser<'_> {
         }
         let start = self.at;
         let step = self.step()?;
-        let said = self.lexemes[start..self.at].iter().any(|lexeme| {
+        let on = start > 0
+            && self.word_before_at(start) == "for"
+            && matches!(self.verb, Some(Verb::Go | Verb::Turn | Verb::Step | Verb::Run));
+        let said = on || self.lexemes[start..self.at].iter().any(|lexeme| {
             matches!(&lexeme.token, Token::Word(word) if ["ahead", "forward", "forwards", "left", "right", "back", "backwards", "straight", "on"].contains(&word.as_str()))
         });
         Ok(said.then(|| vec![step]))

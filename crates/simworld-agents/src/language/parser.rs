@@ -150,8 +150,12 @@ impl<'a> Parser<'a> {
         if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
             self.at += 2;
         }
+        let start = self.at;
         if self.skip_remark() {
             self.skip_joints();
+            if self.at >= self.lexemes.len() {
+                self.at = start; // "I'm in the mood for soup" is all that is said
+            }
         }
         self.skip_first_correction();
         // "To the museum, then to the school" leaves the verb out.

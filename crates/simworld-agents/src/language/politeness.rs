@@ -162,6 +162,7 @@ pub(super) const FILLERS: &[&str] = &[
     "as you can", "as possible", "as you can get", "by noon", "by tonight", "by lunchtime", "by midday", "before lunch", "before dinner", "in time", "if it is not a bother", "if it is no bother at all", "if its not a bother", "sorry to bug you", "sorry to trouble you", "sorry to interrupt", "sorry to disturb you", "sorry for bothering you", "be quiet and", "be silent and", "keep quiet and", "stay calm and", "relax and", "calm down and", "be patient and", "be good and", "be careful and", "keep calm and", "dont worry and", "stay quiet and", "be brave and", "on foot", "by foot", "while youre at it", "while you are at it", "while youre there", "while you are there", "while youre about it",
     "while you are about it", "while youre up", "while you are up", "while im at it", "while were at it", "while we are at it", "today", "tonight", "this morning",
     "this afternoon", "this evening", "later today", "when you get round to it", "when you get around to it", "when its your turn", "when it is your turn", "say nothing", "saying nothing", "say not a word", "dont say a word", "without a word", "not a word",
+    "and hurry", "and hurry up", "and be quick", "and be quick about it", "by any chance", "would you like to", "would you care to", "would you love to", "quick question",
     "when it suits you", "whenever it suits you", "if it suits you", "can i ask a favour", "could i ask a favour", "may i ask a favour", "can i ask you a favour",
     "could i ask you a favour", "can you do something for me", "could you do something for me", "can you help me", "could you help me", "be a sweetheart",
     "be an angel", "be a star", "be a love", "be a darling", "be a hero", "before anything else",
@@ -171,7 +172,7 @@ pub(super) const FILLERS: &[&str] = &[
 /// How something is done, at the end of an order, that says no more than the order.
 #[rustfmt::skip]
 pub(super) const MANNERS: &Phrases = &Phrases::of(&[
-    "one after the other", "one after another", "one by one", "one at a time", "each in turn", "in turn",
+    "or so", "or thereabouts", "one after the other", "one after another", "one by one", "one at a time", "each in turn", "in turn",
     "the quickest way", "the shortest way", "the fastest way", "in total", "altogether", "all in all",
     "one at a time please", "each of them", "in that order", "in this order", "in any order",
     "in whichever order", "in order", "one after the next", "back to back", "by turns", "separately",

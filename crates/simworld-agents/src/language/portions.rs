@@ -111,6 +111,20 @@ impl Parser<'_> {
         }
         self.eat_any(&["of them", "of these", "of those", "of it"]);
         self.eat_any(ARE);
+        // "Three teas, one with sugar": what nobody sells otherwise.
+        if self.eat_any(&["with", "without"]) {
+            let end = self.mark_from(self.at);
+            let known = (self.at..end).any(|at| {
+                let rest = &self.lexemes[at..end];
+                category(rest).is_some()
+                    || self.names.exact(rest).is_some()
+                    || self.names.goods(rest).is_some()
+            });
+            if !known {
+                self.at = end;
+            }
+            return !known;
+        }
         if !self.eat_any(&["for", "to", "just for", "only for", "all for"]) {
             return false;
         }

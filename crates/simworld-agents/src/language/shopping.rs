@@ -417,7 +417,9 @@ impl Parser<'_> {
             let whose = own
                 && self
                     .eat_any(&["boy", "girl", "child", "kid", "man", "woman", "lady", "guy", "lad", "dog"]);
-            if (whose || self.eat_any(OTHERS)) && self.ends_clause() {
+            let others = self.eat_any(OTHERS);
+            self.eat_any(OTHERS); // "the birthday party"
+            if (whose || others) && self.ends_clause() {
                 return;
             }
         }

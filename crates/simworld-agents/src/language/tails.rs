@@ -102,6 +102,29 @@ impl Parser<'_> {
         longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after) || earlier
     }
 
+    /// "Close the door when you've bought the bread": what comes first is said behind.
+    fn when_done(&mut self, clauses: &mut Vec<Clause>) -> bool {
+        let start = self.at;
+        let done = self.eat_any(&[
+            "when youve",
+            "when you have",
+            "once youve",
+            "once you have",
+            "as soon as youve",
+            "as soon as you have",
+        ]) && self.rest().first().is_some_and(|lexeme| lexeme.lemma.is_some());
+        if done
+            && let Ok(earlier) = self.order()
+            && self.ends_clause()
+        {
+            let last = clauses.len() - 1;
+            clauses.splice(last..last, earlier);
+            return true;
+        }
+        self.at = start;
+        false
+    }
+
     /// Whether "near" or the like was said since: whoever walks until he is near something walks straight on.
     fn says_near(&self, from: usize) -> bool {
         let near = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["near", "close", "nearby"].contains(&word.as_str()));
@@ -170,6 +193,7 @@ impl Parser<'_> {
             return Ok(true);
         }
         Ok(self.lasts(clauses)?
+            || self.when_done(clauses)
             || self.on_condition(clauses)?
             || self.in_turn(clauses)?
             || self.delayed(clauses)
@@ -407,6 +431,12 @@ impl Parser<'_> {
 
     /// "After half a minute", "but first wave", behind the order that comes later.
     fn after_that(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        // "..., and go to the lamp after that".
+        let after = longest_phrase(self.rest(), &["after that", "after this"]);
+        if let Some(words) = after.filter(|words| self.at + words == self.lexemes.len()) {
+            self.at += words;
+            return Ok(true);
+        }
         if !self.eat_any(AFTER) {
             return Ok(false);
         }

@@ -16,6 +16,7 @@ use super::verbs::longest_verb;
 #[rustfmt::skip]
 const INTRODUCTIONS: &Phrases = &Phrases::of(&[
     "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
+    "you can find", "you can get", "you can buy", "they sell", "they have", "there should be", "there must be", "there might be", "there used to be",
     "know", "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
     "what is", "wheres", "where is", "which is", "who is", "whos", "id like", "i would like", "id love",
@@ -212,6 +213,8 @@ impl Parser<'_> {
             "of all the",
             "of the",
             "of all",
+            "of our",
+            "of your",
             "out of the",
             "out of all the",
             "among the",
@@ -226,7 +229,13 @@ impl Parser<'_> {
         if let Some((_, words)) = numbers::count(self.rest()) {
             self.at += words;
         }
-        let (class, words) = category(self.rest())?;
+        let Some((class, words)) = category(self.rest()) else {
+            // "Out of the three cabins".
+            let ids = self.rest().first().and_then(|first| self.names.sort(&first.token))?;
+            self.at += 1;
+            (self.class, self.bearers) = (None, Some(ids));
+            return Some(());
+        };
         self.at += words;
         self.class = Some(class);
         self.bearers = None;
@@ -453,11 +462,13 @@ impl Parser<'_> {
                 return Some(clauses);
             }
             let counted = self.peek_count().is_some();
+            let article = self.at;
             let goods = if counted || self.eat_any(&["a", "an", "some"]) { self.goods() } else { None };
             if let Some(goods) = goods {
                 self.wish_for(goods);
                 continue;
             }
+            self.at = article;
             if self.ends_at_mark() {
                 break;
             }

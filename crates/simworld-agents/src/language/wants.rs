@@ -49,6 +49,9 @@ const WHOM: &Phrases = &Phrases::of(&[
     "one of you",
     "anybody",
     "anyone",
+    "a hand",
+    "some help",
+    "help",
     "a helper",
     "a volunteer",
     "another person",
@@ -124,7 +127,7 @@ impl Parser<'_> {
     /// Who gets what, or what goes where.
     pub(super) fn somebody_gets(&mut self) -> Option<Vec<Clause>> {
         let start = self.at;
-        for rule in [Self::lets_have, Self::gets, Self::goes, Self::needed_at] {
+        for rule in [Self::lets_have, Self::gets, Self::goods_are_for, Self::goes, Self::needed_at] {
             if let Some(clauses) = rule(self).filter(|_| self.ends_clause()) {
                 return Some(clauses);
             }
@@ -229,6 +232,23 @@ impl Parser<'_> {
             ]);
         let at = if placed { Some(self.reference(0).ok()?) } else { return None };
         Some(vec![Clause::Drop { what: Some(what), at, manner: Manner::Deliver }])
+    }
+
+    /// "The book is for Eve, so buy it and give it to her".
+    fn goods_are_for(&mut self) -> Option<Vec<Clause>> {
+        let goods = self.goods()?;
+        if !self.eat_any(&["is for", "are for", "is meant for", "are meant for", "goes to", "go to"]) {
+            return None;
+        }
+        let to = self.somebody_here()?;
+        if self.ends_at_mark() && self.orders_what_is_wished() {
+            self.wish_for(goods);
+            self.skip_joints();
+            let mut clauses = vec![Clause::Mention { what: to }];
+            clauses.extend(self.statement_here()?);
+            return Some(clauses);
+        }
+        self.purchase(goods, Some(to)).ok()
     }
 
     /// "The rucksack has to be at Reception, take it over": both say one thing.
