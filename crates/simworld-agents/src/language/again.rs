@@ -1,13 +1,13 @@
 //! Orders that are done over again: "do that twice", "then do it again", "once more", "do the same with the statue".
 
-use super::clause::{Clause, Reference};
+use super::clause::{Clause, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::politeness::joint;
-use super::tails::repeat;
+use super::repeats::repeat;
 
 /// Doing what was said last, before how often.
 #[rustfmt::skip]
@@ -108,6 +108,17 @@ impl Parser<'_> {
         false
     }
 
+    /// "Three rounds: fountain, statue".
+    pub(super) fn rounds_of(&self) -> Option<(u32, usize)> {
+        let (number, words) = numbers::number(self.rest()).filter(|(number, _)| number.fract() == 0.0)?;
+        let unit = longest_phrase(
+            &self.rest()[words..],
+            &["rounds", "round", "laps", "trips", "times around", "times round"],
+        )?;
+        let colon = matches!(self.rest().get(words + unit), Some(Lexeme { token: Token::Break, .. }));
+        (colon && (1.0..=100.0).contains(&number)).then_some((number as u32, words + unit))
+    }
+
     /// Whether nothing follows that would say how often, how long or with what.
     fn ends_there(&self) -> bool {
         self.ends_at_mark() || joint(self.rest()).is_some()
@@ -183,6 +194,15 @@ fn about_another(done: &[Clause], about: &Reference, other: &Reference) -> Optio
         again.push(clause);
     }
     replaced.then_some(again)
+}
+
+/// "You are needed at the fountain, go there" says one thing twice.
+pub(super) fn goes_there(clauses: &mut Vec<Clause>, before: usize, stated: bool) {
+    let there =
+        matches!(&clauses[before..], [Clause::Go { to, side: None, .. }] if to.target == Target::There);
+    if stated && there && before > 0 {
+        clauses.pop();
+    }
 }
 
 /// "Follow the dog, but stop when you see the mailbox": what never ends by itself is done until then.

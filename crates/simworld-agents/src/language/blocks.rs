@@ -9,7 +9,8 @@ use super::lexicon::{fits, longest_phrase};
 use super::numbers;
 use super::parser::{Extent, Parser};
 use super::phrases::Phrases;
-use super::tails::{ON_THE_WAY, over_and_over};
+use super::repeats::over_and_over;
+use super::tails::ON_THE_WAY;
 use super::verbs::longest_verb;
 
 /// What begins a condition.
@@ -354,17 +355,6 @@ impl Parser<'_> {
             return Ok(Some(vec![Clause::Repeat { times, body }]));
         }
         Ok(None)
-    }
-
-    /// "Three rounds: fountain, statue".
-    fn rounds_of(&self) -> Option<(u32, usize)> {
-        let (number, words) = numbers::number(self.rest()).filter(|(number, _)| number.fract() == 0.0)?;
-        let unit = longest_phrase(
-            &self.rest()[words..],
-            &["rounds", "round", "laps", "trips", "times around", "times round"],
-        )?;
-        let colon = matches!(self.rest().get(words + unit), Some(Lexeme { token: Token::Break, .. }));
-        (colon && (1.0..=100.0).contains(&number)).then_some((number as u32, words + unit))
     }
 
     /// After "if": the test, what to do, and what else.

@@ -12,6 +12,7 @@ use super::modifiers::FREE;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::reference::{DEEPEST, DOOR_STATES};
+use super::rows::COUNTED;
 
 /// What is said of anything that is about.
 #[rustfmt::skip]
@@ -76,26 +77,6 @@ const OUTERMOST: &[(&[&str], Side)] = &[
     (&["on the far right", "furthest to the right", "farthest to the right", "furthest right",
     "most to the right"], Side::Right),
 ];
-/// From where one counts.
-const COUNTED: &Phrases = &Phrases::of(&[
-    "counting from here",
-    "counted from here",
-    "counting from you",
-    "counting from where you are",
-    "as seen from here",
-    "seen from here",
-    "from where you are",
-    "from where you stand",
-    "in the row",
-    "in that row",
-    "in line",
-    "in the line",
-]);
-/// From which end of a row one counts.
-const FROM_AN_END: &[(&[&str], Side)] = &[
-    (&["from the left", "from the left hand side", "from the left end", "from left"], Side::Left),
-    (&["from the right", "from the right hand side", "from the right end", "from right"], Side::Right),
-];
 /// What makes a place no more exact.
 #[rustfmt::skip]
 const LOOSELY: &Phrases = &Phrases::of(&[
@@ -110,12 +91,6 @@ const WAYS: &Phrases = &Phrases::of(&[
     "by foot", "by bus", "by taxi", "by scooter", "by bike", "by bicycle", "by cab",
 ]);
 /// Which are not meant.
-/// The middle one of three.
-#[rustfmt::skip]
-const AMONG: &Phrases = &Phrases::of(&[
-    "between the other two", "between the others", "between the two others", "in between the other two",
-    "in between the others", "with one on either side", "with one on each side",
-]);
 const EXCEPT: &Phrases = &Phrases::of(&[
     "except",
     "except for",
@@ -236,7 +211,33 @@ impl Parser<'_> {
         let unused = self.eat_any(UNUSED);
         reference.traits.free |= unused;
         // "The first chair you see" is the nearest.
-        unused || self.eat_any(YOU_SEE)
+        unused || self.eat_any(YOU_SEE) || self.eat_whole_place()
+    }
+
+    /// "On campus", "in the park", where that is all that one is in and nothing is called so.
+    fn eat_whole_place(&mut self) -> bool {
+        #[rustfmt::skip]
+        const PLACES: &Phrases = &Phrases::of(&[
+            "campus", "park", "zoo", "farm", "beach", "campsite", "camp", "airport", "market", "market place", "marketplace", "harbour", "yard", "village", "square",
+            "site", "premises", "grounds", "old town", "quay", "depot", "neighbourhood", "place",
+        ]);
+        let start = self.at;
+        if self.eat_any(&["in the", "on the", "at the", "on this", "in this", "in our", "on our", "on", "in"])
+            && let Some(words) = longest_phrase(self.rest(), PLACES)
+            && self.names.exact(self.rest()).is_none()
+            && longest_phrase(&self.rest()[words..], &["bench", "house", "shop", "door"]).is_none()
+        {
+            let known = category(self.rest()).is_some_and(|(class, _)| {
+                let any = Reference::to(Target::Any(class), String::new());
+                self.view.find(&any, super::resolve::Purpose::Any).is_ok()
+            });
+            self.at += words;
+            if !known && self.ends_clause() {
+                return true;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// "... nearest to the museum", "... nearby".
@@ -301,43 +302,6 @@ impl Parser<'_> {
             reference.choose(Choice::Farthest);
         }
         Ok(true)
-    }
-
-    /// "... in the east", "... in the middle", "... of all".
-    fn place_in_row(&mut self, reference: &mut Reference) -> bool {
-        if let Choice::Nth(nth) = reference.choice
-            && let Some((side, words)) = longest(self.rest(), FROM_AN_END)
-        {
-            self.at += words;
-            (reference.choice, reference.place) = (Choice::Side(side), nth);
-            return true;
-        }
-        if reference.choice == Choice::Open
-            && let Some(compass) = self.in_the_compass()
-        {
-            reference.choice = Choice::Compass(compass);
-            return true;
-        }
-        if self.eat_any(AMONG) {
-            reference.choose(Choice::Middle);
-            return true;
-        }
-        let middle = longest_phrase(self.rest(), &["in the middle", "in the centre", "in the center"]);
-        if let Some(words) = middle
-            && longest_phrase(&self.rest()[words..], &["of", "between"]).is_none()
-        {
-            self.at += words;
-            reference.choose(Choice::Middle);
-            return true;
-        }
-        if reference.choice != Choice::Open
-            && self.eat_any(&["of all", "of them all", "of the lot", "of them", "of all of them"])
-        {
-            return true;
-        }
-        let than = self.comparison();
-        reference.traits.than = than.or(reference.traits.than);
-        than.is_some()
     }
 
     fn sold_there(&mut self, reference: &mut Reference) -> Result<bool, PlanError> {

@@ -400,12 +400,6 @@ impl<'a> Draft<'a> {
                 }
             }
         };
-        // "You are needed at the fountain, go there" says one thing twice.
-        let taken_up = to.target == Target::There && side.is_none();
-        let went = matches!(self.last_step(), Some(PlanStep::Navigate { to, .. }) if *to == goal);
-        if taken_up && went && within.is_none() && pace == Pace::Usual {
-            return Ok(());
-        }
         self.navigate(goal, within.unwrap_or(usual), speed_of(pace))
     }
 

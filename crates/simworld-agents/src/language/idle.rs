@@ -6,13 +6,14 @@
 
 use super::asides;
 use super::lexer::{Lexeme, Token, is_mark};
-use super::lexicon::{category, longest, longest_phrase};
+use super::lexicon::{DETERMINERS, category, longest, longest_phrase};
 use super::names::Names;
 use super::numbers::{duration, number};
 use super::paint::PAINTS;
 use super::phrases::Phrases;
 use super::politeness::filler;
 use super::requests;
+use super::shopping::OTHERS;
 use super::verbs::longest_verb;
 
 /// Words by which something may be asked for, or asked for otherwise.
@@ -35,6 +36,37 @@ const SOMEBODY: &Phrases = &Phrases::of(&[
     "i", "im", "ive", "ill", "he", "hes", "she", "shes", "it", "its", "they", "theyre", "theyve", "we", "were", "weve", "there is", "there are", "theres",
     "that is", "thats", "this is", "my", "his", "her", "our", "their", "nobody", "everybody", "everyone", "somebody", "someone", "people",
     "your", "you look", "you must be", "you seem", "youre", "you are", "youve", "you have been",
+]);
+/// What nobody is told to do.
+const UNWANTED: &Phrases = &Phrases::of(&[
+    "i dont want",
+    "i do not want",
+    "we dont want",
+    "we do not want",
+    "i dont like",
+    "i would not want",
+    "i wouldnt want",
+]);
+/// Before what who speaks is about to do.
+#[rustfmt::skip]
+const PLANS: &Phrases = &Phrases::of(&[
+    "i want to", "i need to", "i have to", "we want to", "we need to", "we have to", "id like to", "i would like to", "wed like to", "we would like to",
+    "im going to", "i am going to", "were going to", "we are going to", "im trying to", "i am trying to", "ive got to", "i must", "im about to", "i am about to",
+]);
+/// Before what is only asked, behind an order.
+const ASKED: &Phrases = &Phrases::of(&[
+    "is it",
+    "isnt it",
+    "is not it",
+    "are they",
+    "arent they",
+    "is he",
+    "is she",
+    "does it",
+    "do they",
+    "do you like it",
+    "can you see it",
+    "can you see",
 ]);
 /// What is called out and has no verb: "what a sunset".
 const CALLS: &Phrases = &Phrases::of(&[
@@ -72,7 +104,7 @@ pub(super) fn without_remarks<'a>(
     let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
     let mut last = end;
     while let Some(mark) = lexemes[..last].iter().rposition(is_mark).filter(|mark| *mark > 0)
-        && is_idle(&lexemes[mark + 1..last], names)
+        && (is_idle(&lexemes[mark + 1..last], names) || is_idle_question(&lexemes[mark + 1..last], names))
     {
         last = mark;
     }
@@ -97,17 +129,21 @@ fn ends_remark(lexeme: &Lexeme) -> bool {
 /// Whether a clause tells something, and nothing of what is here or of what is to be done.
 fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let says = |from: usize| longest_phrase(&clause[from..], STATES).is_some();
-    let of_somebody = longest_phrase(clause, SOMEBODY).or(longest_phrase(clause, CALLS)).is_some();
+    let others = longest_phrase(clause, DETERMINERS).unwrap_or(0);
+    let of_somebody = longest_phrase(clause, SOMEBODY).or(longest_phrase(clause, CALLS)).is_some()
+        || others > 0 && longest_phrase(&clause[others..], OTHERS).is_some();
     let tells = of_somebody
         || longest_phrase(clause, SUBJECTS).is_some()
         || (1..clause.len().min(4)).any(says)
         || asides::says_what_is(clause);
+    let unwanted = longest_phrase(clause, UNWANTED).is_some();
+    let plans = own_plans(clause);
     let asks = longest_verb(clause).is_some()
         || filler(clause).is_some() && !of_somebody
-        || !requests::beginnings(clause).is_empty();
+        || !unwanted && !plans && !requests::beginnings(clause).is_empty();
     let speaks_of_something = |from: usize| {
         let rest = &clause[from..];
-        longest_phrase(rest, DEMANDS).is_some()
+        !unwanted && !plans && longest_phrase(rest, DEMANDS).is_some()
             || !of_somebody && longest_phrase(rest, MAY_DEMAND).is_some()
             || of_somebody && from > 0 && word_of(&clause[from - 1]) == "and" && longest_verb(rest).is_some()
             || longest(rest, PAINTS).is_some()
@@ -121,6 +157,32 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
         && tells
         && !asks
         && !(0..clause.len()).any(speaks_of_something)
+}
+
+/// "I need to know if they are full": what who speaks is about to do, and nobody else.
+fn own_plans(clause: &[Lexeme]) -> bool {
+    let Some(words) = longest_phrase(clause, PLANS) else { return false };
+    let verb = &clause[words..];
+    !verb.is_empty()
+        && (longest_verb(verb).is_none()
+            || longest_phrase(
+                verb,
+                &["make", "know", "find out", "see if", "see whether", "see how", "see what"],
+            )
+            .is_some())
+}
+
+/// "..., is it on?": nobody answers that, and nothing is done by it.
+fn is_idle_question(clause: &[Lexeme], names: &Names<'_>) -> bool {
+    let asks = longest_phrase(clause, ASKED).unwrap_or(0);
+    asks > 0
+        && (asks..clause.len()).all(|at| {
+            let rest = &clause[at..];
+            longest_phrase(rest, DEMANDS).is_none()
+                && category(rest).is_none()
+                && names.exact(rest).is_none()
+                && longest_verb(rest).is_none()
+        })
 }
 
 /// "Five minutes", "a bit", "two years old": how long something takes, which nobody is told to do.

@@ -171,25 +171,6 @@ impl Parser<'_> {
         Ok(None)
     }
 
-    /// "Go and see what he wants", "go see how Fay is doing": one has to be there for that.
-    fn what_somebody_is_up_to(&mut self, start: usize) -> Option<Reference> {
-        let sees = self.lexemes[start..self.at].iter().any(|lexeme| {
-            matches!(&lexeme.token, Token::Word(word) if ["see", "check", "find", "out"].contains(&word.as_str()))
-        });
-        let here = self.at;
-        if sees && self.eat_any(&["what", "how", "whether", "if", "where", "why"]) {
-            let pronoun = longest_phrase(self.rest(), &["he", "she", "they"]).is_some();
-            if let Some(who) = if pronoun { self.somebody() } else { self.somebody_here() }
-                && !self.ends_at_mark()
-            {
-                self.at = self.mark_from(self.at);
-                return Some(who);
-            }
-        }
-        self.at = here;
-        None
-    }
-
     /// "Go back", "keep walking", "go in": no place is named.
     fn leads_nowhere(&mut self, pace: Pace, start: usize) -> Option<Vec<Clause>> {
         let returns = self.lexemes[start..self.at]

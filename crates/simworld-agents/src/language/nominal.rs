@@ -65,6 +65,36 @@ const WELCOME: &Phrases = &Phrases::of(&[
     "would be handy",
     "would help",
 ]);
+/// When nobody is told to get it now.
+const NOT_NOW: &Phrases = &Phrases::of(&[
+    "later",
+    "later on",
+    "tomorrow",
+    "tonight",
+    "next week",
+    "one day",
+    "some day",
+    "soon",
+    "afterwards",
+    "this evening",
+    "this afternoon",
+    "for later",
+]);
+/// Before goods that somebody would have.
+#[rustfmt::skip]
+const WISHES: &Phrases = &Phrases::of(&[
+    "i want", "have", "lets have", "let us have", "i would like to have", "id like to have", "i want to have", "id love to have", "i would love",
+    "i would love to have", "i would like to get", "id like to get", "i want to get", "we would like", "wed like", "we want", "we could do with",
+    "i could use", "we could use", "id like", "i would like", "id love", "i need", "i could do with", "i fancy", "how about", "what about", "we need",
+    "any chance of", "is there any chance of", "i could murder", "i could kill for", "i am dying for", "im dying for", "i am gasping for",
+    "can i have", "could i have", "may i have", "can i get", "could i get", "can we have", "could we have", "i would rather have", "id rather have",
+    "id need", "i would need", "ill have", "i will have", "well have", "we will have", "ill take", "i will take", "id kill for", "i would kill for",
+    "id murder", "i feel like", "i could go for", "i could eat", "i could drink", "im in the mood for", "i am in the mood for",
+    "were in the mood for", "we are in the mood for", "what i want is", "what i need is", "what id like is", "what we need is", "make it",
+    "make that", "might i trouble you for", "may i trouble you for", "could i trouble you for", "can i trouble you for", "trouble you for",
+    "could i bother you for", "can i bother you for", "its time for", "it is time for", "time for", "i was hoping for", "im looking for",
+    "i am looking for", "were looking for",
+]);
 /// Reads one kind of such orders; nothing where it is none.
 type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
 
@@ -257,95 +287,17 @@ impl Parser<'_> {
 
     /// "A coffee, please", "soup from the Blue Spoon first".
     fn wanted_goods(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        let wished = self.eat_any(&[
-            "i want",
-            "have",
-            "lets have",
-            "let us have",
-            "i would like to have",
-            "id like to have",
-            "i want to have",
-            "id love to have",
-            "i would love",
-            "i would love to have",
-            "i would like to get",
-            "id like to get",
-            "i want to get",
-            "we would like",
-            "wed like",
-            "we want",
-            "we could do with",
-            "i could use",
-            "we could use",
-            "id like",
-            "i would like",
-            "id love",
-            "i need",
-            "i could do with",
-            "i fancy",
-            "how about",
-            "what about",
-            "we need",
-            "any chance of",
-            "is there any chance of",
-            "i could murder",
-            "i could kill for",
-            "i am dying for",
-            "im dying for",
-            "i am gasping for",
-            "can i have",
-            "could i have",
-            "may i have",
-            "can i get",
-            "could i get",
-            "can we have",
-            "could we have",
-            "i would rather have",
-            "id rather have",
-            "i need",
-            "id need",
-            "i would need",
-            "ill have",
-            "i will have",
-            "well have",
-            "we will have",
-            "ill take",
-            "i will take",
-            "id kill for",
-            "i would kill for",
-            "id murder",
-            "i feel like",
-            "i could go for",
-            "i could eat",
-            "i could drink",
-            "im in the mood for",
-            "i am in the mood for",
-            "were in the mood for",
-            "we are in the mood for",
-            "what i want is",
-            "what i need is",
-            "what id like is",
-            "what we need is",
-            "make it",
-            "make that",
-            "might i trouble you for",
-            "may i trouble you for",
-            "could i trouble you for",
-            "can i trouble you for",
-            "trouble you for",
-            "could i bother you for",
-            "can i bother you for",
-            "its time for",
-            "it is time for",
-            "time for",
-            "i was hoping for",
-            "im looking for",
-            "i am looking for",
-            "were looking for",
-        ]);
+        let wished = self.eat_any(WISHES);
         let Some(goods) = self.goods() else { return Ok(None) };
         if self.mark() == Some('?') && self.rest().len() > 1 {
             return Ok(None); // "what about a coffee? go and buy one"
+        }
+        // "I need some soap later, so walk to the pharmacy".
+        if wished && self.eat_any(NOT_NOW) {
+            if !self.ends_at_mark() || !self.skip_joints() || self.at >= self.lexemes.len() {
+                return Ok(None);
+            }
+            return Ok(self.statement_here());
         }
         let welcome = self.eat_any(WELCOME);
         if (wished || welcome) && self.orders_what_is_wished() {
@@ -416,7 +368,7 @@ impl Parser<'_> {
         if !is_building && !told || !self.ends_clause() {
             return Ok(None);
         }
-        self.verb = Some(Verb::Go);
+        (self.verb, self.beside.stated) = (Some(Verb::Go), true);
         Ok(Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]))
     }
 

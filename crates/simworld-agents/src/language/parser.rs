@@ -37,7 +37,7 @@ const DEEPEST: u32 = 4;
 /// What begins as politeness does, and says something.
 #[rustfmt::skip]
 const MORE_THAN_FILLERS: &Phrases = &Phrases::of(&[
-    "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
+    "so we can", "so we could", "so i can", "so i could", "so they can", "so they could", "so he can", "so she can", "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
     "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "when you can see", "as soon as you can see", "whenever you can see", "when you can spot",
     "as soon as you can spot", "when you can make out", "as soon as you can make out", "up there is",
     "instead of", "go on to", "go on over to", "go on towards", "come on over", "here are",
@@ -95,6 +95,8 @@ pub(super) struct Beside {
     pub(super) shots: bool,
     /// Somebody who is not here: "my sister loves apples, buy her one".
     pub(super) absent: bool,
+    /// Where one is to go was stated and not ordered: "you are needed at the fountain".
+    pub(super) stated: bool,
     /// A driver's passengers.
     pub(super) rides: bool,
 }
@@ -170,7 +172,9 @@ impl<'a> Parser<'a> {
         while self.at < self.lexemes.len() {
             let before = clauses.len();
             clauses.append(&mut self.named);
+            let stated = std::mem::take(&mut self.beside.stated);
             clauses.extend(self.statement()?);
+            super::again::goes_there(&mut clauses, before, stated);
             if let [.., Clause::Sit { on: None }, Clause::Sit { on: Some(_) }] = clauses[..] {
                 clauses.remove(clauses.len() - 2); // "sit down and rest on the red chair"
             }

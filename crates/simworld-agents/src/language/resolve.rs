@@ -15,7 +15,7 @@ use super::{AmbiguityPolicy, RANGE};
 /// How far one looks first, m; then farther and farther, until enough is found.
 const FIRST_LOOK: f64 = 30.0;
 /// Things so much farther away than the nearest are not meant by "the bench" when it could be either, m.
-const EITHER: f64 = 50.0;
+const EITHER: f64 = 75.0;
 /// From here on a class is looked for in the scene's index, m.
 pub(super) const FAR_LOOK: f64 = 400.0;
 /// "All the chairs" are those within, m.
@@ -195,24 +195,6 @@ impl<'a> View<'a> {
         }
         found.drain(..found.len().min(reference.place.saturating_sub(1) as usize));
         Ok(found)
-    }
-
-    /// "The parcel" is none that is called "suitcase", where another is there.
-    fn leave_others_out(&self, reference: &Reference, found: &mut Vec<Ranked>) {
-        let Target::Any(class) = &reference.target else { return };
-        if found.len() < 2 || class.kinds() != [EntityKind::Parcel] {
-            return;
-        }
-        let is_called_so = |(_, id): &Ranked| {
-            let Some(entity) = self.scene.entity(*id) else { return false };
-            let last = entity.info.name.as_ref().and_then(|name| name.split_whitespace().last());
-            last.is_none_or(|last| {
-                class.words.iter().chain(&["letter", "envelope"]).any(|word| word.eq_ignore_ascii_case(last))
-            })
-        };
-        if found.iter().any(is_called_so) {
-            found.retain(is_called_so);
-        }
     }
 
     /// A step of a metre to a side of the agent.

@@ -462,7 +462,16 @@ impl Parser<'_> {
     pub(super) fn sellers(&mut self) -> Option<Vec<EntityId>> {
         let rest = self.rest();
         (1..4).find(|at| rest.get(*at..).is_some_and(|rest| longest_phrase(rest, SELLERS).is_some()))?;
-        let (goods, count) = self.names.goods(rest)?;
+        let Some((goods, count)) = self.names.goods(rest) else {
+            // "The toy shop" is the one that is called "Toucan Toys", if nothing is called so itself.
+            let words = 1 + longest_phrase(rest.get(1..)?, SELLERS)?;
+            if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
+                return None;
+            }
+            let ids = self.names.shops_called(&rest[0].token);
+            self.at += if ids.is_empty() { return None } else { words };
+            return Some(ids);
+        };
         let words = count + longest_phrase(&rest[count..], SELLERS)?;
         if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
             return None;

@@ -8,9 +8,11 @@ use std::sync::Arc;
 use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::scene::EntityKind;
 
+use super::clause::{Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{CATEGORIES, Category, fits_noun};
 use super::names::Names;
+use super::resolve::{Ranked, View};
 
 /// The name of an asset has no more words than that.
 const LONGEST_NAME: usize = 4;
@@ -70,6 +72,26 @@ impl<'a> Names<'a> {
         }
         self.made = (!made.is_empty()).then_some((catalogue, made));
         self
+    }
+}
+
+impl View<'_> {
+    /// "The parcel" is none that is called "suitcase", where another is there.
+    pub(super) fn leave_others_out(&self, reference: &Reference, found: &mut Vec<Ranked>) {
+        let Target::Any(class) = &reference.target else { return };
+        if found.len() < 2 || class.kinds() != [EntityKind::Parcel] {
+            return;
+        }
+        let is_called_so = |(_, id): &Ranked| {
+            let Some(entity) = self.scene.entity(*id) else { return false };
+            let last = entity.info.name.as_ref().and_then(|name| name.split_whitespace().last());
+            last.is_none_or(|last| {
+                class.words.iter().chain(&["letter", "envelope"]).any(|word| word.eq_ignore_ascii_case(last))
+            })
+        };
+        if found.iter().any(is_called_so) {
+            found.retain(is_called_so);
+        }
     }
 }
 

@@ -179,6 +179,22 @@ impl Parser<'_> {
         let Some(so) = longest_phrase(self.rest(), &["so", "so that", "such that"]) else { return false };
         let (start, end) = (self.at, self.mark_from(self.at));
         let from = start + so;
+        // "... so we can put up our tent": what we do then is nothing that is asked for.
+        let ours = [
+            "we can",
+            "we could",
+            "we may",
+            "i can",
+            "i could",
+            "they can",
+            "they could",
+            "he can",
+            "she can",
+        ];
+        if longest_phrase(&self.lexemes[from..], &ours).is_some() && !self.beside_names(from, end) {
+            self.at = end;
+            return true;
+        }
         let stated = from < end
             && longest_phrase(
                 &self.lexemes[from..],
@@ -192,6 +208,14 @@ impl Parser<'_> {
             return true;
         }
         false
+    }
+
+    /// Whether something that is here is named there.
+    fn beside_names(&self, from: usize, end: usize) -> bool {
+        (from..end).any(|at| {
+            let rest = &self.lexemes[at..end];
+            category(rest).is_some() || self.names.exact(rest).is_some()
+        })
     }
 
     /// "... for the report", "... for my album": what for, where it is nothing that is here.

@@ -39,6 +39,15 @@ impl Parser<'_> {
             let seat = Reference { choice: super::clause::Choice::Open, relation: beside, text, ..seat };
             return Ok(vec![Clause::Sit { on: Some(seat) }]);
         }
+        if let Some(words) = longest_phrase(self.rest(), &["on", "in"])
+            && longest_phrase(
+                &self.rest()[words..],
+                &["one after the other", "one after another", "each of them", "each one", "one by one"],
+            )
+            .is_some()
+        {
+            return Err(self.not_understood("say on which seat, one after the other"));
+        }
         Ok(vec![Clause::Sit {
             on: self.tail_place(&[
                 "on",

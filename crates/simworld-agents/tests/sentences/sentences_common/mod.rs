@@ -20,7 +20,7 @@ pub(crate) const PLACES: [&str; 14] = [
     "lakeside", "zoo", "beach", "farm",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 13] = [
+const SETS: [&str; 14] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -34,6 +34,7 @@ const SETS: [&str; 13] = [
     "eleventh",
     "twelfth",
     "thirteenth",
+    "fourteenth",
 ];
 
 /// One thing that is said, and what it means.
