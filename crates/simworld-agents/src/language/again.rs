@@ -119,6 +119,16 @@ impl Parser<'_> {
         (colon && (1.0..=100.0).contains(&number)).then_some((number as u32, words + unit))
     }
 
+    /// "... once it is dark": when, and not how often.
+    pub(super) fn when_it_is(&self) -> bool {
+        let after = self.rest().get(1..).unwrap_or_default();
+        let subject = longest_phrase(
+            after,
+            &["it", "its", "the", "he", "she", "they", "there", "you", "everybody", "nobody"],
+        );
+        self.peeks("once") && subject.is_some()
+    }
+
     /// Whether nothing follows that would say how often, how long or with what.
     fn ends_there(&self) -> bool {
         self.ends_at_mark() || joint(self.rest()).is_some()

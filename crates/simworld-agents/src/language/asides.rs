@@ -165,6 +165,23 @@ impl Parser<'_> {
         longest_verb(self.rest()).is_none() && self.aside_ends().is_some()
     }
 
+    /// "... is the red one", "... is the second from the left": the thing as it is said to be.
+    pub(super) fn said_to_be(&mut self, what: &Reference) -> Option<Reference> {
+        let start = self.at;
+        if self.eat_any(&["is the", "are the"]) {
+            self.at -= 1;
+            let mut likeness = what.clone();
+            self.modifiers(&mut likeness);
+            let changed = likeness != *what;
+            self.eat_any(&["one", "ones"]);
+            if changed && self.described(&mut likeness, 0).is_ok() && self.ends_at_mark() {
+                return Some(likeness);
+            }
+        }
+        self.at = start;
+        None
+    }
+
     /// Who and what is named on the way to a place.
     pub(super) fn names_within(&mut self, end: usize) -> Vec<Clause> {
         let mut clauses = Vec::new();

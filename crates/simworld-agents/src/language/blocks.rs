@@ -155,7 +155,8 @@ impl Parser<'_> {
             }
             self.eat_any(&["well", "and"]);
             let not = self.eat_any(NOT_SO);
-            if not || self.eat_any(SO) {
+            // "Is it dark? Go to the lodge".
+            if not || self.eat_any(SO) || test.is_of_the_world() {
                 let test = if not { Test::Not(Box::new(test)) } else { test };
                 return self.then_or_else(test).map(Some);
             }

@@ -22,6 +22,17 @@ pub(super) fn taken_instead(test: &Test, mut then: Vec<Clause>) -> Vec<Clause> {
     then
 }
 
+impl Test {
+    /// Whether it is about light, weather, doors or seats, and not about what one sees.
+    pub(super) fn is_of_the_world(&self) -> bool {
+        match self {
+            Self::Raining | Self::Snowing | Self::Dark | Self::Open(_) | Self::InUse(_) => true,
+            Self::Not(test) => test.is_of_the_world(),
+            _ => false,
+        }
+    }
+}
+
 impl Draft<'_> {
     pub(super) fn condition(&mut self, test: &Test) -> Result<Condition, PlanError> {
         Ok(match test {

@@ -207,6 +207,10 @@ impl Parser<'_> {
         let side = self.side().or(if stood { Some(Relation::NextTo) } else { None });
         let side = side.map(|side| Spot::Beside(side, apart));
         let to = self.reference(0)?;
+        let is_help = |lexeme: &Lexeme| lexeme.token == Token::Word("help".to_owned());
+        if self.lexemes[start..self.at].iter().any(is_help) && self.peeks("with") {
+            self.at = self.mark_from(self.at); // "go and help Fay with her bags"
+        }
         let pace = self.pace(pace)?;
         self.after_place(Clause::Go { to, side, pace, within }, pace)
     }
@@ -251,22 +255,6 @@ impl Parser<'_> {
             return Ok(Some(vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }]));
         }
         Ok(Some(if begins_here { vec![go(other)] } else { vec![go(one), go(other)] }))
-    }
-
-    /// "By car", "on foot".
-    pub(super) fn by_vehicle(&mut self) -> Option<Clause> {
-        const VEHICLES: &[(&[&str], &str)] = &[
-            (&["by car", "by taxi", "by cab"], "car"),
-            (&["by bus"], "bus"),
-            (&["by scooter"], "scooter"),
-            (&["by bike", "by bicycle"], "bicycle"),
-        ];
-        let (word, count) = longest(self.rest(), VEHICLES)?;
-        self.at += count;
-        Some(Clause::Board {
-            what: Reference { indefinite: true, ..Reference::nearest(class(word)) },
-            to: None,
-        })
     }
 
     /// "Come", "come over here": to who says it, where that is known.

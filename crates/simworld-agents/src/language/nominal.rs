@@ -235,7 +235,12 @@ impl Parser<'_> {
         let is_turn = numbers::angle(self.rest()).is_some_and(|(_, words)| words > 1)
             && numbers::walked(self.rest()).is_none();
         if is_turn && !matches!(self.rest().first(), Some(Lexeme { token: Token::Number(_), .. })) {
-            return self.turn().map(|turn| Some(vec![turn]));
+            let start = self.at;
+            if let Ok(turn) = self.turn() {
+                return Ok(Some(vec![turn]));
+            }
+            self.at = start; // "a dozen balloons" is no angle
+            return Ok(None);
         }
         if self.peeks("for") && numbers::walked(&self.rest()[1..]).is_some() {
             self.at += 1; // "turn right and go on for five metres"

@@ -22,6 +22,7 @@ use super::names::Names;
 use super::numbers;
 use super::phrases::{PhraseList, Phrases};
 use super::politeness::{NEGATIONS, filler, joint};
+use super::remarks::Beside;
 use super::requests;
 use super::resolve::View;
 use super::shopping::Goods;
@@ -86,19 +87,6 @@ pub(super) struct Parser<'a> {
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
     pub(super) in_test: bool,
     depth: u32,
-}
-
-/// What a sentence spoke of that is no thing of the scene.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Beside {
-    /// Photos were asked for as things: "I need two photos of the well, please take them".
-    pub(super) shots: bool,
-    /// Somebody who is not here: "my sister loves apples, buy her one".
-    pub(super) absent: bool,
-    /// Where one is to go was stated and not ordered: "you are needed at the fountain".
-    pub(super) stated: bool,
-    /// A driver's passengers.
-    pub(super) rides: bool,
 }
 
 /// How the orders of a list hang together.

@@ -59,6 +59,10 @@ impl Parser<'_> {
             return true;
         }
         self.at = after_mark;
+        if after_mark > start && self.skip_use() && self.ends_clause() {
+            return true; // "six apples, please, for a pie"
+        }
+        self.at = after_mark;
         self.eat_any(&["and", "because", "since", "as"]);
         let mut end = start;
         while self.portion() {

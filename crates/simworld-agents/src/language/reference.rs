@@ -49,40 +49,7 @@ impl Parser<'_> {
         {
             self.at += 1; // "both Anna and Ben" are each named
         }
-        // "Both of them, Greta and Jonas" are each named.
-        let all = longest_phrase(
-            self.rest(),
-            &[
-                "both of them",
-                "all of them",
-                "all three of them",
-                "the two of them",
-                "the three of them",
-                "both",
-                "all three",
-                "all four of them",
-            ],
-        );
-        if let Some(words) = all
-            && matches!(self.rest().get(words), Some(Lexeme { token: Token::Comma | Token::Break, .. }))
-            && self.is_capital(self.at + words + 1)
-        {
-            self.at += words + 1;
-        }
-        // "Professor Hana", "my uncle Ben".
-        let own = longest_phrase(
-            self.rest(),
-            &["my", "our", "your", "his", "her", "their", "the", "my friend", "our friend"],
-        )
-        .unwrap_or(0);
-        let title = own + longest_phrase(&self.rest()[own..], super::reported::TITLES).unwrap_or(0);
-        if title > own && self.is_capital(self.at + title) && self.names.exact(self.rest()).is_none() {
-            let named = self.names.exact(&self.rest()[title..]);
-            let animate = |id: &simworld_core::id::EntityId| {
-                self.view.scene.entity(*id).is_some_and(|entity| super::lexicon::is_animate(entity.kind))
-            };
-            self.at += named.filter(|(ids, _)| ids.iter().any(animate)).map_or(0, |_| title);
-        }
+        self.skip_titles();
         if let Some(one) = self.chosen_of_named() {
             return Ok(one);
         }

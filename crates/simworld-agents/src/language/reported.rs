@@ -35,12 +35,15 @@ const WANTS_TO_TALK: &Phrases = &Phrases::of(&[
     "wants somebody to talk to", "would like to say hello to you",
 ]);
 
+/// Whose somebody is.
+const OWN: &Phrases =
+    &Phrases::of(&["my", "our", "your", "his", "her", "their", "the", "my friend", "our friend"]);
 /// Those who are told or told of, before their names.
 #[rustfmt::skip]
-pub(super) const TITLES: &[&str] = &[
+pub(super) const TITLES: &Phrases = &Phrases::of(&[
     "professor", "doctor", "dr", "mr", "mrs", "ms", "miss", "nurse", "officer", "captain", "uncle", "aunt", "auntie", "grandma", "grandpa", "old", "little",
     "poor", "young", "colleague", "cousin", "sister", "brother",
-];
+]);
 
 impl Parser<'_> {
     /// Passes somebody who is no part of the scene ("the boss", "grandma") before one of these phrases; whether there was one.
@@ -65,6 +68,45 @@ impl Parser<'_> {
         }
         self.at += words;
         true
+    }
+
+    /// Passes what stands before names and says no more than they do: "professor Hana", "both of them, Greta and Jonas".
+    pub(super) fn skip_titles(&mut self) {
+        // Nothing of that stands before a small letter.
+        let near = self.rest().len().min(6);
+        if !(0..near).any(|at| self.is_capital(self.at + at)) {
+            return;
+        }
+        // "Both of them, Greta and Jonas" are each named.
+        let all = longest_phrase(
+            self.rest(),
+            &[
+                "both of them",
+                "all of them",
+                "all three of them",
+                "the two of them",
+                "the three of them",
+                "both",
+                "all three",
+                "all four of them",
+            ],
+        );
+        if let Some(words) = all
+            && matches!(self.rest().get(words), Some(Lexeme { token: Token::Comma | Token::Break, .. }))
+            && self.is_capital(self.at + words + 1)
+        {
+            self.at += words + 1;
+        }
+        // "Professor Hana", "my uncle Ben".
+        let own = longest_phrase(self.rest(), OWN).unwrap_or(0);
+        let title = own + longest_phrase(&self.rest()[own..], TITLES).unwrap_or(0);
+        if title > own && self.is_capital(self.at + title) && self.names.exact(self.rest()).is_none() {
+            let named = self.names.exact(&self.rest()[title..]);
+            let animate = |id: &simworld_core::id::EntityId| {
+                self.view.scene.entity(*id).is_some_and(|entity| super::lexicon::is_animate(entity.kind))
+            };
+            self.at += named.filter(|(ids, _)| ids.iter().any(animate)).map_or(0, |_| title);
+        }
     }
 
     /// What somebody else wants of who is told.

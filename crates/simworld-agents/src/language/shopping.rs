@@ -396,6 +396,7 @@ impl Parser<'_> {
             category(&rest[at..]).is_some_and(|(class, _)| class.kinds().iter().any(|kind| is_animate(*kind)))
         };
         longest_phrase(rest, &["him", "her", "them", "whoever"]).is_some()
+            || longest_phrase(rest, super::reported::TITLES).is_some()
             || self.names.exact(rest).is_some_and(|(ids, _)| {
                 ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
             })

@@ -116,16 +116,21 @@ fn asset_at<'a>(phrase: &[Lexeme], catalogue: &'a Catalogue) -> Option<(&'a Asse
         .take(LONGEST_NAME)
         .map_while(|lexeme| if let Token::Word(word) = &lexeme.token { Some(word.as_str()) } else { None })
         .collect();
-    (1..=words.len()).rev().find_map(|count| {
+    let found = (1..=words.len()).rev().find_map(|count| {
         let (last, head) = words[..count].split_last()?;
         let named = |last: &str| {
             let name = head.iter().copied().chain([last]).collect::<Vec<_>>().join("_");
-            // "The palm" is an asset called "palm_tree".
-            let id = catalogue.find(&name).or_else(|| catalogue.find(&format!("{name}_tree")))?;
-            catalogue.get(id)
+            catalogue.get(catalogue.find(&name)?)
         };
         singulars(last).find_map(|last| named(&last)).map(|asset| (asset, count))
-    })
+    });
+    // "The palm" is an asset called "palm_tree".
+    let tree = || {
+        let word = words.first()?;
+        let name = format!("{}_tree", word.strip_suffix('s').unwrap_or(word));
+        catalogue.get(catalogue.find(&name)?).map(|asset| (asset, 1))
+    };
+    found.or_else(tree)
 }
 
 /// What a word may be the plural of, and itself first.

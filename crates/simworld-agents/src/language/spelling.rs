@@ -50,8 +50,8 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
                 ..lexeme.clone()
             });
             lexemes.splice(here..=here, both);
-        } else if let Some(right) =
-            asked_politely(word, here, lexemes.len()).or_else(|| nearest(word, names, follows_verb))
+        } else if let Some(right) = asked_politely(word, here, lexemes.len())
+            .or_else(|| nearest(word, names, follows_verb).or_else(|| plural_of_name(word, names)))
         {
             lexemes[here].lemma = base_form(&right);
             lexemes[here].token = Token::Word(right);
@@ -65,6 +65,13 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
             lexemes.splice(here..=here, both);
         }
     }
+}
+
+/// "Pretzles": the plural of a word of names or goods that is written wrong.
+fn plural_of_name(word: &str, names: &Names<'_>) -> Option<String> {
+    const SHORTEST: usize = 4;
+    let one = word.strip_suffix('s').filter(|one| one.len() >= SHORTEST)?;
+    nearest(one, names, true).filter(|right| names.has_word(right)).map(|right| format!("{right}s"))
 }
 
 /// "Plase", "pleaes", where people say "please": first or last.

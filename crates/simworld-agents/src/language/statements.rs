@@ -191,7 +191,7 @@ impl Parser<'_> {
             "he can",
             "she can",
         ];
-        if longest_phrase(&self.lexemes[from..], &ours).is_some() && !self.beside_names(from, end) {
+        if longest_phrase(&self.lexemes[from..], &ours).is_some() {
             self.at = end;
             return true;
         }
@@ -208,14 +208,6 @@ impl Parser<'_> {
             return true;
         }
         false
-    }
-
-    /// Whether something that is here is named there.
-    fn beside_names(&self, from: usize, end: usize) -> bool {
-        (from..end).any(|at| {
-            let rest = &self.lexemes[at..end];
-            category(rest).is_some() || self.names.exact(rest).is_some()
-        })
     }
 
     /// "... for the report", "... for my album": what for, where it is nothing that is here.

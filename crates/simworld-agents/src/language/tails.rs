@@ -29,7 +29,7 @@ pub(super) const ON_THE_WAY: &Phrases = &Phrases::of(&[
 const AFTER: &Phrases = &Phrases::of(&[
     "after", "but first", "but before that", "but first of all", "but beforehand",
     "but before you do", "but before you do that", "but only after", "right after",
-    "straight after",
+    "straight after", "but start by", "but begin by", "but start off by",
 ]);
 
 impl Parser<'_> {
@@ -129,16 +129,6 @@ impl Parser<'_> {
     fn says_near(&self, from: usize) -> bool {
         let near = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["near", "close", "nearby"].contains(&word.as_str()));
         self.lexemes[from..self.at].iter().any(near)
-    }
-
-    /// "... once it is dark": when, and not how often.
-    fn when_it_is(&self) -> bool {
-        let after = self.rest().get(1..).unwrap_or_default();
-        let subject = longest_phrase(
-            after,
-            &["it", "its", "the", "he", "she", "they", "there", "you", "everybody", "nobody"],
-        );
-        self.peeks("once") && subject.is_some()
     }
 
     /// ", one after the other": how, where it makes no difference.

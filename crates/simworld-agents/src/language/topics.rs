@@ -321,6 +321,9 @@ impl Parser<'_> {
         let what = self.reference(0).ok()?;
         let names_one = matches!(what.target, Target::Named(_) | Target::Any(_) | Target::Id(_))
             && what.choice == Choice::Open;
+        if names_one && let Some(likeness) = self.said_to_be(&what) {
+            return Some(self.mention(likeness)); // "my suitcase is the red one, bring it to Eve"
+        }
         // "Quentin and Petra are friends of mine, wave to them".
         let mut both = vec![what.clone()];
         while names_one && self.is_somebody(&what) && self.eat_any(&["and"]) {
