@@ -147,7 +147,7 @@ fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
             || !of_somebody && longest_phrase(rest, MAY_DEMAND).is_some()
             || of_somebody && from > 0 && word_of(&clause[from - 1]) == "and" && longest_verb(rest).is_some()
             || longest(rest, PAINTS).is_some()
-            || number(rest).is_some_and(|(number, _)| number > 1.0 || number < 1.0)
+            || number(rest).is_some_and(|(number, _)| (number - 1.0).abs() > f64::EPSILON)
                 && !(of_somebody && tells_time(rest))
             || category(rest).is_some()
             || names.exact(rest).is_some()

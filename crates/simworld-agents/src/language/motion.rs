@@ -9,7 +9,7 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Course, Pace, Reference, Spot, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{class, fits, longest, longest_phrase, longest_relation};
+use super::lexicon::{fits, longest, longest_phrase, longest_relation};
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;

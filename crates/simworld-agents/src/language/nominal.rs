@@ -373,7 +373,7 @@ impl Parser<'_> {
         if !is_building && !told || !self.ends_clause() {
             return Ok(None);
         }
-        (self.verb, self.beside.stated) = (Some(Verb::Go), true);
+        (self.verb, self.stated) = (Some(Verb::Go), true);
         Ok(Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]))
     }
 

@@ -70,6 +70,8 @@ pub(super) struct Parser<'a> {
     pub(super) wished_by: Option<Reference>,
     /// What was spoken of that is no thing of the scene.
     pub(super) beside: Beside,
+    /// Where one is to go was stated and not ordered: "you are needed at the fountain".
+    pub(super) stated: bool,
     /// To which side one turned last: 1 is left.
     pub(super) turned: Option<f64>,
     /// What was asked last: "until it is".
@@ -120,6 +122,7 @@ impl<'a> Parser<'a> {
             wished: false,
             wished_by: None,
             beside: Beside::default(),
+            stated: false,
             said: None,
             turned: None,
             tested: None,
@@ -160,7 +163,7 @@ impl<'a> Parser<'a> {
         while self.at < self.lexemes.len() {
             let before = clauses.len();
             clauses.append(&mut self.named);
-            let stated = std::mem::take(&mut self.beside.stated);
+            let stated = std::mem::take(&mut self.stated);
             clauses.extend(self.statement()?);
             super::again::goes_there(&mut clauses, before, stated);
             if let [.., Clause::Sit { on: None }, Clause::Sit { on: Some(_) }] = clauses[..] {

@@ -27,8 +27,6 @@ pub(super) struct Beside {
     pub(super) shots: bool,
     /// Somebody who is not here: "my sister loves apples, buy her one".
     pub(super) absent: bool,
-    /// Where one is to go was stated and not ordered: "you are needed at the fountain".
-    pub(super) stated: bool,
     /// A driver's passengers.
     pub(super) rides: bool,
 }

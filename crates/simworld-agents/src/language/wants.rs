@@ -95,7 +95,7 @@ impl Parser<'_> {
         let at = self.eat_any(&["at", "in", "to", "on", "over at", "down at", "up at", "outside"]);
         let side = if at { None } else { Some(Spot::Beside(self.side()?, None)) };
         let to = self.reference(0).map_err(|error| self.missing.get_or_insert(error).clone()).ok()?;
-        self.beside.stated = true;
+        self.stated = true;
         Some(vec![Clause::Go { to, side, pace: Pace::Usual, within: None }])
     }
 
