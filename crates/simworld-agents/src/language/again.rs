@@ -1,13 +1,13 @@
 //! Orders that are done over again: "do that twice", "then do it again", "once more", "do the same with the statue".
 
-use super::clause::{Clause, Reference};
+use super::clause::{Clause, Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::longest_phrase;
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::politeness::joint;
-use super::tails::repeat;
+use super::repeats::repeat;
 
 /// Doing what was said last, before how often.
 #[rustfmt::skip]
@@ -77,6 +77,11 @@ impl Parser<'_> {
             self.skip_fillers();
             // "Go there again" is no second time.
             if self.ends_there() && !(lone && joined == 0) {
+                // "Turn left, and again, and again": once more than before.
+                if let (true, Some(Clause::Repeat { times, .. })) = (lone, clauses.last_mut()) {
+                    *times += 1;
+                    return true;
+                }
                 let all = all || group > whole && matches!(clauses.last(), Some(Clause::Go { .. }));
                 repeat(clauses, if all { whole } else { group }, 2, all);
                 return true;
@@ -101,6 +106,27 @@ impl Parser<'_> {
         }
         self.at = start;
         false
+    }
+
+    /// "Three rounds: fountain, statue".
+    pub(super) fn rounds_of(&self) -> Option<(u32, usize)> {
+        let (number, words) = numbers::number(self.rest()).filter(|(number, _)| number.fract() == 0.0)?;
+        let unit = longest_phrase(
+            &self.rest()[words..],
+            &["rounds", "round", "laps", "trips", "times around", "times round"],
+        )?;
+        let colon = matches!(self.rest().get(words + unit), Some(Lexeme { token: Token::Break, .. }));
+        (colon && (1.0..=100.0).contains(&number)).then_some((number as u32, words + unit))
+    }
+
+    /// "... once it is dark": when, and not how often.
+    pub(super) fn when_it_is(&self) -> bool {
+        let after = self.rest().get(1..).unwrap_or_default();
+        let subject = longest_phrase(
+            after,
+            &["it", "its", "the", "he", "she", "they", "there", "you", "everybody", "nobody"],
+        );
+        self.peeks("once") && subject.is_some()
     }
 
     /// Whether nothing follows that would say how often, how long or with what.
@@ -178,6 +204,15 @@ fn about_another(done: &[Clause], about: &Reference, other: &Reference) -> Optio
         again.push(clause);
     }
     replaced.then_some(again)
+}
+
+/// "You are needed at the fountain, go there" says one thing twice.
+pub(super) fn goes_there(clauses: &mut Vec<Clause>, before: usize, stated: bool) {
+    let there =
+        matches!(&clauses[before..], [Clause::Go { to, side: None, .. }] if to.target == Target::There);
+    if stated && there && before > 0 {
+        clauses.pop();
+    }
 }
 
 /// "Follow the dog, but stop when you see the mailbox": what never ends by itself is done until then.

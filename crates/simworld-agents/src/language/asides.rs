@@ -35,7 +35,10 @@ const FINITE: &[&str] = &[
     "likes", "keeps", "hurt", "ache", "aches", "hate", "love", "like", "miss", "know", "think", "guess", "suppose",
     "hope", "bet", "swear", "promise", "repeat", "recommend", "suggest", "fell", "fall", "falls", "stopped", "broke",
     "waits", "sits", "stands", "lies", "calls", "begins", "starts", "ends", "closes", "opens", "comes", "happens",
-    "matters", "used", "depends", "looked", "seemed", "just", "never", "always", "aint",
+    "matters", "used", "depends", "looked", "seemed", "just", "never", "always", "aint", "ran", "took", "gave", "brought", "bought", "found",
+    "stood", "sat", "ate", "drank", "spoke", "wrote", "drove", "flew", "hid", "kept", "paid", "rang", "rode", "sang", "sent", "shook", "slept", "spent",
+    "stole", "swam", "threw", "wore", "won", "woke", "began", "became", "caught", "chose", "dug", "drew", "fought", "froze", "grew", "held", "hung",
+    "led", "lent", "meant", "met", "rose", "sold", "spilt", "stuck", "swore", "taught", "tore", "gives", "takes", "leaves", "arrives", "runs",
 ];
 /// What asks for something, so that the words are no aside.
 #[rustfmt::skip]
@@ -162,6 +165,23 @@ impl Parser<'_> {
         longest_verb(self.rest()).is_none() && self.aside_ends().is_some()
     }
 
+    /// "... is the red one", "... is the second from the left": the thing as it is said to be.
+    pub(super) fn said_to_be(&mut self, what: &Reference) -> Option<Reference> {
+        let start = self.at;
+        if self.eat_any(&["is the", "are the"]) {
+            self.at -= 1;
+            let mut likeness = what.clone();
+            self.modifiers(&mut likeness);
+            let changed = likeness != *what;
+            self.eat_any(&["one", "ones"]);
+            if changed && self.described(&mut likeness, 0).is_ok() && self.ends_at_mark() {
+                return Some(likeness);
+            }
+        }
+        self.at = start;
+        None
+    }
+
     /// Who and what is named on the way to a place.
     pub(super) fn names_within(&mut self, end: usize) -> Vec<Clause> {
         let mut clauses = Vec::new();
@@ -238,7 +258,7 @@ fn has_finite(said: &[Lexeme]) -> bool {
 }
 
 /// Whether the words state something of somebody else, and ask for nothing.
-fn says_what_is(said: &[Lexeme]) -> bool {
+pub(super) fn says_what_is(said: &[Lexeme]) -> bool {
     !said.is_empty()
         && said.len() <= LONGEST
         && longest_phrase(said, SUBJECTS).is_some()
@@ -260,6 +280,7 @@ fn is_heading(said: &[Lexeme]) -> bool {
         && longest_phrase(said, NEGATIONS).is_none()
         && !(0..said.len()).any(|at| {
             numbers::times(&said[at..]).is_some()
+                || numbers::number(&said[at..]).is_some_and(|(number, _)| number > 1.0)
                 || numbers::duration(&said[at..]).is_some_and(|(_, words)| words > 1)
         })
         && longest_phrase(said, &["every", "each", "repeat", "rain", "dry", "in case", "when"]).is_none()

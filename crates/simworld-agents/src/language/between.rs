@@ -70,8 +70,30 @@ impl Parser<'_> {
         Some(Stands::To(relation, Box::new(anchor)))
     }
 
+    /// "Between the green and the red one": the noun stands behind the second alone.
+    fn two_paints(&mut self, depth: u32) -> Option<Stands> {
+        let start = self.at;
+        self.eat_any(&["the", "a"]);
+        if let Some((paint, words)) = self.peek_paint() {
+            self.at += words;
+            if self.eat_any(&["and"])
+                && let Ok(other) = self.reference(depth + 1)
+                && other.traits.paint.is_some()
+            {
+                let mut one = other.clone();
+                one.traits.paint = Some(paint);
+                return Some(Stands::Between(Box::new(one), Box::new(other)));
+            }
+        }
+        self.at = start;
+        None
+    }
+
     /// "Between the hospital and the museum", "between the two trees".
     pub(super) fn between(&mut self, depth: u32) -> Result<Stands, PlanError> {
+        if let Some(both) = self.two_paints(depth) {
+            return Ok(both);
+        }
         let one = self.reference(depth + 1)?;
         let start = self.at;
         if self.eat_any(&["and"]) {

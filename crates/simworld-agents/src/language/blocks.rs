@@ -9,7 +9,8 @@ use super::lexicon::{fits, longest_phrase};
 use super::numbers;
 use super::parser::{Extent, Parser};
 use super::phrases::Phrases;
-use super::tails::{ON_THE_WAY, over_and_over};
+use super::repeats::over_and_over;
+use super::tails::ON_THE_WAY;
 use super::verbs::longest_verb;
 
 /// What begins a condition.
@@ -19,7 +20,7 @@ pub(super) const IF: &Phrases = &Phrases::of(&[
     "in the event that", "in the event", "in the event of", "assuming", "assuming that", "supposing",
     "supposing that", "on condition that", "only if", "but only if", "if and only if",
     "if it should happen that", "if it so happens that", "if it turns out that", "if it happens that",
-    "suppose", "suppose that", "lets suppose", "imagine", "imagine that", "say that", "given that", "given", "subject to", "whether", "seeing that", "if you find that", "if you notice that", "if you see that",
+    "suppose", "suppose that", "lets suppose", "imagine", "imagine that", "say that", "given that", "subject to", "whether", "seeing that", "if you find that", "if you notice that", "if you see that",
 ]);
 pub(super) const UNLESS: &Phrases =
     &Phrases::of(&["unless", "if not", "except if", "except when", "but not if", "so long as not"]);
@@ -85,7 +86,7 @@ const REACHING: &Phrases = &Phrases::of(&[
 /// What begins what else is done, and what says so of the condition itself.
 #[rustfmt::skip]
 const ELSE: &Phrases = &Phrases::of(&[
-    "otherwise", "else", "or else", "if not", "or", "failing that", "if that fails", "in any other case",
+    "otherwise", "else", "or else", "if not", "if no", "and if no", "or", "failing that", "if that fails", "in any other case",
     "in all other cases", "should that not be so", "and if not", "but if not", "and otherwise", "but otherwise",
     "if thats not the case", "if that is not the case", "in the other case",
 ]);
@@ -154,7 +155,8 @@ impl Parser<'_> {
             }
             self.eat_any(&["well", "and"]);
             let not = self.eat_any(NOT_SO);
-            if not || self.eat_any(SO) {
+            // "Is it dark? Go to the lodge".
+            if not || self.eat_any(SO) || test.is_of_the_world() {
                 let test = if not { Test::Not(Box::new(test)) } else { test };
                 return self.then_or_else(test).map(Some);
             }
@@ -330,13 +332,15 @@ impl Parser<'_> {
             "do this",
             "do the following",
             "repeat the following",
+            "do",
+            "make",
             "do it",
             "do all this",
             "do all of this",
             "do the next thing",
             "do the same",
         ]);
-        if let Some((times, count)) = numbers::times(self.rest()) {
+        if let Some((times, count)) = numbers::times(self.rest()).or_else(|| self.rounds_of()) {
             self.at += count;
             // "Repeat three times: ..." is about all that follows.
             let colon = matches!(self.rest(), [Lexeme { token: Token::Break, .. }, ..]);
@@ -367,6 +371,7 @@ impl Parser<'_> {
         if then.is_empty() {
             return Err(self.not_understood("say what to do then"));
         }
+        let then = super::conditions::taken_instead(&test, then);
         let end = self.at;
         self.skip_joints();
         let mut otherwise = Vec::new();

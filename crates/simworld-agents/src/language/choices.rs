@@ -8,8 +8,18 @@ impl Parser<'_> {
     /// "Which bench is closest? Bring me there", "who is nearer, Fay or Gus? Go to that one".
     pub(super) fn which_one(&mut self) -> Option<Vec<Clause>> {
         let start = self.at;
-        let who = self.eat_any(&["whos", "who is"]);
-        if !who && !self.eat_any(&["which of the", "which", "which one of the", "what"]) {
+        let who =
+            self.eat_any(&["whos", "who is", "who stands", "who sits", "whos standing", "who is standing"]);
+        if !who
+            && !self.eat_any(&[
+                "which of the two",
+                "which of the three",
+                "which of the",
+                "which",
+                "which one of the",
+                "what",
+            ])
+        {
             return None;
         }
         let mut what = Reference::to(Target::Here, String::new());
@@ -18,12 +28,34 @@ impl Parser<'_> {
             what.target = Target::Any(class);
             self.at += words;
             self.class = Some(class);
+        } else if let Some(ids) =
+            self.rest().first().and_then(|first| self.names.sort(&first.token)).filter(|_| !who)
+        {
+            // "Which stall is the farthest?"
+            what.target = Target::Named(ids);
+            self.at += 1;
+        } else if let Some((ids, words)) =
+            self.names.exact(self.rest()).filter(|(ids, _)| !who && ids.len() > 1)
+        {
+            what.target = Target::Named(ids);
+            self.at += words;
+        } else if who {
+            what.target = Target::Any(super::lexicon::class("person"));
         }
         if !who && !self.eat_any(&["is", "are", "stands", "lies"]) {
             return None;
         }
+        if who && self.most_follows().is_none() {
+            let stands = self.at;
+            self.described(&mut what, 0).ok()?;
+            if self.at == stands || what.relation.is_none() || self.mark() != Some('?') {
+                return None;
+            }
+            return self.asked_for(what, start); // "who is standing by the cheese stall? wave to her"
+        }
         self.eat_any(&["the"]);
         what.choice = self.most_asked()?;
+        self.of_an_anchor(&mut what)?;
         let comma = self.at;
         if matches!(self.mark(), Some(',')) {
             match self.listed() {
@@ -31,18 +63,50 @@ impl Parser<'_> {
                 None => self.at = comma,
             }
         }
-        what.text = self.text_from(start);
+        if who && !matches!(what.target, Target::Named(_)) && self.mark() != Some('?') {
+            return None;
+        }
         // "Which car's the closest, go to that one".
         let taken_up = self.at == comma
             && self.rest().iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["that", "it", "there"].contains(&word.as_str())));
         let asked = (self.mark() == Some('?') || taken_up) && what.target != Target::Here;
-        if !asked || !self.skip_joints() || self.at >= self.lexemes.len() {
+        if asked { self.asked_for(what, start) } else { None }
+    }
+
+    /// What was asked for, with the order behind it.
+    fn asked_for(&mut self, mut what: Reference, start: usize) -> Option<Vec<Clause>> {
+        what.text = self.text_from(start);
+        if !self.skip_joints() || self.at >= self.lexemes.len() {
             return None;
         }
         self.eat_any(&["that one", "it is that"]);
         let mut clauses = vec![Clause::Mention { what }];
         clauses.extend(self.statement().ok()?);
         Some(clauses)
+    }
+
+    /// Whether a superlative follows.
+    fn most_follows(&mut self) -> Option<Choice> {
+        let start = self.at;
+        self.eat_any(&["the"]);
+        let most = self.most_asked();
+        self.at = start;
+        most
+    }
+
+    /// "... to the Camp Store?", "... from the fountain?": nearest to or farthest from what.
+    fn of_an_anchor(&mut self, what: &mut Reference) -> Option<()> {
+        let nearest = match what.choice {
+            Choice::Nearest => true,
+            Choice::Farthest => false,
+            _ => return Some(()),
+        };
+        if self.eat_any(&["to", "from", "away from"]) && !self.eat_any(&["you", "me", "us", "here"]) {
+            let anchor = self.reference(1).ok()?;
+            what.choice = Choice::Open;
+            what.relation = Some(super::clause::Stands::NearestTo(Box::new(anchor), nearest));
+        }
+        Some(())
     }
 
     /// ", the school or the hospital?".

@@ -420,8 +420,13 @@ impl Parser<'_> {
             "journeys",
             "round trips",
             "times",
-        ]) && self.eat_any(&["between", "from", "back and forth between"]);
-        if !run {
+        ]);
+        if run && self.eat_any(&["to"]) {
+            let to = self.reference(0).ok()?;
+            let times = number as u32;
+            return self.ends_clause().then(|| vec![Clause::Repeat { times, body: vec![going(to)] }]);
+        }
+        if !(run && self.eat_any(&["between", "from", "back and forth between"])) {
             return None;
         }
         let body = self.back_and_forth(Pace::Usual).ok()?;

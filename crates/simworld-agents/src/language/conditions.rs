@@ -3,12 +3,35 @@
 use simworld_core::scene::{EntityKind, EntityRef, OPEN};
 use simworld_core::seam::{Condition, PlanError, Which};
 
-use super::clause::{Choice, Reference, Target, Test};
+use super::clause::{Choice, Clause, Reference, Target, Test};
 use super::draft::Draft;
 use super::lexicon::class;
 use super::relate::PART;
 use super::resolve::Purpose;
 use super::tests_of::NEARBY;
+
+/// "If the green bench is taken, use the red one": what is chosen in its place is sat on.
+pub(super) fn taken_instead(test: &Test, mut then: Vec<Clause>) -> Vec<Clause> {
+    let of_use =
+        matches!(test, Test::InUse(_)) || matches!(test, Test::Not(test) if matches!(**test, Test::InUse(_)));
+    if let [Clause::Take { what, to: None, .. } | Clause::Board { what, to: None }] = &then[..]
+        && of_use
+    {
+        then = vec![Clause::Sit { on: Some(what.clone()) }];
+    }
+    then
+}
+
+impl Test {
+    /// Whether it is about light, weather, doors or seats, and not about what one sees.
+    pub(super) fn is_of_the_world(&self) -> bool {
+        match self {
+            Self::Raining | Self::Snowing | Self::Dark | Self::Open(_) | Self::InUse(_) => true,
+            Self::Not(test) => test.is_of_the_world(),
+            _ => false,
+        }
+    }
+}
 
 impl Draft<'_> {
     pub(super) fn condition(&mut self, test: &Test) -> Result<Condition, PlanError> {

@@ -12,6 +12,7 @@ use super::modifiers::FREE;
 use super::parser::Parser;
 use super::phrases::Phrases;
 use super::reference::{DEEPEST, DOOR_STATES};
+use super::rows::COUNTED;
 
 /// What is said of anything that is about.
 #[rustfmt::skip]
@@ -90,12 +91,6 @@ const WAYS: &Phrases = &Phrases::of(&[
     "by foot", "by bus", "by taxi", "by scooter", "by bike", "by bicycle", "by cab",
 ]);
 /// Which are not meant.
-/// The middle one of three.
-#[rustfmt::skip]
-const AMONG: &Phrases = &Phrases::of(&[
-    "between the other two", "between the others", "between the two others", "in between the other two",
-    "in between the others", "with one on either side", "with one on each side",
-]);
 const EXCEPT: &Phrases = &Phrases::of(&[
     "except",
     "except for",
@@ -129,6 +124,7 @@ impl Parser<'_> {
                 || self.nearest_behind(reference, start, depth)?
                 || self.farthest_behind(reference, depth)?
                 || self.place_in_row(reference)
+                || self.eat_any(COUNTED)
                 || self.sold_there(reference)?
                 || self.spared(reference, depth)
                 || self.stands(reference, depth)?
@@ -215,7 +211,33 @@ impl Parser<'_> {
         let unused = self.eat_any(UNUSED);
         reference.traits.free |= unused;
         // "The first chair you see" is the nearest.
-        unused || self.eat_any(YOU_SEE)
+        unused || self.eat_any(YOU_SEE) || self.eat_whole_place()
+    }
+
+    /// "On campus", "in the park", where that is all that one is in and nothing is called so.
+    fn eat_whole_place(&mut self) -> bool {
+        #[rustfmt::skip]
+        const PLACES: &Phrases = &Phrases::of(&[
+            "campus", "park", "zoo", "farm", "beach", "campsite", "camp", "airport", "market", "market place", "marketplace", "harbour", "yard", "village", "square",
+            "site", "premises", "grounds", "old town", "quay", "depot", "neighbourhood", "place",
+        ]);
+        let start = self.at;
+        if self.eat_any(&["in the", "on the", "at the", "on this", "in this", "in our", "on our", "on", "in"])
+            && let Some(words) = longest_phrase(self.rest(), PLACES)
+            && self.names.exact(self.rest()).is_none()
+            && longest_phrase(&self.rest()[words..], &["bench", "house", "shop", "door"]).is_none()
+        {
+            let known = category(self.rest()).is_some_and(|(class, _)| {
+                let any = Reference::to(Target::Any(class), String::new());
+                self.view.find(&any, super::resolve::Purpose::Any).is_ok()
+            });
+            self.at += words;
+            if !known && self.ends_clause() {
+                return true;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// "... nearest to the museum", "... nearby".
@@ -280,36 +302,6 @@ impl Parser<'_> {
             reference.choose(Choice::Farthest);
         }
         Ok(true)
-    }
-
-    /// "... in the east", "... in the middle", "... of all".
-    fn place_in_row(&mut self, reference: &mut Reference) -> bool {
-        if reference.choice == Choice::Open
-            && let Some(compass) = self.in_the_compass()
-        {
-            reference.choice = Choice::Compass(compass);
-            return true;
-        }
-        if self.eat_any(AMONG) {
-            reference.choose(Choice::Middle);
-            return true;
-        }
-        let middle = longest_phrase(self.rest(), &["in the middle", "in the centre", "in the center"]);
-        if let Some(words) = middle
-            && longest_phrase(&self.rest()[words..], &["of", "between"]).is_none()
-        {
-            self.at += words;
-            reference.choose(Choice::Middle);
-            return true;
-        }
-        if reference.choice != Choice::Open
-            && self.eat_any(&["of all", "of them all", "of the lot", "of them", "of all of them"])
-        {
-            return true;
-        }
-        let than = self.comparison();
-        reference.traits.than = than.or(reference.traits.than);
-        than.is_some()
     }
 
     fn sold_there(&mut self, reference: &mut Reference) -> Result<bool, PlanError> {

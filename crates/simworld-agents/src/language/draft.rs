@@ -238,8 +238,18 @@ impl<'a> Draft<'a> {
             }
             Clause::Wave { to } => {
                 self.can(ActionKind::WaveHand)?;
-                let to = self.find(to, Purpose::Any)?.id;
-                self.act(Action::WaveHand { to })
+                let found = self.find(to, Purpose::Any)?;
+                let house = found.kind == EntityKind::Building && matches!(to.target, Target::Named(_));
+                if house
+                    && found
+                        .info
+                        .name
+                        .as_deref()
+                        .is_some_and(|name| name.contains(' ') && !to.text.contains(' '))
+                {
+                    return Err(self.view.not_found(to, Purpose::Any)); // "the pilot" is not the Pilot School
+                }
+                self.act(Action::WaveHand { to: found.id })
             }
             Clause::Say { to, words } => {
                 self.can(ActionKind::Converse)?;

@@ -95,7 +95,11 @@ impl Parser<'_> {
     }
 
     pub(super) fn word_before(&self) -> &str {
-        match self.at.checked_sub(1).map(|at| &self.lexemes[at].token) {
+        self.word_before_at(self.at)
+    }
+
+    pub(super) fn word_before_at(&self, at: usize) -> &str {
+        match at.checked_sub(1).map(|at| &self.lexemes[at].token) {
             Some(Token::Word(word)) => word,
             _ => "",
         }

@@ -1,11 +1,12 @@
-//! Orders to look somewhere.
+//! Orders to look somewhere, and to see how somebody is.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Reference, Target};
-use super::lexicon::longest;
+use super::lexer::Token;
+use super::lexicon::{longest, longest_phrase};
 use super::motion::{GLANCE, SENSES};
 use super::numbers;
 use super::parser::Parser;
@@ -42,5 +43,24 @@ impl Parser<'_> {
         }
         self.eat_any(&["over", "at", "to", "towards", "over at", "over to", "back at"]);
         Ok(Clause::Face { what: self.reference(0)? })
+    }
+
+    /// "Go and see what he wants", "go see how Fay is doing": one has to be there for that.
+    pub(super) fn what_somebody_is_up_to(&mut self, start: usize) -> Option<Reference> {
+        let sees = self.lexemes[start..self.at].iter().any(|lexeme| {
+            matches!(&lexeme.token, Token::Word(word) if ["see", "check", "find", "out"].contains(&word.as_str()))
+        });
+        let here = self.at;
+        if sees && self.eat_any(&["what", "how", "whether", "if", "where", "why"]) {
+            let pronoun = longest_phrase(self.rest(), &["he", "she", "they"]).is_some();
+            if let Some(who) = if pronoun { self.somebody() } else { self.somebody_here() }
+                && !self.ends_at_mark()
+            {
+                self.at = self.mark_from(self.at);
+                return Some(who);
+            }
+        }
+        self.at = here;
+        None
     }
 }

@@ -35,6 +35,13 @@ const PLACES: &Phrases = &Phrases::of(&[
     "down on", "down in", "outside", "straight to",
 ]);
 
+/// Who may look on.
+#[rustfmt::skip]
+const ONLOOKERS: &Phrases = &Phrases::of(&[
+    "me", "them", "him", "her", "people", "person", "tourists", "visitors", "man", "woman", "lady", "gentleman", "old man", "old lady", "old woman", "girl",
+    "boy", "customers", "patients", "nurse", "doctor", "driver", "pupils", "newcomers",
+]);
+
 impl Parser<'_> {
     pub(super) fn take(&mut self, start: usize) -> Result<Vec<Clause>, PlanError> {
         if self.takes_me() {
@@ -245,7 +252,19 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         let somebody = self.somebody_here();
+        let what_at = self.at;
         if let Some(goods) = self.goods() {
+            let known =
+                self.is_bought(&goods) && longest_phrase(&self.lexemes[what_at..], &["the"]).is_some();
+            // "Buy a water, walk to Ben, hand him the water".
+            let to = match somebody.clone() {
+                None if known && self.eat_any(&["to", "over to"]) => self.somebody_here(),
+                to => to,
+            };
+            if let Some(to) = to.filter(|_| known) {
+                let what = Reference::to(Target::It, self.text_from(what_at));
+                return Ok(vec![Clause::Give { what: Some(what), to }]);
+            }
             return self.purchase(goods, somebody);
         }
         self.at = start;
@@ -428,11 +447,34 @@ impl Parser<'_> {
             "out to me",
             "me to",
         ]);
-        Ok(Clause::Point { at: self.reference(0)? })
+        // "Where's the Registry? Show me".
+        let it = || Reference::to(Target::It, "it".to_owned());
+        let at = if self.ends_clause() { it() } else { self.reference(0)? };
+        self.eat_any(&["out"]); // "the tower, point it out"
+        self.skip_onlookers(&["to", "for"]);
+        Ok(Clause::Point { at })
+    }
+
+    /// "... to these people", "... for the lady": whoever sees it, or is helped by it, changes nothing of what is done.
+    pub(super) fn skip_onlookers(&mut self, leads: &[&str]) {
+        let start = self.at;
+        if self.eat_any(leads) {
+            self.eat_any(super::lexicon::DETERMINERS);
+            if (self.eat_any(super::shopping::OTHERS) || self.eat_any(ONLOOKERS)) && self.ends_clause() {
+                return;
+            }
+        }
+        self.at = start;
     }
 
     /// "Wave your hand at Ben".
     pub(super) fn wave(&mut self) -> Result<Clause, PlanError> {
+        // "Anna waves at you, wave back".
+        let start = self.at;
+        if self.eat_any(&["back"]) && self.ends_clause() {
+            return Ok(Clause::Wave { to: Reference::to(Target::Them, "them".to_owned()) });
+        }
+        self.at = start;
         self.eat_any(&[
             "at",
             "to",

@@ -163,8 +163,15 @@ fn without_example_words(lexemes: &mut Vec<Lexeme>) {
                 super::numbers::duration(&after[preposition..]).is_some_and(|(_, count)| count > 1)
             });
         if number {
-            let vague =
-                ["for a bit", "for a while", "for a moment", "for a little while", "for a short while"];
+            let vague = [
+                "a bit",
+                "a little",
+                "for a bit",
+                "for a while",
+                "for a moment",
+                "for a little while",
+                "for a short while",
+            ];
             let from = (1..=4).find(|count| {
                 at >= *count
                     && vague

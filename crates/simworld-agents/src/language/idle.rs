@@ -1,27 +1,86 @@
-//! What is said behind an order and asks for nothing, whatever it says: "..., dinner takes a while".
+//! What is said before or behind an order and asks for nothing, whatever it says: "..., dinner takes a while", "your battery is
+//! low, ...".
 //!
 //! Remarks are known by what they say. Of these only that is known which they do not say: nothing that is here, and no word by
 //! which something could be asked for otherwise. They are passed over where a sentence is not understood with them.
 
+use super::asides;
 use super::lexer::{Lexeme, Token, is_mark};
-use super::lexicon::{category, longest, longest_phrase};
+use super::lexicon::{DETERMINERS, category, longest, longest_phrase};
 use super::names::Names;
-use super::numbers::number;
+use super::numbers::{duration, number};
 use super::paint::PAINTS;
 use super::phrases::Phrases;
 use super::politeness::filler;
 use super::requests;
+use super::shopping::OTHERS;
 use super::verbs::longest_verb;
 
 /// Words by which something may be asked for, or asked for otherwise.
 #[rustfmt::skip]
 const DEMANDS: &Phrases = &Phrases::of(&[
-    "if", "unless", "until", "till", "when", "whenever", "before", "after", "then", "not", "dont", "no", "never", "cant", "isnt",
-    "wont", "without", "but", "except", "only", "instead", "rather", "better", "should", "shall", "please", "let", "lets", "other", "others",
-    "another", "one", "ones", "same", "again", "twice", "too", "also", "as well", "want", "wants", "need", "needs", "would", "him", "her",
-    "them", "left", "right", "north", "south", "east", "west", "big", "small", "tall", "largest", "smallest", "tallest", "nearest", "farthest",
-    "first", "second", "third", "last", "next", "back", "which", "where", "who", "what", "how", "or", "and", "so", "behind", "beside", "near",
-    "under", "between", "across", "along", "towards", "inside", "outside",
+    "if", "unless", "until", "till", "when", "whenever", "before", "after", "then", "without", "but", "except", "only", "instead", "rather",
+    "better", "should", "shall", "please", "let", "lets", "other", "others", "another", "ones", "same", "again", "twice", "want", "wants", "need",
+    "needs", "would", "left", "right", "north", "south", "east", "west", "largest", "smallest", "tallest", "nearest", "farthest", "or", "behind",
+    "beside", "near", "under", "between", "across", "along", "towards", "inside", "outside", "have to", "dont", "do not",
+]);
+/// More of them, where the words begin with nobody of whom something is told.
+#[rustfmt::skip]
+const MAY_DEMAND: &Phrases = &Phrases::of(&[
+    "not", "no", "never", "cant", "isnt", "wont", "one", "too", "also", "as well", "him", "her", "them", "big", "small", "tall", "first", "second",
+    "third", "last", "next", "back", "must", "which", "where", "who", "what", "how", "and", "so",
+]);
+/// Of whom something is told, and nobody who is told what to do.
+#[rustfmt::skip]
+const SOMEBODY: &Phrases = &Phrases::of(&[
+    "i", "im", "ive", "ill", "he", "hes", "she", "shes", "it", "its", "they", "theyre", "theyve", "we", "were", "weve", "there is", "there are", "theres",
+    "that is", "thats", "this is", "my", "his", "her", "our", "their", "nobody", "everybody", "everyone", "somebody", "someone", "people",
+    "your", "you look", "you must be", "you seem", "youre", "you are", "youve", "you have been",
+]);
+/// What nobody is told to do.
+const UNWANTED: &Phrases = &Phrases::of(&[
+    "i dont want",
+    "i do not want",
+    "we dont want",
+    "we do not want",
+    "i dont like",
+    "i would not want",
+    "i wouldnt want",
+]);
+/// Before what who speaks is about to do.
+#[rustfmt::skip]
+const PLANS: &Phrases = &Phrases::of(&[
+    "i want to", "i need to", "i have to", "we want to", "we need to", "we have to", "id like to", "i would like to", "wed like to", "we would like to",
+    "im going to", "i am going to", "were going to", "we are going to", "im trying to", "i am trying to", "ive got to", "i must", "im about to", "i am about to",
+]);
+/// Before what is only asked, behind an order.
+const ASKED: &Phrases = &Phrases::of(&[
+    "is it",
+    "isnt it",
+    "is not it",
+    "are they",
+    "arent they",
+    "is he",
+    "is she",
+    "does it",
+    "do they",
+    "do you like it",
+    "can you see it",
+    "can you see",
+]);
+/// What is called out and has no verb: "what a sunset".
+const CALLS: &Phrases = &Phrases::of(&[
+    "what a",
+    "such a",
+    "poor",
+    "quick question",
+    "good news",
+    "bad news",
+    "my fault",
+    "lucky you",
+    "silly me",
+    "small favour",
+    "no offence",
 ]);
 /// What a remark begins with.
 #[rustfmt::skip]
@@ -37,31 +96,108 @@ const STATES: &Phrases = &Phrases::of(&[
     "ends", "closes", "opens", "says", "hurts", "hurt", "must be", "might be", "could be", "will be",
 ]);
 
-/// The words before the last mark, if what is said behind it is a remark that asks for nothing.
-pub(super) fn without_remark<'a>(lexemes: &'a [Lexeme], names: &Names<'_>) -> Option<&'a [Lexeme]> {
-    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme))? + 1;
-    let mark = lexemes[..end].iter().rposition(is_mark)?;
-    (mark > 0 && is_idle(&lexemes[mark + 1..end], names)).then(|| &lexemes[..mark])
+/// The sentence without what is said at its end, at its beginning, and at both, as far as that asks for nothing.
+pub(super) fn without_remarks<'a>(
+    lexemes: &'a [Lexeme],
+    names: &Names<'_>,
+) -> impl Iterator<Item = &'a [Lexeme]> {
+    let end = lexemes.iter().rposition(|lexeme| !is_mark(lexeme)).map_or(0, |last| last + 1);
+    let mut last = end;
+    while let Some(mark) = lexemes[..last].iter().rposition(is_mark).filter(|mark| *mark > 0)
+        && (is_idle(&lexemes[mark + 1..last], names) || is_idle_question(&lexemes[mark + 1..last], names))
+    {
+        last = mark;
+    }
+    let mut first = 0;
+    while let Some(mark) = lexemes[first..last].iter().position(ends_remark).map(|mark| first + mark)
+        && mark + 1 < last
+        && is_idle(&lexemes[first..mark], names)
+    {
+        first = mark + 1;
+    }
+    let parts = [(0, last), (first, end), (first, last)];
+    let shorter = move |(from, to): &(usize, usize)| to - from < end && from < to;
+    let kept: Vec<_> = parts.into_iter().filter(shorter).collect();
+    kept.into_iter().map(|(from, to)| &lexemes[from..to])
+}
+
+/// A mark, or the "so" behind which the order follows.
+fn ends_remark(lexeme: &Lexeme) -> bool {
+    is_mark(lexeme) || lexeme.token == Token::Word("so".to_owned())
 }
 
 /// Whether a clause tells something, and nothing of what is here or of what is to be done.
 fn is_idle(clause: &[Lexeme], names: &Names<'_>) -> bool {
     let says = |from: usize| longest_phrase(&clause[from..], STATES).is_some();
-    let tells = longest_phrase(clause, SUBJECTS).is_some() || (1..clause.len().min(4)).any(says);
+    let others = longest_phrase(clause, DETERMINERS).unwrap_or(0);
+    let of_somebody = longest_phrase(clause, SOMEBODY).or(longest_phrase(clause, CALLS)).is_some()
+        || others > 0 && longest_phrase(&clause[others..], OTHERS).is_some();
+    let tells = of_somebody
+        || longest_phrase(clause, SUBJECTS).is_some()
+        || (1..clause.len().min(4)).any(says)
+        || asides::says_what_is(clause);
+    let unwanted = longest_phrase(clause, UNWANTED).is_some();
+    let plans = own_plans(clause);
     let asks = longest_verb(clause).is_some()
-        || filler(clause).is_some()
-        || !requests::beginnings(clause).is_empty();
+        || filler(clause).is_some() && !of_somebody
+        || !unwanted && !plans && !requests::beginnings(clause).is_empty();
     let speaks_of_something = |from: usize| {
         let rest = &clause[from..];
-        longest_phrase(rest, DEMANDS).is_some()
+        !unwanted && !plans && longest_phrase(rest, DEMANDS).is_some()
+            || !of_somebody && longest_phrase(rest, MAY_DEMAND).is_some()
+            || of_somebody && from > 0 && word_of(&clause[from - 1]) == "and" && longest_verb(rest).is_some()
             || longest(rest, PAINTS).is_some()
-            || number(rest).is_some()
+            || number(rest).is_some_and(|(number, _)| (number - 1.0).abs() > f64::EPSILON)
+                && !(of_somebody && tells_time(rest))
             || category(rest).is_some()
             || names.exact(rest).is_some()
     };
-    clause.len() >= 3
-        && clause.iter().all(|lexeme| matches!(lexeme.token, Token::Word(_)))
+    clause.len() >= 2
+        && clause.iter().all(|lexeme| matches!(lexeme.token, Token::Word(_) | Token::Number(_)))
         && tells
         && !asks
         && !(0..clause.len()).any(speaks_of_something)
+}
+
+/// "I need to know if they are full": what who speaks is about to do, and nobody else.
+fn own_plans(clause: &[Lexeme]) -> bool {
+    let Some(words) = longest_phrase(clause, PLANS) else { return false };
+    let verb = &clause[words..];
+    !verb.is_empty()
+        && (longest_verb(verb).is_none()
+            || longest_phrase(
+                verb,
+                &["make", "know", "find out", "see if", "see whether", "see how", "see what"],
+            )
+            .is_some())
+}
+
+/// "..., is it on?": nobody answers that, and nothing is done by it.
+fn is_idle_question(clause: &[Lexeme], names: &Names<'_>) -> bool {
+    let asks = longest_phrase(clause, ASKED).unwrap_or(0);
+    asks > 0
+        && (asks..clause.len()).all(|at| {
+            let rest = &clause[at..];
+            longest_phrase(rest, DEMANDS).is_none()
+                && category(rest).is_none()
+                && names.exact(rest).is_none()
+                && longest_verb(rest).is_none()
+        })
+}
+
+/// "Five minutes", "a bit", "two years old": how long something takes, which nobody is told to do.
+fn tells_time(rest: &[Lexeme]) -> bool {
+    duration(rest).is_some_and(|(_, words)| words > 1)
+        || longest_phrase(
+            rest.get(1..).unwrap_or_default(),
+            &["years", "year", "oclock", "hours", "kids", "days", "weeks"],
+        )
+        .is_some()
+}
+
+fn word_of(lexeme: &Lexeme) -> &str {
+    match &lexeme.token {
+        Token::Word(word) => word,
+        _ => "",
+    }
 }

@@ -52,10 +52,12 @@ mod portions;
 mod reference;
 mod relate;
 mod remarks;
+mod repeats;
 mod reported;
 mod requests;
 mod resolve;
 mod routes;
+mod rows;
 pub(crate) mod scenes;
 mod sequence;
 mod shopping;
@@ -182,8 +184,8 @@ impl Planner for GrammarPlanner {
                 passive::put_verbs_first(&mut lexemes);
                 let read = |lexemes: &[lexer::Lexeme]| Parser::new(words, lexemes, &names, &view).sentence();
                 read(&lexemes).or_else(|refused| {
-                    let rest = idle::without_remark(&lexemes, &names).map(read);
-                    rest.filter(|rest| !matches!(rest, Err(PlanError::NotUnderstood { .. })))
+                    let mut rest = idle::without_remarks(&lexemes, &names).map(read);
+                    rest.find(|rest| !matches!(rest, Err(PlanError::NotUnderstood { .. })))
                         .unwrap_or(Err(refused))
                 })?
             }

@@ -106,6 +106,8 @@ impl Parser<'_> {
             reference.choose(Choice::Farthest);
             reference.place = reference.place.max(place);
             self.at += words;
+        } else if self.eat_any(&["next nearest", "next closest", "second next"]) {
+            reference.choose(Choice::Nth(2));
         } else if let Some(nth) = self.peek_ordinal() {
             self.at += 1;
             // "The first two doors" are the nearest.

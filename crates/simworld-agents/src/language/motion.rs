@@ -9,7 +9,7 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Course, Pace, Reference, Spot, Target};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::{class, fits, longest, longest_phrase, longest_relation};
+use super::lexicon::{fits, longest, longest_phrase, longest_relation};
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;
@@ -71,6 +71,14 @@ pub(super) const SENSES: &[(&[&str], Sense)] = &[
 impl Parser<'_> {
     pub(super) fn go(&mut self, pace: Pace, start: usize) -> Result<Vec<Clause>, PlanError> {
         self.eat_any(&["first", "then", "next", "finally"]);
+        // "Go another four metres".
+        if let Some(more) = longest_phrase(
+            self.rest(),
+            &["another", "a further", "on another", "on for another", "for another"],
+        ) && numbers::walked(&self.rest()[more..]).is_some()
+        {
+            self.at += more;
+        }
         let pace = self.pace(pace)?;
         self.eat_any(&["on foot", "by foot"]);
         if let Some(goods) = self.goods_gone_for() {
@@ -109,6 +117,13 @@ impl Parser<'_> {
             return Ok(clauses);
         }
         let pace = self.pace(pace)?;
+        if longest_phrase(self.rest(), &["for the", "for that"]).is_some()
+            && numbers::duration(&self.rest()[1..]).is_none()
+            && longest_phrase(&self.rest()[2..], &["next", "last", "rest", "whole", "time", "first"])
+                .is_none()
+        {
+            self.at += 1; // "go for the white one"
+        }
         if let Some(clauses) = self.leads_nowhere(pace, start) {
             return Ok(clauses);
         }
@@ -143,6 +158,15 @@ impl Parser<'_> {
         }
         if self.eat_any(TO_AND_FRO) {
             return self.back_and_forth(pace).map(Some);
+        }
+        if self.eat_any(&["via", "by way of"]) {
+            let go = |to| Clause::Go { to, side: None, pace, within: None };
+            let first = go(self.reference(0)?);
+            let on = self.eat_any(&["to", "over to", "on to"]);
+            return if on { Ok(Some(vec![first, go(self.reference(0)?)])) } else { Ok(Some(vec![first])) };
+        }
+        if let Some(to) = self.what_somebody_is_up_to(start) {
+            return Ok(Some(vec![Clause::Go { to, side: None, pace, within: None }]));
         }
         Ok(None)
     }
@@ -183,6 +207,10 @@ impl Parser<'_> {
         let side = self.side().or(if stood { Some(Relation::NextTo) } else { None });
         let side = side.map(|side| Spot::Beside(side, apart));
         let to = self.reference(0)?;
+        let is_help = |lexeme: &Lexeme| lexeme.token == Token::Word("help".to_owned());
+        if self.lexemes[start..self.at].iter().any(is_help) && self.peeks("with") {
+            self.at = self.mark_from(self.at); // "go and help Fay with her bags"
+        }
         let pace = self.pace(pace)?;
         self.after_place(Clause::Go { to, side, pace, within }, pace)
     }
@@ -227,22 +255,6 @@ impl Parser<'_> {
             return Ok(Some(vec![Clause::Repeat { times: 1, body: vec![go(one), go(other)] }]));
         }
         Ok(Some(if begins_here { vec![go(other)] } else { vec![go(one), go(other)] }))
-    }
-
-    /// "By car", "on foot".
-    pub(super) fn by_vehicle(&mut self) -> Option<Clause> {
-        const VEHICLES: &[(&[&str], &str)] = &[
-            (&["by car", "by taxi", "by cab"], "car"),
-            (&["by bus"], "bus"),
-            (&["by scooter"], "scooter"),
-            (&["by bike", "by bicycle"], "bicycle"),
-        ];
-        let (word, count) = longest(self.rest(), VEHICLES)?;
-        self.at += count;
-        Some(Clause::Board {
-            what: Reference { indefinite: true, ..Reference::nearest(class(word)) },
-            to: None,
-        })
     }
 
     /// "Come", "come over here": to who says it, where that is known.
@@ -342,8 +354,9 @@ impl Parser<'_> {
             measured = numbers::length(self.rest()).is_some();
             self.at += words;
             distance = length;
-        } else if let Some((number, words)) =
-            numbers::number(self.rest()).filter(|_| numbers::times(self.rest()).is_none())
+        } else if let Some((number, words)) = numbers::number(self.rest())
+            .filter(|_| numbers::times(self.rest()).is_none())
+            .filter(|_| numbers::duration(self.rest()).is_none_or(|(_, words)| words < 2))
         {
             self.at += words;
             distance = number;
@@ -361,6 +374,17 @@ impl Parser<'_> {
             "a tad",
         ]);
         direction = direction.or_else(|| self.direction());
+        // "Step forward, two metres".
+        let comma = matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, ..]);
+        if comma
+            && !measured
+            && direction.is_some()
+            && number_at == self.at
+            && let Some((length, words)) = numbers::length(&self.rest()[1..])
+        {
+            self.at += 1 + words;
+            (distance, measured) = (length, true);
+        }
         if measured && distance > LONGEST_STEP && distance <= 10_000.0 {
             let course = Course::Relative(direction.unwrap_or(StepDirection::Forward));
             return Ok(Clause::Walk { course, distance, pace: Pace::Usual });

@@ -209,11 +209,30 @@ impl<'a> Names<'a> {
         let singular = said.strip_suffix('s').filter(|word| word.len() > 2);
         let of = |word: &str| {
             let word = Token::Word(word.to_owned());
-            let names = self.bearers(&word).filter(|name| name.tokens.len() > 1);
+            // "All the tents", where each is called "tent".
+            let plural = word != Token::Word(said.clone());
+            let names = self.bearers(&word).filter(|name| name.tokens.len() > 1 || plural);
             names.filter(|name| name.tokens.last() == Some(&word)).map(|name| name.id).collect::<Vec<_>>()
         };
         let sort = std::iter::once(said.as_str()).chain(singular).map(of);
         sort.into_iter().find(|ids| ids.len() > 1)
+    }
+
+    /// Those that sell something and have the word in their names, in the singular or the plural, ascending.
+    pub(super) fn shops_called(&self, said: &Token) -> Vec<EntityId> {
+        let Token::Word(said) = said else { return Vec::new() };
+        let sells = |id: &EntityId| {
+            self.scene
+                .entity(*id)
+                .is_some_and(|entity| entity.info.attributes.contains_key(simworld_core::scene::SELLS))
+        };
+        let of = |word: String| {
+            let word = Token::Word(word);
+            let named = self.bearers(&word).map(|name| name.id).filter(sells);
+            named.collect::<Vec<_>>()
+        };
+        let found = [said.clone(), format!("{said}s")].into_iter().map(of);
+        found.into_iter().find(|ids| !ids.is_empty()).unwrap_or_default()
     }
 
     /// What a phrase that is no exact name may have meant, with how many of its words are said by that: all, or the

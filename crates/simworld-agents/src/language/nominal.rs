@@ -65,6 +65,36 @@ const WELCOME: &Phrases = &Phrases::of(&[
     "would be handy",
     "would help",
 ]);
+/// When nobody is told to get it now.
+const NOT_NOW: &Phrases = &Phrases::of(&[
+    "later",
+    "later on",
+    "tomorrow",
+    "tonight",
+    "next week",
+    "one day",
+    "some day",
+    "soon",
+    "afterwards",
+    "this evening",
+    "this afternoon",
+    "for later",
+]);
+/// Before goods that somebody would have.
+#[rustfmt::skip]
+const WISHES: &Phrases = &Phrases::of(&[
+    "i want", "have", "lets have", "let us have", "i would like to have", "id like to have", "i want to have", "id love to have", "i would love",
+    "i would love to have", "i would like to get", "id like to get", "i want to get", "we would like", "wed like", "we want", "we could do with",
+    "i could use", "we could use", "id like", "i would like", "id love", "i need", "i could do with", "i fancy", "how about", "what about", "we need",
+    "any chance of", "is there any chance of", "i could murder", "i could kill for", "i am dying for", "im dying for", "i am gasping for",
+    "can i have", "could i have", "may i have", "can i get", "could i get", "can we have", "could we have", "i would rather have", "id rather have",
+    "id need", "i would need", "ill have", "i will have", "well have", "we will have", "ill take", "i will take", "id kill for", "i would kill for",
+    "id murder", "i feel like", "i could go for", "i could eat", "i could drink", "im in the mood for", "i am in the mood for",
+    "were in the mood for", "we are in the mood for", "what i want is", "what i need is", "what id like is", "what we need is", "make it",
+    "make that", "might i trouble you for", "may i trouble you for", "could i trouble you for", "can i trouble you for", "trouble you for",
+    "could i bother you for", "can i bother you for", "its time for", "it is time for", "time for", "i was hoping for", "im looking for",
+    "i am looking for", "were looking for",
+]);
 /// Reads one kind of such orders; nothing where it is none.
 type Rule<'a> = fn(&mut Parser<'a>) -> Result<Option<Vec<Clause>>, PlanError>;
 
@@ -205,7 +235,15 @@ impl Parser<'_> {
         let is_turn = numbers::angle(self.rest()).is_some_and(|(_, words)| words > 1)
             && numbers::walked(self.rest()).is_none();
         if is_turn && !matches!(self.rest().first(), Some(Lexeme { token: Token::Number(_), .. })) {
-            return self.turn().map(|turn| Some(vec![turn]));
+            let start = self.at;
+            if let Ok(turn) = self.turn() {
+                return Ok(Some(vec![turn]));
+            }
+            self.at = start; // "a dozen balloons" is no angle
+            return Ok(None);
+        }
+        if self.peeks("for") && numbers::walked(&self.rest()[1..]).is_some() {
+            self.at += 1; // "turn right and go on for five metres"
         }
         if numbers::walked(self.rest()).is_none() {
             return Ok(None);
@@ -215,7 +253,10 @@ impl Parser<'_> {
         }
         let start = self.at;
         let step = self.step()?;
-        let said = self.lexemes[start..self.at].iter().any(|lexeme| {
+        let on = start > 0
+            && self.word_before_at(start) == "for"
+            && matches!(self.verb, Some(Verb::Go | Verb::Turn | Verb::Step | Verb::Run));
+        let said = on || self.lexemes[start..self.at].iter().any(|lexeme| {
             matches!(&lexeme.token, Token::Word(word) if ["ahead", "forward", "forwards", "left", "right", "back", "backwards", "straight", "on"].contains(&word.as_str()))
         });
         Ok(said.then(|| vec![step]))
@@ -251,53 +292,17 @@ impl Parser<'_> {
 
     /// "A coffee, please", "soup from the Blue Spoon first".
     fn wanted_goods(&mut self) -> Result<Option<Vec<Clause>>, PlanError> {
-        let wished = self.eat_any(&[
-            "i want",
-            "have",
-            "lets have",
-            "let us have",
-            "i would like to have",
-            "id like to have",
-            "i want to have",
-            "id love to have",
-            "i would love",
-            "i would love to have",
-            "i would like to get",
-            "id like to get",
-            "i want to get",
-            "we would like",
-            "wed like",
-            "we want",
-            "we could do with",
-            "i could use",
-            "we could use",
-            "id like",
-            "i would like",
-            "id love",
-            "i need",
-            "i could do with",
-            "i fancy",
-            "how about",
-            "what about",
-            "we need",
-            "any chance of",
-            "is there any chance of",
-            "i could murder",
-            "i could kill for",
-            "i am dying for",
-            "im dying for",
-            "i am gasping for",
-            "can i have",
-            "could i have",
-            "may i have",
-            "can i get",
-            "could i get",
-            "can we have",
-            "could we have",
-        ]);
+        let wished = self.eat_any(WISHES);
         let Some(goods) = self.goods() else { return Ok(None) };
         if self.mark() == Some('?') && self.rest().len() > 1 {
             return Ok(None); // "what about a coffee? go and buy one"
+        }
+        // "I need some soap later, so walk to the pharmacy".
+        if wished && self.eat_any(NOT_NOW) {
+            if !self.ends_at_mark() || !self.skip_joints() || self.at >= self.lexemes.len() {
+                return Ok(None);
+            }
+            return Ok(self.statement_here());
         }
         let welcome = self.eat_any(WELCOME);
         if (wished || welcome) && self.orders_what_is_wished() {
@@ -347,6 +352,14 @@ impl Parser<'_> {
             "away to",
         ]);
         let to = self.reference(0)?;
+        // "Nearest bench, please": which one is said.
+        let chosen = to.choice != super::clause::Choice::Open
+            && matches!(to.target, Target::Any(_) | Target::Named(_))
+            && (self.at..self.lexemes.len()).all(|at| {
+                longest_phrase(&self.lexemes[at..], &["please", "thanks", "pls", "thank", "you", "now"])
+                    .is_some()
+            });
+        let told = told || chosen;
         let is_building = match &to.target {
             Target::Any(class) => class.is_place(),
             Target::Named(ids) => ids.iter().any(|id| {
@@ -360,7 +373,7 @@ impl Parser<'_> {
         if !is_building && !told || !self.ends_clause() {
             return Ok(None);
         }
-        self.verb = Some(Verb::Go);
+        (self.verb, self.stated) = (Some(Verb::Go), true);
         Ok(Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]))
     }
 

@@ -395,6 +395,7 @@ impl Parser<'_> {
         let what = if self.ends_clause() { None } else { Some(self.reference(0)?) };
         let what = what.map(Reference::but_behind);
         self.eat_any(&["up", "for me", "again", "behind you"]);
+        self.skip_onlookers(&["for"]);
         Ok(Clause::Door { what, open })
     }
 

@@ -22,6 +22,7 @@ use super::names::Names;
 use super::numbers;
 use super::phrases::{PhraseList, Phrases};
 use super::politeness::{NEGATIONS, filler, joint};
+use super::remarks::Beside;
 use super::requests;
 use super::resolve::View;
 use super::shopping::Goods;
@@ -37,7 +38,7 @@ const DEEPEST: u32 = 4;
 /// What begins as politeness does, and says something.
 #[rustfmt::skip]
 const MORE_THAN_FILLERS: &Phrases = &Phrases::of(&[
-    "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
+    "so we can", "so we could", "so i can", "so i could", "so they can", "so they could", "so he can", "so she can", "so long as", "so that you can", "so you can", "so as to", "so that", "there is", "there are", "there sits",
     "there stands", "there lies", "here is", "over there is", "over there are", "there and back", "when you can see", "as soon as you can see", "whenever you can see", "when you can spot",
     "as soon as you can spot", "when you can make out", "as soon as you can make out", "up there is",
     "instead of", "go on to", "go on over to", "go on towards", "come on over", "here are",
@@ -69,6 +70,8 @@ pub(super) struct Parser<'a> {
     pub(super) wished_by: Option<Reference>,
     /// What was spoken of that is no thing of the scene.
     pub(super) beside: Beside,
+    /// Where one is to go was stated and not ordered: "you are needed at the fountain".
+    pub(super) stated: bool,
     /// To which side one turned last: 1 is left.
     pub(super) turned: Option<f64>,
     /// What was asked last: "until it is".
@@ -86,17 +89,6 @@ pub(super) struct Parser<'a> {
     /// Whether a condition is read: then "is" says what holds and not which thing is meant.
     pub(super) in_test: bool,
     depth: u32,
-}
-
-/// What a sentence spoke of that is no thing of the scene.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Beside {
-    /// Photos were asked for as things: "I need two photos of the well, please take them".
-    pub(super) shots: bool,
-    /// Somebody who is not here: "my sister loves apples, buy her one".
-    pub(super) absent: bool,
-    /// A driver's passengers.
-    pub(super) rides: bool,
 }
 
 /// How the orders of a list hang together.
@@ -130,6 +122,7 @@ impl<'a> Parser<'a> {
             wished: false,
             wished_by: None,
             beside: Beside::default(),
+            stated: false,
             said: None,
             turned: None,
             tested: None,
@@ -150,8 +143,12 @@ impl<'a> Parser<'a> {
         if self.peeks("no") && matches!(self.rest().get(1), Some(Lexeme { token: Token::Comma, .. })) {
             self.at += 2;
         }
+        let start = self.at;
         if self.skip_remark() {
             self.skip_joints();
+            if self.at >= self.lexemes.len() {
+                self.at = start; // "I'm in the mood for soup" is all that is said
+            }
         }
         self.skip_first_correction();
         // "To the museum, then to the school" leaves the verb out.
@@ -166,7 +163,9 @@ impl<'a> Parser<'a> {
         while self.at < self.lexemes.len() {
             let before = clauses.len();
             clauses.append(&mut self.named);
+            let stated = std::mem::take(&mut self.stated);
             clauses.extend(self.statement()?);
+            super::again::goes_there(&mut clauses, before, stated);
             if let [.., Clause::Sit { on: None }, Clause::Sit { on: Some(_) }] = clauses[..] {
                 clauses.remove(clauses.len() - 2); // "sit down and rest on the red chair"
             }
@@ -271,6 +270,11 @@ impl<'a> Parser<'a> {
     pub(super) fn statement(&mut self) -> Result<Vec<Clause>, PlanError> {
         let begin = self.at;
         self.skip_fillers();
+        let polite = requests::polite_condition(self.rest());
+        if polite > 0 {
+            self.at += polite;
+            self.skip_fillers();
+        }
         if let Some(mut clauses) = self.marked_topic() {
             clauses.extend(self.statement()?);
             return Ok(clauses);
@@ -325,6 +329,7 @@ impl<'a> Parser<'a> {
             Self::way_asked,
             Self::told_by_another,
             Self::itinerary,
+            Self::goes_somewhere,
             Self::wants_one,
             Self::somebody_gets,
             Self::on_topic,

@@ -5,7 +5,7 @@ use simworld_core::seam::PlanError;
 
 use super::clause::{Clause, Pace, Reference, Target, Vehicle};
 use super::lexer::{Lexeme, Token};
-use super::lexicon::longest_phrase;
+use super::lexicon::{class, longest, longest_phrase};
 use super::orders::BRINGS;
 use super::parser::Parser;
 use super::phrases::Phrases;
@@ -178,5 +178,21 @@ impl Parser<'_> {
         self.at += usize::from(from != Vehicle::Any);
         self.eat_any(&["it", "again"]);
         Clause::Alight { from }
+    }
+
+    /// "By car", "on foot".
+    pub(super) fn by_vehicle(&mut self) -> Option<Clause> {
+        const VEHICLES: &[(&[&str], &str)] = &[
+            (&["by car", "by taxi", "by cab"], "car"),
+            (&["by bus"], "bus"),
+            (&["by scooter"], "scooter"),
+            (&["by bike", "by bicycle"], "bicycle"),
+        ];
+        let (word, count) = longest(self.rest(), VEHICLES)?;
+        self.at += count;
+        Some(Clause::Board {
+            what: Reference { indefinite: true, ..Reference::nearest(class(word)) },
+            to: None,
+        })
     }
 }

@@ -127,8 +127,11 @@ fn begins_noun(said: &[Lexeme]) -> bool {
         Some(Token::Id(_)) => return true,
         _ => return false,
     };
-    !["you", "to", "me", "us", "i", "we", "that", "there", "a", "if", "when", "while", "until", "it's"]
-        .contains(&first)
+    ![
+        "in", "on", "into", "onto", "off", "out", "you", "to", "me", "us", "i", "we", "that", "there", "a",
+        "if", "when", "while", "until", "it's",
+    ]
+    .contains(&first)
         && longest_verb(said).is_none_or(|_| ["the", "this", "that", "my", "it"].contains(&first))
 }
 

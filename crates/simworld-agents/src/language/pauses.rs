@@ -6,7 +6,7 @@ use super::lexicon::{longest, longest_phrase};
 use super::numbers;
 use super::parser::Parser;
 use super::phrases::Phrases;
-use super::tails::body_of;
+use super::repeats::body_of;
 use simworld_core::seam::PlanError;
 
 impl Parser<'_> {

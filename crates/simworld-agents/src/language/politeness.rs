@@ -25,7 +25,7 @@ pub(super) fn joint(lexemes: &[Lexeme]) -> Option<usize> {
 #[rustfmt::skip]
 pub(super) const JOINTS: &[&str] = &[
     "and", "then", "next", "after that", "afterwards", "finally", "also", "first", "lastly", "after this",
-    "later", "second", "subsequently", "firstly", "secondly", "thirdly", "to begin with", "to start with",
+    "later", "second", "subsequently", "firstly", "secondly", "thirdly", "to begin with", "to start with", "at first",
     "in the end", "when you are done", "when youre done", "once youre done", "once you are there",
     "when you get there", "plus", "once you are done", "when youve done that", "once there", "followed by",
     "and than", "at last", "immediately", "first things first", "first of all", "firstly of all",
@@ -162,13 +162,17 @@ pub(super) const FILLERS: &[&str] = &[
     "as you can", "as possible", "as you can get", "by noon", "by tonight", "by lunchtime", "by midday", "before lunch", "before dinner", "in time", "if it is not a bother", "if it is no bother at all", "if its not a bother", "sorry to bug you", "sorry to trouble you", "sorry to interrupt", "sorry to disturb you", "sorry for bothering you", "be quiet and", "be silent and", "keep quiet and", "stay calm and", "relax and", "calm down and", "be patient and", "be good and", "be careful and", "keep calm and", "dont worry and", "stay quiet and", "be brave and", "on foot", "by foot", "while youre at it", "while you are at it", "while youre there", "while you are there", "while youre about it",
     "while you are about it", "while youre up", "while you are up", "while im at it", "while were at it", "while we are at it", "today", "tonight", "this morning",
     "this afternoon", "this evening", "later today", "when you get round to it", "when you get around to it", "when its your turn", "when it is your turn", "say nothing", "saying nothing", "say not a word", "dont say a word", "without a word", "not a word",
+    "and hurry", "and hurry up", "and be quick", "and be quick about it", "by any chance", "would you like to", "would you care to", "would you love to", "quick question",
+    "when it suits you", "whenever it suits you", "if it suits you", "can i ask a favour", "could i ask a favour", "may i ask a favour", "can i ask you a favour",
+    "could i ask you a favour", "can you do something for me", "could you do something for me", "can you help me", "could you help me", "be a sweetheart",
+    "be an angel", "be a star", "be a love", "be a darling", "be a hero", "before anything else",
     "if it is not out of your way", "if it is not far out of your way", "if that is not out of your way",
 ];
 
 /// How something is done, at the end of an order, that says no more than the order.
 #[rustfmt::skip]
 pub(super) const MANNERS: &Phrases = &Phrases::of(&[
-    "one after the other", "one after another", "one by one", "one at a time", "each in turn", "in turn",
+    "or so", "or thereabouts", "one after the other", "one after another", "one by one", "one at a time", "each in turn", "in turn",
     "the quickest way", "the shortest way", "the fastest way", "in total", "altogether", "all in all",
     "one at a time please", "each of them", "in that order", "in this order", "in any order",
     "in whichever order", "in order", "one after the next", "back to back", "by turns", "separately",
@@ -180,7 +184,8 @@ pub(super) const MANNERS: &Phrases = &Phrases::of(&[
     "dont lose it", "dont lose him", "dont lose her", "and dont let it out of your sight",
     "and dont let him out of your sight", "and dont let her out of your sight", "dont let it out of your sight",
     "nearer one first", "nearest one first", "nearest first", "the nearest first", "the nearer one first",
-    "the nearer first", "closest first", "the closest first", "closest one first", "starting with the nearest",
+    "the nearer first", "starting with the closest one", "starting with the nearest one", "beginning with the closest", "beginning with the nearest", "beginning with the closest one",
+    "closest first", "the closest first", "closest one first", "starting with the nearest",
     "starting with the closest", "nearer first", "whichever you like", "whichever you prefer",
     "whichever you want", "any will do", "either will do", "it doesnt matter which", "no matter which",
     "with you", "with it", "with them", "with both hands", "with both arms", "in both arms", "in your arms",

@@ -41,11 +41,15 @@ impl Parser<'_> {
             return Ok(there);
         }
         if self.peeks("both")
-            && (self.is_capital(self.at + 1) || self.names.exact(&self.rest()[1..]).is_some())
+            && (self.is_capital(self.at + 1)
+                || self.names.exact(&self.rest()[1..]).is_some_and(|(_, words)| {
+                    longest_phrase(self.rest().get(1 + words..).unwrap_or_default(), &["and"]).is_some()
+                }))
             && category(&self.rest()[1..]).is_none()
         {
             self.at += 1; // "both Anna and Ben" are each named
         }
+        self.skip_titles();
         if let Some(one) = self.chosen_of_named() {
             return Ok(one);
         }
@@ -97,6 +101,14 @@ impl Parser<'_> {
             let said = self.at;
             self.described(reference, depth)?;
             if self.at > said {
+                return Ok(());
+            }
+        } else if self.eat_any(&["not the", "and not the", "not that", "not this"]) {
+            // "The second scooter, not the first one".
+            let mut other = reference.clone();
+            self.modifiers(&mut other);
+            self.eat_any(&["one", "ones"]);
+            if self.ends_at_mark() {
                 return Ok(());
             }
         } else if self.eat_any(&["any", "any old", "whichever"]) {

@@ -18,6 +18,8 @@ const RELATED: f64 = 30.0;
 const LOOSELY_NEXT: f64 = 8.0;
 /// "Next to" among vehicles, m: the length of one more lies between.
 const IN_A_ROW: f64 = 12.0;
+/// The same of what is said to stand there and nothing is nearer, m.
+const BY: f64 = 10.0;
 /// A part of a thing, such as its door, is within this gap of it, m.
 pub(super) const PART: f64 = 15.0;
 /// How many things that fit a description are looked at for something beside them, nearest first.
@@ -72,6 +74,15 @@ impl View<'_> {
                 self.beside_any(reference, whose, purpose, &|entity, anchor| gap(anchor, entity) <= PART)
             }
             Stands::To(relation, anchor) => {
+                // "The chair near the bin" is the one that stands next to a bin, if one does, and not any within a minute of the nearest.
+                if *relation == Relation::Near {
+                    let close = self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                        gap(anchor, entity) <= LOOSELY_NEXT
+                    })?;
+                    if !close.is_empty() {
+                        return Ok(close);
+                    }
+                }
                 let strict = self.beside_any(reference, anchor, purpose, &|entity, anchor| {
                     relation.holds(entity, anchor)
                         || *relation == Relation::InFrontOf && is_before_door(entity, anchor)
@@ -83,10 +94,19 @@ impl View<'_> {
                     });
                 }
                 if strict.is_empty() && *relation == Relation::NextTo {
-                    return self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                    let loosely = self.beside_any(reference, anchor, purpose, &|entity, anchor| {
                         let in_a_row = entity.kind.is_vehicle() && anchor.kind.is_vehicle();
                         gap(anchor, entity) <= if in_a_row { IN_A_ROW } else { LOOSELY_NEXT }
-                    });
+                    })?;
+                    // "The lamp by the red bench" presumes that there is one.
+                    let definite = !reference.indefinite && loosely.is_empty();
+                    return if definite {
+                        self.beside_any(reference, anchor, purpose, &|entity, anchor| {
+                            gap(anchor, entity) <= BY
+                        })
+                    } else {
+                        Ok(loosely)
+                    };
                 }
                 Ok(strict)
             }

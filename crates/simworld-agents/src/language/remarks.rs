@@ -20,6 +20,17 @@ const BECAUSE: &[&str] = &["because", "since i", "since we", "as i", "as we", "c
 /// What takes up who or what was named before.
 const PRONOUNS: &[&str] = &["it", "him", "her", "them", "there"];
 
+/// What a sentence spoke of that is no thing of the scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Beside {
+    /// Photos were asked for as things: "I need two photos of the well, please take them".
+    pub(super) shots: bool,
+    /// Somebody who is not here: "my sister loves apples, buy her one".
+    pub(super) absent: bool,
+    /// A driver's passengers.
+    pub(super) rides: bool,
+}
+
 impl Parser<'_> {
     /// "..., I'm in a hurry": what says how the speaker is, or why, and asks for nothing; whether there was any.
     pub(super) fn skip_remark(&mut self) -> bool {

@@ -35,10 +35,86 @@ const WANTS_TO_TALK: &Phrases = &Phrases::of(&[
     "wants somebody to talk to", "would like to say hello to you",
 ]);
 
+/// Whose somebody is.
+const OWN: &Phrases =
+    &Phrases::of(&["my", "our", "your", "his", "her", "their", "the", "my friend", "our friend"]);
+/// Those who are told or told of, before their names.
+#[rustfmt::skip]
+pub(super) const TITLES: &Phrases = &Phrases::of(&[
+    "professor", "doctor", "dr", "mr", "mrs", "ms", "miss", "nurse", "officer", "captain", "uncle", "aunt", "auntie", "grandma", "grandpa", "old", "little",
+    "poor", "young", "colleague", "cousin", "sister", "brother",
+]);
+
 impl Parser<'_> {
+    /// Passes somebody who is no part of the scene ("the boss", "grandma") before one of these phrases; whether there was one.
+    pub(super) fn outsider_before<L: super::phrases::PhraseList + ?Sized>(&mut self, phrases: &L) -> bool {
+        const MOST: usize = 4;
+        let plain = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if !["if", "when", "it", "there", "that", "what", "i", "you", "we"].contains(&word.as_str()));
+        if longest_verb(self.rest()).is_some() {
+            return false;
+        }
+        let ends = (1..=MOST.min(self.rest().len().saturating_sub(1)))
+            .take_while(|words| plain(&self.rest()[words - 1]))
+            .find(|words| longest_phrase(&self.rest()[*words..], phrases).is_some());
+        let Some(words) = ends else { return false };
+        let said = &self.rest()[..words];
+        let named = (0..words)
+            .any(|at| self.names.exact(&said[at..]).is_some() || self.names.goods(&said[at..]).is_some());
+        let own = longest_phrase(said, super::lexicon::DETERMINERS).is_some();
+        let somebody = (0..words).any(|at| longest_phrase(&said[at..], super::shopping::OTHERS).is_some());
+        let thing = (0..words).any(|at| super::lexicon::category(&said[at..]).is_some());
+        if named || !somebody && (thing || !own) {
+            return false;
+        }
+        self.at += words;
+        true
+    }
+
+    /// Passes what stands before names and says no more than they do: "professor Hana", "both of them, Greta and Jonas".
+    pub(super) fn skip_titles(&mut self) {
+        // Nothing of that stands before a small letter.
+        let near = self.rest().len().min(6);
+        if !(0..near).any(|at| self.is_capital(self.at + at)) {
+            return;
+        }
+        // "Both of them, Greta and Jonas" are each named.
+        let all = longest_phrase(
+            self.rest(),
+            &[
+                "both of them",
+                "all of them",
+                "all three of them",
+                "the two of them",
+                "the three of them",
+                "both",
+                "all three",
+                "all four of them",
+            ],
+        );
+        if let Some(words) = all
+            && matches!(self.rest().get(words), Some(Lexeme { token: Token::Comma | Token::Break, .. }))
+            && self.is_capital(self.at + words + 1)
+        {
+            self.at += words + 1;
+        }
+        // "Professor Hana", "my uncle Ben".
+        let own = longest_phrase(self.rest(), OWN).unwrap_or(0);
+        let title = own + longest_phrase(&self.rest()[own..], TITLES).unwrap_or(0);
+        if title > own && self.is_capital(self.at + title) && self.names.exact(self.rest()).is_none() {
+            let named = self.names.exact(&self.rest()[title..]);
+            let animate = |id: &simworld_core::id::EntityId| {
+                self.view.scene.entity(*id).is_some_and(|entity| super::lexicon::is_animate(entity.kind))
+            };
+            self.at += named.filter(|(ids, _)| ids.iter().any(animate)).map_or(0, |_| title);
+        }
+    }
+
     /// What somebody else wants of who is told.
     pub(super) fn told_by_another(&mut self) -> Option<Vec<Clause>> {
         if let Some(clauses) = self.lets_know().or_else(|| self.kind_words()) {
+            return Some(clauses);
+        }
+        if let Some(clauses) = self.paid_a_visit() {
             return Some(clauses);
         }
         let start = self.at;
@@ -55,14 +131,8 @@ impl Parser<'_> {
         let who = self.somebody_here();
         if who.is_none() {
             self.at = start;
-            if !self.eat_any(&["my", "our", "the", "they", "he", "she"]) {
-                return None;
-            }
             // "My boss says ...": who is no part of the scene.
-            let named = self.lexemes[start].token != Token::Word("they".to_owned())
-                && !["he", "she"].contains(&self.word_before());
-            self.at += usize::from(named);
-            if self.at >= self.lexemes.len() {
+            if !self.eat_any(&["they", "he", "she"]) && !self.outsider_before(WANTS_YOU_TO) {
                 return None;
             }
         }
@@ -72,6 +142,17 @@ impl Parser<'_> {
             }
             if self.eat_any(WANTS_YOU) && self.ends_clause() {
                 let to = who.clone();
+                let end = self.at;
+                // "Oscar asked for you, go and see him" says one thing twice.
+                if self.skip_joints()
+                    && matches!(longest_verb(self.rest()), Some((super::verbs::Verb::Go | super::verbs::Verb::Run, _)))
+                    && self.rest().iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["him", "her", "them"].contains(&word.as_str())))
+                {
+                    let mut clauses = vec![Clause::Mention { what: to }];
+                    clauses.extend(self.statement_here()?);
+                    return Some(clauses);
+                }
+                self.at = end;
                 return Some(vec![Clause::Go { to, side: None, pace: Pace::Usual, within: None }]);
             }
         }
@@ -81,6 +162,53 @@ impl Parser<'_> {
         let mut clauses: Vec<Clause> = who.into_iter().map(|what| Clause::Mention { what }).collect();
         clauses.extend(self.statement_here()?);
         Some(clauses)
+    }
+
+    /// "Pay the museum a visit", "send Pixel a wave", "put yourself next to the statue", "show Gus where the fountain is".
+    fn paid_a_visit(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        let go = |to, side| Clause::Go { to, side, pace: Pace::Usual, within: None };
+        if self.eat_any(&["pay", "make"])
+            && let Ok(to) = self.reference(0)
+            && self.eat_any(&["a visit", "a short visit", "a quick visit", "a call"])
+            && self.ends_clause()
+        {
+            return Some(vec![go(to, None)]);
+        }
+        self.at = start;
+        if self.eat_any(&["send", "throw", "blow"])
+            && let Ok(to) = self.reference(0)
+            && let Some(clauses) = self.gesture(&to)
+        {
+            return Some(clauses);
+        }
+        self.at = start;
+        if self.eat_any(&[
+            "put yourself",
+            "place yourself",
+            "position yourself",
+            "station yourself",
+            "plant yourself",
+            "park yourself",
+        ]) {
+            let at = self.eat_any(&["at", "by", "near", "close to", "next to", "beside"]);
+            let side = if at { None } else { Some(super::clause::Spot::Beside(self.side()?, None)) };
+            let to = self.reference(0).ok()?;
+            return self.ends_clause().then(|| vec![go(to, side)]);
+        }
+        self.at = start;
+        // Whom it is shown to makes no difference.
+        if self.eat_any(&["show", "tell"]) {
+            let place = (self.at..self.lexemes.len().min(self.at + 5))
+                .find(|at| longest_phrase(&self.lexemes[*at..], &["where"]).is_some())?;
+            self.at = place + 1;
+            self.eat_any(&["they can find", "he can find", "she can find", "to find", "we can find"]);
+            let at = self.reference(0).ok()?;
+            self.eat_any(&["is", "are", "stands", "can be found"]);
+            return self.ends_clause().then(|| vec![Clause::Point { at }]);
+        }
+        self.at = start;
+        None
     }
 
     /// "Thank Agnes for me", "wish Emil a good day".

@@ -50,7 +50,7 @@ pub(super) fn small_words() -> impl Iterator<Item = &'static str> {
 /// Where the order may begin behind a preamble, in lexemes from the start, the shortest preamble first.
 pub(super) fn beginnings(lexemes: &[Lexeme]) -> Vec<usize> {
     let mut found = Vec::new();
-    if asks(lexemes) {
+    if asks(lexemes) || unwanted(lexemes) {
         return found;
     }
     for at in 0..lexemes.len().min(LONGEST) {
@@ -84,6 +84,18 @@ fn asks(lexemes: &[Lexeme]) -> bool {
         "were you able",
     ];
     longest_phrase(lexemes, QUESTIONS).is_some() && longest_phrase(lexemes, &polite).is_none()
+}
+
+/// "I don't want you to go there": what follows is not to be done.
+fn unwanted(lexemes: &[Lexeme]) -> bool {
+    #[rustfmt::skip]
+    const UNWANTED: &Phrases = &Phrases::of(&[
+        "dont want", "do not want", "would not want", "wouldnt want", "dont need", "do not need", "would not like", "wouldnt like", "dont like", "do not like",
+        "dont expect", "do not expect", "dont wish", "do not wish", "would hate", "hate", "did not want", "didnt want", "does not want", "doesnt want", "never want",
+        "did not ask", "didnt ask", "never asked",
+    ]);
+    let who = longest_phrase(lexemes, &["i", "we", "he", "she", "they", "people", "id", "wed"]);
+    who.is_some_and(|words| longest_phrase(&lexemes[words..], UNWANTED).is_some())
 }
 
 fn word_at(lexemes: &[Lexeme], at: usize) -> Option<&str> {
@@ -156,6 +168,13 @@ pub(super) fn coda(lexemes: &[Lexeme]) -> usize {
     // "If you" alone wants something to follow.
     let is_whole = !["if", "to", "the", "a"].contains(&last);
     if polite && is_whole { end } else { 0 }
+}
+
+/// How many lexemes of a polite condition begin the sentence here: "if you get a moment, ...".
+pub(super) fn polite_condition(lexemes: &[Lexeme]) -> usize {
+    let Some(mark) = lexemes.iter().position(|lexeme| lexeme.token == Token::Comma) else { return 0 };
+    let begins = longest_phrase(lexemes, &["if", "when", "whenever"]).is_some();
+    if begins && mark + 1 < lexemes.len() && coda(&lexemes[..mark]) == mark { mark + 1 } else { 0 }
 }
 
 /// What makes politeness of a condition: "if you can", "when you have time".

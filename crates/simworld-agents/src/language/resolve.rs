@@ -15,7 +15,7 @@ use super::{AmbiguityPolicy, RANGE};
 /// How far one looks first, m; then farther and farther, until enough is found.
 const FIRST_LOOK: f64 = 30.0;
 /// Things so much farther away than the nearest are not meant by "the bench" when it could be either, m.
-const EITHER: f64 = 50.0;
+const EITHER: f64 = 75.0;
 /// From here on a class is looked for in the scene's index, m.
 pub(super) const FAR_LOOK: f64 = 400.0;
 /// "All the chairs" are those within, m.
@@ -181,6 +181,7 @@ impl<'a> View<'a> {
             let spared = if one { &spared[..spared.len().min(1)] } else { &spared[..] };
             found.retain(|(_, id)| spared.iter().all(|(_, other)| other != id));
         }
+        self.leave_others_out(reference, &mut found);
         match reference.choice {
             Choice::Farthest => found.reverse(),
             Choice::Nth(nth) => {

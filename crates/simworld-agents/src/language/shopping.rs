@@ -127,12 +127,58 @@ impl Parser<'_> {
             } else if let Some((more, words)) = numbers::times(self.rest()) {
                 self.at += words;
                 times *= more;
+            } else if let Some(heads) = self.for_so_many().filter(|_| times == 1) {
+                times = heads;
+            } else if times == 1 && self.one_each() {
+                times = 2;
             } else {
                 self.wanted = Some(Goods { name: goods.name.clone(), times: 1 });
                 let whom = whom.or(whom_wished);
                 return Ok(vec![Clause::Buy { goods: goods.name, times, at, whom }]);
             }
         }
+    }
+
+    /// Whether those goods were bought before in the sentence.
+    pub(super) fn is_bought(&self, goods: &Goods) -> bool {
+        !self.wished
+            && goods.times == 1
+            && self.wanted.as_ref().is_some_and(|wanted| wanted.name == goods.name)
+    }
+
+    /// "Coffee for four", "water for the three of us": as many as there are of us.
+    fn for_so_many(&mut self) -> Option<u32> {
+        let start = self.at;
+        if self.eat_any(&["for"]) {
+            self.eat_any(&["the", "all", "all of the", "us"]);
+            let found = numbers::count(self.rest()).filter(|(count, _)| (2..=50).contains(count));
+            if let Some((count, words)) = found {
+                self.at += words;
+                self.eat_any(&["of us", "people", "persons", "of you", "of them"]);
+                if self.ends_clause() {
+                    return Some(count);
+                }
+            }
+        }
+        self.at = start;
+        None
+    }
+
+    /// "A coffee for me and one for my husband": two, of which nobody here gets one.
+    fn one_each(&mut self) -> bool {
+        let start = self.at;
+        self.eat_any(&["for me", "for myself", "for you", "for yourself", "for us"]);
+        let another = self.eat_any(&["and one", "and another", "and another one", "and one more"]);
+        if another && self.eat_any(&["for"]) {
+            self.eat_any(DETERMINERS);
+            if (self.eat_any(OTHERS) || self.eat_any(&["me", "you", "yourself", "myself"]))
+                && self.ends_clause()
+            {
+                return true;
+            }
+        }
+        self.at = start;
+        false
     }
 
     /// Remembers what is wanted, and "one" stands for: "what about a coffee? Go and buy one".
@@ -350,6 +396,7 @@ impl Parser<'_> {
             category(&rest[at..]).is_some_and(|(class, _)| class.kinds().iter().any(|kind| is_animate(*kind)))
         };
         longest_phrase(rest, &["him", "her", "them", "whoever"]).is_some()
+            || longest_phrase(rest, super::reported::TITLES).is_some()
             || self.names.exact(rest).is_some_and(|(ids, _)| {
                 ids.iter().any(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
             })
@@ -362,8 +409,18 @@ impl Parser<'_> {
         let start = self.at;
         if self.eat_any(&["for"]) {
             self.eat_any(&["all of", "all", "the rest of"]);
+            let own = longest_phrase(self.rest(), &["my", "our", "his", "her", "their", "your"]).is_some();
             self.eat_any(DETERMINERS);
-            if self.eat_any(OTHERS) && self.ends_clause() {
+            while self.eat_any(&[
+                "little", "big", "old", "young", "dear", "poor", "eldest", "youngest", "whole", "other",
+                "best",
+            ]) {}
+            let whose = own
+                && self
+                    .eat_any(&["boy", "girl", "child", "kid", "man", "woman", "lady", "guy", "lad", "dog"]);
+            let others = self.eat_any(OTHERS);
+            self.eat_any(OTHERS); // "the birthday party"
+            if (whose || others) && self.ends_clause() {
                 return;
             }
         }
@@ -406,7 +463,16 @@ impl Parser<'_> {
     pub(super) fn sellers(&mut self) -> Option<Vec<EntityId>> {
         let rest = self.rest();
         (1..4).find(|at| rest.get(*at..).is_some_and(|rest| longest_phrase(rest, SELLERS).is_some()))?;
-        let (goods, count) = self.names.goods(rest)?;
+        let Some((goods, count)) = self.names.goods(rest) else {
+            // "The toy shop" is the one that is called "Toucan Toys", if nothing is called so itself.
+            let words = 1 + longest_phrase(rest.get(1..)?, SELLERS)?;
+            if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
+                return None;
+            }
+            let ids = self.names.shops_called(&rest[0].token);
+            self.at += if ids.is_empty() { return None } else { words };
+            return Some(ids);
+        };
         let words = count + longest_phrase(&rest[count..], SELLERS)?;
         if self.names.exact(rest).is_some_and(|(_, named)| named >= words) {
             return None;

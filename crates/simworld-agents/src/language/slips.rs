@@ -1,6 +1,7 @@
 //! Slips that make other words: "bye" for "buy", "siton" for "sit on".
 
 use super::lexer::{Lexeme, Token};
+use super::numbers;
 use super::verbs;
 
 /// "Go bye one": a word that sounds like a verb where an order begins and a quantity follows.
@@ -9,6 +10,7 @@ pub(super) fn sound_words(lexemes: &mut [Lexeme]) {
         ("bye", "buy"),
         ("by", "buy"),
         ("git", "get"),
+        ("pic", "pick"),
         ("wright", "write"),
         ("weight", "wait"),
         ("rite", "right"),
@@ -18,13 +20,18 @@ pub(super) fn sound_words(lexemes: &mut [Lexeme]) {
     const BEHIND: &[&str] =
         &["a", "an", "one", "some", "two", "three", "on", "in", "for", "the", "me", "off", "out", "up"];
     for at in 0..lexemes.len() {
+        if is_doubled_to(lexemes, at) {
+            lexemes[at].token = Token::Word("to".to_owned());
+        }
         let begins = at == 0
             || match &lexemes[at - 1].token {
                 Token::Comma | Token::Break => true,
                 Token::Word(word) => BEFORE.contains(&word.as_str()),
                 _ => false,
             };
-        let goes_on = matches!(lexemes.get(at + 1).map(|next| &next.token), Some(Token::Word(word)) if BEHIND.contains(&word.as_str()));
+        let next = lexemes.get(at + 1).map(|next| &next.token);
+        let goes_on = matches!(next, Some(Token::Word(word)) if BEHIND.contains(&word.as_str()))
+            || at == 0 && numbers::count(&lexemes[1..]).is_some(); // "by three waffles"
         let Token::Word(word) = &lexemes[at].token else { continue };
         let Some((_, right)) = SAME.iter().find(|(said, _)| said == word).filter(|_| begins && goes_on)
         else {
@@ -38,6 +45,22 @@ pub(super) fn sound_words(lexemes: &mut [Lexeme]) {
                 Lexeme { token: Token::Word((*right).to_owned()), lemma: None, ..lexemes[at].clone() };
         }
     }
+}
+
+/// "Wave too Nina": behind a verb, with something behind it.
+fn is_doubled_to(lexemes: &[Lexeme], at: usize) -> bool {
+    let word = |at: usize| match lexemes.get(at).map(|lexeme| &lexeme.token) {
+        Some(Token::Word(word)) => Some(word.as_str()),
+        _ => None,
+    };
+    let measured = [
+        "much", "many", "far", "fast", "long", "late", "soon", "close", "near", "big", "small", "loud",
+        "hard", "slowly", "quickly",
+    ];
+    word(at) == Some("too")
+        && at > 0
+        && word(at - 1).is_some_and(verbs::is_verb)
+        && word(at + 1).is_some_and(|next| !measured.contains(&next))
 }
 
 /// "Siton the bench", "runto the bin": a verb and a small word that are written as one.

@@ -8,9 +8,11 @@ use std::sync::Arc;
 use simworld_core::asset::{Asset, Catalogue};
 use simworld_core::scene::EntityKind;
 
+use super::clause::{Reference, Target};
 use super::lexer::{Lexeme, Token};
 use super::lexicon::{CATEGORIES, Category, fits_noun};
 use super::names::Names;
+use super::resolve::{Ranked, View};
 
 /// The name of an asset has no more words than that.
 const LONGEST_NAME: usize = 4;
@@ -73,6 +75,26 @@ impl<'a> Names<'a> {
     }
 }
 
+impl View<'_> {
+    /// "The parcel" is none that is called "suitcase", where another is there.
+    pub(super) fn leave_others_out(&self, reference: &Reference, found: &mut Vec<Ranked>) {
+        let Target::Any(class) = &reference.target else { return };
+        if found.len() < 2 || class.kinds() != [EntityKind::Parcel] {
+            return;
+        }
+        let is_called_so = |(_, id): &Ranked| {
+            let Some(entity) = self.scene.entity(*id) else { return false };
+            let last = entity.info.name.as_ref().and_then(|name| name.split_whitespace().last());
+            last.is_none_or(|last| {
+                class.words.iter().chain(&["letter", "envelope"]).any(|word| word.eq_ignore_ascii_case(last))
+            })
+        };
+        if found.iter().any(is_called_so) {
+            found.retain(is_called_so);
+        }
+    }
+}
+
 /// Whether what follows these words is spoken of as known: the last determiner says so.
 fn is_definite(before: &[Lexeme]) -> bool {
     const KNOWN: &[&str] = &["the", "this", "that", "these", "those", "both", "all"];
@@ -94,14 +116,21 @@ fn asset_at<'a>(phrase: &[Lexeme], catalogue: &'a Catalogue) -> Option<(&'a Asse
         .take(LONGEST_NAME)
         .map_while(|lexeme| if let Token::Word(word) = &lexeme.token { Some(word.as_str()) } else { None })
         .collect();
-    (1..=words.len()).rev().find_map(|count| {
+    let found = (1..=words.len()).rev().find_map(|count| {
         let (last, head) = words[..count].split_last()?;
         let named = |last: &str| {
             let name = head.iter().copied().chain([last]).collect::<Vec<_>>().join("_");
             catalogue.get(catalogue.find(&name)?)
         };
         singulars(last).find_map(|last| named(&last)).map(|asset| (asset, count))
-    })
+    });
+    // "The palm" is an asset called "palm_tree".
+    let tree = || {
+        let word = words.first()?;
+        let name = format!("{}_tree", word.strip_suffix('s').unwrap_or(word));
+        catalogue.get(catalogue.find(&name)?).map(|asset| (asset, 1))
+    };
+    found.or_else(tree)
 }
 
 /// What a word may be the plural of, and itself first.

@@ -31,7 +31,14 @@ impl Parser<'_> {
                 }
                 Clause::Argue { with }
             }
-            Verb::Say => self.say()?,
+            Verb::Say => {
+                let said = self.say()?;
+                let others = self.others_greeted();
+                let Clause::Say { words, .. } = &said else { return Ok(vec![said]) };
+                let again: Vec<Clause> =
+                    others.into_iter().map(|to| Clause::Say { to, words: words.clone() }).collect();
+                return Ok([said].into_iter().chain(again).collect());
+            }
             Verb::Tell => return self.tell(),
             _ => {
                 self.eat_any(&["to", "with"]);
@@ -97,6 +104,34 @@ impl Parser<'_> {
             };
             others.push(next);
         }
+    }
+
+    /// "Say hello to Anna, Ben and Eve": whoever else is named in a list that ends with "and".
+    fn others_greeted(&mut self) -> Vec<Reference> {
+        let start = self.at;
+        let mut others = Vec::new();
+        while matches!(self.rest(), [Lexeme { token: Token::Comma, .. }, _, ..]) {
+            self.at += 1;
+            let last = self.eat_any(&["and", "and also"]);
+            self.eat_any(&["to"]);
+            let Some(other) = self.somebody_here() else { break };
+            others.push(other);
+            if !last && longest_phrase(self.rest(), &["and"]).is_some() {
+                self.at += 1;
+                self.eat_any(&["to"]);
+                others.extend(self.somebody_here());
+                break;
+            }
+            if last {
+                break;
+            }
+        }
+        let list = others.len() > 1 && self.ends_clause();
+        if !list {
+            self.at = start;
+            others.clear();
+        }
+        others
     }
 
     /// "Say good morning to Anna".

@@ -50,7 +50,9 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
                 ..lexeme.clone()
             });
             lexemes.splice(here..=here, both);
-        } else if let Some(right) = nearest(word, names, follows_verb) {
+        } else if let Some(right) = asked_politely(word, here, lexemes.len())
+            .or_else(|| nearest(word, names, follows_verb).or_else(|| plural_of_name(word, names)))
+        {
             lexemes[here].lemma = base_form(&right);
             lexemes[here].token = Token::Word(right);
         } else if let Some(parts) = parts(word, names) {
@@ -65,11 +67,26 @@ pub(super) fn correct_but(lexemes: &mut Vec<Lexeme>, names: &Names<'_>, known: &
     }
 }
 
+/// "Pretzles": the plural of a word of names or goods that is written wrong.
+fn plural_of_name(word: &str, names: &Names<'_>) -> Option<String> {
+    const SHORTEST: usize = 4;
+    let one = word.strip_suffix('s').filter(|one| one.len() >= SHORTEST)?;
+    nearest(one, names, true).filter(|right| names.has_word(right)).map(|right| format!("{right}s"))
+}
+
+/// "Plase", "pleaes", where people say "please": first or last.
+fn asked_politely(word: &str, at: usize, count: usize) -> Option<String> {
+    const PLEASE: &str = "please";
+    let outermost = at == 0 || at + 1 == count;
+    let alike = word.starts_with("pl") && word.len() > 3 && strsim::osa_distance(word, PLEASE) <= 2;
+    (outermost && alike).then(|| PLEASE.to_owned())
+}
+
 /// What is meant rather than a rarer word as near.
 const FREQUENT: &[&str] = &[
     "the", "then", "and", "to", "it", "at", "on", "with", "from", "for", "turn", "take", "get", "there",
     "this", "that", "go", "sit", "pick", "walk", "second", "door", "parcel", "wait", "left", "right",
-    "first", "bench", "chair", "please",
+    "first", "bench", "chair", "please", "look", "wave", "buy", "point", "photo",
 ];
 
 /// Words so frequent that a blank slips into them.

@@ -179,6 +179,22 @@ impl Parser<'_> {
         let Some(so) = longest_phrase(self.rest(), &["so", "so that", "such that"]) else { return false };
         let (start, end) = (self.at, self.mark_from(self.at));
         let from = start + so;
+        // "... so we can put up our tent": what we do then is nothing that is asked for.
+        let ours = [
+            "we can",
+            "we could",
+            "we may",
+            "i can",
+            "i could",
+            "they can",
+            "they could",
+            "he can",
+            "she can",
+        ];
+        if longest_phrase(&self.lexemes[from..], &ours).is_some() {
+            self.at = end;
+            return true;
+        }
         let stated = from < end
             && longest_phrase(
                 &self.lexemes[from..],

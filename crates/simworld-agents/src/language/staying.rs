@@ -39,6 +39,15 @@ impl Parser<'_> {
             let seat = Reference { choice: super::clause::Choice::Open, relation: beside, text, ..seat };
             return Ok(vec![Clause::Sit { on: Some(seat) }]);
         }
+        if let Some(words) = longest_phrase(self.rest(), &["on", "in"])
+            && longest_phrase(
+                &self.rest()[words..],
+                &["one after the other", "one after another", "each of them", "each one", "one by one"],
+            )
+            .is_some()
+        {
+            return Err(self.not_understood("say on which seat, one after the other"));
+        }
         Ok(vec![Clause::Sit {
             on: self.tail_place(&[
                 "on",
@@ -106,6 +115,9 @@ impl Parser<'_> {
             "running",
             "that",
             "what you are doing",
+            "what youre doing",
+            "whatever you are doing",
+            "whatever youre doing",
             "everything",
             "the car",
             "the vehicle",
@@ -151,7 +163,11 @@ impl Parser<'_> {
 
     pub(super) fn wait(&mut self) -> Result<Vec<Clause>, PlanError> {
         let here = self.eat_any(&["here", "right here", "where you are"]);
-        self.eat_any(&["there", "right there"]);
+        let there = self.eat_any(&["there", "right there"]);
+        let moved = matches!(self.previous, Some(Verb::Go | Verb::Run | Verb::Stroll | Verb::Drive));
+        if there && moved && self.ends_at_mark() {
+            return Ok(Vec::new()); // one waits where one went
+        }
         if here && self.ends_at_mark() {
             return Ok(vec![Clause::Stop]); // "wait here, I'll be back soon"
         }

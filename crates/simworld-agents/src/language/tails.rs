@@ -1,6 +1,5 @@
 //! What follows an order and says how often, how long, when and on what condition.
 
-use simworld_core::action::StepDirection;
 use simworld_core::seam::PlanError;
 
 use super::blocks::{IF, UNLESS, UNTIL, WHILE};
@@ -11,6 +10,7 @@ use super::numbers;
 use super::parser::{Extent, Parser};
 use super::phrases::Phrases;
 use super::politeness::MANNERS;
+use super::repeats::{body_of, over_and_over, repeat};
 use super::requests;
 use super::verbs::longest_verb;
 
@@ -29,7 +29,7 @@ pub(super) const ON_THE_WAY: &Phrases = &Phrases::of(&[
 const AFTER: &Phrases = &Phrases::of(&[
     "after", "but first", "but before that", "but first of all", "but beforehand",
     "but before you do", "but before you do that", "but only after", "right after",
-    "straight after",
+    "straight after", "but start by", "but begin by", "but start off by",
 ]);
 
 impl Parser<'_> {
@@ -55,7 +55,9 @@ impl Parser<'_> {
                 || self.done_to_another(clauses, group)
                 || self.but_first(clauses, comma)?
             {
-            } else if let Some((times, count)) = numbers::times(&self.rest()[usize::from(comma)..]) {
+            } else if let Some((times, count)) =
+                numbers::times(&self.rest()[usize::from(comma)..]).filter(|_| !self.when_it_is())
+            {
                 self.at += usize::from(comma) + count;
                 repeat(clauses, if comma { whole } else { group }, times, comma);
             } else if comma && !goes_on || !self.tail(clauses, comma)? {
@@ -98,6 +100,35 @@ impl Parser<'_> {
             )
             .is_some();
         longest_phrase(after, AFTER_COMMA).is_some() || numbers_for(after) || earlier
+    }
+
+    /// "Close the door when you've bought the bread": what comes first is said behind.
+    fn when_done(&mut self, clauses: &mut Vec<Clause>) -> bool {
+        let start = self.at;
+        let done = self.eat_any(&[
+            "when youve",
+            "when you have",
+            "once youve",
+            "once you have",
+            "as soon as youve",
+            "as soon as you have",
+        ]) && self.rest().first().is_some_and(|lexeme| lexeme.lemma.is_some());
+        if done
+            && let Ok(earlier) = self.order()
+            && self.ends_clause()
+        {
+            let last = clauses.len() - 1;
+            clauses.splice(last..last, earlier);
+            return true;
+        }
+        self.at = start;
+        false
+    }
+
+    /// Whether "near" or the like was said since: whoever walks until he is near something walks straight on.
+    fn says_near(&self, from: usize) -> bool {
+        let near = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["near", "close", "nearby"].contains(&word.as_str()));
+        self.lexemes[from..self.at].iter().any(near)
     }
 
     /// ", one after the other": how, where it makes no difference.
@@ -152,6 +183,7 @@ impl Parser<'_> {
             return Ok(true);
         }
         Ok(self.lasts(clauses)?
+            || self.when_done(clauses)
             || self.on_condition(clauses)?
             || self.in_turn(clauses)?
             || self.delayed(clauses)
@@ -182,6 +214,7 @@ impl Parser<'_> {
             clauses.push(Clause::Until { test: Test::Never, body });
             return Ok(true);
         }
+        let said = self.at;
         let test = if self.eat_any(UNTIL) {
             let start = self.at;
             match (self.test(), clauses.last()) {
@@ -214,7 +247,7 @@ impl Parser<'_> {
         }
         let body = match (clauses.pop(), &test) {
             // Whoever walks until he is somewhere goes there.
-            (Some(Clause::Forward), Test::Near { what, .. }) => {
+            (Some(Clause::Forward), Test::Near { what, .. }) if !self.says_near(said) => {
                 let (to, pace) = (what.clone(), Pace::Usual);
                 vec![Clause::Go { to, side: None, pace, within: None }]
             }
@@ -388,6 +421,12 @@ impl Parser<'_> {
 
     /// "After half a minute", "but first wave", behind the order that comes later.
     fn after_that(&mut self, clauses: &mut Vec<Clause>) -> Result<bool, PlanError> {
+        // "..., and go to the lamp after that".
+        let after = longest_phrase(self.rest(), &["after that", "after this"]);
+        if let Some(words) = after.filter(|words| self.at + words == self.lexemes.len()) {
+            self.at += words;
+            return Ok(true);
+        }
         if !self.eat_any(AFTER) {
             return Ok(false);
         }
@@ -454,40 +493,4 @@ impl Parser<'_> {
 /// "For ten seconds", behind a comma.
 fn numbers_for(lexemes: &[Lexeme]) -> bool {
     longest_phrase(lexemes, &["for"]).is_some_and(|words| numbers::duration(&lexemes[words..]).is_some())
-}
-
-/// The last order, or all of the group if the last one is not a thing that one does twice in a row.
-pub(super) fn repeat(clauses: &mut Vec<Clause>, group: usize, times: u32, all: bool) {
-    let last_alone = !all && clauses.last().is_some_and(Clause::is_repeatable);
-    let from = if last_alone { clauses.len() - 1 } else { group.min(clauses.len()) };
-    let body: Vec<Clause> = clauses.drain(from..).collect();
-    match &body[..] {
-        [Clause::Until { test: Test::Never, body }] => {
-            clauses.push(Clause::Repeat { times, body: body.clone() });
-        }
-        _ if times == 1 => clauses.extend(body),
-        [Clause::Photo { of, times: 1 }] => clauses.push(Clause::Photo { of: of.clone(), times }),
-        _ => clauses.push(Clause::Repeat { times, body }),
-    }
-}
-
-/// What goes on until something happens: waiting needs no order, and a step forward is the first of many.
-pub(super) fn body_of(clause: Option<Clause>) -> Vec<Clause> {
-    match clause {
-        None | Some(Clause::Wait { .. } | Clause::Stop) => Vec::new(),
-        Some(Clause::Step { direction: StepDirection::Forward, .. }) => vec![Clause::Forward],
-        Some(Clause::Repeat { times: 1, body }) => body,
-        Some(clause) => vec![clause],
-    }
-}
-
-/// The same again and again, with so many seconds after each.
-pub(super) fn over_and_over(mut body: Vec<Clause>, seconds: f64) -> Clause {
-    // What was to be done for a while or until something holds is done so at these intervals.
-    if let [Clause::Until { test, body: inner }] = &mut body[..] {
-        inner.push(Clause::Wait { seconds });
-        return Clause::Until { test: test.clone(), body: std::mem::take(inner) };
-    }
-    body.push(Clause::Wait { seconds });
-    Clause::Until { test: Test::Never, body }
 }

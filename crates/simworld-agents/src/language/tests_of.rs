@@ -69,6 +69,10 @@ const ARRIVES: &Phrases = &Phrases::of(&[
     "drops by", "passes by", "comes closer", "gets closer", "comes nearer", "is closer", "is close enough", "has reached you", "has joined you", "has come", "joins you",
 ]);
 const APPEARS: &Phrases = &Phrases::of(&[
+    "comes into sight",
+    "come into sight",
+    "comes in sight",
+    "is within sight",
     "comes into view",
     "come into view",
     "appear",
@@ -400,11 +404,11 @@ impl Parser<'_> {
         if let Some(test) = self.reaches_another(&what) {
             return Ok(Some(test));
         }
-        if self.eat_any(ARRIVES) {
-            return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));
-        }
         if self.eat_any(APPEARS) {
             return Ok(Some(Test::Sees(what)));
+        }
+        if self.eat_any(ARRIVES) {
+            return Ok(Some(Test::Near { what, within: NEXT_TO_ME }));
         }
         if self.eat_any(LEAVES) {
             return Ok(Some(Test::Not(Box::new(Test::Near { what, within: NEAR_ME }))));

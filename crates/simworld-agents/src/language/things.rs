@@ -30,6 +30,9 @@ impl<'a> Draft<'a> {
         if what.target == Target::It && to.is_some_and(brought) && self.is_done(Some(what), None) {
             return Ok(());
         }
+        if what.target == Target::It && to.is_none() && self.is_done(Some(what), None) {
+            return Ok(()); // "the parcel is for Hana, take it and give it to her"
+        }
         if let Some(other) = self.another(what) {
             return self.take_to(&other, to, grip); // "pick up the letter and the parcel"
         }
@@ -127,6 +130,8 @@ impl<'a> Draft<'a> {
         at: Option<&Reference>,
         manner: Manner,
     ) -> Result<(), PlanError> {
+        let bought = self.of_what_was_bought(what);
+        let what = bought.as_ref().or(what);
         // "Go to the bin and drop it there": one is there.
         let in_hand = self.held.is_some() || self.carried.is_some();
         let at = at.filter(|at| !(at.target == Target::There && in_hand && self.stands_there()));
@@ -181,6 +186,8 @@ impl<'a> Draft<'a> {
     }
 
     pub(super) fn give(&mut self, what: Option<&Reference>, to: &Reference) -> Result<(), PlanError> {
+        let bought = self.of_what_was_bought(what);
+        let what = bought.as_ref().or(what);
         let receiver = self.view.find(to, Purpose::Any)?;
         if !takes(&receiver) {
             let near = format!("a {} takes nothing: {}", receiver.kind, self.view.surroundings());
@@ -263,6 +270,12 @@ impl<'a> Draft<'a> {
             Load::Bought => self.view.it.is_none(),
         };
         self.held.is_none() && self.carried.is_none() && same && spoken_of && (to.is_none() || to == receiver)
+    }
+
+    /// "Buy matches, bring them to Oscar": goods in the plural are what one has in hand.
+    fn of_what_was_bought(&self, what: Option<&Reference>) -> Option<Reference> {
+        let plural = what.filter(|what| what.target == Target::Them && what.text == "them")?;
+        (self.held == Some(Load::Bought)).then(|| Reference { target: Target::It, ..plural.clone() })
     }
 
     fn nothing_in_hand(&self, wanted: &str) -> PlanError {

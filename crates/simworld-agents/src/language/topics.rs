@@ -16,6 +16,7 @@ use super::verbs::longest_verb;
 #[rustfmt::skip]
 const INTRODUCTIONS: &Phrases = &Phrases::of(&[
     "get lunch at", "have lunch at", "get dinner at", "have dinner at", "eat at", "grab a bite at", "have breakfast at",
+    "you can find", "you can get", "you can buy", "they sell", "they have", "there should be", "there must be", "there might be", "there used to be",
     "know", "there is", "theres", "there are", "you see", "you can see", "do you see", "can you see", "see", "you know",
     "do you know", "as for", "as to", "about", "regarding", "concerning", "what about", "how about", "whats",
     "what is", "wheres", "where is", "which is", "who is", "whos", "id like", "i would like", "id love",
@@ -33,7 +34,7 @@ const STATIVES: &Phrases = &Phrases::of(&[
     "is", "are", "was", "were", "has", "have", "had", "looks", "look", "seems", "seem", "feels", "stands",
     "sits", "waits", "lies", "needs", "wants", "likes", "loves", "hates", "lives", "works", "sells", "looked",
     "seemed", "must be", "might be", "could be", "should be", "would like", "would love", "got", "keeps",
-    "left", "forgot", "lost", "asked", "said", "called", "belongs", "just", "hasnt", "isnt", "does", "doesnt",
+    "left", "forgot", "lost", "asked", "said", "called", "belongs", "ordered", "just", "hasnt", "isnt", "does", "doesnt",
     "cant", "will",
 ]);
 /// What makes another thing of a remark: it says when or whether, or that it is an order.
@@ -212,6 +213,8 @@ impl Parser<'_> {
             "of all the",
             "of the",
             "of all",
+            "of our",
+            "of your",
             "out of the",
             "out of all the",
             "among the",
@@ -226,7 +229,13 @@ impl Parser<'_> {
         if let Some((_, words)) = numbers::count(self.rest()) {
             self.at += words;
         }
-        let (class, words) = category(self.rest())?;
+        let Some((class, words)) = category(self.rest()) else {
+            // "Out of the three cabins".
+            let ids = self.rest().first().and_then(|first| self.names.sort(&first.token))?;
+            self.at += 1;
+            (self.class, self.bearers) = (None, Some(ids));
+            return Some(());
+        };
         self.at += words;
         self.class = Some(class);
         self.bearers = None;
@@ -312,6 +321,17 @@ impl Parser<'_> {
         let what = self.reference(0).ok()?;
         let names_one = matches!(what.target, Target::Named(_) | Target::Any(_) | Target::Id(_))
             && what.choice == Choice::Open;
+        if names_one && let Some(likeness) = self.said_to_be(&what) {
+            return Some(self.mention(likeness)); // "my suitcase is the red one, bring it to Eve"
+        }
+        // "Quentin and Petra are friends of mine, wave to them".
+        let mut both = vec![what.clone()];
+        while names_one && self.is_somebody(&what) && self.eat_any(&["and"]) {
+            both.push(self.somebody_here()?);
+        }
+        if both.len() > 1 {
+            self.group = both;
+        }
         if !names_one
             || self.at == start
             || longest_phrase(self.rest(), STATIVES).is_none() && !self.described_by_is()
@@ -375,7 +395,7 @@ impl Parser<'_> {
         self.skip_fillers();
         let takes_up = {
             let after = self.rest().get(1..).unwrap_or_default();
-            let is_pronoun = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["it", "there", "him", "her", "them", "in", "on", "one"].contains(&word.as_str()));
+            let is_pronoun = |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if ["it", "there", "him", "her", "them", "in", "on", "one", "sit", "down"].contains(&word.as_str()));
             self.ends_at_mark() && after.iter().any(is_pronoun)
         };
         takes_up.then(|| self.mention(what))
@@ -445,11 +465,13 @@ impl Parser<'_> {
                 return Some(clauses);
             }
             let counted = self.peek_count().is_some();
+            let article = self.at;
             let goods = if counted || self.eat_any(&["a", "an", "some"]) { self.goods() } else { None };
             if let Some(goods) = goods {
                 self.wish_for(goods);
                 continue;
             }
+            self.at = article;
             if self.ends_at_mark() {
                 break;
             }

@@ -11,7 +11,7 @@ const GETS: &Phrases = &Phrases::of(&[
     "needs", "should get", "should have", "is to get", "must get", "ought to get", "ought to have", "must have",
     "has to get", "has to have", "gets", "is to have", "is waiting for", "wants", "would like", "would love",
     "could do with", "asked for", "has asked for", "is asking for", "deserves", "fancies", "is supposed to get",
-    "is after", "will want", "is dying for", "is hoping for", "expects", "is expecting", "ordered", "has ordered",
+    "is after", "want", "need", "would like to have", "could use", "fancy", "are dying for", "are hoping for", "have ordered", "have asked for", "will want", "is dying for", "is hoping for", "expects", "is expecting", "ordered", "has ordered",
 ]);
 /// Between a thing and where or to whom it goes.
 #[rustfmt::skip]
@@ -40,7 +40,7 @@ const WHO: &Phrases = &Phrases::of(&["i", "we", "they", "he", "she", "people", "
 #[rustfmt::skip]
 const NEEDS: &Phrases = &Phrases::of(&[
     "need", "needs", "want", "wants", "would like", "would love", "require", "requires", "could use", "could do with", "expect",
-    "expects", "are expecting", "is expecting", "have asked for", "asked for", "are asking for", "is asking for",
+    "expects", "are expecting", "is expecting", "is waiting for", "are waiting for", "is looking for", "are looking for", "have asked for", "asked for", "are asking for", "is asking for",
 ]);
 const WHOM: &Phrases = &Phrases::of(&[
     "you",
@@ -49,6 +49,9 @@ const WHOM: &Phrases = &Phrases::of(&[
     "one of you",
     "anybody",
     "anyone",
+    "a hand",
+    "some help",
+    "help",
     "a helper",
     "a volunteer",
     "another person",
@@ -79,7 +82,8 @@ impl Parser<'_> {
         self.eat_any(&["it would be", "itd be", "it is", "its"]);
         if !self.eat_any(NEEDED) {
             let would = self.eat_any(&["id like", "id love"]);
-            let somebody = would || self.eat_any(WHO) || self.somebody_here().is_some();
+            let somebody =
+                would || self.eat_any(WHO) || self.somebody_here().is_some() || self.outsider_before(NEEDS);
             if !somebody || !would && !self.eat_any(NEEDS) || !self.eat_any(WHOM) {
                 return None;
             }
@@ -91,6 +95,7 @@ impl Parser<'_> {
         let at = self.eat_any(&["at", "in", "to", "on", "over at", "down at", "up at", "outside"]);
         let side = if at { None } else { Some(Spot::Beside(self.side()?, None)) };
         let to = self.reference(0).map_err(|error| self.missing.get_or_insert(error).clone()).ok()?;
+        self.stated = true;
         Some(vec![Clause::Go { to, side, pace: Pace::Usual, within: None }])
     }
 
@@ -123,7 +128,7 @@ impl Parser<'_> {
     /// Who gets what, or what goes where.
     pub(super) fn somebody_gets(&mut self) -> Option<Vec<Clause>> {
         let start = self.at;
-        for rule in [Self::lets_have, Self::gets, Self::goes, Self::needed_at] {
+        for rule in [Self::lets_have, Self::gets, Self::goods_are_for, Self::goes, Self::needed_at] {
             if let Some(clauses) = rule(self).filter(|_| self.ends_clause()) {
                 return Some(clauses);
             }
@@ -153,6 +158,26 @@ impl Parser<'_> {
     }
 
     fn gets(&mut self) -> Option<Vec<Clause>> {
+        let start = self.at;
+        // "The kids want three kites": who is no part of the scene gets nothing from anybody's hand.
+        if self.outsider_before(GETS) {
+            self.eat_any(GETS);
+            let bare = longest_phrase(self.rest(), &["one", "some", "it", "them"]).unwrap_or(0);
+            if bare > 0 && self.names.goods(&self.rest()[bare..]).is_none() {
+                return None; // "my neighbour wants one too"
+            }
+            let goods = self.goods()?;
+            let taken_up = self.rest().iter().any(|lexeme| {
+                matches!(&lexeme.token, super::lexer::Token::Word(word) if ["one", "it", "them", "some"].contains(&word.as_str()))
+            });
+            if taken_up && self.ends_at_mark() {
+                self.wish_for(goods);
+                self.skip_joints();
+                return self.statement_here();
+            }
+            return self.purchase(goods, None).ok();
+        }
+        self.at = start;
         let to = self.somebody_here()?;
         if !self.eat_any(GETS) {
             return None;
@@ -208,6 +233,38 @@ impl Parser<'_> {
             ]);
         let at = if placed { Some(self.reference(0).ok()?) } else { return None };
         Some(vec![Clause::Drop { what: Some(what), at, manner: Manner::Deliver }])
+    }
+
+    /// "The book is for Eve, so buy it and give it to her".
+    fn goods_are_for(&mut self) -> Option<Vec<Clause>> {
+        let goods = self.goods()?;
+        if !self.eat_any(&["is for", "are for", "is meant for", "are meant for", "goes to", "go to"]) {
+            return None;
+        }
+        let to = self.somebody_here()?;
+        if self.ends_at_mark() && self.orders_what_is_wished() {
+            self.wish_for(goods);
+            self.skip_joints();
+            let mut clauses = vec![Clause::Mention { what: to }];
+            clauses.extend(self.statement_here()?);
+            return Some(clauses);
+        }
+        self.purchase(goods, Some(to)).ok()
+    }
+
+    /// "The rucksack has to be at Reception, take it over": both say one thing.
+    pub(super) fn goes_somewhere(&mut self) -> Option<Vec<Clause>> {
+        let clauses = self.goes().filter(|_| self.ends_at_mark())?;
+        let end = self.at;
+        self.skip_joints();
+        let again = self.eat_any(&["take it", "carry it", "bring it", "get it", "deliver it", "put it"]);
+        self.eat_any(&["over", "there", "over there", "across", "along"]);
+        self.skip_fillers();
+        if again && self.at == self.lexemes.len() {
+            return Some(clauses);
+        }
+        self.at = end;
+        None
     }
 
     fn goes(&mut self) -> Option<Vec<Clause>> {

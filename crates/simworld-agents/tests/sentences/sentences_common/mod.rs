@@ -14,13 +14,13 @@ use simworld_core::value::Value;
 
 /// The cities in which people speak to a walker.
 pub(crate) const CITIES: [&str; 3] = ["harbour", "oldtown", "campus"];
-/// Those, the town in which they speak to a driver, and eight that came later.
-pub(crate) const PLACES: [&str; 12] = [
+/// Those, the town in which they speak to a driver, and ten that came later.
+pub(crate) const PLACES: [&str; 14] = [
     "harbour", "oldtown", "campus", "town", "park", "station", "depot", "market", "airport", "campsite",
-    "lakeside", "zoo",
+    "lakeside", "zoo", "beach", "farm",
 ];
 /// The sets of sentences in the order in which they came; each is `PLACE.SET.toml`.
-const SETS: [&str; 12] = [
+const SETS: [&str; 14] = [
     "sentences",
     "paraphrases",
     "unheard",
@@ -33,6 +33,8 @@ const SETS: [&str; 12] = [
     "tenth",
     "eleventh",
     "twelfth",
+    "thirteenth",
+    "fourteenth",
 ];
 
 /// One thing that is said, and what it means.
