@@ -6,12 +6,13 @@
 //! wish is passed over because its words are not understood.
 
 use super::super::clause::Reference;
-use super::super::lexer::is_mark;
-use super::super::lexicon::longest_phrase;
+use super::super::lexer::{Lexeme, is_mark};
+use super::super::lexicon::{longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::follow::Said;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
+use super::words::{VERBS, Verb};
 
 /// As many parts are tried in all; whoever says more is not understood.
 const MOST_TRIED: usize = 160;
@@ -26,7 +27,18 @@ struct Search<'a> {
     is_known: &'a dyn Fn(&Wish) -> bool,
     /// Whether what the first wish is about is there.
     is_there: &'a dyn Fn(&[Vec<Wish>]) -> bool,
+    /// By what is known what asks for nothing.
+    telling: Telling,
     tried: usize,
+}
+
+/// By what parts are known that ask for nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Telling {
+    /// By the words of remarks.
+    ByWords,
+    /// By their shape too, whatever their words are.
+    ByShape,
 }
 
 /// So much was tried that nothing more is.
@@ -38,8 +50,9 @@ impl Reader<'_> {
         &self,
         is_known: &dyn Fn(&Wish) -> bool,
         is_there: &dyn Fn(&[Vec<Wish>]) -> bool,
+        telling: Telling,
     ) -> Option<Vec<Vec<Wish>>> {
-        let mut search = Search { is_known, is_there, tried: 0 };
+        let mut search = Search { is_known, is_there, telling, tried: 0 };
         let found = self.parts_from(0, &Said::default(), &[], &mut search)?;
         (!found.is_empty()).then_some(found)
     }
@@ -81,6 +94,9 @@ impl Reader<'_> {
             }
             let mut part = Reader { at: from, ..self.up_to(end) };
             let Some(mut wishes) = part.part(said, end) else { continue };
+            if said.wish.as_ref().is_some_and(|before| self.is_stray(before, from, &wishes)) {
+                continue;
+            }
             let is_first = said.wish.is_none() && spoken_of.is_empty();
             if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
                 continue;
@@ -121,7 +137,8 @@ impl Reader<'_> {
                 || self.is_remark(from, end)
                 || self.is_remark(remark.min(from), end)
                 || said.wish.is_some() && self.is_idle(from, end);
-            if !asks_nothing {
+            let is_told = || search.telling == Telling::ByShape && self.is_told(remark.min(from), end, search.is_known);
+            if !asks_nothing && !is_told() || self.hides_wish(said, (from, end), search.is_known) {
                 return None;
             }
             let mut things = self.remarked_on(from, end, spoken_of);
@@ -129,13 +146,62 @@ impl Reader<'_> {
                 things = spoken_of.to_vec();
             }
             let lacks = self.noun_lacking(from, end);
-            let noun = lacks.or_else(|| self.last_noun(from, end)).or_else(|| said.noun.clone());
+            let noun = lacks
+                .or_else(|| self.last_noun(from, end))
+                .or_else(|| self.asset_in(from, end))
+                .or_else(|| said.noun.clone());
             let place = self
                 .place_spoken_of(from, end)
                 .or_else(|| self.subject_place(from, end))
                 .unwrap_or_else(|| said.place.clone());
             let now = Said { noun, place, ..said.clone() };
             self.parts_from(end, &now, &things, search)
+        })
+    }
+
+    /// Whether an order that is understood stands in what seems to ask for nothing: "for the street party close Elm Street".
+    fn hides_wish(&self, said: &Said, (from, end): (usize, usize), is_known: &dyn Fn(&Wish) -> bool) -> bool {
+        const FOR: &Phrases = &Phrases::of(&["for the", "for my", "for our", "for a", "for this", "while"]);
+        let is_why = longest_phrase(&self.lexemes[from..end], FOR).is_some();
+        (from..end).any(|at| {
+            let may = at == from
+                || is_mark(&self.lexemes[at - 1])
+                || matches!(self.word(at - 1), Some("and" | "then" | "please" | "just" | "also" | "now"))
+                || is_why && at > from + 2;
+            may && longest(&self.lexemes[at..end], &VERBS).is_some()
+                && !self.is_said_twice(said, at, end)
+                && (self.renames(at, end)
+                    || Reader { at, ..self.up_to(end) }
+                        .wish(end)
+                        .is_ok_and(|wishes| wishes.iter().flatten().all(is_known)))
+        })
+    }
+
+    /// "Rename it", whatever is said behind.
+    fn renames(&self, at: usize, end: usize) -> bool {
+        longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, words)| {
+            verb == Verb::Name
+                && longest_phrase(&self.lexemes[at + words..end], &["it", "him", "her", "the", "that", "this"])
+                    .is_some()
+        })
+    }
+
+    /// Whether a new thing without a verb or a place is named behind what was asked for, and not along with it: "put a stool next to
+    /// Anna, the poor woman".
+    pub(super) fn is_stray(&self, before: &Wish, from: usize, wishes: &[Vec<Wish>]) -> bool {
+        let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+        let is_joined = from > 0
+            && !is_mark(&self.lexemes[from - 1])
+            && !matches!(self.word(from - 1), Some("for" | "as" | "so" | "since" | "because"));
+        let is_bare = longest(&self.lexemes[from..], &VERBS).is_none();
+        wishes.iter().flatten().any(nowhere) && is_bare && !is_joined && !nowhere(before)
+    }
+
+    /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
+    fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        (from..end).rev().find_map(|at| {
+            let words = self.names.asset_words(&self.lexemes[at..end])?;
+            Some(self.lexemes[at..at + words].to_vec())
         })
     }
 

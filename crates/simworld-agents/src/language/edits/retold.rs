@@ -19,7 +19,7 @@ const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with ea
     "if possible", "if you can", "if you could", "if thats possible", "if that is possible", "all in all", "altogether", "for the time being", "for the moment", "for a change", "for good measure", "for company",
     "right about now", "right now", "out here", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
     "once and for all", "in the meantime", "as a start", "for a start", "to begin with", "to start with", "on second thoughts", "needless to say", "as you know", "as you can see", "say what you want",
-    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of"]);
+    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "be a dear", "be an angel", "after all", "for crying out loud"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
 /// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
@@ -46,6 +46,20 @@ const TURNS: &[(&str, &str)] = &[
     ("P at intervals of M", "P every M"),
     ("P in intervals of M", "P every M"),
     ("P at M intervals", "P every M"),
+    ("A all the way from B to C every|each M", "A every M between B and C"),
+    ("P with M between them|each|one|two", "P every M"),
+    ("P , M between them|each", "P every M"),
+    ("P , spaced|placed|set M apart|- , Q", "P every M Q"),
+    ("P , spaced|placed|set M apart|-", "P every M"),
+    ("P M apart from each|one other|another", "P every M"),
+    ("P , one each|every M , Q", "P every M , Q"),
+    ("every|each M between A and B , C", "C every M between A and B"),
+    ("every|each M along|around|round A , C", "C every M along A"),
+    // Distances that are told first.
+    ("M A , D B", "add D B M A"),
+    ("M A i|we|id|wed want|need|like|love|imagine|have|put|- D B", "add D B M A"),
+    ("M A i|we would|could|might like|love|use|imagine|want D B", "add D B M A"),
+    ("M A should|must|could go|stand|be D B", "add D B M A"),
     // Two that change places.
     ("P that A and B change|exchange|trade|switch|swap their|the places|positions|spots", "swap A and B"),
     ("A and B change|exchange|trade|switch|swap places|positions|spots", "swap A and B"),
@@ -135,7 +149,25 @@ const TURNS: &[(&str, &str)] = &[
     ("P , a clump|tuft|bunch|group|patch every|each M", "P every M"),
     ("P , one each M B", "P every M B"),
     ("A from B to C , one|placed|set|spaced every|each M in between", "A every M between B and C"),
+    ("O give|get|buy|bring|offer|lend|grant|hand them|people|everybody|everyone|us D A", "O put D A"),
+    ("i|we promised|owe A D B", "add D B"),
+    ("D A is what i|we need|want|lack|miss|fancy B", "add D A B"),
+    ("D A is what i|we need|want|lack|miss|fancy", "add D A"),
+    ("D A is what im|were after|missing|lacking", "add D A"),
+    ("D A would|will|should|might make|save|keep|help|give|stop|bring|solve|fix|prevent|attract|delight B", "add D A"),
+    ("id|wed be so|very|much|more|- than|- happy|content|glad|grateful|obliged|thankful|delighted for|with|about D A", "add D A"),
+    ("A could|would|can do with being B", "A should be B"),
+    ("nobody|noone would|will miss A", "remove A"),
+    ("im|were so|- over A", "remove A"),
+    ("tell me|us what A is", "describe A"),
+    ("how many A has|have the|this|our B", "how many A are there"),
+    ("how many A are there besides|except|without|excluding|apart me|us|myself|from Q", "how many A are there"),
+    ("A suits B much|far|so|- better Q", "paint B A"),
     // Where somebody is to be.
+    ("P bring|move|send|put|get|take A to her side", "P move A next to her"),
+    ("P bring|move|send|put|get|take A to his side", "P move A next to him"),
+    ("P turn|rotate|spin|swivel A around|round|- so|- that|- he|she|it|they faces|face B", "P make A face B"),
+    ("P have|let|make A turn to|towards B", "P make A face B"),
     ("P shift|move|bring|take|get A over|- so he|she|it|they is|are B", "P move A B"),
     ("P shift|move|bring|take|get A over|- so hes|shes|its|theyre B", "P move A B"),
     ("P shift|move|bring|take|get A over|- so that he|she|it|they is|are|stands|stand B", "P move A B"),
@@ -170,10 +202,11 @@ const BEFORE_ALL: &[(&str, &str)] = &[
     // "One" is of what is not there, and not of where it is looked for.
     ("if there is|isnt no|any A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
     ("if theres|there no|isnt any|- A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
+    ("if A , and i|we think|bet|guess|believe|hope|know|suppose B , C Q", "if A , C Q"),
 ];
 /// What is said by the way, in the words of who asks kindly.
 #[rustfmt::skip]
-const ASIDES: &Phrases = &Phrases::of(&["while you are at it", "while youre at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
+const ASIDES: &Phrases = &Phrases::of(&["while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
     "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);
 
 /// Puts what would be misunderstood plainly, and leaves out what is said by the way.
@@ -214,10 +247,11 @@ impl Reader<'_> {
     /// The words told otherwise, in all ways that differ from how they were said, the nearest first.
     pub(super) fn retold(&self) -> Vec<Vec<Lexeme>> {
         let turned = told_by(&without(self.lexemes, FILLERS), TURNS);
-        let without_why = self.without_why(&turned);
+        let without_why = told_by(&self.without_why(&turned), TURNS);
         let requests = told_by(&self.requests(&without_why), TURNS);
+        let for_nobody = self.without_whom(&turned);
         let mut ways: Vec<Vec<Lexeme>> = Vec::new();
-        for way in [turned, without_why, requests] {
+        for way in [turned, for_nobody, without_why, requests] {
             let said =
                 |lexemes: &[Lexeme]| lexemes.iter().map(|lexeme| lexeme.token.clone()).collect::<Vec<_>>();
             let is_new =
@@ -227,6 +261,30 @@ impl Reader<'_> {
             }
         }
         ways
+    }
+
+    /// The words without whom or what something is for, where that names nothing: "for the helpers", "for my little ones".
+    fn without_whom(&self, lexemes: &[Lexeme]) -> Vec<Lexeme> {
+        const FOR: &Phrases =
+            &Phrases::of(&["for the", "for my", "for our", "for his", "for her", "for their", "for all the", "for those", "for these"]);
+        const LONGEST: usize = 5;
+        let reader = Reader { lexemes, at: 0, ..*self };
+        let mut kept: Vec<Lexeme> = Vec::with_capacity(lexemes.len());
+        let mut at = 0;
+        while at < lexemes.len() {
+            let end = (at..lexemes.len()).find(|end| is_mark(&lexemes[*end])).unwrap_or(lexemes.len());
+            let is_whom = at > 0
+                && longest_phrase(&lexemes[at..], FOR).is_some()
+                && end <= at + LONGEST
+                && reader.names_nothing(at + 1, end);
+            if is_whom {
+                at = end;
+            } else {
+                kept.push(lexemes[at].clone());
+                at += 1;
+            }
+        }
+        kept
     }
 
     /// The words without the clauses that only say why, each of which ends where its sentence does or something else is asked for.
@@ -304,7 +362,11 @@ impl Reader<'_> {
             |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if OPEN.contains(&word.as_str()));
         let paints = (0..clause.len()).any(|at| longest(&clause[at..], PAINTS).is_some());
         let may_be_about = is_before && rest.iter().any(is_open);
-        clause.len() > 1 && any(IS) && !any(CHANGES) && !paints && !may_be_about && !self.is_wish(clause)
+        let tells = || {
+            let reader = Reader { lexemes: clause, at: 0, ..*self };
+            reader.names_nothing(0, clause.len()) && reader.tells_anything(0, clause.len())
+        };
+        clause.len() > 1 && (any(IS) || tells()) && !any(CHANGES) && !paints && !may_be_about && !self.is_wish(clause)
     }
 
     /// Whether words are a request by themselves.

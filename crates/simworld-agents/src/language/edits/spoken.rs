@@ -1,9 +1,11 @@
 //! What a remark is about, which is what "it" stands for behind it: "the van is ugly; paint it", "they left a bike here, remove it".
 
-use super::super::clause::{Reference, Stands, Target};
-use super::super::lexicon::longest_phrase;
+use super::super::clause::{Choice, Reference, Stands, Target};
+use super::super::lexer::{Lexeme, is_mark};
+use super::super::lexicon::{Category, category, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::super::resolve::Purpose;
+use super::super::streets::StreetNames;
 use super::parse::Reader;
 use super::wish::{Anchor, Where};
 
@@ -173,5 +175,74 @@ pub(super) fn group_at(thing: &Reference) -> Option<Reference> {
             first.is_some_and(|word| word.ends_with('s') || word == "people").then(|| (**anchor).clone())
         }
         _ => None,
+    }
+}
+
+/// "The kids race on Elm Street, so close it": the one street that is spoken of, where it is closed or opened by a pronoun.
+pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
+    const VERBS: &Phrases =
+        &Phrases::of(&["close", "shut", "open", "reopen", "block", "unblock", "close off", "block off", "shut off", "seal off"]);
+    const IT: &Phrases = &Phrases::of(&["it", "the street", "the road", "that street", "this street", "that road", "this road"]);
+    let found = (1..lexemes.len()).find_map(|at| {
+        let verb = longest_phrase(&lexemes[at..], VERBS)?;
+        let it = longest_phrase(&lexemes[at + verb..], IT)?;
+        let end = at + verb + it;
+        // "Oak Street goes car-free, shut it" says it twice.
+        let is_said = (0..at).any(|at| {
+            longest_phrase(&lexemes[at..], &["car free", "free", "closed", "off limits", "banned", "close", "shut"]).is_some()
+        });
+        if is_said {
+            return None;
+        }
+        let is_whole = lexemes.get(end).is_none_or(is_mark)
+            || longest_phrase(&lexemes[end..], &["for", "again", "off", "please", "to", "so", "because", "down", "up", "now"]).is_some();
+        let mut named = (0..at).filter_map(|from| Some((from, streets.at(&lexemes[from..at])?.words)));
+        let street = named.next().filter(|_| is_whole)?;
+        let is_only = named.all(|(from, _)| from < street.0 + street.1);
+        is_only.then_some((at + verb, end, street))
+    });
+    if let Some((from, end, (street, words))) = found {
+        let name = lexemes[street..street + words].to_vec();
+        lexemes.splice(from..end, name);
+    }
+}
+
+impl Reader<'_> {
+    /// The words with what "that bench" stands for in its place, where a bench was told of more closely before: "there is one bench in
+    /// the park, so put a lamp next to that bench".
+    pub(super) fn with_what_was_pointed_at(&self) -> Option<Vec<Lexeme>> {
+        (2..self.lexemes.len()).find_map(|at| {
+            longest_phrase(&self.lexemes[at..], &["that", "this", "the same"])?;
+            let (class, words) = category(self.lexemes.get(at + 1..)?)?;
+            let after = at + 1 + words;
+            // "That bench by the fountain" says itself which.
+            if self.is_place(after) || !self.is_place_before(at) {
+                return None;
+            }
+            let told = (0..at).find_map(|from| self.told_before(from, at, class))?;
+            let mut lexemes = self.lexemes.to_vec();
+            lexemes.splice(at..after, told);
+            Some(lexemes)
+        })
+    }
+
+    /// Whether a word of place ends before a word.
+    fn is_place_before(&self, at: usize) -> bool {
+        (at.saturating_sub(4)..at)
+            .any(|from| longest(&self.lexemes[from..], &super::words::WAYS).is_some_and(|(_, words)| from + words == at))
+    }
+
+    /// A thing of a class that is told of more closely than by its noun, with an article that says which.
+    fn told_before(&self, from: usize, stop: usize, class: &Category) -> Option<Vec<Lexeme>> {
+        let article = longest_phrase(&self.lexemes[from..stop], &["the", "a", "an", "one", "this", "that"])?;
+        let mut parser = self.parser(from, stop);
+        let thing = parser.reference(0).ok()?;
+        let is_closer = thing.relation.is_some() || thing.choice != Choice::Open || thing.traits.paint.is_some();
+        let is_it = matches!(&thing.target, Target::Any(own) if **own == *class) && is_closer;
+        if !is_it || parser.at <= from + article {
+            return None;
+        }
+        let the = super::forms::word_at(&self.lexemes[from], "the");
+        Some(std::iter::once(the).chain(self.lexemes[from + article..parser.at].iter().cloned()).collect())
     }
 }
