@@ -252,14 +252,7 @@ fn wishes_of(
     let speaks_of_self = reader.lexemes.iter().any(|lexeme| {
         matches!(&lexeme.token, super::lexer::Token::Word(word) if ["me", "myself", "i", "us", "you", "yourself"].contains(&word.as_str()))
     });
-    let is_viewer = |what: &super::clause::Reference| what.target == super::clause::Target::Here;
-    let is_known = |wish: &Wish| match wish {
-        // "Get a bench for the kids" moves nobody.
-        Wish::Move { what, .. } if !speaks_of_self && what.iter().any(is_viewer) => false,
-        Wish::Add { things, .. } => things.iter().all(is_new),
-        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
-        _ => true,
-    };
+    let is_known = |wish: &Wish| is_known(wish, &is_new, speaks_of_self);
     let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
     // What later wishes are about may be made by earlier ones.
     let is_there = |wishes: &[Vec<Wish>]| {
@@ -316,10 +309,32 @@ fn wishes_of(
         (Err(error), _) => {
             let unknown = |telling| reader.in_parts(&|_| true, &|_| true, telling);
             let has_parts = reader.lexemes.iter().rev().skip(1).any(super::lexer::is_mark);
-            let by_shape = || has_parts.then(|| unknown(Telling::ByShape)).flatten();
+            let by_shape = || {
+                let found = has_parts.then(|| unknown(Telling::ByShape)).flatten()?;
+                (!found.iter().flatten().any(is_nowhere)).then_some(found)
+            };
             let unknown = || unknown(Telling::ByWords).or_else(by_shape);
             reader.complaint().or_else(unknown).ok_or(error)
         }
+    }
+}
+
+/// Whether somebody has what a wish asks for, whatever it stands on; and whether it moves nobody who is not spoken of.
+fn is_known(wish: &Wish, is_new: &dyn Fn(&wish::NewThing) -> bool, speaks_of_self: bool) -> bool {
+    let is_viewer = |what: &super::clause::Reference| {
+        what.target == super::clause::Target::Here || ["we", "us"].contains(&what.text.as_str())
+    };
+    match wish {
+        // "Get a bench for the kids" moves nobody.
+        Wish::Move { what, .. } => speaks_of_self || !what.iter().any(is_viewer),
+        Wish::Add { things, .. } => things.iter().all(is_new),
+        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
+        Wish::When { then, .. }
+        | Wish::WhenPassage { then, .. }
+        | Wish::WhenLarger { then, .. }
+        | Wish::Given { then, .. } => is_known(then, is_new, speaks_of_self),
+        Wish::All(wishes) => wishes.iter().all(|wish| is_known(wish, is_new, speaks_of_self)),
+        _ => true,
     }
 }
 

@@ -191,17 +191,18 @@ impl Reader<'_> {
     pub(super) fn is_stray(&self, before: &Wish, from: usize, wishes: &[Vec<Wish>]) -> bool {
         let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
         let is_joined = from > 0
-            && !is_mark(&self.lexemes[from - 1])
-            && !matches!(self.word(from - 1), Some("for" | "as" | "so" | "since" | "because"));
+            && matches!(self.word(from - 1), Some("and" | "also" | "plus" | "then" | "with" | "or" | "well"));
         let is_bare = longest(&self.lexemes[from..], &VERBS).is_none();
         wishes.iter().flatten().any(nowhere) && is_bare && !is_joined && !nowhere(before)
     }
 
     /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
     fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
-        (from..end).rev().find_map(|at| {
+        (from + 1..end).rev().find_map(|at| {
+            let whose = ["a", "an", "her", "his", "my", "their", "our", "any", "no"];
+            self.word(at - 1).filter(|word| whose.contains(word))?;
             let words = self.names.asset_words(&self.lexemes[at..end])?;
-            Some(self.lexemes[at..at + words].to_vec())
+            self.names.exact(&self.lexemes[at..end]).is_none().then(|| self.lexemes[at..at + words].to_vec())
         })
     }
 

@@ -150,6 +150,8 @@ const TURNS: &[(&str, &str)] = &[
     ("P , one each M B", "P every M B"),
     ("A from B to C , one|placed|set|spaced every|each M in between", "A every M between B and C"),
     ("O give|get|buy|bring|offer|lend|grant|hand them|people|everybody|everyone|us D A", "O put D A"),
+    ("O take|clear A off B", "O remove A on B"),
+    ("P in|on|over there Q", "P there Q"),
     ("i|we promised|owe A D B", "add D B"),
     ("D A is what i|we need|want|lack|miss|fancy B", "add D A B"),
     ("D A is what i|we need|want|lack|miss|fancy", "add D A"),
@@ -202,6 +204,11 @@ const BEFORE_ALL: &[(&str, &str)] = &[
     // "One" is of what is not there, and not of where it is looked for.
     ("if there is|isnt no|any A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
     ("if theres|there no|isnt any|- A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
+    ("if nobody|noone has put|placed|set|built|added D A anywhere|there|here|- yet|- , P put|add|place|build one B", "if there is no A , P put a A B"),
+    ("in case theres|there no|isnt any|a|- A yet|here|there|- , put|add|place|build one B", "if there is no A , put a A B"),
+    ("if theres|there no|isnt any|a|- A yet|here|there , put|add|place|build one B", "if there is no A , put a A B"),
+    ("A theres just|still|- enough|plenty|- of|- room|space for D B , so|and put|add|place|stand one|it there", "add D B A"),
+    ("A there is just|still|- enough|plenty|- of|- room|space for D B , so|and put|add|place|stand one|it there", "add D B A"),
     ("if A , and i|we think|bet|guess|believe|hope|know|suppose B , C Q", "if A , C Q"),
 ];
 /// What is said by the way, in the words of who asks kindly.
@@ -215,7 +222,7 @@ pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
     }
-    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "if")) {
+    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["if", "case", "room", "space"].contains(&word.as_str()))) {
         *lexemes = told_by(lexemes, BEFORE_ALL);
     }
 }

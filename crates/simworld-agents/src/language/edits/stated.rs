@@ -245,6 +245,11 @@ impl Reader<'_> {
             // Behind a preamble it may be a verb: "residents would benefit from ...".
             self.depth < super::says::DEEPEST
                 && self.is_unknown(at, place)
+                // "Cyclists fall into the river".
+                && (place == at + 1
+                    || self.word(place - 1).is_some_and(|word| word.ends_with('s'))
+                    || self.names.asset_words(&self.lexemes[at..place]) == Some(place - at)
+                    || !self.word(at).is_some_and(|word| word.ends_with('s')))
                 && self.one_of(at, place).is_err()
                 && longest(&self.lexemes[at..place], &super::words::VERBS).is_none()
                 && super::follow::species(&self.lexemes[at]).is_none()

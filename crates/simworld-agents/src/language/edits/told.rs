@@ -90,7 +90,9 @@ impl Reader<'_> {
                     self.word(at - 1),
                     Some("and" | "then" | "please" | "just" | "now" | "so" | "also" | "kindly" | "or")
                 );
-            may && longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, _)| {
+            // "I need to know" is no order; what "I need a bench" is, is looked at elsewhere.
+            let is_own = matches!(self.word(at), Some("i" | "we" | "im" | "id" | "wed" | "ill" | "well" | "there" | "theres"));
+            may && !is_own && longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, _)| {
                 at == from || !matches!(verb, Verb::Name | Verb::Describe | Verb::List | Verb::Count)
             })
         })
@@ -135,7 +137,7 @@ impl Reader<'_> {
     pub(super) fn tells_anything(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
         let has_verb = (from..end).any(|at| self.word(at).is_some_and(|word| IS.contains(word)));
-        let is_call = words.len() <= 4
+        let is_call = words.len() <= 7
             && self.lexemes.get(end).is_none_or(|mark| mark.token == Token::Break)
             && words.iter().all(|word| matches!(word.token, Token::Word(_)));
         has_verb
@@ -159,7 +161,20 @@ impl Reader<'_> {
             let own = self.word(from + who - 1).unwrap_or_default();
             !["all", "both", "some", "most", "many", "few", "that", "this", "these", "those", "what", "how"].contains(&own)
         });
-        has_verb || is_somebody || self.has_a_verb(from, end)
+        // "The bench near the museum gets wet".
+        let behind = || {
+            let mut parser = self.parser(from, end);
+            parser.reference(0).is_ok()
+                && self.is_certain(from)
+                && parser.at + 1 < end
+                && self.word(parser.at).is_some_and(|word| {
+                    !NO_VERB.contains(&word)
+                        && word.ends_with('s')
+                        && !is_of_an_order(word)
+                        && category(&self.lexemes[parser.at..end]).is_none()
+                })
+        };
+        has_verb || is_somebody || self.has_a_verb(from, end) || behind()
     }
 
     /// "The choir sings", "cyclists fall": a noun, and behind it a word that is no small one and asks for nothing.
@@ -173,11 +188,19 @@ impl Reader<'_> {
             let is_of_one = the > 0 && (word.ends_with('s') && !word.ends_with("ss") || word.ends_with("ed"));
             let is_verb = !NO_VERB.contains(&word)
                 && category(&self.lexemes[at..end]).is_none()
-                && (!VERBS.begins(word) || word.ends_with('s'))
+                && !is_of_an_order(word)
                 && !self.is_place(at);
             is_verb && (many || is_of_one) && at + 1 < end + usize::from(is_of_one)
         })
     }
+}
+
+/// "Moves", "moved": a form of an order's verb, by which something may be asked for.
+fn is_of_an_order(word: &str) -> bool {
+    let stems = [word.strip_suffix("es"), word.strip_suffix('s')];
+    VERBS.begins(word)
+        || super::forms::is_form(word)
+        || stems.into_iter().flatten().any(|stem| stem.len() > 2 && VERBS.begins(stem))
 }
 
 /// Whether a class is of people alone.
