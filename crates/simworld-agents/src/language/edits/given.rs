@@ -310,12 +310,16 @@ impl Reader<'_> {
     fn is_so(&self, at: usize, end: usize) -> Option<(bool, usize)> {
         let words = longest_phrase(
             &self.lexemes[at..end],
-            &["if", "unless", "only if", "in case", "provided", "provided that", "as long as"],
+            &["if", "unless", "only if", "in case", "provided", "provided that", "as long as", "when"],
         )?;
         let is_unless = self.word(at) == Some("unless");
         let cut = (at + words..end).find(|at| joint(&self.lexemes[*at..end]).is_some()).unwrap_or(end);
         if self.coloured(at + words, cut).is_some() {
             return Some((!is_unless, words));
+        }
+        // "When the van is white" may be now; "when Eve stands by the bus" is later.
+        if self.word(at) == Some("when") {
+            return None;
         }
         let mut parser = self.parser(at + words, end);
         let what = parser.reference(0).ok()?;

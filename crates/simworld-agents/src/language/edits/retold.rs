@@ -19,7 +19,7 @@ const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with ea
     "if possible", "if you can", "if you could", "if thats possible", "if that is possible", "all in all", "altogether", "for the time being", "for the moment", "for a change", "for good measure", "for company",
     "right about now", "right now", "out here", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
     "once and for all", "in the meantime", "as a start", "for a start", "to begin with", "to start with", "on second thoughts", "needless to say", "as you know", "as you can see", "say what you want",
-    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "be a dear", "be an angel", "after all", "for crying out loud"]);
+    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "to sleep in", "to sleep on", "to hide in", "to climb on", "be a dear", "be an angel", "after all", "for crying out loud"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
 /// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
@@ -150,6 +150,9 @@ const TURNS: &[(&str, &str)] = &[
     ("P , one each M B", "P every M B"),
     ("A from B to C , one|placed|set|spaced every|each M in between", "A every M between B and C"),
     ("O give|get|buy|bring|offer|lend|grant|hand them|people|everybody|everyone|us D A", "O put D A"),
+    ("P , but|only not B", "P except B"),
+    ("P , but|and|only|just leave|keep|spare B alone|be|standing|there|- Q", "P except B Q"),
+    ("P , but|and|only B stays|stay|remains|remain as|where|- it|they|- is|are|-", "P except B"),
     ("O take|clear A off B", "O remove A on B"),
     ("P in|on|over there Q", "P there Q"),
     ("i|we promised|owe A D B", "add D B"),
@@ -371,7 +374,7 @@ impl Reader<'_> {
         let may_be_about = is_before && rest.iter().any(is_open);
         let tells = || {
             let reader = Reader { lexemes: clause, at: 0, ..*self };
-            reader.names_nothing(0, clause.len()) && reader.tells_anything(0, clause.len())
+            reader.names_nothing(0, clause.len()) && reader.tells_with_verb(0, clause.len())
         };
         clause.len() > 1 && (any(IS) || tells()) && !any(CHANGES) && !paints && !may_be_about && !self.is_wish(clause)
     }

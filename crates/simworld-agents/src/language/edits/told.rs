@@ -134,14 +134,19 @@ impl Reader<'_> {
     }
 
     /// Somebody or something, and a verb of any kind; or a call of few words.
-    pub(super) fn tells_anything(&self, from: usize, end: usize) -> bool {
+    fn tells_anything(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
-        let has_verb = (from..end).any(|at| self.word(at).is_some_and(|word| IS.contains(word)));
         let is_call = words.len() <= 7
             && self.lexemes.get(end).is_none_or(|mark| mark.token == Token::Break)
             && words.iter().all(|word| matches!(word.token, Token::Word(_)));
-        has_verb
-            || is_call && longest_phrase(words, &["a", "an", "one", "two", "some", "no", "not"]).is_none()
+        let is_heading = is_call && longest_phrase(words, &["a", "an", "one", "two", "some"]).is_none();
+        is_heading || self.tells_with_verb(from, end)
+    }
+
+    /// Somebody or something, and a verb of any kind.
+    pub(super) fn tells_with_verb(&self, from: usize, end: usize) -> bool {
+        let words = &self.lexemes[from..end];
+        (from..end).any(|at| self.word(at).is_some_and(|word| IS.contains(word)))
             || longest_phrase(words, WHO).is_some() && words.len() > 2
             || self.has_a_verb(from, end)
     }
