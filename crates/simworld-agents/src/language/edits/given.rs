@@ -358,7 +358,8 @@ impl Reader<'_> {
             self.one_of(from, cut).ok()?
         };
         what.traits.paint = Some(paint);
-        (cut + said + words == end).then_some((what, !not))
+        let behind = longest_phrase(&self.lexemes[cut + said + words..end], &["yet", "already", "by now", "still", "now"]);
+        (cut + said + words + behind.unwrap_or(0) == end).then_some((what, !not))
     }
 
     /// "Add one": of what was just asked for, and where.

@@ -5,9 +5,9 @@
 //! why somebody wants something. What begins as an order does is none, nor what says how something should be, so that no
 //! wish is passed over because its words are not understood.
 
-use super::super::clause::Reference;
+use super::super::clause::{Reference, Target};
 use super::super::lexer::{Lexeme, is_mark};
-use super::super::lexicon::{longest, longest_phrase};
+use super::super::lexicon::{is_animate, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::follow::Said;
 use super::parse::{Reader, joint};
@@ -106,7 +106,8 @@ impl Reader<'_> {
                 if let Some(before) = &said.wish {
                     super::shared::on_street(before, wish, with);
                 }
-                wish.is_about(spoken_of);
+                let spoken_of = self.in_order_of(wish, spoken_of);
+                wish.is_about(&spoken_of);
                 wish.stands(&said.place);
             });
             let now = Said {
@@ -142,8 +143,11 @@ impl Reader<'_> {
                 return None;
             }
             let mut things = self.remarked_on(from, end, spoken_of);
-            if things.is_empty() {
-                things = spoken_of.to_vec();
+            // "Bo is waiting | for Ada": of both.
+            let goes_on = remark > 0 && !is_mark(&self.lexemes[remark - 1]);
+            if things.is_empty() || goes_on && !spoken_of.is_empty() {
+                let later = std::mem::replace(&mut things, spoken_of.to_vec());
+                things.extend(later);
             }
             let lacks = self.noun_lacking(from, end);
             let noun = lacks
@@ -196,6 +200,26 @@ impl Reader<'_> {
         wishes.iter().flatten().any(nowhere) && is_bare && !is_joined && !nowhere(before)
     }
 
+    /// What was spoken of, with the things first if the wish does something with "it", and with people first if it does with "him":
+    /// "Ben owns the scooter, so move it next to him".
+    fn in_order_of(&self, wish: &mut Wish, spoken_of: &[Reference]) -> Vec<Reference> {
+        let is_somebody = |one: &&Reference| match &one.target {
+            Target::Any(class) => class.kinds().iter().all(|kind| is_animate(*kind)),
+            Target::Named(ids) => ids.iter().all(|id| {
+                self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind))
+            }),
+            _ => false,
+        };
+        let (people, things): (Vec<&Reference>, Vec<&Reference>) = spoken_of.iter().partition(is_somebody);
+        let first = wish.objects_mut().first().map(|object| object.text.clone());
+        let order: Vec<&Reference> = match first.as_deref() {
+            Some("it") => things.into_iter().chain(people).collect(),
+            Some("him" | "her" | "he" | "she") => people.into_iter().chain(things).collect(),
+            _ => return spoken_of.to_vec(),
+        };
+        order.into_iter().cloned().collect()
+    }
+
     /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
     fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
         (from + 1..end).rev().find_map(|at| {
@@ -229,6 +253,12 @@ impl Reader<'_> {
         let there = longest_phrase(&self.lexemes[from..end], &["there is", "theres", "there are"]);
         let stop =
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
+        // "There is too much litter at the statue": nothing that "it" could be, but the statue.
+        const TOO_MUCH: &Phrases = &Phrases::of(&["there is too much", "theres too much", "there is so much", "theres so much", "there are too many", "there is no", "theres no", "there is nothing", "theres nothing"]);
+        let stop = if longest_phrase(&self.lexemes[from..end], TOO_MUCH).is_some() { end } else { stop };
+        // "The statue is so small that people overlook it": the statue, and not the people.
+        let so = (from..stop).find(|at| self.word(*at) == Some("so"));
+        let stop = so.and_then(|so| (so + 1..stop).find(|at| self.word(*at) == Some("that"))).unwrap_or(stop);
         // "The crate is too big for the kids": the crate, and not the kids.
         let too = (from..stop).find(|at| matches!(self.word(*at), Some("too" | "enough")));
         let whom = too.and_then(|too| (too + 1..stop).find(|at| self.word(*at) == Some("for")));

@@ -19,7 +19,7 @@ const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with ea
     "if possible", "if you can", "if you could", "if thats possible", "if that is possible", "all in all", "altogether", "for the time being", "for the moment", "for a change", "for good measure", "for company",
     "right about now", "right now", "out here", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
     "once and for all", "in the meantime", "as a start", "for a start", "to begin with", "to start with", "on second thoughts", "needless to say", "as you know", "as you can see", "say what you want",
-    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "to sleep in", "to sleep on", "to hide in", "to climb on", "be a dear", "be an angel", "after all", "for crying out loud"]);
+    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of", "if you please", "by noon tomorrow", "by tomorrow", "this time", "on monday", "on tuesday", "on wednesday", "on thursday", "on friday", "on saturday", "on sunday", "these days", "at long last", "in fact", "no doubt", "thanks a bunch", "thanks a million", "thanks ever so much", "bless you", "isnt there", "arent there", "isnt it", "doesnt it", "dont you think", "i know i know", "pretty please", "pretty pleas", "if nobody minds", "to sleep in", "to sleep on", "to hide in", "to climb on", "be a dear", "be an angel", "after all", "for crying out loud"]);
 
 /// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
 /// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
@@ -153,7 +153,17 @@ const TURNS: &[(&str, &str)] = &[
     ("P , but|only not B", "P except B"),
     ("P , but|and|only|just leave|keep|spare B alone|be|standing|there|- Q", "P except B Q"),
     ("P , but|and|only B stays|stay|remains|remain as|where|- it|they|- is|are|-", "P except B"),
+    ("O take|get|bring|clear A off|from B and put|place|set|stand it|them C", "O move A C"),
     ("O take|clear A off B", "O remove A on B"),
+    ("P , but|and|so|- id|wed sleep|feel|work|rest|live|breathe better|safer|happier|easier|calmer with D B", "P , so add D B"),
+    ("P , but|and|so maybe|perhaps|- D A would|will|should|might bring|draw|lift|change|cheer|work|make|save|keep|help|give|stop|solve|fix|prevent|attract|delight B", "P , so add D A"),
+    ("id|wed|i|we would|- sleep|feel|work|rest|live|breathe|be|look better|safer|happier|easier|calmer with D B", "add D B"),
+    ("maybe|perhaps|possibly|surely|- D A would|will|should|might bring|draw|lift|change|cheer|work B", "add D A"),
+    ("D A would be a|an|such|quite B", "add D A"),
+    ("if only there were|was D A", "add D A"),
+    ("if only we|i had D A", "add D A"),
+    ("P , but the A is called|named B", "P , name the A B"),
+    ("the A is called|named B", "name the A B"),
     ("P in|on|over there Q", "P there Q"),
     ("i|we promised|owe A D B", "add D B"),
     ("D A is what i|we need|want|lack|miss|fancy B", "add D A B"),

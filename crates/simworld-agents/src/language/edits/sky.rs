@@ -25,6 +25,8 @@ pub(super) const COMPLAINS: &[&str] = &[
     "its always",
     "it is far too",
     "its far too",
+    "its to",
+    "is to",
     "is too",
     "is far too",
     "is so",

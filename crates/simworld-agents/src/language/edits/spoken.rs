@@ -189,7 +189,7 @@ pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
         let end = at + verb + it;
         // "Oak Street goes car-free, shut it" says it twice.
         let is_said = (0..at).any(|at| {
-            longest_phrase(&lexemes[at..], &["car free", "free", "closed", "off limits", "banned", "close", "shut"]).is_some()
+            longest_phrase(&lexemes[at..], &["car free", "free", "off limits", "banned", "close", "shut", "goes"]).is_some()
         });
         if is_said {
             return None;

@@ -251,7 +251,7 @@ impl Reader<'_> {
                     || self.names.asset_words(&self.lexemes[at..place]) == Some(place - at)
                     || !self.word(at).is_some_and(|word| word.ends_with('s')))
                 && self.one_of(at, place).is_err()
-                && longest(&self.lexemes[at..place], &super::words::VERBS).is_none()
+                && self.order_at(at, place).is_none()
                 && super::follow::species(&self.lexemes[at]).is_none()
                 && super::forms::as_order(&self.lexemes[at..place]).is_none()
                 && self.names.exact(&self.lexemes[place - 1..place]).is_none()

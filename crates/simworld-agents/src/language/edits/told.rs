@@ -53,15 +53,50 @@ impl Reader<'_> {
             start += words;
         }
         let words = &self.lexemes[start..end];
+        // What an order follows from asks for nothing itself: "it must stay free, so put the bench elsewhere".
+        let leads = self.leads_to_order(end);
+        let may_change = || {
+            if leads {
+                self.sets_a_condition(start, end) || self.wishes_for_new(start, end)
+            } else {
+                self.may_take_back(start, end) || self.wishes_for(start, end)
+            }
+        };
+        let tells = || {
+            let names_nothing = self.names_nothing(start, end);
+            names_nothing && (leads || self.tells_anything(start, end)) || self.tells_of_what_is_here(start, end, leads)
+        };
         ends && words.len() > 1
             && longest_phrase(words, &["if", "when", "unless", "should", "in case", "suppose", "once"]).is_none()
-            && !self.may_take_back(start, end)
             && !self.orders_here(start, end)
-            && !self.wishes_for(start, end)
-            && (self.names_nothing(start, end) && self.tells_anything(start, end)
-                || self.tells_of_what_is_here(start, end))
+            && !may_change()
+            && tells()
             && !self.is_read_as_wish(from, end, is_known)
             && !self.is_read_as_wish(start, end, is_known)
+    }
+
+    /// Whether "so" follows and then an order, or what may be one: "..., so paint it".
+    fn leads_to_order(&self, end: usize) -> bool {
+        let marks = self.lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
+        let so = longest_phrase(&self.lexemes[end + marks..], &["so", "which is why", "thats why", "therefore", "hence"]);
+        so.is_some_and(|words| {
+            !matches!(self.word(end + marks + words), Some("that" | "many" | "much" | "they" | "we" | "it" | "people"))
+        })
+    }
+
+    fn sets_a_condition(&self, from: usize, end: usize) -> bool {
+        const CONDITIONS: &Phrases = &Phrases::of(&["if", "unless", "until", "instead", "rather than", "i mean", "i meant", "scratch that", "no wait", "wait no", "correction", "undo", "never mind", "forget it", "forget that", "please", "could you", "can you", "would you", "will you", "how about", "what about", "otherwise"]);
+        (from..end).any(|at| longest_phrase(&self.lexemes[at..end], CONDITIONS).is_some())
+    }
+
+    /// "I want a unicorn": a wish for something new.
+    fn wishes_for_new(&self, from: usize, end: usize) -> bool {
+        (from..end).any(|at| {
+            longest_phrase(&self.lexemes[at..end], WISHES).is_some_and(|words| {
+                let rest = &self.lexemes[at + words..end];
+                numbers::count(rest).is_some() || longest_phrase(rest, &["a", "an", "some", "more"]).is_some()
+            })
+        })
     }
 
     fn is_read_as_wish(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {
@@ -75,7 +110,15 @@ impl Reader<'_> {
             // "The red bench gets wet" is no colour that is asked for.
             let is_coloured = longest(rest, PAINTS)
                 .is_some_and(|(_, words)| rest.get(words..).is_none_or(|rest| category(rest).is_none()));
-            longest_phrase(rest, TAKES_BACK).is_some()
+            // "We are wanting it late at night" is no word about anything else.
+            // "Ben freezes every night" is one.
+            let is_adverb = at > from
+                && matches!(self.word(at - 1), Some("every" | "last" | "all" | "at" | "the" | "this" | "that" | "each" | "in"));
+            let is_sky = !is_adverb && longest(rest, &super::words::SKIES).is_some()
+                || super::sky::hour(rest).is_some_and(|(_, words)| words > 1);
+            // "They only ever saw its back".
+            let is_only = self.word(at) == Some("only") && at > from && longest_phrase(&self.lexemes[from..at], WHO).is_some();
+            is_sky || longest_phrase(rest, TAKES_BACK).is_some() && !is_only
                 || is_coloured
                 || numbers::length(rest).is_some_and(|(_, words)| words > 1)
         })
@@ -152,7 +195,7 @@ impl Reader<'_> {
     }
 
     /// "The bench by the museum gets wet": what is there, and what is so of it or what somebody does with it.
-    fn tells_of_what_is_here(&self, from: usize, end: usize) -> bool {
+    fn tells_of_what_is_here(&self, from: usize, end: usize, leads: bool) -> bool {
         let words = &self.lexemes[from..end];
         let is_new = longest_phrase(words, &["a", "an", "some", "one"]).is_some() || numbers::count(words).is_some();
         if is_new || words.len() < 3 || self.is_place(from) {
@@ -179,7 +222,7 @@ impl Reader<'_> {
                         && category(&self.lexemes[parser.at..end]).is_none()
                 })
         };
-        has_verb || is_somebody || self.has_a_verb(from, end) || behind()
+        leads || has_verb || is_somebody || self.has_a_verb(from, end) || behind()
     }
 
     /// "The choir sings", "cyclists fall": a noun, and behind it a word that is no small one and asks for nothing.
