@@ -76,7 +76,7 @@ fn what_is_pointed_at_is_what_was_told_of_before() {
                 "put a bird bath next to the bench in Rose Park",
             ),
             ("The kids race their bikes on Elm Street at night, so close it.", "close Elm Street"),
-            ("The film crew needs an hour on River Walk, so close the street for them.", "close River Walk"),
+            ("The film crew is busy on River Walk, so close the street for them.", "close River Walk"),
         ],
     );
 }
@@ -100,7 +100,6 @@ fn no_order_is_lost_in_what_is_told() {
             ),
         ],
     );
-    let city = City::read("campus");
     // Nobody is moved, and no letter made.
     mean_the_same(
         "campus",
@@ -112,8 +111,43 @@ fn no_order_is_lost_in_what_is_told() {
         ],
     );
     // A wish for what nobody has is not passed over.
-    let unknown = edits_of(&city, "I want a unicorn, and put a bench next to the statue");
+    let unknown = edits_of(&City::read("campus"), "I want a unicorn, and put a bench next to the statue");
     assert!(unknown.is_err(), "{unknown:?}");
+}
+
+#[test]
+fn nothing_is_made_or_moved_that_was_not_asked_for() {
+    mean_the_same(
+        "oldtown",
+        &[
+            ("Remove the white van and the yellow taxi, I can't stand the noise.", "remove the white van and the yellow taxi"),
+            ("move the table next to the bus stop, people have to stand there for ages", "move the table next to the bus stop"),
+            ("Carol would love a stool next to the postbox, can you add one?", "put a stool next to the postbox"),
+            ("We're having a party: a stage next to the postbox.", "a stage next to the postbox"),
+            ("Ivy Cottage is so small that people overlook it, so paint it red", "paint Ivy Cottage red"),
+        ],
+    );
+    mean_the_same(
+        "harbour",
+        &[("Ben owns the scooter, so move it next to him", "move the scooter next to Ben")],
+    );
+}
+
+#[test]
+fn names_that_hold_an_order_or_a_denial_are_names() {
+    mean_the_same(
+        "quarter",
+        &[
+            ("put a no parking sign next to the kiosk", "put a parking sign next to the kiosk"),
+            ("put a stool next to the trash bin that is closest to the school", "put a stool next to the bin closest to the school"),
+            (
+                "park lanterns on both sides of Elm Street every 25 metres",
+                "put park lanterns on both sides of Elm Street every 25 metres",
+            ),
+            ("put a stool next to the street lamp closest to Elm Street", "put a stool next to the northernmost street lamp"),
+            ("close the western half of Elm Street", "close Elm Street between Harbour Road and Station Road"),
+        ],
+    );
 }
 
 #[test]

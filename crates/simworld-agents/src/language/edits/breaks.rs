@@ -24,6 +24,7 @@ pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
     for _ in 0..2 {
         broken_off(lexemes);
     }
+    no_parking(lexemes);
     something(lexemes);
     named_again(lexemes);
 }
@@ -120,6 +121,17 @@ fn named_again(lexemes: &mut Vec<Lexeme>) {
     let Some((noun, count, name, from, to)) = found else { return };
     lexemes.drain(from..to);
     lexemes.splice(noun..noun + count, name);
+}
+
+/// "A no parking sign" denies nothing: its name is as clear without "no".
+fn no_parking(lexemes: &mut Vec<Lexeme>) {
+    let found = (1..lexemes.len()).find(|at| {
+        longest_phrase(&lexemes[*at..], &["no parking sign", "no parking signs"]).is_some()
+            && (longest_phrase(&lexemes[at - 1..], DETERMINERS).is_some() || number(&lexemes[at - 1..*at]).is_some())
+    });
+    if let Some(at) = found {
+        lexemes.remove(at);
+    }
 }
 
 /// "Something to sit on, a stool, next to Anna": the stool.

@@ -54,7 +54,7 @@ const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "
 #[rustfmt::skip]
 const QUESTIONS: &Phrases = &Phrases::of(&["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
-    "what was", "what are", "is the", "are the", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
+    "what was", "what are", "is the", "are the", "do you know", "do you have any idea", "have you heard", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
 
 static WORDS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| SMALL.split_whitespace().collect());
 

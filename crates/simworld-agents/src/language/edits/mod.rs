@@ -150,8 +150,10 @@ pub(crate) fn read(
     let memo = memo::Memo::default();
     let reader =
         Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+    let nearest = reader.with_nearest_to_street();
+    let reader = Reader { lexemes: nearest.as_deref().unwrap_or(&lexemes), ..reader };
     let pointed = reader.with_what_was_pointed_at();
-    let reader = Reader { lexemes: pointed.as_deref().unwrap_or(&lexemes), ..reader };
+    let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
     let numbered = reader.with_number();
     let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
@@ -160,6 +162,7 @@ pub(crate) fn read(
     }
     dress_new(&mut wishes);
     gone_once(&mut wishes);
+    made_once(&mut wishes);
     let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     paint_at_once(&mut wishes, &finder);
     Ok(Reading { words: words.to_owned(), wishes })
@@ -227,6 +230,28 @@ fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
     let mut at = 1;
     while at < wishes.len() {
         if removes(&wishes[at - 1]) && it(&wishes[at]) {
+            wishes.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+}
+
+/// "She would love an olive tree next to the diner, can you add one?": what is asked for twice is made once.
+fn made_once(wishes: &mut Vec<Vec<Wish>>) {
+    let mut at = 1;
+    while at < wishes.len() {
+        let is_again = match (wishes[at - 1].first(), wishes[at].as_slice()) {
+            (Some(Wish::Add { things: made, at: place }), [Wish::Add { things, at: own }, ..]) => {
+                let said_again = |one: &wish::NewThing| {
+                    one.count == 1 && ["one", "it"].contains(&one.text.to_lowercase().as_str())
+                };
+                let is_there = own.is_empty() || matches!(own[..], [wish::Where::There]);
+                !place.is_empty() && made.len() == 1 && is_there && things.iter().all(said_again)
+            }
+            _ => false,
+        };
+        if is_again {
             wishes.remove(at);
         } else {
             at += 1;

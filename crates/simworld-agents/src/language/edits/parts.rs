@@ -139,7 +139,9 @@ impl Reader<'_> {
                 || self.is_remark(remark.min(from), end)
                 || said.wish.is_some() && self.is_idle(from, end);
             let is_told = || search.telling == Telling::ByShape && self.is_told(remark.min(from), end, search.is_known);
-            if !asks_nothing && !is_told() || self.hides_wish(said, (from, end), search.is_known) {
+            if !asks_nothing && !is_told()
+                || said.wish.is_some() && self.is_listed(from, end)
+                || self.hides_wish(said, (from, end), search.is_known) {
                 return None;
             }
             let mut things = self.remarked_on(from, end, spoken_of);
@@ -181,6 +183,17 @@ impl Reader<'_> {
         })
     }
 
+    /// "Remove the van and the yellow car, ...": what is named behind "and" up to a mark is one more of those that were named.
+    fn is_listed(&self, from: usize, end: usize) -> bool {
+        let is_joined = from > 0 && matches!(self.word(from - 1), Some("and" | "or" | "plus"));
+        let mut parser = self.parser(from, end);
+        is_joined
+            && self.is_definite(from)
+            && parser.reference(0).is_ok()
+            && parser.at > from
+            && self.lexemes.get(parser.at).is_none_or(is_mark)
+    }
+
     /// "Rename it", whatever is said behind.
     fn renames(&self, at: usize, end: usize) -> bool {
         longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, words)| {
@@ -197,7 +210,14 @@ impl Reader<'_> {
         let is_joined = from > 0
             && matches!(self.word(from - 1), Some("and" | "also" | "plus" | "then" | "with" | "or" | "well"));
         let is_bare = longest(&self.lexemes[from..], &VERBS).is_none();
+        // "People have to stand there for ages" moves nobody.
+        let crowd: &[&str] = &["people", "folks", "kids", "children", "visitors", "guests", "everybody", "everyone", "customers", "students", "tourists"];
+        let is_of_crowd = |wish: &Wish| {
+            matches!(wish, Wish::Move { what, .. } | Wish::Face { what, .. } | Wish::Rotate { what, .. }
+                if what.iter().any(|one| crowd.contains(&one.text.to_lowercase().as_str())))
+        };
         wishes.iter().flatten().any(nowhere) && is_bare && !is_joined && !nowhere(before)
+            || is_bare && wishes.iter().flatten().any(is_of_crowd)
     }
 
     /// What was spoken of, with the things first if the wish does something with "it", and with people first if it does with "him":
@@ -347,7 +367,9 @@ impl Reader<'_> {
         #[rustfmt::skip]
         const ORDERS: &Phrases = &Phrases::of(&["put", "move", "get", "get rid of", "take", "remove", "paint", "make", "turn", "add", "give", "shift", "swap", "please", "throw", "bin", "delete", "bring", "send", "replace", "scrap", "lose",
             "say", "colour", "place", "set", "push", "pull", "drag", "tow"]);
-        let Some(words) = longest_phrase(&self.lexemes[at..], ORDERS).filter(|_| at > from + 2) else {
+        let Some(words) = longest_phrase(&self.lexemes[at..], ORDERS)
+            .filter(|_| at > from + 2 && !self.ends_longer_noun(at, self.lexemes.len()))
+        else {
             return false;
         };
         let what = longest_phrase(

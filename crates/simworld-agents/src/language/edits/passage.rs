@@ -146,7 +146,15 @@ impl Reader<'_> {
     fn half(&self, at: usize, end: usize) -> Option<(super::super::compass::Compass, usize)> {
         let mut parser = self.parser(at, end);
         parser.eat_any(&["at its", "at the", "on its", "on the", "at"]);
-        let compass = parser.compass()?;
+        let start = parser.at;
+        parser.eat_any(&["the"]);
+        let compass = match parser.compass_of_part() {
+            Some(compass) => compass,
+            None => {
+                parser.at = start;
+                parser.compass()?
+            }
+        };
         parser
             .eat_any(&[
                 "half",

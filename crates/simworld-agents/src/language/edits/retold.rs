@@ -161,6 +161,8 @@ const TURNS: &[(&str, &str)] = &[
     ("maybe|perhaps|possibly|surely|- D A would|will|should|might bring|draw|lift|change|cheer|work B", "add D A"),
     ("D A would be a|an|such|quite B", "add D A"),
     ("if only there were|was D A", "add D A"),
+    ("A deserves|deserve|begs|longs to be B", "A should be B"),
+    ("A ought|should|must|has to|- have|keep his|her|its|their eyes|eye|gaze on B", "A should face B"),
     ("if only we|i had D A", "add D A"),
     ("P , but the A is called|named B", "P , name the A B"),
     ("the A is called|named B", "name the A B"),
@@ -229,8 +231,21 @@ const BEFORE_ALL: &[(&str, &str)] = &[
 const ASIDES: &Phrases = &Phrases::of(&["while you are at it", "while youre at it", "while were at it", "while im at it", "while we are at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
     "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);
 
+/// "We're having a party: ...": an occasion is nothing that is to be put anywhere.
+fn without_occasion(lexemes: &mut Vec<Lexeme>) {
+    const HAVING: &Phrases = &Phrases::of(&["were having a", "we are having a", "im having a", "i am having a", "theyre having a", "were throwing a", "im throwing a", "weve got a", "were having our", "were planning a", "im planning a", "were celebrating a"]);
+    let Some(mark) = lexemes.iter().position(is_mark).filter(|mark| mark + 1 < lexemes.len()) else { return };
+    let is_plain = mark <= 9
+        && longest_phrase(lexemes, HAVING).is_some()
+        && !(0..mark).any(|at| longest(&lexemes[at..], &super::words::WAYS).is_some_and(|(_, words)| words > 1));
+    if is_plain {
+        lexemes.drain(..=mark);
+    }
+}
+
 /// Puts what would be misunderstood plainly, and leaves out what is said by the way.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    without_occasion(lexemes);
     let asides = without(lexemes, ASIDES);
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;

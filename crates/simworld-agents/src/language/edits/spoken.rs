@@ -1,7 +1,10 @@
 //! What a remark is about, which is what "it" stands for behind it: "the van is ugly; paint it", "they left a bike here, remove it".
 
-use super::super::clause::{Choice, Reference, Stands, Target};
-use super::super::lexer::{Lexeme, is_mark};
+use simworld_core::id::{EntityId, RoadId};
+use simworld_core::net::polyline;
+
+use super::super::clause::{Choice, Count, Reference, Stands, Target};
+use super::super::lexer::{Lexeme, Token, is_mark};
 use super::super::lexicon::{Category, category, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::super::resolve::Purpose;
@@ -246,3 +249,56 @@ impl Reader<'_> {
         Some(std::iter::once(the).chain(self.lexemes[from + article..parser.at].iter().cloned()).collect())
     }
 }
+
+impl Reader<'_> {
+    /// The words with the thing itself for "the street lamp closest to Oak Street": of such things the nearest to a street, if one is
+    /// nearer than all others.
+    pub(super) fn with_nearest_to_street(&self) -> Option<Vec<Lexeme>> {
+        #[rustfmt::skip]
+        const NEAREST: &Phrases = &Phrases::of(&["closest to", "nearest to", "nearest", "that is closest to", "thats closest to", "which is closest to", "that is nearest to", "thats nearest to", "which is nearest to", "that stands closest to",
+            "standing closest to", "that stands nearest to"]);
+        let streets = self.view.streets?;
+        (2..self.lexemes.len()).find_map(|at| {
+            let words = longest_phrase(&self.lexemes[at..], NEAREST)?;
+            let behind = at + words;
+            let the = longest_phrase(self.lexemes.get(behind..)?, &["the"]).unwrap_or(0);
+            let street = streets.at(self.lexemes.get(behind + the..)?)?;
+            let (from, thing) = (at.saturating_sub(LONGEST_NAMED)..at).find_map(|from| {
+                let mut parser = self.parser(from, at);
+                let thing = parser.reference(0).ok()?;
+                (self.word(from) == Some("the") && parser.at == at).then_some((from, thing))
+            })?;
+            let nearest = self.nearest_to(&thing, street.roads)?;
+            let end = behind + the + street.words;
+            let mut lexemes = self.lexemes.to_vec();
+            let one = Lexeme { token: Token::Id(nearest), lemma: None, end: lexemes[end - 1].end, ..lexemes[from].clone() };
+            lexemes.splice(from..end, [one]);
+            Some(lexemes)
+        })
+    }
+
+    /// Of all such things the nearest to the middle of any of some roads; none if two are as near.
+    fn nearest_to(&self, thing: &Reference, roads: &[RoadId]) -> Option<EntityId> {
+        /// As near is what differs by less, m.
+        const ALIKE: f64 = 0.5;
+        let network = self.view.scene.roads()?;
+        let all = Reference { count: Count::One, choice: Choice::Farthest, ..thing.clone() };
+        let found = self.view.candidates(&all, Purpose::Any).ok()?;
+        let distance = |id: EntityId| {
+            let point = self.view.scene.entity(id)?.planar();
+            let to = |road: &RoadId| polyline::closest(&network.roads.get(road.index())?.centerline, &point);
+            roads.iter().filter_map(to).map(|near| near.distance).min_by(f64::total_cmp)
+        };
+        let mut near: Vec<(f64, EntityId)> =
+            found.into_iter().filter_map(|(_, id)| Some((distance(id)?, id))).collect();
+        near.sort_by(|one, other| one.0.total_cmp(&other.0));
+        match near[..] {
+            [(_, only)] => Some(only),
+            [(one, nearest), (other, _), ..] if other - one > ALIKE => Some(nearest),
+            _ => None,
+        }
+    }
+}
+
+/// A thing before "closest to" has no more words than that.
+const LONGEST_NAMED: usize = 5;

@@ -256,7 +256,13 @@ impl Reader<'_> {
                 && super::forms::as_order(&self.lexemes[at..place]).is_none()
                 && self.names.exact(&self.lexemes[place - 1..place]).is_none()
         });
-        many || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
+        // "Park lanterns along the road".
+        let is_asset = place.is_some_and(|place| {
+            self.names.asset_words(&self.lexemes[at..place]) == Some(place - at)
+                && self.word(place - 1).is_some_and(|word| word.ends_with('s'))
+                && place > at + 1
+        });
+        many || is_asset || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
 }
 

@@ -149,6 +149,19 @@ impl Reader<'_> {
             let rest = &self.lexemes[at.min(end)..end];
             numbers::count(rest).is_some() || longest_phrase(rest, &["a", "an", "some"]).is_some()
         };
+        // "People have to stand there", "she must be thirsty".
+        const CROWD: &Phrases = &Phrases::of(&["people", "folks", "kids", "children", "visitors", "guests", "everybody", "everyone", "customers", "students", "tourists"]);
+        let must_be = longest_phrase(
+            &self.lexemes[from..end],
+            &["he must be", "she must be", "they must be", "it must be", "you must be", "everybody must be"],
+        );
+        let is_state = must_be.is_some_and(|words| {
+            from + words + 1 == end
+                && self.word(from + words).is_some_and(|word| !word.ends_with("ed") && !word.ends_with("er"))
+        });
+        if nobody_here && (is_state || longest_phrase(&self.lexemes[from..end], CROWD).is_some()) {
+            return self.wishes_for_new(from, end);
+        }
         (from..end).any(|at| {
             // "Bo gets a stool" is a wish, and "the bench gets wet" none; and "the black car goes" is one.
             if longest_phrase(&self.lexemes[at..end], &["gets", "goes"]).is_some() {
@@ -171,7 +184,9 @@ impl Reader<'_> {
             category(rest).is_some_and(|(class, _)| !is_of_people(class))
                 || self.names.exact(rest).is_some()
                 || self.view.streets.is_some_and(|streets| streets.at(rest).is_some())
-                || self.is_place(at) && self.places_to(at, end).is_some()
+                || !matches!(self.word(at), Some("there" | "here"))
+                    && self.is_place(at)
+                    && self.places_to(at, end).is_some()
         };
         !(from..end).any(named)
     }
@@ -180,7 +195,8 @@ impl Reader<'_> {
     fn tells_anything(&self, from: usize, end: usize) -> bool {
         let words = &self.lexemes[from..end];
         let is_call = words.len() <= 7
-            && self.lexemes.get(end).is_none_or(|mark| mark.token == Token::Break)
+            && (self.lexemes.get(end).is_none_or(|mark| mark.token == Token::Break)
+                || self.lexemes.get(end + 1..).is_some_and(|rest| longest(rest, &VERBS).is_some()))
             && words.iter().all(|word| matches!(word.token, Token::Word(_)));
         let is_heading = is_call && longest_phrase(words, &["a", "an", "one", "two", "some"]).is_none();
         is_heading || self.tells_with_verb(from, end)
