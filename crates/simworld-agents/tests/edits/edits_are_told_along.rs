@@ -39,8 +39,12 @@ fn what_is_told_along_the_way_is_passed_over() {
         "My sister gets married on Saturday and nobody told me:",
         "The bench by the school gets wet, so",
     ];
-    let behind =
-        [", the kids chose it", ". The rector insists on one", ", people queue there", ", we have dancers coming"];
+    let behind = [
+        ", the kids chose it",
+        ". The rector insists on one",
+        ", people queue there",
+        ", we have dancers coming",
+    ];
     let said = before.iter().map(|told| format!("{told} {plain}."));
     let said = said.chain(behind.iter().map(|told| format!("{plain}{told}.")));
     let astray: Vec<String> = said
@@ -58,7 +62,10 @@ fn what_is_broken_off_or_named_again_is_one_thing() {
         "harbour",
         &[
             ("put a well... a bird bath next to the mailbox", "put a bird bath next to the mailbox"),
-            ("half a dozen lobster... er, wooden barrels next to the diner", "six wooden barrels next to the diner"),
+            (
+                "half a dozen lobster... er, wooden barrels next to the diner",
+                "six wooden barrels next to the diner",
+            ),
             ("put a sign next to the mailbox, a direction sign", "put a direction sign next to the mailbox"),
             ("put something to sit on, a stool, next to Anna", "put a stool next to Anna"),
             ("put a stool next to Anna - her feet hurt", "put a stool next to Anna"),
@@ -104,10 +111,16 @@ fn no_order_is_lost_in_what_is_told() {
     mean_the_same(
         "campus",
         &[
-            ("please get a park bench in front of the lab for the helpers", "put a park bench in front of the lab"),
+            (
+                "please get a park bench in front of the lab for the helpers",
+                "put a park bench in front of the lab",
+            ),
             ("turn Gus around so that he faces the Curie Lab", "make Gus face the Curie Lab"),
             ("move Fay next to the statue, she's posting a letter", "move Fay next to the statue"),
-            ("three metres north of the hydrant, a direction sign", "a direction sign three metres north of the hydrant"),
+            (
+                "three metres north of the hydrant, a direction sign",
+                "a direction sign three metres north of the hydrant",
+            ),
         ],
     );
     // A wish for what nobody has is not passed over.
@@ -120,9 +133,18 @@ fn nothing_is_made_or_moved_that_was_not_asked_for() {
     mean_the_same(
         "oldtown",
         &[
-            ("Remove the white van and the yellow taxi, I can't stand the noise.", "remove the white van and the yellow taxi"),
-            ("move the table next to the bus stop, people have to stand there for ages", "move the table next to the bus stop"),
-            ("Carol would love a stool next to the postbox, can you add one?", "put a stool next to the postbox"),
+            (
+                "Remove the white van and the yellow taxi, I can't stand the noise.",
+                "remove the white van and the yellow taxi",
+            ),
+            (
+                "move the table next to the bus stop, people have to stand there for ages",
+                "move the table next to the bus stop",
+            ),
+            (
+                "Carol would love a stool next to the postbox, can you add one?",
+                "put a stool next to the postbox",
+            ),
             ("We're having a party: a stage next to the postbox.", "a stage next to the postbox"),
             ("Ivy Cottage is so small that people overlook it, so paint it red", "paint Ivy Cottage red"),
         ],
@@ -139,13 +161,18 @@ fn names_that_hold_an_order_or_a_denial_are_names() {
         "quarter",
         &[
             ("put a no parking sign next to the kiosk", "put a parking sign next to the kiosk"),
-            ("put a stool next to the trash bin that is closest to the school", "put a stool next to the bin closest to the school"),
             (
                 "park lanterns on both sides of Elm Street every 25 metres",
                 "put park lanterns on both sides of Elm Street every 25 metres",
             ),
-            ("put a stool next to the street lamp closest to Elm Street", "put a stool next to the northernmost street lamp"),
-            ("close the western half of Elm Street", "close Elm Street between Harbour Road and Station Road"),
+            (
+                "put a stool next to the street lamp closest to Elm Street",
+                "put a stool next to the northernmost street lamp",
+            ),
+            (
+                "close the western half of Elm Street",
+                "close Elm Street between Harbour Road and Station Road",
+            ),
         ],
     );
 }
@@ -155,8 +182,14 @@ fn conditions_on_what_nobody_has_hold() {
     mean_the_same(
         "oldtown",
         &[
-            ("if there's no market stall in town, put one next to the postbox", "put a market stall next to the postbox"),
-            ("if there is no bicycle rack yet, put a bicycle rack next to the taxi", "put a bicycle rack next to the taxi"),
+            (
+                "if there's no market stall in town, put one next to the postbox",
+                "put a market stall next to the postbox",
+            ),
+            (
+                "if there is no bicycle rack yet, put a bicycle rack next to the taxi",
+                "put a bicycle rack next to the taxi",
+            ),
             ("if it isn't raining, make it rain", "make it rain"),
             ("if the taxi is still there, remove it", "remove the taxi"),
         ],

@@ -15,8 +15,18 @@ use super::words::WAYS;
 #[rustfmt::skip]
 const SOUNDS: &Phrases = &Phrases::of(&["er", "erm", "um", "uh", "hmm", "hm", "err", "no", "no wait", "wait", "wait no", "i mean", "i meant", "make it", "make that", "no make it", "no make that", "well", "or rather", "or", "rather", "sorry", "no sorry", "actually", "no actually", "oh", "oh no", "no no", "ah", "just", "ok just", "let me think", "let me see", "lets say", "at least", "thats"]);
 /// Before a noun, and no part of its name.
-const DETERMINERS: &Phrases =
-    &Phrases::of(&["a", "an", "some", "another", "a new", "a second", "one more", "another pair of", "a pair of", "a couple of"]);
+const DETERMINERS: &Phrases = &Phrases::of(&[
+    "a",
+    "an",
+    "some",
+    "another",
+    "a new",
+    "a second",
+    "one more",
+    "another pair of",
+    "a pair of",
+    "a couple of",
+]);
 
 /// Puts commas for dashes, and takes out what was broken off or named again.
 pub(super) fn in_plain_words(words: &str, lexemes: &mut Vec<Lexeme>) {
@@ -33,7 +43,8 @@ fn commas_for_dashes(words: &str, lexemes: &mut Vec<Lexeme>) {
     let mut at = 1;
     while at < lexemes.len() {
         let between = words.get(lexemes[at - 1].end..lexemes[at].start).unwrap_or_default();
-        let is_dash = between.contains('—') || [" - ", " – ", " -- "].iter().any(|dash| between.contains(dash));
+        let is_dash =
+            between.contains('—') || [" - ", " – ", " -- "].iter().any(|dash| between.contains(dash));
         if is_dash && !is_mark(&lexemes[at - 1]) && !is_mark(&lexemes[at]) {
             let mark = Lexeme { token: Token::Comma, lemma: None, ..lexemes[at - 1].clone() };
             lexemes.insert(at, mark);
@@ -73,8 +84,11 @@ fn broken_off(lexemes: &mut Vec<Lexeme>) {
             let is_plain = !is_mark(&lexemes[meant])
                 && longest(&lexemes[meant..], &WAYS).is_none()
                 && longest(&lexemes[meant..], &super::words::VERBS).is_none();
-            let is_small = longest_phrase(&lexemes[meant..], &["the", "and", "it", "so", "because", "i", "we", "they", "this", "that", "please", "but"])
-                .is_some();
+            let is_small = longest_phrase(
+                &lexemes[meant..],
+                &["the", "and", "it", "so", "because", "i", "we", "they", "this", "that", "please", "but"],
+            )
+            .is_some();
             if counted(meant).is_some() {
                 lexemes.drain(from..meant);
             } else if is_plain && !is_small {
@@ -109,7 +123,8 @@ fn new_before(lexemes: &[Lexeme], mark: usize) -> Option<usize> {
                 && noun.iter().all(|word| matches!(word.token, Token::Word(_)))
                 && !(0..noun.len()).any(|at| {
                     longest(&noun[at..], &WAYS).is_some()
-                        || longest_phrase(&noun[at..], &["and", "or", "the", "is", "are", "of", "to"]).is_some()
+                        || longest_phrase(&noun[at..], &["and", "or", "the", "is", "are", "of", "to"])
+                            .is_some()
                 })
         })
     })
@@ -117,7 +132,8 @@ fn new_before(lexemes: &[Lexeme], mark: usize) -> Option<usize> {
 
 /// "A sign by the kiosk, a direction sign": the second name for the first.
 fn named_again(lexemes: &mut Vec<Lexeme>) {
-    let found = (2..lexemes.len()).filter(|at| is_mark(&lexemes[*at])).find_map(|mark| again_at(lexemes, mark));
+    let found =
+        (2..lexemes.len()).filter(|at| is_mark(&lexemes[*at])).find_map(|mark| again_at(lexemes, mark));
     let Some((noun, count, name, from, to)) = found else { return };
     lexemes.drain(from..to);
     lexemes.splice(noun..noun + count, name);
@@ -127,7 +143,8 @@ fn named_again(lexemes: &mut Vec<Lexeme>) {
 fn no_parking(lexemes: &mut Vec<Lexeme>) {
     let found = (1..lexemes.len()).find(|at| {
         longest_phrase(&lexemes[*at..], &["no parking sign", "no parking signs"]).is_some()
-            && (longest_phrase(&lexemes[at - 1..], DETERMINERS).is_some() || number(&lexemes[at - 1..*at]).is_some())
+            && (longest_phrase(&lexemes[at - 1..], DETERMINERS).is_some()
+                || number(&lexemes[at - 1..*at]).is_some())
     });
     if let Some(at) = found {
         lexemes.remove(at);
@@ -139,7 +156,8 @@ fn something(lexemes: &mut Vec<Lexeme>) {
     let found = (1..lexemes.len()).filter(|at| is_mark(&lexemes[*at])).find_map(|mark| {
         let from = (mark.saturating_sub(5)..mark).find(|at| {
             longest_phrase(&lexemes[*at..], &["something", "anything"]).is_some()
-                && !(*at..mark).any(|at| longest(&lexemes[at..mark], &WAYS).is_some_and(|(_, words)| words > 1))
+                && !(*at..mark)
+                    .any(|at| longest(&lexemes[at..mark], &WAYS).is_some_and(|(_, words)| words > 1))
         })?;
         longest_phrase(&lexemes[mark + 1..], &["a", "an"])?;
         let end = (mark + 1..lexemes.len()).find(|at| is_mark(&lexemes[*at]))?;
@@ -158,12 +176,16 @@ fn again_at(lexemes: &[Lexeme], mark: usize) -> Option<(usize, usize, Vec<Lexeme
     let begin = from + longest_phrase(&lexemes[from..], &["a", "an", "some"]).unwrap_or(0);
     let end = (begin..lexemes.len()).find(|at| is_mark(&lexemes[*at])).unwrap_or(lexemes.len());
     let end = (begin + 1..end)
-        .find(|at| longest_phrase(&lexemes[*at..], CODA) == Some(end - at) || longest_phrase(&lexemes[*at..], &["i mean", "i meant"]) == Some(end - at))
+        .find(|at| {
+            longest_phrase(&lexemes[*at..], CODA) == Some(end - at)
+                || longest_phrase(&lexemes[*at..], &["i mean", "i meant"]) == Some(end - at)
+        })
         .unwrap_or(end);
     let name = lexemes.get(begin..end).filter(|name| (2..=3).contains(&name.len()))?;
     let all_words = name.iter().all(|word| matches!(word.token, Token::Word(_)));
     let head = head_of(name.last()?)?;
-    let sentence = lexemes[..mark].iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);
+    let sentence =
+        lexemes[..mark].iter().rposition(|lexeme| lexeme.token == Token::Break).map_or(0, |at| at + 1);
     let noun = (sentence..mark).find(|at| head_of(&lexemes[*at]) == Some(head))?;
     // New things alone are named again so.
     let new = (sentence..noun).rev().take(1).any(|at| {
@@ -171,15 +193,26 @@ fn again_at(lexemes: &[Lexeme], mark: usize) -> Option<(usize, usize, Vec<Lexeme
             || number(&lexemes[at..noun]).is_some()
             || matches!(&lexemes[at].token, Token::Word(word) if ["put", "add", "place", "plant", "want", "set", "like"].contains(&word.as_str()))
     });
-    let is_old = lexemes[noun..mark].windows(2).any(|pair| matches!(&pair[0].token, Token::Word(word) if word == "the") && head_of(&pair[1]) == Some(head));
-    let is_other = longest_phrase(name, &["red", "blue", "green", "yellow", "white", "black", "another", "second", "one", "two", "the"]).is_some();
+    let is_old = lexemes[noun..mark].windows(2).any(|pair| {
+        matches!(&pair[0].token, Token::Word(word) if word == "the") && head_of(&pair[1]) == Some(head)
+    });
+    let is_other = longest_phrase(
+        name,
+        &["red", "blue", "green", "yellow", "white", "black", "another", "second", "one", "two", "the"],
+    )
+    .is_some();
     (all_words && new && !is_old && !is_other).then(|| (noun, 1, name.to_vec(), mark, end))
 }
 
 /// A noun without its plural.
 fn head_of(lexeme: &Lexeme) -> Option<&str> {
     match &lexeme.token {
-        Token::Word(word) if word.len() > 2 => Some(word.strip_suffix("es").filter(|stem| stem.ends_with("ch")).or(word.strip_suffix('s')).unwrap_or(word)),
+        Token::Word(word) if word.len() > 2 => Some(
+            word.strip_suffix("es")
+                .filter(|stem| stem.ends_with("ch"))
+                .or(word.strip_suffix('s'))
+                .unwrap_or(word),
+        ),
         _ => None,
     }
 }

@@ -136,7 +136,43 @@ impl Reader<'_> {
             ],
         )?;
         // "For the street party".
-        const EVENTS: &Phrases = &Phrases::of(&["party", "fair", "festival", "parade", "fete", "wedding", "race", "marathon", "concert", "show", "shoot", "shooting", "film", "match", "tour", "picnic", "ceremony", "festivities", "celebration", "celebrations", "run", "day", "night", "week", "weekend", "season", "exhibition", "protest", "march", "procession", "funeral", "championship", "tournament", "rehearsal", "opening"]);
+        const EVENTS: &Phrases = &Phrases::of(&[
+            "party",
+            "fair",
+            "festival",
+            "parade",
+            "fete",
+            "wedding",
+            "race",
+            "marathon",
+            "concert",
+            "show",
+            "shoot",
+            "shooting",
+            "film",
+            "match",
+            "tour",
+            "picnic",
+            "ceremony",
+            "festivities",
+            "celebration",
+            "celebrations",
+            "run",
+            "day",
+            "night",
+            "week",
+            "weekend",
+            "season",
+            "exhibition",
+            "protest",
+            "march",
+            "procession",
+            "funeral",
+            "championship",
+            "tournament",
+            "rehearsal",
+            "opening",
+        ]);
         let event = (at + words..end.min(at + words + 4))
             .take_while(|at| self.word(*at).is_some() && !self.is_place(*at))
             .find(|at| self.word(*at).is_some_and(|word| EVENTS.contains(word)));

@@ -174,9 +174,11 @@ impl Reader<'_> {
             Err(PlanError::NotFound { wanted, .. }) if least == 1 && (is_noun(&wanted) || is_none) => {
                 Ok(if there { other.unwrap_or_else(|| nothing(&wanted)) } else { then })
             }
-            Err(_) if least == 1 && is_none => {
-                Ok(if there { other.unwrap_or_else(|| nothing(&self.written(from, stop_of_what))) } else { then })
-            }
+            Err(_) if least == 1 && is_none => Ok(if there {
+                other.unwrap_or_else(|| nothing(&self.written(from, stop_of_what)))
+            } else {
+                then
+            }),
             Err(error) => Err(error),
             Ok(what) => {
                 let mut all = on_condition(then, &what, (least, there));
@@ -326,7 +328,17 @@ impl Reader<'_> {
         // "If the hydrant is still there".
         let is_there = longest_phrase(
             &self.lexemes[parser.at.min(end)..end],
-            &["is still there", "is still here", "is there", "is here", "is still around", "still exists", "exists", "is around", "still stands"],
+            &[
+                "is still there",
+                "is still here",
+                "is there",
+                "is here",
+                "is still around",
+                "still exists",
+                "exists",
+                "is around",
+                "still stands",
+            ],
         );
         if let Some(there) = is_there.filter(|_| matches!(what.target, Target::Any(_) | Target::Named(_)))
             && (parser.at + there >= end || joint(&self.lexemes[parser.at + there..end]).is_some())
@@ -358,7 +370,10 @@ impl Reader<'_> {
             self.one_of(from, cut).ok()?
         };
         what.traits.paint = Some(paint);
-        let behind = longest_phrase(&self.lexemes[cut + said + words..end], &["yet", "already", "by now", "still", "now"]);
+        let behind = longest_phrase(
+            &self.lexemes[cut + said + words..end],
+            &["yet", "already", "by now", "still", "now"],
+        );
         (cut + said + words + behind.unwrap_or(0) == end).then_some((what, !not))
     }
 

@@ -64,6 +64,7 @@ mod supposed;
 mod things;
 mod told;
 mod turn;
+mod turns;
 mod whole;
 mod wish;
 pub(super) mod words;
@@ -78,11 +79,11 @@ use simworld_core::scene::Scene;
 use simworld_core::seam::PlanError;
 use wish::Wish;
 
+use super::lexer::Lexeme;
 use super::names::Names;
 use super::parser::shortened;
 use super::resolve::View;
 use super::streets::StreetNames;
-use super::lexer::Lexeme;
 use super::{AmbiguityPolicy, LONGEST_SENTENCE, hearing};
 use crate::editing::{EditError, Stock};
 

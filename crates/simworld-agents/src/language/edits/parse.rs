@@ -66,7 +66,10 @@ impl<'a> Reader<'a> {
             let with = self.at > 0 && self.word(self.at - 1) == Some("with");
             let from = self.at;
             let mut read = self.wish(end)?;
-            if wishes.last().and_then(|before| before.first()).is_some_and(|before| self.is_stray(before, from, &read))
+            if wishes
+                .last()
+                .and_then(|before| before.first())
+                .is_some_and(|before| self.is_stray(before, from, &read))
             {
                 return Err(Reader { at: from, ..*self }.not_understood("say where it is to go"));
             }

@@ -138,10 +138,12 @@ impl Reader<'_> {
                 || self.is_remark(from, end)
                 || self.is_remark(remark.min(from), end)
                 || said.wish.is_some() && self.is_idle(from, end);
-            let is_told = || search.telling == Telling::ByShape && self.is_told(remark.min(from), end, search.is_known);
+            let is_told =
+                || search.telling == Telling::ByShape && self.is_told(remark.min(from), end, search.is_known);
             if !asks_nothing && !is_told()
                 || said.wish.is_some() && self.is_listed(from, end)
-                || self.hides_wish(said, (from, end), search.is_known) {
+                || self.hides_wish(said, (from, end), search.is_known)
+            {
                 return None;
             }
             let mut things = self.remarked_on(from, end, spoken_of);
@@ -198,8 +200,11 @@ impl Reader<'_> {
     fn renames(&self, at: usize, end: usize) -> bool {
         longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, words)| {
             verb == Verb::Name
-                && longest_phrase(&self.lexemes[at + words..end], &["it", "him", "her", "the", "that", "this"])
-                    .is_some()
+                && longest_phrase(
+                    &self.lexemes[at + words..end],
+                    &["it", "him", "her", "the", "that", "this"],
+                )
+                .is_some()
         })
     }
 
@@ -211,7 +216,19 @@ impl Reader<'_> {
             && matches!(self.word(from - 1), Some("and" | "also" | "plus" | "then" | "with" | "or" | "well"));
         let is_bare = longest(&self.lexemes[from..], &VERBS).is_none();
         // "People have to stand there for ages" moves nobody.
-        let crowd: &[&str] = &["people", "folks", "kids", "children", "visitors", "guests", "everybody", "everyone", "customers", "students", "tourists"];
+        let crowd: &[&str] = &[
+            "people",
+            "folks",
+            "kids",
+            "children",
+            "visitors",
+            "guests",
+            "everybody",
+            "everyone",
+            "customers",
+            "students",
+            "tourists",
+        ];
         let is_of_crowd = |wish: &Wish| {
             matches!(wish, Wish::Move { what, .. } | Wish::Face { what, .. } | Wish::Rotate { what, .. }
                 if what.iter().any(|one| crowd.contains(&one.text.to_lowercase().as_str())))
@@ -225,9 +242,9 @@ impl Reader<'_> {
     fn in_order_of(&self, wish: &mut Wish, spoken_of: &[Reference]) -> Vec<Reference> {
         let is_somebody = |one: &&Reference| match &one.target {
             Target::Any(class) => class.kinds().iter().all(|kind| is_animate(*kind)),
-            Target::Named(ids) => ids.iter().all(|id| {
-                self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind))
-            }),
+            Target::Named(ids) => {
+                ids.iter().all(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
+            }
             _ => false,
         };
         let (people, things): (Vec<&Reference>, Vec<&Reference>) = spoken_of.iter().partition(is_somebody);
@@ -274,7 +291,17 @@ impl Reader<'_> {
         let stop =
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
         // "There is too much litter at the statue": nothing that "it" could be, but the statue.
-        const TOO_MUCH: &Phrases = &Phrases::of(&["there is too much", "theres too much", "there is so much", "theres so much", "there are too many", "there is no", "theres no", "there is nothing", "theres nothing"]);
+        const TOO_MUCH: &Phrases = &Phrases::of(&[
+            "there is too much",
+            "theres too much",
+            "there is so much",
+            "theres so much",
+            "there are too many",
+            "there is no",
+            "theres no",
+            "there is nothing",
+            "theres nothing",
+        ]);
         let stop = if longest_phrase(&self.lexemes[from..end], TOO_MUCH).is_some() { end } else { stop };
         // "The statue is so small that people overlook it": the statue, and not the people.
         let so = (from..stop).find(|at| self.word(*at) == Some("so"));

@@ -216,7 +216,8 @@ impl Reader<'_> {
         // "The bench which is closest to the bin" says which.
         let is_which = self.word(from) == Some("which")
             && (behind..end).any(|at| {
-                self.is_place(at) || matches!(self.word(at), Some("closest" | "nearest" | "farthest" | "next"))
+                self.is_place(at)
+                    || matches!(self.word(at), Some("closest" | "nearest" | "farthest" | "next"))
             });
         if is_which {
             return false;

@@ -178,7 +178,9 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
             return Some((start.unwrap_or(from), to));
         }
         let begins = |at: usize| {
-            is_number(&before[at]) || is_article(&before[at..]) || longest_phrase(&before[at..], &["another"]).is_some()
+            is_number(&before[at])
+                || is_article(&before[at..])
+                || longest_phrase(&before[at..], &["another"]).is_some()
         };
         return last(&|at| (is_sure && begins(at)).then_some(all - at));
     }

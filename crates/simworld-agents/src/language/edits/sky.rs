@@ -133,9 +133,12 @@ impl Reader<'_> {
         #[rustfmt::skip]
         const TIMES: &[&str] = &["clock", "time", "hour", "morning", "evening", "night", "afternoon", "set", "make", "at", "till", "past", "oclock", "be", "its", "is"];
         // "We will be sixteen" is no hour.
-        let is_it = || (self.at..end).any(|at| matches!(self.word(at), Some("it" | "its" | "time" | "clock" | "hour")));
+        let is_it = || {
+            (self.at..end).any(|at| matches!(self.word(at), Some("it" | "its" | "time" | "clock" | "hour")))
+        };
         (self.at..end).any(|at| {
-            self.word(at).is_some_and(|word| TIMES.contains(&word) && (!matches!(word, "be" | "is") || is_it()))
+            self.word(at)
+                .is_some_and(|word| TIMES.contains(&word) && (!matches!(word, "be" | "is") || is_it()))
         })
     }
 }

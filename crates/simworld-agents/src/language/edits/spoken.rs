@@ -183,22 +183,48 @@ pub(super) fn group_at(thing: &Reference) -> Option<Reference> {
 
 /// "The kids race on Elm Street, so close it": the one street that is spoken of, where it is closed or opened by a pronoun.
 pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
-    const VERBS: &Phrases =
-        &Phrases::of(&["close", "shut", "open", "reopen", "block", "unblock", "close off", "block off", "shut off", "seal off"]);
-    const IT: &Phrases = &Phrases::of(&["it", "the street", "the road", "that street", "this street", "that road", "this road"]);
+    const VERBS: &Phrases = &Phrases::of(&[
+        "close",
+        "shut",
+        "open",
+        "reopen",
+        "block",
+        "unblock",
+        "close off",
+        "block off",
+        "shut off",
+        "seal off",
+    ]);
+    const IT: &Phrases = &Phrases::of(&[
+        "it",
+        "the street",
+        "the road",
+        "that street",
+        "this street",
+        "that road",
+        "this road",
+    ]);
     let found = (1..lexemes.len()).find_map(|at| {
         let verb = longest_phrase(&lexemes[at..], VERBS)?;
         let it = longest_phrase(&lexemes[at + verb..], IT)?;
         let end = at + verb + it;
         // "Oak Street goes car-free, shut it" says it twice.
         let is_said = (0..at).any(|at| {
-            longest_phrase(&lexemes[at..], &["car free", "free", "off limits", "banned", "close", "shut", "goes"]).is_some()
+            longest_phrase(
+                &lexemes[at..],
+                &["car free", "free", "off limits", "banned", "close", "shut", "goes"],
+            )
+            .is_some()
         });
         if is_said {
             return None;
         }
         let is_whole = lexemes.get(end).is_none_or(is_mark)
-            || longest_phrase(&lexemes[end..], &["for", "again", "off", "please", "to", "so", "because", "down", "up", "now"]).is_some();
+            || longest_phrase(
+                &lexemes[end..],
+                &["for", "again", "off", "please", "to", "so", "because", "down", "up", "now"],
+            )
+            .is_some();
         let mut named = (0..at).filter_map(|from| Some((from, streets.at(&lexemes[from..at])?.words)));
         let street = named.next().filter(|_| is_whole)?;
         let is_only = named.all(|(from, _)| from < street.0 + street.1);
@@ -231,8 +257,9 @@ impl Reader<'_> {
 
     /// Whether a word of place ends before a word.
     fn is_place_before(&self, at: usize) -> bool {
-        (at.saturating_sub(4)..at)
-            .any(|from| longest(&self.lexemes[from..], &super::words::WAYS).is_some_and(|(_, words)| from + words == at))
+        (at.saturating_sub(4)..at).any(|from| {
+            longest(&self.lexemes[from..], &super::words::WAYS).is_some_and(|(_, words)| from + words == at)
+        })
     }
 
     /// A thing of a class that is told of more closely than by its noun, with an article that says which.
@@ -240,7 +267,8 @@ impl Reader<'_> {
         let article = longest_phrase(&self.lexemes[from..stop], &["the", "a", "an", "one", "this", "that"])?;
         let mut parser = self.parser(from, stop);
         let thing = parser.reference(0).ok()?;
-        let is_closer = thing.relation.is_some() || thing.choice != Choice::Open || thing.traits.paint.is_some();
+        let is_closer =
+            thing.relation.is_some() || thing.choice != Choice::Open || thing.traits.paint.is_some();
         let is_it = matches!(&thing.target, Target::Any(own) if **own == *class) && is_closer;
         if !is_it || parser.at <= from + article {
             return None;
@@ -271,7 +299,12 @@ impl Reader<'_> {
             let nearest = self.nearest_to(&thing, street.roads)?;
             let end = behind + the + street.words;
             let mut lexemes = self.lexemes.to_vec();
-            let one = Lexeme { token: Token::Id(nearest), lemma: None, end: lexemes[end - 1].end, ..lexemes[from].clone() };
+            let one = Lexeme {
+                token: Token::Id(nearest),
+                lemma: None,
+                end: lexemes[end - 1].end,
+                ..lexemes[from].clone()
+            };
             lexemes.splice(from..end, [one]);
             Some(lexemes)
         })

@@ -262,7 +262,9 @@ impl Reader<'_> {
                 && self.word(place - 1).is_some_and(|word| word.ends_with('s'))
                 && place > at + 1
         });
-        many || is_asset || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
+        many || is_asset
+            || self.is_bare_plural(at, end)
+            || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
 }
 

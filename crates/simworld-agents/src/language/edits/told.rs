@@ -24,6 +24,16 @@ const TAKES_BACK: &Phrases = &Phrases::of(&["not the", "not a", "not that", "not
 const WISHES: &Phrases = &Phrases::of(&["want", "wants", "wanted", "need", "needs", "needed", "would like", "would love", "id like", "id love", "wed like", "wed love", "lack", "lacks", "could use", "could do with", "wish", "wishes", "fancy", "fancies",
     "deserve", "deserves", "require", "requires", "request", "requests", "ask for", "asks for", "asked for", "demand", "demands", "dream of", "long for", "should", "must", "ought", "shall", "has to", "have to", "had better", "is to", "are to",
     "should get", "should have", "prefer", "prefers", "would rather", "id rather", "expect", "expects", "belongs", "would look", "would be", "looks better", "could be", "better", "mustnt", "shouldnt", "supposed"]);
+/// What begins an order that is not about the scene, or not understood.
+#[rustfmt::skip]
+pub(super) const ORDERS_ANYTHING: &Phrases = &Phrases::of(&["do", "make", "fix", "sort", "handle", "arrange", "improve", "decorate", "change", "use", "give", "bring", "help", "try", "surprise", "work", "deal", "find", "show", "tell", "ask", "keep", "stop", "start", "leave", "get", "let",
+    "have", "dont", "never", "undo", "redo", "repeat", "finish", "build", "create", "design", "spread", "fill", "cover", "cheer", "brighten", "lighten", "clean", "tidy"]);
+/// What may stand before what is told.
+#[rustfmt::skip]
+const SMALL: &Phrases = &Phrases::of(&["because", "since", "as", "so", "and", "but", "well", "oh", "although", "though", "while", "which", "where", "now that", "given that", "seeing that", "considering", "even though", "for", "cause", "who"]);
+/// "As soon as there is a dragon" says when.
+#[rustfmt::skip]
+const WHEN: &Phrases = &Phrases::of(&["as soon as", "as long as", "so long as", "as far as", "as if", "as much as", "as many as", "after", "before", "until", "till", "whenever"]);
 /// Who tells something of himself, or is told of.
 #[rustfmt::skip]
 const WHO: &Phrases = &Phrases::of(&["i", "im", "ive", "ill", "id", "we", "weve", "were", "well", "they", "theyre", "theyve", "theyll", "he", "hes", "she", "shes", "it", "its", "itll", "that", "thats", "this", "these", "those", "there", "theres", "you", "youre", "youve", "nobody", "no one", "noone",
@@ -42,12 +52,8 @@ impl Reader<'_> {
     /// Whether a part tells something, asks for nothing, and leaves what is asked for as it is.
     pub(super) fn is_told(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {
         let ends = self.lexemes.get(end).is_none_or(is_mark) || self.word(end).is_some();
-        let small = &[
-            "because", "since", "as", "so", "and", "but", "well", "oh", "although", "though", "while", "which",
-            "where", "now that", "given that", "seeing that", "considering", "even though", "for", "cause", "who",
-        ];
         let mut start = from;
-        while let Some(words) = longest_phrase(&self.lexemes[start..end], small)
+        while let Some(words) = longest_phrase(&self.lexemes[start..end], SMALL)
             && start + words < end
         {
             start += words;
@@ -64,10 +70,19 @@ impl Reader<'_> {
         };
         let tells = || {
             let names_nothing = self.names_nothing(start, end);
-            names_nothing && (leads || self.tells_anything(start, end)) || self.tells_of_what_is_here(start, end, leads)
+            names_nothing && (leads || self.tells_anything(start, end))
+                || self.tells_of_what_is_here(start, end, leads)
         };
         ends && words.len() > 1
-            && longest_phrase(words, &["if", "when", "unless", "should", "in case", "suppose", "once"]).is_none()
+            // "Do what a good host would do" is an order, though nobody knows which.
+            && !(start..end).any(|at| {
+                (at == start || is_mark(&self.lexemes[at - 1]))
+                    && longest_phrase(&self.lexemes[at..end], ORDERS_ANYTHING).is_some()
+            })
+            && longest_phrase(&self.lexemes[from..end], WHEN).is_none()
+            && longest_phrase(words, WHEN).is_none()
+            && longest_phrase(words, &["if", "when", "unless", "should", "in case", "suppose", "once"])
+                .is_none()
             && !self.orders_here(start, end)
             && !may_change()
             && tells()
@@ -78,14 +93,44 @@ impl Reader<'_> {
     /// Whether "so" follows and then an order, or what may be one: "..., so paint it".
     fn leads_to_order(&self, end: usize) -> bool {
         let marks = self.lexemes[end..].iter().take_while(|lexeme| is_mark(lexeme)).count();
-        let so = longest_phrase(&self.lexemes[end + marks..], &["so", "which is why", "thats why", "therefore", "hence"]);
+        let so = longest_phrase(
+            &self.lexemes[end + marks..],
+            &["so", "which is why", "thats why", "therefore", "hence"],
+        );
         so.is_some_and(|words| {
-            !matches!(self.word(end + marks + words), Some("that" | "many" | "much" | "they" | "we" | "it" | "people"))
+            !matches!(
+                self.word(end + marks + words),
+                Some("that" | "many" | "much" | "they" | "we" | "it" | "people")
+            )
         })
     }
 
     fn sets_a_condition(&self, from: usize, end: usize) -> bool {
-        const CONDITIONS: &Phrases = &Phrases::of(&["if", "unless", "until", "instead", "rather than", "i mean", "i meant", "scratch that", "no wait", "wait no", "correction", "undo", "never mind", "forget it", "forget that", "please", "could you", "can you", "would you", "will you", "how about", "what about", "otherwise"]);
+        const CONDITIONS: &Phrases = &Phrases::of(&[
+            "if",
+            "unless",
+            "until",
+            "instead",
+            "rather than",
+            "i mean",
+            "i meant",
+            "scratch that",
+            "no wait",
+            "wait no",
+            "correction",
+            "undo",
+            "never mind",
+            "forget it",
+            "forget that",
+            "please",
+            "could you",
+            "can you",
+            "would you",
+            "will you",
+            "how about",
+            "what about",
+            "otherwise",
+        ]);
         (from..end).any(|at| longest_phrase(&self.lexemes[at..end], CONDITIONS).is_some())
     }
 
@@ -113,12 +158,18 @@ impl Reader<'_> {
             // "We are wanting it late at night" is no word about anything else.
             // "Ben freezes every night" is one.
             let is_adverb = at > from
-                && matches!(self.word(at - 1), Some("every" | "last" | "all" | "at" | "the" | "this" | "that" | "each" | "in"));
+                && matches!(
+                    self.word(at - 1),
+                    Some("every" | "last" | "all" | "at" | "the" | "this" | "that" | "each" | "in")
+                );
             let is_sky = !is_adverb && longest(rest, &super::words::SKIES).is_some()
                 || super::sky::hour(rest).is_some_and(|(_, words)| words > 1);
             // "They only ever saw its back".
-            let is_only = self.word(at) == Some("only") && at > from && longest_phrase(&self.lexemes[from..at], WHO).is_some();
-            is_sky || longest_phrase(rest, TAKES_BACK).is_some() && !is_only
+            let is_only = self.word(at) == Some("only")
+                && at > from
+                && longest_phrase(&self.lexemes[from..at], WHO).is_some();
+            is_sky
+                || longest_phrase(rest, TAKES_BACK).is_some() && !is_only
                 || is_coloured
                 || numbers::length(rest).is_some_and(|(_, words)| words > 1)
         })
@@ -134,10 +185,14 @@ impl Reader<'_> {
                     Some("and" | "then" | "please" | "just" | "now" | "so" | "also" | "kindly" | "or")
                 );
             // "I need to know" is no order; what "I need a bench" is, is looked at elsewhere.
-            let is_own = matches!(self.word(at), Some("i" | "we" | "im" | "id" | "wed" | "ill" | "well" | "there" | "theres"));
-            may && !is_own && longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, _)| {
-                at == from || !matches!(verb, Verb::Name | Verb::Describe | Verb::List | Verb::Count)
-            })
+            let is_own = matches!(
+                self.word(at),
+                Some("i" | "we" | "im" | "id" | "wed" | "ill" | "well" | "there" | "theres")
+            );
+            may && !is_own
+                && longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, _)| {
+                    at == from || !matches!(verb, Verb::Name | Verb::Describe | Verb::List | Verb::Count)
+                })
         })
     }
 
@@ -150,7 +205,19 @@ impl Reader<'_> {
             numbers::count(rest).is_some() || longest_phrase(rest, &["a", "an", "some"]).is_some()
         };
         // "People have to stand there", "she must be thirsty".
-        const CROWD: &Phrases = &Phrases::of(&["people", "folks", "kids", "children", "visitors", "guests", "everybody", "everyone", "customers", "students", "tourists"]);
+        const CROWD: &Phrases = &Phrases::of(&[
+            "people",
+            "folks",
+            "kids",
+            "children",
+            "visitors",
+            "guests",
+            "everybody",
+            "everyone",
+            "customers",
+            "students",
+            "tourists",
+        ]);
         let must_be = longest_phrase(
             &self.lexemes[from..end],
             &["he must be", "she must be", "they must be", "it must be", "you must be", "everybody must be"],
@@ -171,8 +238,29 @@ impl Reader<'_> {
             // "I need to know for the party" asks for nothing that is here.
             let rest = &self.lexemes[at + words..end];
             let asks = numbers::count(rest).is_some()
-                || longest_phrase(rest, &["a", "an", "some", "more", "the", "it", "them", "him", "her", "that", "this", "be", "go", "disappear", "stand", "look", "have"])
-                    .is_some();
+                || longest_phrase(
+                    rest,
+                    &[
+                        "a",
+                        "an",
+                        "some",
+                        "more",
+                        "the",
+                        "it",
+                        "them",
+                        "him",
+                        "her",
+                        "that",
+                        "this",
+                        "be",
+                        "go",
+                        "disappear",
+                        "stand",
+                        "look",
+                        "have",
+                    ],
+                )
+                .is_some();
             asks || rest.is_empty() || !nobody_here || !is_somebody
         })
     }
@@ -198,7 +286,10 @@ impl Reader<'_> {
             && (self.lexemes.get(end).is_none_or(|mark| mark.token == Token::Break)
                 || self.lexemes.get(end + 1..).is_some_and(|rest| longest(rest, &VERBS).is_some()))
             && words.iter().all(|word| matches!(word.token, Token::Word(_)));
-        let is_heading = is_call && longest_phrase(words, &["a", "an", "one", "two", "some"]).is_none();
+        // Behind a request it might say how: "..., not too close".
+        let is_before = self.lexemes[end..].iter().any(|lexeme| !is_mark(lexeme));
+        let is_heading =
+            is_call && is_before && longest_phrase(words, &["a", "an", "one", "two", "some"]).is_none();
         is_heading || self.tells_with_verb(from, end)
     }
 
@@ -213,17 +304,18 @@ impl Reader<'_> {
     /// "The bench by the museum gets wet": what is there, and what is so of it or what somebody does with it.
     fn tells_of_what_is_here(&self, from: usize, end: usize, leads: bool) -> bool {
         let words = &self.lexemes[from..end];
-        let is_new = longest_phrase(words, &["a", "an", "some", "one"]).is_some() || numbers::count(words).is_some();
+        let is_new =
+            longest_phrase(words, &["a", "an", "some", "one"]).is_some() || numbers::count(words).is_some();
         if is_new || words.len() < 3 || self.is_place(from) {
             return false;
         }
-        let has_verb = (from + 1..end).any(|at| {
-            self.word(at).is_some_and(|word| super::remarks::is_state(word) || IS.contains(word))
-        });
+        let has_verb = (from + 1..end)
+            .any(|at| self.word(at).is_some_and(|word| super::remarks::is_state(word) || IS.contains(word)));
         // "The kids race their bikes on Elm Street".
         let is_somebody = longest_phrase(words, WHO).is_some_and(|who| {
             let own = self.word(from + who - 1).unwrap_or_default();
-            !["all", "both", "some", "most", "many", "few", "that", "this", "these", "those", "what", "how"].contains(&own)
+            !["all", "both", "some", "most", "many", "few", "that", "this", "these", "those", "what", "how"]
+                .contains(&own)
         });
         // "The bench near the museum gets wet".
         let behind = || {
@@ -243,9 +335,13 @@ impl Reader<'_> {
 
     /// "The choir sings", "cyclists fall": a noun, and behind it a word that is no small one and asks for nothing.
     fn has_a_verb(&self, from: usize, end: usize) -> bool {
-        let the = longest_phrase(&self.lexemes[from..end], &["the", "my", "our", "your", "his", "her", "their", "this", "that", "those", "these"])
-            .unwrap_or(0);
-        let is_plural = |at: usize| self.word(at).is_some_and(|word| word.ends_with('s') && !word.ends_with("ss"));
+        let the = longest_phrase(
+            &self.lexemes[from..end],
+            &["the", "my", "our", "your", "his", "her", "their", "this", "that", "those", "these"],
+        )
+        .unwrap_or(0);
+        let is_plural =
+            |at: usize| self.word(at).is_some_and(|word| word.ends_with('s') && !word.ends_with("ss"));
         (from + the + 1..end.min(from + the + 4)).any(|at| {
             let Some(word) = self.word(at) else { return false };
             let many = is_plural(at - 1) && (the > 0 || at == from + 1 || at == from + 2);

@@ -80,7 +80,8 @@ pub(super) fn angle(lexemes: &[Lexeme]) -> Option<f64> {
         return Some(PI);
     }
     // "Around by 90 degrees".
-    let lexemes = &lexemes[longest_phrase(lexemes, &["around by", "round by", "around", "round"]).unwrap_or(0)..];
+    let lexemes =
+        &lexemes[longest_phrase(lexemes, &["around by", "round by", "around", "round"]).unwrap_or(0)..];
     let side_of = |rest: &[Lexeme]| {
         let left = longest_phrase(rest, LEFT).map(|count| (1.0, count));
         left.or(longest_phrase(rest, RIGHT).map(|count| (-1.0, count)))
