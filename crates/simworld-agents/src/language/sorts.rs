@@ -53,6 +53,19 @@ impl<'a> Names<'a> {
         Some(Sort { class, asset: Arc::new(asset.name.clone()), words: words + again })
     }
 
+    /// How many words at the start of a phrase are the name of an asset of the catalogue.
+    pub(super) fn asset_words(&self, phrase: &[Lexeme]) -> Option<usize> {
+        let (catalogue, _) = self.made.as_ref()?;
+        asset_at(phrase, catalogue).map(|(_, words)| words)
+    }
+
+    /// Whether a phrase is the name of an asset of which none is there, and the sentence speaks of none that it makes.
+    pub(super) fn is_sort_of_none(&self, phrase: &[Lexeme]) -> bool {
+        let asset = self.made.as_ref().and_then(|(catalogue, _)| asset_at(phrase, catalogue));
+        asset.is_some_and(|(_, words)| words == phrase.len())
+            && self.sort_of_asset(phrase).is_none_or(|sort| sort.words < phrase.len())
+    }
+
     /// As it is, in a sentence that may make what it speaks of later: "a beehive by the lake, and paint the beehive red".
     pub(super) fn with_made(mut self, lexemes: &[Lexeme], catalogue: &'a Catalogue) -> Self {
         let (mut new, mut made) = (Vec::new(), Vec::new());
@@ -70,7 +83,7 @@ impl<'a> Names<'a> {
             }
             at += words;
         }
-        self.made = (!made.is_empty()).then_some((catalogue, made));
+        self.made = Some((catalogue, made));
         self
     }
 }

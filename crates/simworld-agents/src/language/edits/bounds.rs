@@ -49,7 +49,19 @@ impl Reader<'_> {
     pub(super) fn order_at(&self, at: usize, end: usize) -> Option<(Verb, usize)> {
         let rest = &self.lexemes[at..end];
         let way = longest(rest, &WAYS).map_or(0, |(_, words)| words);
-        longest(rest, &VERBS).filter(|(_, words)| way <= *words)
+        // "Park benches" are no order to park, nor is a trash bin one to trash.
+        let is_asset = |words: usize| self.names.asset_words(rest).is_some_and(|asset| asset > words.max(1));
+        longest(rest, &VERBS)
+            .filter(|(_, words)| way <= *words && !is_asset(*words) && !self.ends_longer_noun(at, end))
+    }
+
+    /// "The trash bin that is closest" is no order to bin anything.
+    pub(super) fn ends_longer_noun(&self, at: usize, end: usize) -> bool {
+        (1..=at.min(2)).any(|back| {
+            let phrase = &self.lexemes[at - back..end];
+            let words = super::super::lexicon::category(phrase).map_or(0, |(_, words)| words);
+            words.max(self.names.asset_words(phrase).unwrap_or(0)) > back
+        })
     }
 
     /// "Copy the fountain and put the copy ..." is one wish.

@@ -89,6 +89,12 @@ impl Reader<'_> {
             self.at = end;
             return Ok(vec![vec![Wish::Remove { what }]]);
         }
+        // "Get a bench for the kids" moves nobody.
+        let is_new = longest_phrase(self.rest(end), &["a", "an", "some"]).is_some()
+            || super::super::numbers::count(self.rest(end)).is_some();
+        if is_new && start > 0 && matches!(self.word(start - 1), Some("get" | "grab" | "fetch")) {
+            return self.additions(end);
+        }
         if let Ok(wish) = self.moves(end) {
             return Ok(vec![wish]);
         }

@@ -62,6 +62,10 @@ impl Reader<'_> {
         let start = self.at;
         (start..end).find_map(|at| {
             let words = longest_phrase(&self.lexemes[at..end], IF)?;
+            // "It should be evening and it should rain" is none.
+            if self.word(at) == Some("should") && at > start && !is_mark(&self.lexemes[at - 1]) {
+                return None;
+            }
             let so = self.word(at) != Some("unless");
             let from = at + words;
             let ends = |cut: &usize| {
@@ -70,6 +74,12 @@ impl Reader<'_> {
                     || at == start && longest(&self.lexemes[*cut..end], &VERBS).is_some()
             };
             let cut = (from + 1..end).find(ends).unwrap_or(end);
+            // "If it isn't raining".
+            let denied = longest_phrase(
+                &self.lexemes[from..cut],
+                &["it isnt", "it is not", "its not", "it does not", "it doesnt", "there is no", "theres no"],
+            );
+            let (so, from) = (so == denied.is_none(), from + denied.unwrap_or(0));
             let sky = Reader { at: from, ..self.up_to(cut) }.sky(cut)?;
             let (from, stop) = if at == start { (cut, end) } else { (start, at) };
             if at > start && self.before_politeness(cut.saturating_sub(1), end) > cut {

@@ -54,7 +54,7 @@ const WISHING: &[&str] = &["want", "wants", "wanted", "wanna", "like", "love", "
 #[rustfmt::skip]
 const QUESTIONS: &Phrases = &Phrases::of(&["did", "does", "do you see", "do you want", "has", "had you", "are you", "is it a", "was", "were", "when did",
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
-    "what was", "what are", "is the", "are the", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
+    "what was", "what are", "is the", "are the", "do you know", "do you have any idea", "have you heard", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
 
 static WORDS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| SMALL.split_whitespace().collect());
 
@@ -135,6 +135,50 @@ impl Reader<'_> {
                 "the new",
             ],
         )?;
+        // "For the street party".
+        const EVENTS: &Phrases = &Phrases::of(&[
+            "party",
+            "fair",
+            "festival",
+            "parade",
+            "fete",
+            "wedding",
+            "race",
+            "marathon",
+            "concert",
+            "show",
+            "shoot",
+            "shooting",
+            "film",
+            "match",
+            "tour",
+            "picnic",
+            "ceremony",
+            "festivities",
+            "celebration",
+            "celebrations",
+            "run",
+            "day",
+            "night",
+            "week",
+            "weekend",
+            "season",
+            "exhibition",
+            "protest",
+            "march",
+            "procession",
+            "funeral",
+            "championship",
+            "tournament",
+            "rehearsal",
+            "opening",
+        ]);
+        let event = (at + words..end.min(at + words + 4))
+            .take_while(|at| self.word(*at).is_some() && !self.is_place(*at))
+            .find(|at| self.word(*at).is_some_and(|word| EVENTS.contains(word)));
+        if let Some(event) = event.filter(|_| self.word(at) == Some("for")) {
+            return Some(event + 1 - at);
+        }
         let is_plain = |at: &usize| {
             let here = &self.lexemes[*at..end];
             self.word(*at).is_some()

@@ -18,12 +18,12 @@ const IF: &Phrases = &Phrases::of(&["if there is", "if there are", "if you find"
     "provided there is", "when there is", "should there be", "if there exists", "as long as there is", "in the event that there is", "in case of", "if we find", "if i see", "if we see", "if you come across",
     "should you see", "should you find", "if theres", "provided that there is", "if there should be", "if there happens to be", "in the event of", "if there stands", "assuming there is", "only if there is",
     "only if there are", "only if theres", "in case theres", "provided theres", "as long as theres", "but only if there is", "as long as there are", "provided there are", "in case there are", "assuming theres", "if there exist",
-    "when theres", "if we had", "were there"]);
+    "when theres", "if we had", "were there", "if weve got", "if we have got", "if you have", "if youve got", "in case weve got", "in case we have", "suppose theres", "suppose there is", "supposing there is"]);
 /// If there is nothing of the kind.
 #[rustfmt::skip]
 const UNLESS: &Phrases = &Phrases::of(&["unless there is", "unless there are", "unless you find", "unless we have", "if there isnt",
     "if there is not", "if there arent", "if there are not", "if we dont have", "unless you see", "if you find no", "unless theres", "unless there already is",
-    "unless there are already", "unless theres already", "if there isnt already", "unless we already have"]);
+    "unless there are already", "unless theres already", "if there isnt already", "unless we already have", "if nobody has put", "if nobody put", "if no one has put", "if nobody has placed", "if nobody has set up", "if nobody has added", "if we havent got", "if there isnt yet"]);
 /// What is not meant.
 #[rustfmt::skip]
 pub(super) const EXCEPT: &Phrases = &Phrases::of(&["except", "except for", "but", "apart from", "other than", "but not", "besides", "excluding", "save",
@@ -150,6 +150,10 @@ impl Reader<'_> {
             return Err(self.not_understood("put a comma behind the condition"));
         };
         let stop = self.without_there(from, cut);
+        // "If there is no market stall": nobody here has one.
+        let stop_of_what = stop;
+        let noun = from + longest_phrase(&self.lexemes[from..stop], &["a", "an", "any"]).unwrap_or(0);
+        let is_none = self.names.is_sort_of_none(&self.lexemes[noun..stop]);
         let coloured = self.coloured(from, stop);
         let there = there == coloured.as_ref().is_none_or(|(_, is)| *is);
         let what = coloured.map_or_else(|| self.one_of(from, stop), |(what, _)| Ok(what));
@@ -167,9 +171,14 @@ impl Reader<'_> {
         self.at = end;
         match what {
             // What nobody knows here is not there.
-            Err(PlanError::NotFound { wanted, .. }) if least == 1 && is_noun(&wanted) => {
+            Err(PlanError::NotFound { wanted, .. }) if least == 1 && (is_noun(&wanted) || is_none) => {
                 Ok(if there { other.unwrap_or_else(|| nothing(&wanted)) } else { then })
             }
+            Err(_) if least == 1 && is_none => Ok(if there {
+                other.unwrap_or_else(|| nothing(&self.written(from, stop_of_what)))
+            } else {
+                then
+            }),
             Err(error) => Err(error),
             Ok(what) => {
                 let mut all = on_condition(then, &what, (least, there));
@@ -209,6 +218,34 @@ impl Reader<'_> {
             "nearby",
             "left",
             "in sight",
+            "yet",
+            "anywhere yet",
+            "here yet",
+            "there yet",
+            "in town",
+            "in the town",
+            "on campus",
+            "on the campus",
+            "on the grounds",
+            "in the harbour",
+            "in the quarter",
+            "in the city",
+            "in the scene",
+            "on the map",
+            "in this town",
+            "in the area",
+            "is there",
+            "is here",
+            "is still there",
+            "is still here",
+            "is still around",
+            "is around",
+            "still exists",
+            "exists",
+            "still stands there",
+            "still stands",
+            "are still there",
+            "are still here",
         ]);
         (from + 1..end)
             .find(|at| longest_phrase(&self.lexemes[*at..end], THERE) == Some(end - at))
@@ -275,15 +312,39 @@ impl Reader<'_> {
     fn is_so(&self, at: usize, end: usize) -> Option<(bool, usize)> {
         let words = longest_phrase(
             &self.lexemes[at..end],
-            &["if", "unless", "only if", "in case", "provided", "provided that", "as long as"],
+            &["if", "unless", "only if", "in case", "provided", "provided that", "as long as", "when"],
         )?;
         let is_unless = self.word(at) == Some("unless");
         let cut = (at + words..end).find(|at| joint(&self.lexemes[*at..end]).is_some()).unwrap_or(end);
         if self.coloured(at + words, cut).is_some() {
             return Some((!is_unless, words));
         }
+        // "When the van is white" may be now; "when Eve stands by the bus" is later.
+        if self.word(at) == Some("when") {
+            return None;
+        }
         let mut parser = self.parser(at + words, end);
         let what = parser.reference(0).ok()?;
+        // "If the hydrant is still there".
+        let is_there = longest_phrase(
+            &self.lexemes[parser.at.min(end)..end],
+            &[
+                "is still there",
+                "is still here",
+                "is there",
+                "is here",
+                "is still around",
+                "still exists",
+                "exists",
+                "is around",
+                "still stands",
+            ],
+        );
+        if let Some(there) = is_there.filter(|_| matches!(what.target, Target::Any(_) | Target::Named(_)))
+            && (parser.at + there >= end || joint(&self.lexemes[parser.at + there..end]).is_some())
+        {
+            return Some((!is_unless, words));
+        }
         let stands = what.relation.is_some() && matches!(what.target, Target::Any(_) | Target::Named(_));
         let ends = parser.at >= end || joint(&self.lexemes[parser.at..end]).is_some();
         (stands && ends).then_some((!is_unless, words))
@@ -309,7 +370,11 @@ impl Reader<'_> {
             self.one_of(from, cut).ok()?
         };
         what.traits.paint = Some(paint);
-        (cut + said + words == end).then_some((what, !not))
+        let behind = longest_phrase(
+            &self.lexemes[cut + said + words..end],
+            &["yet", "already", "by now", "still", "now"],
+        );
+        (cut + said + words + behind.unwrap_or(0) == end).then_some((what, !not))
     }
 
     /// "Add one": of what was just asked for, and where.

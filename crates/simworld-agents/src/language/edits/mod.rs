@@ -9,6 +9,7 @@ mod apart;
 mod ask;
 mod asked;
 mod bounds;
+mod breaks;
 mod change;
 mod complaints;
 mod conditions;
@@ -61,7 +62,9 @@ mod standing;
 mod stated;
 mod supposed;
 mod things;
+mod told;
 mod turn;
+mod turns;
 mod whole;
 mod wish;
 pub(super) mod words;
@@ -69,12 +72,14 @@ pub(super) mod words;
 use std::sync::Arc;
 
 use parse::{Reader, UNDERSTOOD};
+use parts::Telling;
 use simworld_core::geometry::Point2;
 use simworld_core::id::{EntityId, RoadId};
 use simworld_core::scene::Scene;
 use simworld_core::seam::PlanError;
 use wish::Wish;
 
+use super::lexer::Lexeme;
 use super::names::Names;
 use super::parser::shortened;
 use super::resolve::View;
@@ -130,6 +135,7 @@ pub(crate) fn read(
     let view = view_of(scene, focus);
     let names = Names::new(scene, focus.from, super::RANGE);
     let mut lexemes = hearing::hear(words, None);
+    breaks::in_plain_words(words, &mut lexemes);
     respelt::in_plain_spelling(words, &mut lexemes);
     retold::in_plain_words(&mut lexemes);
     slips::correct(words, &mut lexemes, &names, stock, &focus.streets);
@@ -139,19 +145,25 @@ pub(crate) fn read(
     passing::leave_out(&mut lexemes);
     rows::on_both_sides(&mut lexemes, &focus.streets);
     repairs::put_right(&mut lexemes);
+    spoken::name_streets(&mut lexemes, &focus.streets);
     let names = names.with_made(&lexemes, &stock.catalogue);
     let first = nth::first_of(&mut lexemes);
     let memo = memo::Memo::default();
     let reader =
         Reader { words, lexemes: &lexemes, names: &names, view: &view, memo: &memo, at: 0, depth: 0 };
+    let nearest = reader.with_nearest_to_street();
+    let reader = Reader { lexemes: nearest.as_deref().unwrap_or(&lexemes), ..reader };
+    let pointed = reader.with_what_was_pointed_at();
+    let reader = Reader { lexemes: pointed.as_deref().unwrap_or(reader.lexemes), ..reader };
     let numbered = reader.with_number();
-    let reader = Reader { lexemes: numbered.as_deref().unwrap_or(&lexemes), ..reader };
+    let reader = Reader { lexemes: numbered.as_deref().unwrap_or(reader.lexemes), ..reader };
     let mut wishes = wishes_of(reader, scene, stock, focus)?;
     if first.is_some_and(|first| !nth::begin(&mut wishes, first)) {
         return Err(reader.not_understood("say of what every second one is meant").into());
     }
     dress_new(&mut wishes);
     gone_once(&mut wishes);
+    made_once(&mut wishes);
     let finder = resolve::Finder { scene, stock, focus, view: view_of(scene, focus) };
     paint_at_once(&mut wishes, &finder);
     Ok(Reading { words: words.to_owned(), wishes })
@@ -226,6 +238,28 @@ fn gone_once(wishes: &mut Vec<Vec<Wish>>) {
     }
 }
 
+/// "She would love an olive tree next to the diner, can you add one?": what is asked for twice is made once.
+fn made_once(wishes: &mut Vec<Vec<Wish>>) {
+    let mut at = 1;
+    while at < wishes.len() {
+        let is_again = match (wishes[at - 1].first(), wishes[at].as_slice()) {
+            (Some(Wish::Add { things: made, at: place }), [Wish::Add { things, at: own }, ..]) => {
+                let said_again = |one: &wish::NewThing| {
+                    one.count == 1 && ["one", "it"].contains(&one.text.to_lowercase().as_str())
+                };
+                let is_there = own.is_empty() || matches!(own[..], [wish::Where::There]);
+                !place.is_empty() && made.len() == 1 && is_there && things.iter().all(said_again)
+            }
+            _ => false,
+        };
+        if is_again {
+            wishes.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+}
+
 /// Whether what is spoken of are several new things, and nothing else.
 fn are_those(what: &[super::clause::Reference], things: &[wish::NewThing]) -> bool {
     let several = things.len() > 1 || things.iter().any(|thing| thing.count > 1);
@@ -241,11 +275,10 @@ fn wishes_of(
     focus: &Focus,
 ) -> Result<Vec<Vec<Wish>>, PlanError> {
     let is_new = |thing: &wish::NewThing| thing.make(stock).is_ok();
-    let is_known = |wish: &Wish| match wish {
-        Wish::Add { things, .. } => things.iter().all(is_new),
-        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
-        _ => true,
-    };
+    let speaks_of_self = reader.lexemes.iter().any(|lexeme| {
+        matches!(&lexeme.token, super::lexer::Token::Word(word) if ["me", "myself", "i", "us", "you", "yourself"].contains(&word.as_str()))
+    });
+    let is_known = |wish: &Wish| is_known(wish, &is_new, speaks_of_self);
     let are_known = |wishes: &[Vec<Wish>]| wishes.iter().flatten().all(is_known);
     // What later wishes are about may be made by earlier ones.
     let is_there = |wishes: &[Vec<Wish>]| {
@@ -257,20 +290,23 @@ fn wishes_of(
     if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
         return plain;
     }
-    let in_parts = reader.in_parts(&is_known, &is_there);
+    let in_parts = reader.in_parts(&is_known, &is_there, Telling::ByWords);
     if let Some(wishes) = in_parts.as_ref().filter(|wishes| is_there(wishes)) {
         return Ok(wishes.clone());
     }
+    let ways: Vec<(Vec<Lexeme>, memo::Memo)> =
+        reader.retold().into_iter().map(|lexemes| (lexemes, memo::Memo::default())).collect();
+    let Reader { words, names, view, .. } = reader;
+    let over = |(lexemes, memo)| Reader { lexemes, memo, words, names, view, at: 0, depth: 0 };
     let mut answer = None;
-    let told_again = reader.retold().into_iter().find_map(|lexemes| {
-        let memo = memo::Memo::default();
-        let Reader { words, names, view, .. } = reader;
-        let reader = Reader { lexemes: &lexemes, memo: &memo, words, names, view, at: 0, depth: 0 };
+    let told_again = ways.iter().find_map(|(lexemes, memo)| {
+        let reader = over((lexemes.as_slice(), memo));
         let plain = Reader { ..reader }.sentence();
         if plain.as_ref().is_ok_and(|wishes| are_known(wishes) && is_there(wishes)) {
             return plain.ok();
         }
-        let in_parts = reader.in_parts(&is_known, &is_there).filter(|wishes| is_there(wishes));
+        let in_parts =
+            reader.in_parts(&is_known, &is_there, Telling::ByWords).filter(|wishes| is_there(wishes));
         // What is not there, or what nobody has, is a better answer than that nothing is understood.
         if !matches!(plain, Err(PlanError::NotUnderstood { .. })) {
             answer.get_or_insert(plain);
@@ -280,15 +316,51 @@ fn wishes_of(
     if let Some(wishes) = told_again {
         return Ok(wishes);
     }
+    let is_nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+    let by_shape = |reader: &Reader<'_>| {
+        let found = reader.in_parts(&is_known, &is_there, Telling::ByShape)?;
+        // What is told along the way may have said where.
+        (is_there(&found) && !found.iter().flatten().any(is_nowhere)).then_some(found)
+    };
+    let along_the_way = by_shape(&reader)
+        .or_else(|| ways.iter().find_map(|(lexemes, memo)| by_shape(&over((lexemes.as_slice(), memo)))));
+    if let Some(wishes) = along_the_way {
+        return Ok(wishes);
+    }
     if let Some(answer) = answer.filter(|_| plain.is_err()) {
         return answer;
     }
     match (plain, in_parts) {
         (Ok(wishes), _) | (Err(PlanError::NotUnderstood { .. }), Some(wishes)) => Ok(wishes),
         (Err(error), _) => {
-            let unknown = || reader.in_parts(&|_| true, &|_| true);
+            let unknown = |telling| reader.in_parts(&|_| true, &|_| true, telling);
+            let has_parts = reader.lexemes.iter().rev().skip(1).any(super::lexer::is_mark);
+            let by_shape = || {
+                let found = has_parts.then(|| unknown(Telling::ByShape)).flatten()?;
+                (!found.iter().flatten().any(is_nowhere)).then_some(found)
+            };
+            let unknown = || unknown(Telling::ByWords).or_else(by_shape);
             reader.complaint().or_else(unknown).ok_or(error)
         }
+    }
+}
+
+/// Whether somebody has what a wish asks for, whatever it stands on; and whether it moves nobody who is not spoken of.
+fn is_known(wish: &Wish, is_new: &dyn Fn(&wish::NewThing) -> bool, speaks_of_self: bool) -> bool {
+    let is_viewer = |what: &super::clause::Reference| {
+        what.target == super::clause::Target::Here || ["we", "us"].contains(&what.text.as_str())
+    };
+    match wish {
+        // "Get a bench for the kids" moves nobody.
+        Wish::Move { what, .. } => speaks_of_self || !what.iter().any(is_viewer),
+        Wish::Add { things, .. } => things.iter().all(is_new),
+        Wish::Replace { with: thing, .. } | Wish::Row { thing, .. } => is_new(thing),
+        Wish::When { then, .. }
+        | Wish::WhenPassage { then, .. }
+        | Wish::WhenLarger { then, .. }
+        | Wish::Given { then, .. } => is_known(then, is_new, speaks_of_self),
+        Wish::All(wishes) => wishes.iter().all(|wish| is_known(wish, is_new, speaks_of_self)),
+        _ => true,
     }
 }
 
@@ -346,6 +418,8 @@ fn other_words() -> impl Iterator<Item = &'static str> {
         .chain(passing::words())
         .chain(idle::words())
         .chain(retold::words())
+        .chain(breaks::words())
+        .chain(told::words())
 }
 
 /// The words of the parts, so that none is taken for a misspelling.

@@ -65,6 +65,12 @@ impl Reader<'_> {
     /// "Three tall red sports cars".
     pub(super) fn new_thing(&mut self, end: usize) -> Result<NewThing, PlanError> {
         let start = self.at;
+        // "A bit of drama" is nothing that stands anywhere.
+        const NO_THING: &[&str] =
+            &["a bit of", "a little bit of", "a touch of", "a dash of", "a breath of", "a hint of"];
+        if longest_phrase(self.rest(end), NO_THING).is_some() {
+            return Err(self.not_understood("say what to add"));
+        }
         let mut thing = NewThing {
             words: Vec::new(),
             count: 1,

@@ -142,6 +142,15 @@ impl Reader<'_> {
 
     /// "Benches": some that are not there yet.
     pub(super) fn is_bare_plural(&self, at: usize, end: usize) -> bool {
+        // "Park lanterns" are lanterns, and no park.
+        let lasts_in_s = |words: usize| self.word(at + words - 1).is_some_and(|word| word.ends_with('s'));
+        let asset =
+            self.names.asset_words(&self.lexemes[at..end]).filter(|words| *words > 1 && lasts_in_s(*words));
+        if asset
+            .is_some_and(|words| at + words >= end || self.is_joint(at + words) || self.is_place(at + words))
+        {
+            return true;
+        }
         // "Cherry trees": up to three words say of what kind they are.
         let ends = |at: usize| {
             self.is_joint(at) || self.is_place(at) || longest(&self.lexemes[at..end], &VERBS).is_some()

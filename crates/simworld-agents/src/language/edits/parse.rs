@@ -64,7 +64,15 @@ impl<'a> Reader<'a> {
         while self.at < self.lexemes.len() {
             let end = self.boundary();
             let with = self.at > 0 && self.word(self.at - 1) == Some("with");
+            let from = self.at;
             let mut read = self.wish(end)?;
+            if wishes
+                .last()
+                .and_then(|before| before.first())
+                .is_some_and(|before| self.is_stray(before, from, &read))
+            {
+                return Err(Reader { at: from, ..*self }.not_understood("say where it is to go"));
+            }
             if let (Some([before, ..]), Some(first)) = (wishes.last().map(Vec::as_slice), read.first_mut()) {
                 for wish in first {
                     super::shared::on_street(before, wish, with);

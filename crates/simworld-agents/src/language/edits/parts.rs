@@ -5,13 +5,14 @@
 //! why somebody wants something. What begins as an order does is none, nor what says how something should be, so that no
 //! wish is passed over because its words are not understood.
 
-use super::super::clause::Reference;
-use super::super::lexer::is_mark;
-use super::super::lexicon::longest_phrase;
+use super::super::clause::{Reference, Target};
+use super::super::lexer::{Lexeme, is_mark};
+use super::super::lexicon::{is_animate, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::follow::Said;
 use super::parse::{Reader, joint};
 use super::wish::Wish;
+use super::words::{VERBS, Verb};
 
 /// As many parts are tried in all; whoever says more is not understood.
 const MOST_TRIED: usize = 160;
@@ -26,7 +27,18 @@ struct Search<'a> {
     is_known: &'a dyn Fn(&Wish) -> bool,
     /// Whether what the first wish is about is there.
     is_there: &'a dyn Fn(&[Vec<Wish>]) -> bool,
+    /// By what is known what asks for nothing.
+    telling: Telling,
     tried: usize,
+}
+
+/// By what parts are known that ask for nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Telling {
+    /// By the words of remarks.
+    ByWords,
+    /// By their shape too, whatever their words are.
+    ByShape,
 }
 
 /// So much was tried that nothing more is.
@@ -38,8 +50,9 @@ impl Reader<'_> {
         &self,
         is_known: &dyn Fn(&Wish) -> bool,
         is_there: &dyn Fn(&[Vec<Wish>]) -> bool,
+        telling: Telling,
     ) -> Option<Vec<Vec<Wish>>> {
-        let mut search = Search { is_known, is_there, tried: 0 };
+        let mut search = Search { is_known, is_there, telling, tried: 0 };
         let found = self.parts_from(0, &Said::default(), &[], &mut search)?;
         (!found.is_empty()).then_some(found)
     }
@@ -81,6 +94,9 @@ impl Reader<'_> {
             }
             let mut part = Reader { at: from, ..self.up_to(end) };
             let Some(mut wishes) = part.part(said, end) else { continue };
+            if said.wish.as_ref().is_some_and(|before| self.is_stray(before, from, &wishes)) {
+                continue;
+            }
             let is_first = said.wish.is_none() && spoken_of.is_empty();
             if !wishes.iter().flatten().all(search.is_known) || is_first && !(search.is_there)(&wishes) {
                 continue;
@@ -90,7 +106,8 @@ impl Reader<'_> {
                 if let Some(before) = &said.wish {
                     super::shared::on_street(before, wish, with);
                 }
-                wish.is_about(spoken_of);
+                let spoken_of = self.in_order_of(wish, spoken_of);
+                wish.is_about(&spoken_of);
                 wish.stands(&said.place);
             });
             let now = Said {
@@ -121,21 +138,132 @@ impl Reader<'_> {
                 || self.is_remark(from, end)
                 || self.is_remark(remark.min(from), end)
                 || said.wish.is_some() && self.is_idle(from, end);
-            if !asks_nothing {
+            let is_told =
+                || search.telling == Telling::ByShape && self.is_told(remark.min(from), end, search.is_known);
+            if !asks_nothing && !is_told()
+                || said.wish.is_some() && self.is_listed(from, end)
+                || self.hides_wish(said, (from, end), search.is_known)
+            {
                 return None;
             }
             let mut things = self.remarked_on(from, end, spoken_of);
-            if things.is_empty() {
-                things = spoken_of.to_vec();
+            // "Bo is waiting | for Ada": of both.
+            let goes_on = remark > 0 && !is_mark(&self.lexemes[remark - 1]);
+            if things.is_empty() || goes_on && !spoken_of.is_empty() {
+                let later = std::mem::replace(&mut things, spoken_of.to_vec());
+                things.extend(later);
             }
             let lacks = self.noun_lacking(from, end);
-            let noun = lacks.or_else(|| self.last_noun(from, end)).or_else(|| said.noun.clone());
+            let noun = lacks
+                .or_else(|| self.last_noun(from, end))
+                .or_else(|| self.asset_in(from, end))
+                .or_else(|| said.noun.clone());
             let place = self
                 .place_spoken_of(from, end)
                 .or_else(|| self.subject_place(from, end))
                 .unwrap_or_else(|| said.place.clone());
             let now = Said { noun, place, ..said.clone() };
             self.parts_from(end, &now, &things, search)
+        })
+    }
+
+    /// Whether an order that is understood stands in what seems to ask for nothing: "for the street party close Elm Street".
+    fn hides_wish(&self, said: &Said, (from, end): (usize, usize), is_known: &dyn Fn(&Wish) -> bool) -> bool {
+        const FOR: &Phrases = &Phrases::of(&["for the", "for my", "for our", "for a", "for this", "while"]);
+        let is_why = longest_phrase(&self.lexemes[from..end], FOR).is_some();
+        (from..end).any(|at| {
+            let may = at == from
+                || is_mark(&self.lexemes[at - 1])
+                || matches!(self.word(at - 1), Some("and" | "then" | "please" | "just" | "also" | "now"))
+                || is_why && at > from + 2;
+            may && longest(&self.lexemes[at..end], &VERBS).is_some()
+                && !self.is_said_twice(said, at, end)
+                && (self.renames(at, end)
+                    || Reader { at, ..self.up_to(end) }
+                        .wish(end)
+                        .is_ok_and(|wishes| wishes.iter().flatten().all(is_known)))
+        })
+    }
+
+    /// "Remove the van and the yellow car, ...": what is named behind "and" up to a mark is one more of those that were named.
+    fn is_listed(&self, from: usize, end: usize) -> bool {
+        let is_joined = from > 0 && matches!(self.word(from - 1), Some("and" | "or" | "plus"));
+        let mut parser = self.parser(from, end);
+        is_joined
+            && self.is_definite(from)
+            && parser.reference(0).is_ok()
+            && parser.at > from
+            && self.lexemes.get(parser.at).is_none_or(is_mark)
+    }
+
+    /// "Rename it", whatever is said behind.
+    fn renames(&self, at: usize, end: usize) -> bool {
+        longest(&self.lexemes[at..end], &VERBS).is_some_and(|(verb, words)| {
+            verb == Verb::Name
+                && longest_phrase(
+                    &self.lexemes[at + words..end],
+                    &["it", "him", "her", "the", "that", "this"],
+                )
+                .is_some()
+        })
+    }
+
+    /// Whether a new thing without a verb or a place is named behind what was asked for, and not along with it: "put a stool next to
+    /// Anna, the poor woman".
+    pub(super) fn is_stray(&self, before: &Wish, from: usize, wishes: &[Vec<Wish>]) -> bool {
+        let nowhere = |wish: &Wish| matches!(wish, Wish::Add { at, .. } if at.is_empty());
+        let is_joined = from > 0
+            && matches!(self.word(from - 1), Some("and" | "also" | "plus" | "then" | "with" | "or" | "well"));
+        let is_bare = longest(&self.lexemes[from..], &VERBS).is_none();
+        // "People have to stand there for ages" moves nobody.
+        let crowd: &[&str] = &[
+            "people",
+            "folks",
+            "kids",
+            "children",
+            "visitors",
+            "guests",
+            "everybody",
+            "everyone",
+            "customers",
+            "students",
+            "tourists",
+        ];
+        let is_of_crowd = |wish: &Wish| {
+            matches!(wish, Wish::Move { what, .. } | Wish::Face { what, .. } | Wish::Rotate { what, .. }
+                if what.iter().any(|one| crowd.contains(&one.text.to_lowercase().as_str())))
+        };
+        wishes.iter().flatten().any(nowhere) && is_bare && !is_joined && !nowhere(before)
+            || is_bare && wishes.iter().flatten().any(is_of_crowd)
+    }
+
+    /// What was spoken of, with the things first if the wish does something with "it", and with people first if it does with "him":
+    /// "Ben owns the scooter, so move it next to him".
+    fn in_order_of(&self, wish: &mut Wish, spoken_of: &[Reference]) -> Vec<Reference> {
+        let is_somebody = |one: &&Reference| match &one.target {
+            Target::Any(class) => class.kinds().iter().all(|kind| is_animate(*kind)),
+            Target::Named(ids) => {
+                ids.iter().all(|id| self.view.scene.entity(*id).is_some_and(|entity| is_animate(entity.kind)))
+            }
+            _ => false,
+        };
+        let (people, things): (Vec<&Reference>, Vec<&Reference>) = spoken_of.iter().partition(is_somebody);
+        let first = wish.objects_mut().first().map(|object| object.text.clone());
+        let order: Vec<&Reference> = match first.as_deref() {
+            Some("it") => things.into_iter().chain(people).collect(),
+            Some("him" | "her" | "he" | "she") => people.into_iter().chain(things).collect(),
+            _ => return spoken_of.to_vec(),
+        };
+        order.into_iter().cloned().collect()
+    }
+
+    /// What might be made that a remark names last: "Ada forgot her guitar. Put one next to her".
+    fn asset_in(&self, from: usize, end: usize) -> Option<Vec<Lexeme>> {
+        (from + 1..end).rev().find_map(|at| {
+            let whose = ["a", "an", "her", "his", "my", "their", "our", "any", "no"];
+            self.word(at - 1).filter(|word| whose.contains(word))?;
+            let words = self.names.asset_words(&self.lexemes[at..end])?;
+            self.names.exact(&self.lexemes[at..end]).is_none().then(|| self.lexemes[at..at + words].to_vec())
         })
     }
 
@@ -162,6 +290,22 @@ impl Reader<'_> {
         let there = longest_phrase(&self.lexemes[from..end], &["there is", "theres", "there are"]);
         let stop =
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
+        // "There is too much litter at the statue": nothing that "it" could be, but the statue.
+        const TOO_MUCH: &Phrases = &Phrases::of(&[
+            "there is too much",
+            "theres too much",
+            "there is so much",
+            "theres so much",
+            "there are too many",
+            "there is no",
+            "theres no",
+            "there is nothing",
+            "theres nothing",
+        ]);
+        let stop = if longest_phrase(&self.lexemes[from..end], TOO_MUCH).is_some() { end } else { stop };
+        // "The statue is so small that people overlook it": the statue, and not the people.
+        let so = (from..stop).find(|at| self.word(*at) == Some("so"));
+        let stop = so.and_then(|so| (so + 1..stop).find(|at| self.word(*at) == Some("that"))).unwrap_or(stop);
         // "The crate is too big for the kids": the crate, and not the kids.
         let too = (from..stop).find(|at| matches!(self.word(*at), Some("too" | "enough")));
         let whom = too.and_then(|too| (too + 1..stop).find(|at| self.word(*at) == Some("for")));
@@ -250,7 +394,9 @@ impl Reader<'_> {
         #[rustfmt::skip]
         const ORDERS: &Phrases = &Phrases::of(&["put", "move", "get", "get rid of", "take", "remove", "paint", "make", "turn", "add", "give", "shift", "swap", "please", "throw", "bin", "delete", "bring", "send", "replace", "scrap", "lose",
             "say", "colour", "place", "set", "push", "pull", "drag", "tow"]);
-        let Some(words) = longest_phrase(&self.lexemes[at..], ORDERS).filter(|_| at > from + 2) else {
+        let Some(words) = longest_phrase(&self.lexemes[at..], ORDERS)
+            .filter(|_| at > from + 2 && !self.ends_longer_noun(at, self.lexemes.len()))
+        else {
             return false;
         };
         let what = longest_phrase(

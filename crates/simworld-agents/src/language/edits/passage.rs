@@ -38,7 +38,7 @@ const NOISE: &Phrases = &Phrases::of(&["to", "traffic", "for", "on", "onto", "fr
     "every car", "at once", "immediately", "right away", "stretch", "today", "will be", "so that", "ought to be", "from now on",
     "was", "were", "closed half", "closed part", "closed bit", "closed section", "half", "part of", "part", "section of", "bit of",
     "this", "that", "there", "until further notice", "for good", "for the moment", "for now", "for a while", "for the time being",
-    "both directions", "in both directions", "want", "we", "i", "would like", "see", "high", "what if", "if", "were to be", "a", "turn", "goes", "go", "gets", "becomes", "become", "been", "tomorrow", "tonight", "this week", "this weekend", "for the day", "for today", "for the weekend", "for the parade", "for the market", "for the festival", "for the race", "for the marathon", "for the party", "for the event", "it", "please can", "needs", "need", "has", "with", "whole", "entire", "thing", "drivers", "driver", "my", "ok", "so", "right", "by", "at", "can", "may", "will", "id", "like", "love", "us", "in its whole length", "in its entire length", "on its whole length", "over its whole length", "along its whole length", "in full", "from end to end", "in whole"]);
+    "both directions", "in both directions", "want", "we", "i", "would like", "see", "high", "what if", "if", "were to be", "a", "turn", "goes", "go", "gets", "becomes", "become", "been", "tomorrow", "tonight", "this week", "this weekend", "for the day", "for today", "for the weekend", "for the parade", "for the market", "for the festival", "for the race", "for the marathon", "for the party", "for the event", "it", "please can", "needs", "need", "has", "with", "whole", "entire", "thing", "drivers", "driver", "my", "ok", "so", "right", "by", "at", "can", "may", "will", "id", "like", "love", "us", "in its whole length", "in its entire length", "on its whole length", "over its whole length", "along its whole length", "in full", "from end to end", "in whole", "all the way", "were to"]);
 
 /// Which way a sentence goes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -54,6 +54,14 @@ impl Reader<'_> {
         if longest_phrase(&self.lexemes[self.at..end], &["if", "unless", "when", "whenever", "once", "until"])
             .is_some()
         {
+            return None;
+        }
+        // "Mill Lane was closed" tells what was.
+        let was = |at: usize| {
+            matches!(self.word(at), Some("was" | "were"))
+                && matches!(self.word(at + 1), Some("closed" | "shut" | "blocked" | "barred"))
+        };
+        if (self.at..end).any(was) {
             return None;
         }
         for cut in self.at..end {
@@ -138,7 +146,15 @@ impl Reader<'_> {
     fn half(&self, at: usize, end: usize) -> Option<(super::super::compass::Compass, usize)> {
         let mut parser = self.parser(at, end);
         parser.eat_any(&["at its", "at the", "on its", "on the", "at"]);
-        let compass = parser.compass()?;
+        let start = parser.at;
+        parser.eat_any(&["the"]);
+        let compass = match parser.compass_of_part() {
+            Some(compass) => compass,
+            None => {
+                parser.at = start;
+                parser.compass()?
+            }
+        };
         parser
             .eat_any(&[
                 "half",

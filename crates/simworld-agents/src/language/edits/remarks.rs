@@ -213,7 +213,18 @@ impl Reader<'_> {
                 && next < end
                 && longest_phrase(&self.lexemes[next..end], &["one", "two", "three", "another"]).is_some()
         });
-        if goes_on {
+        // "The bench which is closest to the bin" says which.
+        let is_which = self.word(from) == Some("which")
+            && (behind..end).any(|at| {
+                self.is_place(at)
+                    || matches!(self.word(at), Some("closest" | "nearest" | "farthest" | "next"))
+            });
+        if is_which {
+            return false;
+        }
+        // "So that he faces the lab" says how he is to stand.
+        let faces = (behind..end).any(|at| matches!(self.word(at), Some("faces" | "face" | "facing")));
+        if goes_on || faces && self.word(from) == Some("so") {
             return false;
         }
         if !states && (!is_plain || somewhere()) {
@@ -444,6 +455,11 @@ impl Reader<'_> {
 
 /// A place before a remark has no more words than that.
 const LONGEST_PLACE: usize = 10;
+
+/// Whether a word says how something is, or what somebody does.
+pub(super) fn is_state(word: &str) -> bool {
+    STATES.contains(word)
+}
 
 /// Every word of these tables, for the spelling.
 pub(super) fn words() -> impl Iterator<Item = &'static str> {

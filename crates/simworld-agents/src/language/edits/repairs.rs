@@ -177,7 +177,11 @@ fn replaced(before: &[Lexeme], meant: &[Lexeme], is_sure: bool) -> Option<(usize
             let start = (clause..from).rev().take(4).find(|at| is_number(&before[*at]));
             return Some((start.unwrap_or(from), to));
         }
-        let begins = |at: usize| is_number(&before[at]) || is_article(&before[at..]);
+        let begins = |at: usize| {
+            is_number(&before[at])
+                || is_article(&before[at..])
+                || longest_phrase(&before[at..], &["another"]).is_some()
+        };
         return last(&|at| (is_sure && begins(at)).then_some(all - at));
     }
     let is_noun = is_sure && meant.len() <= LONGEST && noun.is_none_or(|(_, words)| words == meant.len());

@@ -10,179 +10,43 @@ use super::super::paint::PAINTS;
 use super::super::phrases::Phrases;
 use super::forms::{word_at, words_at};
 use super::parse::Reader;
+use super::turns::{ASIDES, BEFORE_ALL, FILLERS, TURNS};
 use super::words::VERBS;
 
-/// What adds nothing, wherever it stands.
-#[rustfmt::skip]
-const FILLERS: &Phrases = &Phrases::of(&["you know", "you see", "yeah", "with each other", "with one another", "on guard", "on duty", "on watch", "on standby", "on call", "at the ready", "from today on", "from now on",
-    "as of today", "as of now", "starting today", "starting now", "starting from now", "ever again", "of course", "to all vehicles", "to all traffic", "to vehicles", "for all traffic", "for all vehicles", "while youre at it",
-    "if possible", "if you can", "if you could", "if thats possible", "if that is possible", "all in all", "altogether", "for the time being", "for the moment", "for a change", "for good measure", "for company",
-    "right about now", "right now", "out here", "i think", "i guess", "i suppose", "i reckon", "i believe", "in my opinion", "if you ask me", "as usual", "as always",
-    "once and for all", "in the meantime", "as a start", "for a start", "to begin with", "to start with", "on second thoughts", "needless to say", "as you know", "as you can see", "say what you want",
-    "first of all", "last of all", "as discussed", "as mentioned", "as requested", "as soon as possible", "at your convenience", "at your earliest convenience", "sort of", "kind of"]);
-
-/// Turns of phrase and what they mean, of one sentence each. A capital is any words without a mark, `P` and `Q` are any words or
-/// none, `O` too where an order may follow, `M` is a measure, `D` an article or a number; `a|b` is either word, and `-` none.
-#[rustfmt::skip]
-const TURNS: &[(&str, &str)] = &[
-    // Rows that are told from both ends.
-    ("from A to B , C every|each M", "C every M between A and B"),
-    ("from A to B C every|each M", "C every M between A and B"),
-    ("every M A from B to C", "A every M between B and C"),
-    ("every M , A from B to C", "A every M between B and C"),
-    ("every M from A to B , C", "C every M between A and B"),
-    ("A every|each M from B all the way to C", "A every M between B and C"),
-    ("A every|each M from B to C", "A every M between B and C"),
-    ("A from B to C , one|placed|set|spaced every M", "A every M between B and C"),
-    ("A from B to C , every|each M", "A every M between B and C"),
-    ("A from B to C every|each M", "A every M between B and C"),
-    ("A from B to C , M apart", "A every M between B and C"),
-    ("A , one every M , from B to C", "A every M between B and C"),
-    ("A , one every|each M , P", "A every M P"),
-    ("P , one|spaced|placed|set every|each M", "P every M"),
-    ("P , one for every M", "P every M"),
-    ("P , spacing M", "P every M"),
-    ("P with a spacing of M", "P every M"),
-    ("P at intervals of M", "P every M"),
-    ("P in intervals of M", "P every M"),
-    ("P at M intervals", "P every M"),
-    // Two that change places.
-    ("P that A and B change|exchange|trade|switch|swap their|the places|positions|spots", "swap A and B"),
-    ("A and B change|exchange|trade|switch|swap places|positions|spots", "swap A and B"),
-    ("A and B should|must|could|to change|exchange|trade|switch|swap places|positions|spots", "swap A and B"),
-    ("P where A is , Q where B is", "swap A and B"),
-    // What is not to be there.
-    ("P if A werent|wasnt|isnt|arent here|there anymore", "remove A"),
-    ("P if A werent|wasnt|isnt|arent here|there any more|longer", "remove A"),
-    ("P if A werent|wasnt|isnt|arent here|there", "remove A"),
-    ("i|we dont want to see A again|anymore", "remove A"),
-    ("i|we dont want to see A any more|longer", "remove A"),
-    ("i|we dont want to see A", "remove A"),
-    ("i|we never want to see A again", "remove A"),
-    ("i|we could|can do without A", "remove A"),
-    ("i|we have no use for A anymore", "remove A"),
-    ("i|we have no use for A", "remove A"),
-    ("theres|there is no place for A here|anymore", "remove A"),
-    ("A has|have outlived its|their usefulness", "remove A"),
-    ("A has|have served its|their purpose", "remove A"),
-    ("P no longer need A here", "remove A"),
-    ("cars|vehicles|traffic shouldnt|mustnt|cant|may be driving|allowed on A anymore", "close A"),
-    ("cars|vehicles|traffic shouldnt|mustnt be driving|allowed on A", "close A"),
-    ("cars|vehicles|traffic shouldnt|mustnt|cant drive|go on|along|through A", "close A"),
-    ("no more cars|traffic|vehicles on|in|along A", "close A"),
-    ("no cars|traffic|vehicles on|in|along A", "close A"),
-    ("keep cars|traffic|vehicles off|out A", "close A"),
-    ("keep cars|traffic|vehicles out of A", "close A"),
-    ("keep all cars|traffic|vehicles off|from A", "close A"),
-    ("block|seal|cordon|shut|fence off A", "close A"),
-    ("block|shut A", "close A"),
-    ("reopen|unblock|unlock A", "open A"),
-    ("let traffic|cars|vehicles back|through|into|onto A", "open A"),
-    ("let traffic|cars|vehicles use A again", "open A"),
-    // New things, by what is needed.
-    ("P is|are necessary|needed|required|wanted|desired D A , standing|placed|put B", "add D A B"),
-    ("P is|are necessary|needed|required|wanted|desired D A", "add D A"),
-    ("hows about A", "how about A"),
-    ("id|wed put|place|have|add|stick D A", "add D A"),
-    ("i|we would put|place|have|add|stick D A", "add D A"),
-    ("O let D A keep him|her|it|them company Q", "O put D A Q"),
-    ("O have|let D A play|stand|sing|perform|work|guard|patrol|sell|live|sleep|lie|walk|rest|watch|wait|sit|greet B", "O put D A B"),
-    ("O keep|have|lay|hang|rest|prop|let D A", "O put D A"),
-    ("A am|is|are|be|im|were|hes|shes|theyre needing|wanting|requiring D B", "A needs D B"),
-    ("A will be needing D B", "A needs D B"),
-    ("A should be having D B with|by him|her|it|them", "A needs D B"),
-    ("D A should|could|must|has|is to wait|stay|sit|lie|rest|live|sleep|loiter|hang|perch|pose somewhere|out|around B", "add D A B"),
-    ("D A should|could|must wait|stay|sit|lie|rest|live|sleep|loiter|hang|perch|pose|greet|keep B", "add D A B"),
-    ("the A , and i|we want|need it|them B", "the A should be B"),
-    ("A , and i|we want|need|would|like it|them|one|that B", "add A B"),
-    ("for A please D B , beside|with him|her|it", "add D B next to A"),
-    ("for A D B , beside|with him|her|it", "add D B next to A"),
-    ("A says|reckons|thinks|insists|suggests|demands that|- the B belongs|goes C", "the B should go C"),
-    ("A says|reckons|thinks|insists|suggests|demands that|- D B belongs|goes C", "add D B C"),
-    // New things, told by other verbs.
-    ("O dig|sink|open|erect|pitch|run|start|install|moor|dock|light|grow D A", "O put D A"),
-    ("O put|place|add|set|build|light|plant|dig|install|park|pitch me|us|them D A", "O put D A"),
-    ("i am|was wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
-    ("im wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A to be|stand|go B", "add D A B"),
-    ("im|we wishing|wanting|desiring|hoping|dreaming|picturing|imagining for|of|- D A", "add D A"),
-    ("P it is|are missing|lacking D A , you put please", "P put D A"),
-    ("P it is|are missing|lacking D A", "P put D A"),
-    ("P , D A wouldnt hurt|harm Q", "P , add D A"),
-    ("P , D A wouldnt go amiss Q", "P , add D A"),
-    ("D A wouldnt hurt|harm Q", "add D A"),
-    ("D A wouldnt go amiss Q", "add D A"),
-    ("A would|might|could be|feel|look happier|better|nicer|safer|prettier|livelier|friendlier with D B", "A needs D B"),
-    ("A should|could|must get itself|himself|herself|themselves D B", "A needs D B"),
-    ("P should|could|must get itself|himself|herself|themselves D B", "P needs D B"),
-    ("in memory|honour|honor of A the B", "the B"),
-    ("A is|are|looks|look B and ought|should|must|has|have|needs|need to|- C", "A should C"),
-    ("A doesnt|dont|no belong|longer here , B it|them", "remove A"),
-    ("A doesnt|dont belong here|there", "remove A"),
-    ("bye|goodbye|farewell bye|- the A", "remove the A"),
-    ("bye|goodbye|farewell bye|- A", "remove the A"),
-    ("so long the A", "remove the A"),
-    ("im|we picturing|imagining|seeing A in B rather than C", "paint A B"),
-    ("i|we am|are|see|picture|imagine A in B rather than C", "paint A B"),
-    ("P double A in size|height", "P double A"),
-    ("P triple A in size|height", "P triple A"),
-    ("P halve A in size|height", "P halve A"),
-    ("P turn|rotate|spin|swivel|swing A round|around by B , Q", "P turn A by B"),
-    ("P turn|rotate|spin|swivel|swing A round|around by B", "P turn A by B"),
-    ("P copy|duplicate|clone A and put|stand|place|set|park|move the|- copy|copies|duplicate|duplicates|clone|it|them down|- B", "P copy A B"),
-    ("P make D copies|copy of A and put|stand|place|set|park|move the|- copy|copies|it|them down|- B", "P make D copies of A B"),
-    ("P read|tell|list|show|name me|us out|- which|what A there are|is Q", "list A"),
-    ("how many A have|do we|you|i got|have Q", "how many A are there Q"),
-    ("P , a clump|tuft|bunch|group|patch every|each M", "P every M"),
-    ("P , one each M B", "P every M B"),
-    ("A from B to C , one|placed|set|spaced every|each M in between", "A every M between B and C"),
-    // Where somebody is to be.
-    ("P shift|move|bring|take|get A over|- so he|she|it|they is|are B", "P move A B"),
-    ("P shift|move|bring|take|get A over|- so hes|shes|its|theyre B", "P move A B"),
-    ("P shift|move|bring|take|get A over|- so that he|she|it|they is|are|stands|stand B", "P move A B"),
-    ("P on|at|to A left|right side|hand", "P to the left of A"),
-    ("A has|have|needs to turn his|her|its|their eyes|gaze|head|face to|towards B", "A should face B"),
-    ("A should|must turn his|her|its|their eyes|gaze|head|face to|towards B", "A should face B"),
-    ("A has|have|needs|ought to look|gaze|stare to|at|towards B", "A should face B"),
-    // How something is to be.
-    ("a splash|lick|coat|touch|dash of A would|might|could do B good", "paint B A"),
-    ("a splash|lick|coat|touch|dash of A would|might|could suit|help|improve B", "paint B A"),
-    ("A is|are supposed|meant to be B , not C", "A should be B"),
-    ("A is|are supposed|meant to be B", "A should be B"),
-    ("A is|are too B , needs|need to be C", "A should be C"),
-    ("A is|are too B , should|must be C", "A should be C"),
-    ("A is no colour|color for B make it C", "paint B C"),
-    ("A is no colour|color for B , make|paint it C", "paint B C"),
-    ("let A turn|become|get B", "make A B"),
-    ("D A would|might|could do B good Q", "add D A"),
-    ("D A would|might|could suit|help|cheer|please B", "add D A"),
-    // What is asked.
-    ("which|what A have|do we|you|i got|have Q , can|could you list|name|show them P", "list A Q"),
-    ("which|what A have we|you got Q", "list A Q"),
-    ("P what can|could you tell us|me|them about A", "describe A"),
-    ("P what do|can you know|say about A", "describe A"),
-    ("P describe A to me|us|them , B", "describe A"),
-    ("P describe A to me|us|them", "describe A"),
-];
-
-/// As [`TURNS`], of what would be misunderstood otherwise.
-#[rustfmt::skip]
-const BEFORE_ALL: &[(&str, &str)] = &[
-    // "One" is of what is not there, and not of where it is looked for.
-    ("if there is|isnt no|any A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
-    ("if theres|there no|isnt any|- A on|in|at the|this|our|- town|city|campus|scene|map|village|place , build|add|put|place|make|plant one B", "if there is no A , put a A B"),
-];
-/// What is said by the way, in the words of who asks kindly.
-#[rustfmt::skip]
-const ASIDES: &Phrases = &Phrases::of(&["while you are at it", "while youre at it", "by the way", "if i may", "if i might", "if i may ask", "if youd be so good", "if you would be so good", "if youd be so kind", "if you would be so kind", "if its not too much trouble", "if it isnt too much trouble",
-    "if its no trouble", "if that isnt too much trouble", "if you dont mind", "when you have a moment", "when you get a moment", "when you have a minute", "if you have a minute", "if you have a moment"]);
+/// "We're having a party: ...": an occasion is nothing that is to be put anywhere.
+fn without_occasion(lexemes: &mut Vec<Lexeme>) {
+    const HAVING: &Phrases = &Phrases::of(&[
+        "were having a",
+        "we are having a",
+        "im having a",
+        "i am having a",
+        "theyre having a",
+        "were throwing a",
+        "im throwing a",
+        "weve got a",
+        "were having our",
+        "were planning a",
+        "im planning a",
+        "were celebrating a",
+    ]);
+    let Some(mark) = lexemes.iter().position(is_mark).filter(|mark| mark + 1 < lexemes.len()) else { return };
+    let is_plain = mark <= 9
+        && longest_phrase(lexemes, HAVING).is_some()
+        && !(0..mark)
+            .any(|at| longest(&lexemes[at..], &super::words::WAYS).is_some_and(|(_, words)| words > 1));
+    if is_plain {
+        lexemes.drain(..=mark);
+    }
+}
 
 /// Puts what would be misunderstood plainly, and leaves out what is said by the way.
 pub(super) fn in_plain_words(lexemes: &mut Vec<Lexeme>) {
+    without_occasion(lexemes);
     let asides = without(lexemes, ASIDES);
     if asides.iter().any(|lexeme| !is_mark(lexeme)) {
         *lexemes = asides;
     }
-    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if word == "if")) {
+    if lexemes.iter().any(|lexeme| matches!(&lexeme.token, Token::Word(word) if ["if", "case", "room", "space"].contains(&word.as_str()))) {
         *lexemes = told_by(lexemes, BEFORE_ALL);
     }
 }
@@ -214,10 +78,11 @@ impl Reader<'_> {
     /// The words told otherwise, in all ways that differ from how they were said, the nearest first.
     pub(super) fn retold(&self) -> Vec<Vec<Lexeme>> {
         let turned = told_by(&without(self.lexemes, FILLERS), TURNS);
-        let without_why = self.without_why(&turned);
+        let without_why = told_by(&self.without_why(&turned), TURNS);
         let requests = told_by(&self.requests(&without_why), TURNS);
+        let for_nobody = self.without_whom(&turned);
         let mut ways: Vec<Vec<Lexeme>> = Vec::new();
-        for way in [turned, without_why, requests] {
+        for way in [turned, for_nobody, without_why, requests] {
             let said =
                 |lexemes: &[Lexeme]| lexemes.iter().map(|lexeme| lexeme.token.clone()).collect::<Vec<_>>();
             let is_new =
@@ -227,6 +92,39 @@ impl Reader<'_> {
             }
         }
         ways
+    }
+
+    /// The words without whom or what something is for, where that names nothing: "for the helpers", "for my little ones".
+    fn without_whom(&self, lexemes: &[Lexeme]) -> Vec<Lexeme> {
+        const FOR: &Phrases = &Phrases::of(&[
+            "for the",
+            "for my",
+            "for our",
+            "for his",
+            "for her",
+            "for their",
+            "for all the",
+            "for those",
+            "for these",
+        ]);
+        const LONGEST: usize = 5;
+        let reader = Reader { lexemes, at: 0, ..*self };
+        let mut kept: Vec<Lexeme> = Vec::with_capacity(lexemes.len());
+        let mut at = 0;
+        while at < lexemes.len() {
+            let end = (at..lexemes.len()).find(|end| is_mark(&lexemes[*end])).unwrap_or(lexemes.len());
+            let is_whom = at > 0
+                && longest_phrase(&lexemes[at..], FOR).is_some()
+                && end <= at + LONGEST
+                && reader.names_nothing(at + 1, end);
+            if is_whom {
+                at = end;
+            } else {
+                kept.push(lexemes[at].clone());
+                at += 1;
+            }
+        }
+        kept
     }
 
     /// The words without the clauses that only say why, each of which ends where its sentence does or something else is asked for.
@@ -304,7 +202,17 @@ impl Reader<'_> {
             |lexeme: &Lexeme| matches!(&lexeme.token, Token::Word(word) if OPEN.contains(&word.as_str()));
         let paints = (0..clause.len()).any(|at| longest(&clause[at..], PAINTS).is_some());
         let may_be_about = is_before && rest.iter().any(is_open);
-        clause.len() > 1 && any(IS) && !any(CHANGES) && !paints && !may_be_about && !self.is_wish(clause)
+        let tells = || {
+            let reader = Reader { lexemes: clause, at: 0, ..*self };
+            reader.names_nothing(0, clause.len()) && reader.tells_with_verb(0, clause.len())
+        };
+        clause.len() > 1
+            && longest_phrase(clause, super::told::ORDERS_ANYTHING).is_none()
+            && (any(IS) || tells())
+            && !any(CHANGES)
+            && !paints
+            && !may_be_about
+            && !self.is_wish(clause)
     }
 
     /// Whether words are a request by themselves.

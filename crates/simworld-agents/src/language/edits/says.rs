@@ -30,7 +30,7 @@ const BETWEEN: &Phrases = &Phrases::of(&["should", "must", "ought", "to", "shall
     "are", "be", "being", "been", "was", "were", "would", "could", "can", "may", "might", "will", "look", "looks", "looking",
     "feel", "feels", "become", "becomes", "turn", "turns", "get", "gets", "go", "goes", "come", "comes", "stand", "stands",
     "standing", "sit", "sits", "sitting", "belong", "belongs", "better", "nicer", "prettier", "best", "great", "good", "nice",
-    "lovely", "fine", "cool", "amazing", "perfect", "much", "supposed", "meant", "really", "rather", "probably", "ideally",
+    "lovely", "fine", "cool", "amazing", "perfect", "much", "far", "supposed", "meant", "really", "rather", "probably", "ideally",
     "just", "also", "now", "instead", "please", "maybe", "perhaps", "both", "all", "definitely", "certainly", "surely", "simply",
     "actually", "preferably", "fantastic", "wonderful", "cuter", "fit", "work", "works", "make", "wait", "waits", "waiting", "live", "lives",
     "stay", "remain", "end", "land", "appear", "find", "itself", "themselves", "more", "beautiful", "smarter", "smart",

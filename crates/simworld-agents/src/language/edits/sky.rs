@@ -25,6 +25,12 @@ pub(super) const COMPLAINS: &[&str] = &[
     "its always",
     "it is far too",
     "its far too",
+    "its to",
+    "is to",
+    "is too",
+    "is far too",
+    "is so",
+    "is very",
 ];
 /// What denies something else, so that nothing is wished for.
 const DENIES: &[&str] = &["not", "dont", "never", "shouldnt", "mustnt", "doesnt", "isnt"];
@@ -126,7 +132,14 @@ impl Reader<'_> {
     fn speaks_of_time(&self, end: usize) -> bool {
         #[rustfmt::skip]
         const TIMES: &[&str] = &["clock", "time", "hour", "morning", "evening", "night", "afternoon", "set", "make", "at", "till", "past", "oclock", "be", "its", "is"];
-        (self.at..end).any(|at| self.word(at).is_some_and(|word| TIMES.contains(&word)))
+        // "We will be sixteen" is no hour.
+        let is_it = || {
+            (self.at..end).any(|at| matches!(self.word(at), Some("it" | "its" | "time" | "clock" | "hour")))
+        };
+        (self.at..end).any(|at| {
+            self.word(at)
+                .is_some_and(|word| TIMES.contains(&word) && (!matches!(word, "be" | "is") || is_it()))
+        })
     }
 }
 

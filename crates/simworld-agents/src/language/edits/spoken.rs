@@ -1,9 +1,14 @@
 //! What a remark is about, which is what "it" stands for behind it: "the van is ugly; paint it", "they left a bike here, remove it".
 
-use super::super::clause::{Reference, Stands, Target};
-use super::super::lexicon::longest_phrase;
+use simworld_core::id::{EntityId, RoadId};
+use simworld_core::net::polyline;
+
+use super::super::clause::{Choice, Count, Reference, Stands, Target};
+use super::super::lexer::{Lexeme, Token, is_mark};
+use super::super::lexicon::{Category, category, longest, longest_phrase};
 use super::super::phrases::Phrases;
 use super::super::resolve::Purpose;
+use super::super::streets::StreetNames;
 use super::parse::Reader;
 use super::wish::{Anchor, Where};
 
@@ -175,3 +180,158 @@ pub(super) fn group_at(thing: &Reference) -> Option<Reference> {
         _ => None,
     }
 }
+
+/// "The kids race on Elm Street, so close it": the one street that is spoken of, where it is closed or opened by a pronoun.
+pub(super) fn name_streets(lexemes: &mut Vec<Lexeme>, streets: &StreetNames) {
+    const VERBS: &Phrases = &Phrases::of(&[
+        "close",
+        "shut",
+        "open",
+        "reopen",
+        "block",
+        "unblock",
+        "close off",
+        "block off",
+        "shut off",
+        "seal off",
+    ]);
+    const IT: &Phrases = &Phrases::of(&[
+        "it",
+        "the street",
+        "the road",
+        "that street",
+        "this street",
+        "that road",
+        "this road",
+    ]);
+    let found = (1..lexemes.len()).find_map(|at| {
+        let verb = longest_phrase(&lexemes[at..], VERBS)?;
+        let it = longest_phrase(&lexemes[at + verb..], IT)?;
+        let end = at + verb + it;
+        // "Oak Street goes car-free, shut it" says it twice.
+        let is_said = (0..at).any(|at| {
+            longest_phrase(
+                &lexemes[at..],
+                &["car free", "free", "off limits", "banned", "close", "shut", "goes"],
+            )
+            .is_some()
+        });
+        if is_said {
+            return None;
+        }
+        let is_whole = lexemes.get(end).is_none_or(is_mark)
+            || longest_phrase(
+                &lexemes[end..],
+                &["for", "again", "off", "please", "to", "so", "because", "down", "up", "now"],
+            )
+            .is_some();
+        let mut named = (0..at).filter_map(|from| Some((from, streets.at(&lexemes[from..at])?.words)));
+        let street = named.next().filter(|_| is_whole)?;
+        let is_only = named.all(|(from, _)| from < street.0 + street.1);
+        is_only.then_some((at + verb, end, street))
+    });
+    if let Some((from, end, (street, words))) = found {
+        let name = lexemes[street..street + words].to_vec();
+        lexemes.splice(from..end, name);
+    }
+}
+
+impl Reader<'_> {
+    /// The words with what "that bench" stands for in its place, where a bench was told of more closely before: "there is one bench in
+    /// the park, so put a lamp next to that bench".
+    pub(super) fn with_what_was_pointed_at(&self) -> Option<Vec<Lexeme>> {
+        (2..self.lexemes.len()).find_map(|at| {
+            longest_phrase(&self.lexemes[at..], &["that", "this", "the same"])?;
+            let (class, words) = category(self.lexemes.get(at + 1..)?)?;
+            let after = at + 1 + words;
+            // "That bench by the fountain" says itself which.
+            if self.is_place(after) || !self.is_place_before(at) {
+                return None;
+            }
+            let told = (0..at).find_map(|from| self.told_before(from, at, class))?;
+            let mut lexemes = self.lexemes.to_vec();
+            lexemes.splice(at..after, told);
+            Some(lexemes)
+        })
+    }
+
+    /// Whether a word of place ends before a word.
+    fn is_place_before(&self, at: usize) -> bool {
+        (at.saturating_sub(4)..at).any(|from| {
+            longest(&self.lexemes[from..], &super::words::WAYS).is_some_and(|(_, words)| from + words == at)
+        })
+    }
+
+    /// A thing of a class that is told of more closely than by its noun, with an article that says which.
+    fn told_before(&self, from: usize, stop: usize, class: &Category) -> Option<Vec<Lexeme>> {
+        let article = longest_phrase(&self.lexemes[from..stop], &["the", "a", "an", "one", "this", "that"])?;
+        let mut parser = self.parser(from, stop);
+        let thing = parser.reference(0).ok()?;
+        let is_closer =
+            thing.relation.is_some() || thing.choice != Choice::Open || thing.traits.paint.is_some();
+        let is_it = matches!(&thing.target, Target::Any(own) if **own == *class) && is_closer;
+        if !is_it || parser.at <= from + article {
+            return None;
+        }
+        let the = super::forms::word_at(&self.lexemes[from], "the");
+        Some(std::iter::once(the).chain(self.lexemes[from + article..parser.at].iter().cloned()).collect())
+    }
+}
+
+impl Reader<'_> {
+    /// The words with the thing itself for "the street lamp closest to Oak Street": of such things the nearest to a street, if one is
+    /// nearer than all others.
+    pub(super) fn with_nearest_to_street(&self) -> Option<Vec<Lexeme>> {
+        #[rustfmt::skip]
+        const NEAREST: &Phrases = &Phrases::of(&["closest to", "nearest to", "nearest", "that is closest to", "thats closest to", "which is closest to", "that is nearest to", "thats nearest to", "which is nearest to", "that stands closest to",
+            "standing closest to", "that stands nearest to"]);
+        let streets = self.view.streets?;
+        (2..self.lexemes.len()).find_map(|at| {
+            let words = longest_phrase(&self.lexemes[at..], NEAREST)?;
+            let behind = at + words;
+            let the = longest_phrase(self.lexemes.get(behind..)?, &["the"]).unwrap_or(0);
+            let street = streets.at(self.lexemes.get(behind + the..)?)?;
+            let (from, thing) = (at.saturating_sub(LONGEST_NAMED)..at).find_map(|from| {
+                let mut parser = self.parser(from, at);
+                let thing = parser.reference(0).ok()?;
+                (self.word(from) == Some("the") && parser.at == at).then_some((from, thing))
+            })?;
+            let nearest = self.nearest_to(&thing, street.roads)?;
+            let end = behind + the + street.words;
+            let mut lexemes = self.lexemes.to_vec();
+            let one = Lexeme {
+                token: Token::Id(nearest),
+                lemma: None,
+                end: lexemes[end - 1].end,
+                ..lexemes[from].clone()
+            };
+            lexemes.splice(from..end, [one]);
+            Some(lexemes)
+        })
+    }
+
+    /// Of all such things the nearest to the middle of any of some roads; none if two are as near.
+    fn nearest_to(&self, thing: &Reference, roads: &[RoadId]) -> Option<EntityId> {
+        /// As near is what differs by less, m.
+        const ALIKE: f64 = 0.5;
+        let network = self.view.scene.roads()?;
+        let all = Reference { count: Count::One, choice: Choice::Farthest, ..thing.clone() };
+        let found = self.view.candidates(&all, Purpose::Any).ok()?;
+        let distance = |id: EntityId| {
+            let point = self.view.scene.entity(id)?.planar();
+            let to = |road: &RoadId| polyline::closest(&network.roads.get(road.index())?.centerline, &point);
+            roads.iter().filter_map(to).map(|near| near.distance).min_by(f64::total_cmp)
+        };
+        let mut near: Vec<(f64, EntityId)> =
+            found.into_iter().filter_map(|(_, id)| Some((distance(id)?, id))).collect();
+        near.sort_by(|one, other| one.0.total_cmp(&other.0));
+        match near[..] {
+            [(_, only)] => Some(only),
+            [(one, nearest), (other, _), ..] if other - one > ALIKE => Some(nearest),
+            _ => None,
+        }
+    }
+}
+
+/// A thing before "closest to" has no more words than that.
+const LONGEST_NAMED: usize = 5;

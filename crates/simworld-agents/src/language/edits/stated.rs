@@ -245,13 +245,26 @@ impl Reader<'_> {
             // Behind a preamble it may be a verb: "residents would benefit from ...".
             self.depth < super::says::DEEPEST
                 && self.is_unknown(at, place)
+                // "Cyclists fall into the river".
+                && (place == at + 1
+                    || self.word(place - 1).is_some_and(|word| word.ends_with('s'))
+                    || self.names.asset_words(&self.lexemes[at..place]) == Some(place - at)
+                    || !self.word(at).is_some_and(|word| word.ends_with('s')))
                 && self.one_of(at, place).is_err()
-                && longest(&self.lexemes[at..place], &super::words::VERBS).is_none()
+                && self.order_at(at, place).is_none()
                 && super::follow::species(&self.lexemes[at]).is_none()
                 && super::forms::as_order(&self.lexemes[at..place]).is_none()
                 && self.names.exact(&self.lexemes[place - 1..place]).is_none()
         });
-        many || self.is_bare_plural(at, end) || noun.is_some_and(|(_, words)| self.is_place(at + words))
+        // "Park lanterns along the road".
+        let is_asset = place.is_some_and(|place| {
+            self.names.asset_words(&self.lexemes[at..place]) == Some(place - at)
+                && self.word(place - 1).is_some_and(|word| word.ends_with('s'))
+                && place > at + 1
+        });
+        many || is_asset
+            || self.is_bare_plural(at, end)
+            || noun.is_some_and(|(_, words)| self.is_place(at + words))
     }
 }
 

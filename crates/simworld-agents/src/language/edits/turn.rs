@@ -30,7 +30,8 @@ impl Reader<'_> {
                     self.at = end;
                     return Ok(vec![vec![Wish::Rotate { what, angle }]]);
                 }
-            } else if let Some(count) = longest_phrase(rest, TOWARDS)
+            } else if let around = longest_phrase(rest, &["around", "round"]).unwrap_or(0)
+                && let Some(count) = longest_phrase(&rest[around..], TOWARDS).map(|words| around + words)
                 && let Ok(what) = self.things(start, cut)
                 && longest(&self.lexemes[cut + count..end], PAINTS)
                     .is_none_or(|(_, words)| cut + count + words < end)
@@ -78,6 +79,9 @@ pub(super) fn angle(lexemes: &[Lexeme]) -> Option<f64> {
     if longest_phrase(lexemes, AROUND) == Some(lexemes.len()) {
         return Some(PI);
     }
+    // "Around by 90 degrees".
+    let lexemes =
+        &lexemes[longest_phrase(lexemes, &["around by", "round by", "around", "round"]).unwrap_or(0)..];
     let side_of = |rest: &[Lexeme]| {
         let left = longest_phrase(rest, LEFT).map(|count| (1.0, count));
         left.or(longest_phrase(rest, RIGHT).map(|count| (-1.0, count)))

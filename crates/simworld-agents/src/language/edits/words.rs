@@ -399,7 +399,7 @@ pub(super) const ENDINGS: &[(&[&str], Sky)] = &[
 pub(super) const SKY_NOISE: &Phrases = &Phrases::of(&["it", "its", "it is", "be", "a", "an", "the", "with", "some", "and",
     "weather", "sky", "is", "to", "into", "time", "of", "day", "it to be", "want", "should be", "should",
     "there is", "there be", "in", "at", "let", "make", "set", "change", "turn", "switch", "have", "lets", "please",
-    "time of day", "time to", "give us", "give me", "bring", "bring on", "i want", "id like", "i would like", "now",
+    "time of day", "time to", "show", "show me", "show us", "quarter", "old town", "crisp", "heavy", "lovely", "quiet", "gentle", "thick", "steady", "beautiful", "give us", "give me", "bring", "bring on", "i want", "id like", "i would like", "now",
     "very", "get", "conditions", "become", "there should be", "on", "start", "begin", "starts", "here", "today",
     "scene", "city", "us", "out", "outside", "looks", "look", "like", "bit", "little", "made", "clock", "oclock",
     "o clock", "that", "need", "we", "i", "so", "everything", "put", "weather to", "add", "will", "would", "could",

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
-const SETS: [&str; 15] = [
+const SETS: [&str; 17] = [
     "edits",
     "later.edits",
     "third.edits",
@@ -20,6 +20,8 @@ const SETS: [&str; 15] = [
     "thirteenth.edits",
     "fourteenth.edits",
     "fifteenth.edits",
+    "sixteenth.edits",
+    "seventeenth.edits",
 ];
 
 /// One thing that is asked, and what must then be true.
