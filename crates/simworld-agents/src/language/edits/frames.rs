@@ -56,6 +56,9 @@ const QUESTIONS: &Phrases = &Phrases::of(&["did", "does", "do you see", "do you 
     "what did", "who", "where", "which", "how much", "how is", "how was", "why did", "why is", "why was", "what is", "whats",
     "what was", "what are", "is the", "are the", "do you know", "do you have any idea", "have you heard", "how do", "how does", "tell me a", "tell us a", "tell me an", "tell us an", "sing me", "sing us", "sing a", "tell a", "read me a", "write me a", "write a", "tell me why", "tell me how", "tell me when", "tell me who"]);
 
+/// "For the street party": what something is for that takes place.
+#[rustfmt::skip]
+const EVENTS: &Phrases = &Phrases::of(&["party", "fair", "festival", "parade", "fete", "wedding", "race", "marathon", "concert", "show", "shoot", "shooting", "film", "match", "tour", "picnic", "ceremony", "festivities", "celebration", "celebrations", "run", "day", "night", "week", "weekend", "season", "exhibition", "protest", "march", "procession", "funeral", "championship", "tournament", "rehearsal", "opening"]);
 static WORDS: LazyLock<BTreeSet<&str>> = LazyLock::new(|| SMALL.split_whitespace().collect());
 
 /// Where a request may begin.
@@ -136,43 +139,6 @@ impl Reader<'_> {
             ],
         )?;
         // "For the street party".
-        const EVENTS: &Phrases = &Phrases::of(&[
-            "party",
-            "fair",
-            "festival",
-            "parade",
-            "fete",
-            "wedding",
-            "race",
-            "marathon",
-            "concert",
-            "show",
-            "shoot",
-            "shooting",
-            "film",
-            "match",
-            "tour",
-            "picnic",
-            "ceremony",
-            "festivities",
-            "celebration",
-            "celebrations",
-            "run",
-            "day",
-            "night",
-            "week",
-            "weekend",
-            "season",
-            "exhibition",
-            "protest",
-            "march",
-            "procession",
-            "funeral",
-            "championship",
-            "tournament",
-            "rehearsal",
-            "opening",
-        ]);
         let event = (at + words..end.min(at + words + 4))
             .take_while(|at| self.word(*at).is_some() && !self.is_place(*at))
             .find(|at| self.word(*at).is_some_and(|word| EVENTS.contains(word)));

@@ -52,6 +52,9 @@ const NO_NOUNS: &[&str] = &["is", "are", "was", "were", "has", "have", "needs", 
     "than", "as", "which", "who", "why", "what", "where", "nowhere", "somewhere", "wouldnt", "isnt", "arent", "doesnt", "cant", "to", "keeps", "keep", "until", "unless",
     "while", "instead", "except", "but", "only", "into", "also", "too", "these", "those", "put", "add", "erect", "install", "no", "ya", "work", "trouble", "effort", "bother"];
 
+/// What begins like a new thing and is none that stands anywhere: "a bit of drama".
+#[rustfmt::skip]
+const NO_THING: &[&str] = &["a bit of", "a little bit of", "a touch of", "a dash of", "a breath of", "a hint of"];
 impl Reader<'_> {
     /// The name of a new thing, up to its place.
     fn new_name(&mut self, end: usize) -> String {
@@ -66,8 +69,6 @@ impl Reader<'_> {
     pub(super) fn new_thing(&mut self, end: usize) -> Result<NewThing, PlanError> {
         let start = self.at;
         // "A bit of drama" is nothing that stands anywhere.
-        const NO_THING: &[&str] =
-            &["a bit of", "a little bit of", "a touch of", "a dash of", "a breath of", "a hint of"];
         if longest_phrase(self.rest(end), NO_THING).is_some() {
             return Err(self.not_understood("say what to add"));
         }

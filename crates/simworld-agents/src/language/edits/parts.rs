@@ -21,6 +21,9 @@ const MOST_TRIED: usize = 160;
 const CUTS: &Phrases = &Phrases::of(&["because", "since", "as", "so", "so that", "cause", "cos", "coz", "for", "while", "which", "where", "in order to", "due to", "given that",
     "seeing that", "considering", "or else", "otherwise", "have it", "have him", "have her", "have them"]);
 
+/// Behind these stands nothing that "it" could be: "there is too much litter at the statue".
+#[rustfmt::skip]
+const TOO_MUCH: &Phrases = &Phrases::of(&["there is too much", "theres too much", "there is so much", "theres so much", "there are too many", "there is no", "theres no", "there is nothing", "theres nothing"]);
 /// A search for the parts of a sentence.
 struct Search<'a> {
     /// Whether somebody has what a wish asks for.
@@ -291,17 +294,6 @@ impl Reader<'_> {
         let stop =
             there.and_then(|words| (from + words + 1..end).find(|at| self.is_place(*at))).unwrap_or(end);
         // "There is too much litter at the statue": nothing that "it" could be, but the statue.
-        const TOO_MUCH: &Phrases = &Phrases::of(&[
-            "there is too much",
-            "theres too much",
-            "there is so much",
-            "theres so much",
-            "there are too many",
-            "there is no",
-            "theres no",
-            "there is nothing",
-            "theres nothing",
-        ]);
         let stop = if longest_phrase(&self.lexemes[from..end], TOO_MUCH).is_some() { end } else { stop };
         // "The statue is so small that people overlook it": the statue, and not the people.
         let so = (from..stop).find(|at| self.word(*at) == Some("so"));

@@ -148,12 +148,11 @@ impl Reader<'_> {
         parser.eat_any(&["at its", "at the", "on its", "on the", "at"]);
         let start = parser.at;
         parser.eat_any(&["the"]);
-        let compass = match parser.compass_of_part() {
-            Some(compass) => compass,
-            None => {
-                parser.at = start;
-                parser.compass()?
-            }
+        let compass = if let Some(compass) = parser.compass_of_part() {
+            compass
+        } else {
+            parser.at = start;
+            parser.compass()?
         };
         parser
             .eat_any(&[

@@ -48,6 +48,9 @@ const IS: &Phrases = &Phrases::of(&["is", "are", "was", "were", "am", "isnt", "a
 const NO_VERB: &[&str] = &["and", "or", "of", "in", "on", "at", "by", "to", "for", "with", "from", "as", "the", "a", "an", "very", "so", "too", "just", "near", "behind", "beside", "next", "please", "both", "all", "along", "around", "round", "between", "under", "over", "across", "into", "onto", "inside", "outside",
     "everywhere", "here", "there", "opposite", "towards", "facing", "that", "who", "which", "where", "without", "north", "south", "east", "west", "left", "right", "evenly", "apart", "instead", "away", "gone", "out", "off", "back", "one"];
 
+/// Who is told of and is nobody in particular.
+#[rustfmt::skip]
+const CROWD: &Phrases = &Phrases::of(&["people", "folks", "kids", "children", "visitors", "guests", "everybody", "everyone", "customers", "students", "tourists"]);
 impl Reader<'_> {
     /// Whether a part tells something, asks for nothing, and leaves what is asked for as it is.
     pub(super) fn is_told(&self, from: usize, end: usize, is_known: &dyn Fn(&Wish) -> bool) -> bool {
@@ -205,19 +208,6 @@ impl Reader<'_> {
             numbers::count(rest).is_some() || longest_phrase(rest, &["a", "an", "some"]).is_some()
         };
         // "People have to stand there", "she must be thirsty".
-        const CROWD: &Phrases = &Phrases::of(&[
-            "people",
-            "folks",
-            "kids",
-            "children",
-            "visitors",
-            "guests",
-            "everybody",
-            "everyone",
-            "customers",
-            "students",
-            "tourists",
-        ]);
         let must_be = longest_phrase(
             &self.lexemes[from..end],
             &["he must be", "she must be", "they must be", "it must be", "you must be", "everybody must be"],
