@@ -35,24 +35,24 @@ pub(crate) struct Asked {
 
 /// What is asked in a city: in its own file, and in those that came later, if it has them.
 pub(crate) fn asked_in(city: &str) -> Vec<Asked> {
-    let folder = format!("{}/tests/edits", env!("CARGO_MANIFEST_DIR"));
-    let mut asked = Vec::new();
-    for set in SETS {
-        let path = format!("{folder}/{city}.{set}.toml");
-        if !std::path::Path::new(&path).exists() {
-            continue;
-        }
-        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-        let families: BTreeMap<String, BTreeMap<String, String>> =
-            toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-        asked.extend(families.into_iter().flat_map(|(family, lines)| {
-            lines.into_iter().map(move |(words, meaning)| Asked {
-                set,
-                family: family.clone(),
-                words,
-                meaning,
-            })
-        }));
+    SETS.iter().flat_map(|set| asked_in_set(city, set)).collect()
+}
+
+/// What is asked in a city by ourselves, of which all is to be right.
+pub(crate) fn taught_in(city: &str) -> Vec<Asked> {
+    asked_in_set(city, "own.edits")
+}
+
+fn asked_in_set(city: &str, set: &'static str) -> Vec<Asked> {
+    let path = format!("{}/tests/edits/{city}.{set}.toml", env!("CARGO_MANIFEST_DIR"));
+    if !std::path::Path::new(&path).exists() {
+        return Vec::new();
     }
-    asked
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let families: BTreeMap<String, BTreeMap<String, String>> =
+        toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let lines = families.into_iter().flat_map(|(family, lines)| {
+        lines.into_iter().map(move |(words, meaning)| Asked { set, family: family.clone(), words, meaning })
+    });
+    lines.collect()
 }
