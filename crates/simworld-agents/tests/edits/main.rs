@@ -14,6 +14,8 @@ mod edits_common;
 mod model_server;
 mod models_edit_scenes;
 mod scenes_are_read;
+#[path = "../shared/tables.rs"]
+mod tables;
 mod things_are_found_by_words;
 mod things_are_known_by_what_they_are;
 #[path = "../shared/thought_common/mod.rs"]

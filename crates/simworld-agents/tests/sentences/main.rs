@@ -12,6 +12,8 @@ mod sentences_compose;
 mod sentences_have_effects;
 mod sentences_mean_what_they_say;
 mod sentences_take_up_what_was_said;
+#[path = "../shared/tables.rs"]
+mod tables;
 #[path = "../shared/thought_common/mod.rs"]
 mod thought_common;
 mod walkers_cross_on_walk;

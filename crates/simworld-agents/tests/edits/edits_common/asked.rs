@@ -1,6 +1,6 @@
 //! The sets of sentences, read from their files.
 
-use std::collections::BTreeMap;
+use crate::tables::lines_of;
 
 pub(crate) const CITIES: [&str; 4] = ["harbour", "oldtown", "campus", "quarter"];
 /// The sets of sentences in the order in which they came; each is `CITY.SET.toml`.
@@ -26,7 +26,7 @@ const SETS: [&str; 17] = [
 
 /// One thing that is asked, and what must then be true.
 pub(crate) struct Asked {
-    /// Which of [`SETS`] it is of.
+    /// Which of [`SETS`] it is of, or our own.
     pub(crate) set: &'static str,
     pub(crate) family: String,
     pub(crate) words: String,
@@ -44,15 +44,6 @@ pub(crate) fn taught_in(city: &str) -> Vec<Asked> {
 }
 
 fn asked_in_set(city: &str, set: &'static str) -> Vec<Asked> {
-    let path = format!("{}/tests/edits/{city}.{set}.toml", env!("CARGO_MANIFEST_DIR"));
-    if !std::path::Path::new(&path).exists() {
-        return Vec::new();
-    }
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let families: BTreeMap<String, BTreeMap<String, String>> =
-        toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let lines = families.into_iter().flat_map(|(family, lines)| {
-        lines.into_iter().map(move |(words, meaning)| Asked { set, family: family.clone(), words, meaning })
-    });
-    lines.collect()
+    let lines = lines_of(&format!("edits/{city}.{set}.toml")).into_iter();
+    lines.map(|[family, words, meaning]| Asked { set, family, words, meaning }).collect()
 }

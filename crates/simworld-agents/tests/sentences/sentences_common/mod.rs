@@ -4,8 +4,7 @@ pub(crate) mod city;
 pub(crate) mod notation;
 pub(crate) mod outcome;
 
-use std::collections::BTreeMap;
-
+use crate::tables::lines_of;
 use city::City;
 use simworld_agents::language::{AmbiguityPolicy, GrammarPlanner};
 use simworld_core::intent::Intent;
@@ -60,26 +59,14 @@ pub(crate) fn taught_in(city: &str) -> Vec<Said> {
 }
 
 fn said_in_file(name: &str) -> Vec<Said> {
-    let path = format!("{}/tests/sentences/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    if !std::path::Path::new(&path).exists() {
-        return Vec::new();
-    }
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let families: BTreeMap<String, BTreeMap<String, String>> =
-        toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let one = |family: &str, words: String, line: String| {
+    let said = lines_of(&format!("sentences/{name}.toml")).into_iter().map(|[family, words, line]| {
         let (meaning, outcome) = match line.split_once(" -> ") {
             Some((meaning, outcome)) => (meaning.to_owned(), Some(outcome.to_owned())),
             None => (line, None),
         };
-        Said { family: family.to_owned(), words, meaning, outcome }
-    };
-    families
-        .into_iter()
-        .flat_map(|(family, lines)| {
-            lines.into_iter().map(move |(words, line)| one(&family, words, line)).collect::<Vec<_>>()
-        })
-        .collect()
+        Said { family, words, meaning, outcome }
+    });
+    said.collect()
 }
 
 /// What is made of one sentence.
