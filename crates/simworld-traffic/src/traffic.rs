@@ -348,7 +348,7 @@ impl Traffic {
         }
         let State { vehicles, pedestrians, counters, steps, seconds, interest, .. } = &mut self.state;
         self.claims.clear();
-        self.claims.extend(vehicles.claims().iter());
+        self.claims.extend(vehicles.claims());
         pedestrians.entered.clear();
         pedestrians.ended.clear();
         let (aspects, tracks, vehicles) = (&self.signals.aspects, &self.tracks, &*vehicles);

@@ -1,6 +1,6 @@
 //! Those who walk together, as the crowd asks after them.
 
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::Vector2;
 
 use super::{Person, Surroundings, Wall, Wish};
 
@@ -12,17 +12,24 @@ pub(crate) trait Herd: Sync {
     /// One of them.
     fn person(&self, index: usize) -> Person;
 
-    /// What somebody wants who decides now, or none for who goes on as before.
-    fn wish(&self, index: usize) -> Option<Wish>;
+    /// Reads what [`look`](Self::look) will, without a branch that depends on it, so that processors wait for many such places of
+    /// the memory at once; the value means nothing.
+    fn touch(&self, index: usize) -> u64;
 
-    /// For how long the decision of one of them holds, s.
-    fn hold(&self, index: usize) -> f64;
+    /// What somebody wants who decides now, with the walls near them added to the rest, or none for who goes on as before.
+    fn look(&self, index: usize, walls: &mut Vec<Wall>) -> Option<Look>;
 
     /// How far somebody who does not decide now will go in a time, m, as far as it is known; none for who decides now.
     fn committed(&self, index: usize, time: f64) -> Option<Vector2>;
+}
 
-    /// Adds the walls near one of them.
-    fn near(&self, index: usize, at: Point2, found: &mut Vec<Wall>);
+/// What one of those who decide now wants, and for how long.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    pub(crate) person: Person,
+    pub(crate) wish: Wish,
+    /// For how long the decision holds, s.
+    pub(crate) hold: f64,
 }
 
 /// People, wish by wish, among others who stand, as far as anybody knows.
@@ -44,19 +51,19 @@ impl<S: Surroundings> Herd for Slices<'_, S> {
         self.people.get(index).or(self.others.get(other)).copied().unwrap_or_default()
     }
 
-    fn wish(&self, index: usize) -> Option<Wish> {
-        self.wishes.get(index).filter(|_| index < self.people.len()).copied()
+    fn touch(&self, _: usize) -> u64 {
+        0 // slices are read in order
     }
 
-    fn hold(&self, _: usize) -> f64 {
-        self.dt
+    fn look(&self, index: usize, walls: &mut Vec<Wall>) -> Option<Look> {
+        let (wish, person) = (*self.wishes.get(index)?, *self.people.get(index)?);
+        if wish.speed > 0.0 {
+            self.around.near(index, person.position, walls);
+        }
+        Some(Look { person, wish, hold: self.dt })
     }
 
     fn committed(&self, _: usize, _: f64) -> Option<Vector2> {
         None
-    }
-
-    fn near(&self, index: usize, at: Point2, found: &mut Vec<Wall>) {
-        self.around.near(index, at, found);
     }
 }

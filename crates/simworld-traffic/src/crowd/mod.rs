@@ -29,8 +29,8 @@ mod nearby;
 mod step;
 mod walls;
 
-pub(crate) use herd::Herd;
 use herd::Slices;
+pub(crate) use herd::{Herd, Look};
 pub use model::{AnticipationVelocity, Steering};
 use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::net::{Alone, Workers};

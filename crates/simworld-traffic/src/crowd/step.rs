@@ -1,5 +1,7 @@
 //! One step of a crowd: everybody decides from the state at its start.
 
+use std::hint::black_box;
+use std::mem::take;
 use std::sync::{Mutex, PoisonError};
 
 use simworld_core::geometry::Vector2;
@@ -8,7 +10,7 @@ use simworld_core::net::Workers;
 use super::grid::Grid;
 use super::model::{Bound, Rules, safe};
 use super::nearby::{Around, Me, Nearby};
-use super::{AnticipationVelocity, Herd, REACH, Steering, Wall};
+use super::{AnticipationVelocity, Herd, Look, REACH, Steering, Wall};
 use crate::parts::{PARTS, in_parts};
 
 /// What somebody decided.
@@ -28,12 +30,18 @@ impl Decision {
     }
 }
 
+/// So many are looked up one right after the other: what they want lies all over the memory, which answers several at once.
+const BLOCK: usize = 32;
+
 /// What a thread needs for the people of a part.
 #[derive(Debug, Default)]
 struct Scratch {
     around: Around,
     near: Nearby,
+    looks: Vec<Option<Look>>,
+    /// The walls near those of a block, and where those of each end.
     walls: Vec<Wall>,
+    ends: Vec<usize>,
     bounds: Vec<Bound>,
 }
 
@@ -77,8 +85,8 @@ impl Crowd {
         in_parts(workers, decisions, &|part, first, decisions| {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
             scratch.around.forget();
-            for (decision, rank) in decisions.iter_mut().zip(first..) {
-                *decision = scratch.decide(&rules, grid, herd, rank);
+            for (block, decisions) in decisions.chunks_mut(BLOCK).enumerate() {
+                scratch.decide(&rules, grid, herd, first + block * BLOCK, decisions);
             }
         });
     }
@@ -97,37 +105,72 @@ impl Crowd {
 impl Scratch {
     /// With room for as many as are seldom so close at once, so that it need not grow.
     fn roomy() -> Self {
-        let near = Nearby::roomy(64);
-        Self { near, walls: Vec::with_capacity(16), bounds: Vec::with_capacity(48), ..Self::default() }
+        let (near, walls) = (Nearby::roomy(64), Vec::with_capacity(16 * BLOCK));
+        let (looks, ends) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
+        Self { near, looks, walls, ends, bounds: Vec::with_capacity(48), ..Self::default() }
     }
 
-    fn decide(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, rank: usize) -> Decision {
-        let index = grid.seen()[rank].index as usize;
-        let Some(wish) = herd.wish(index) else { return Decision::default() };
-        let person = herd.person(index);
+    /// Lets those of a block decide, from a rank on.
+    fn decide(
+        &mut self,
+        rules: &Rules,
+        grid: &Grid,
+        herd: &impl Herd,
+        first: usize,
+        decisions: &mut [Decision],
+    ) {
+        self.looks.clear();
+        self.walls.clear();
+        self.ends.clear();
+        let block = &grid.seen()[first..first + decisions.len()];
+        black_box(block.iter().fold(0, |all, seen| all ^ herd.touch(seen.index as usize)));
+        for seen in block {
+            self.looks.push(herd.look(seen.index as usize, &mut self.walls));
+            self.ends.push(self.walls.len());
+        }
+        let (looks, walls, ends) = (take(&mut self.looks), take(&mut self.walls), take(&mut self.ends));
+        let mut begin = 0;
+        for (place, decision) in decisions.iter_mut().enumerate() {
+            let walls = &walls[begin..ends[place]];
+            begin = ends[place];
+            *decision = match &looks[place] {
+                Some(look) => self.decide_one(rules, grid, herd, first + place, look, walls),
+                None => Decision::default(),
+            };
+        }
+        (self.looks, self.walls, self.ends) = (looks, walls, ends);
+    }
+
+    fn decide_one(
+        &mut self,
+        rules: &Rules,
+        grid: &Grid,
+        herd: &impl Herd,
+        rank: usize,
+        look: &Look,
+        walls: &[Wall],
+    ) -> Decision {
+        let Look { person, wish, hold } = *look;
         let facing = |direction: Vector2| [direction.x as f32, direction.y as f32];
         if wish.speed <= 0.0 {
             return Decision { velocity: Vector2::zeros(), facing: facing(person.direction) };
         }
-        let hold = herd.hold(index);
         let rules = rules.holding(hold);
         let me = Me { rank, person, wish };
         self.around.look(grid, grid.cell(person.position));
         self.near.find(&rules, grid, &self.around, &me);
-        self.walls.clear();
-        herd.near(index, person.position, &mut self.walls);
-        let (wanted, direction) = rules.decide(&me, &mut self.near, &self.walls);
-        self.bind(&rules, grid, herd, &me, hold);
+        let (wanted, direction) = rules.decide(&me, &mut self.near, walls);
+        self.bind(&rules, grid, herd, &me, walls, hold);
         Decision { velocity: safe(wanted, &self.bounds, hold), facing: facing(direction) }
     }
 
     /// What one could run into: walls up to their face; of the gap to who decides now each may use half, and of that to who
     /// does not what they leave.
-    fn bind(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, me: &Me, hold: f64) {
+    fn bind(&mut self, rules: &Rules, grid: &Grid, herd: &impl Herd, me: &Me, walls: &[Wall], hold: f64) {
         self.bounds.clear();
         let wall =
             |wall: &Wall| Bound { toward: wall.toward, room: (wall.distance - rules.model.radius).max(0.0) };
-        self.bounds.extend(self.walls.iter().map(wall));
+        self.bounds.extend(walls.iter().map(wall));
         for rank in &self.near.close {
             let seen = &grid.seen()[*rank as usize];
             let offset = grid.position(*rank as usize) - me.person.position;

@@ -78,8 +78,7 @@ impl Pedestrian {
                 Next::Anywhere => edges.get(self.choose(by, weights)),
             };
             let Some(edge) = edge else { return };
-            self.from = here;
-            self.to = edge.to;
+            (self.from, self.to, self.left) = (here, edge.to, 0.0);
             if let Some(crossing) = edge.crossing {
                 (self.stage, self.crossing) = (Stage::Waiting, crossing);
                 events.push(Event::Waits(crossing));

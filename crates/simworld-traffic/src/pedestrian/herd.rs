@@ -6,7 +6,7 @@ use simworld_core::net::WaypointGraph;
 use super::decide::CROSSING_SPEED;
 use super::walkway::Walkway;
 use super::{Pedestrian, Range, Stage, party};
-use crate::crowd::{Herd, Person, Wall, Wish};
+use crate::crowd::{Herd, Look, Person, Wall, Wish};
 
 /// Where those stand who have left, m: nobody is there.
 const NOWHERE: f64 = 1e9;
@@ -79,17 +79,22 @@ impl Herd for Streets<'_> {
         }
     }
 
-    fn wish(&self, index: usize) -> Option<Wish> {
-        let walker = self.walker(index).filter(|walker| walker.is_present() && walker.decides(self.turn))?;
-        let hold = (walker.range != Range::Near).then_some(self.until_turn);
-        Some(walker.wish(self.walkers, &Walkway::of(walker, self.ways), hold))
+    fn touch(&self, index: usize) -> u64 {
+        let Some(walker) = self.walker(index) else { return 0 };
+        let [from, to] = [walker.from, walker.to].map(|id| self.ways.waypoint(id).position.x.to_bits());
+        let edge = self.ways.edges(walker.from).first().map_or(0, |edge| u64::from(edge.to.0));
+        from ^ to ^ edge ^ walker.position.x.to_bits()
     }
 
-    fn hold(&self, index: usize) -> f64 {
-        match self.walker(index) {
-            Some(walker) if walker.range != Range::Near => self.until_turn,
-            _ => self.dt,
+    fn look(&self, index: usize, walls: &mut Vec<Wall>) -> Option<Look> {
+        let walker = self.walker(index).filter(|walker| walker.is_present() && walker.decides(self.turn))?;
+        let walkway = Walkway::of(walker, self.ways);
+        let is_near = walker.range == Range::Near;
+        let wish = walker.wish(self.walkers, &walkway, (!is_near).then_some(self.until_turn));
+        if wish.speed > 0.0 {
+            walkway.edges(walker.position, walls);
         }
+        Some(Look { person: walker.person(), wish, hold: if is_near { self.dt } else { self.until_turn } })
     }
 
     fn committed(&self, index: usize, time: f64) -> Option<Vector2> {
@@ -100,12 +105,6 @@ impl Herd for Streets<'_> {
                 let body = self.body(index);
                 Some(body.direction * (body.speed * time))
             }
-        }
-    }
-
-    fn near(&self, index: usize, at: Point2, found: &mut Vec<Wall>) {
-        if let Some(walker) = self.walker(index) {
-            Walkway::of(walker, self.ways).edges(at, found);
         }
     }
 }

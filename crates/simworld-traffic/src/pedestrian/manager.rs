@@ -37,6 +37,8 @@ pub(crate) struct PedestrianManager {
     pub(super) guides: Guides,
     /// Numbers that nobody has any more.
     pub(super) free: Vec<u32>,
+    /// How long ago those far away were where they are, s.
+    waited: f64,
     /// Numbers of those who entered since the last step, and walks that ended in it and since.
     #[serde(skip)]
     pub(crate) entered: Vec<u32>,
@@ -69,6 +71,7 @@ impl Clone for PedestrianManager {
             journeys: self.journeys.clone(),
             guides: self.guides.clone(),
             free: self.free.clone(),
+            waited: self.waited,
             ..Self::default()
         }
     }
@@ -80,6 +83,7 @@ impl PartialEq for PedestrianManager {
             && self.journeys == other.journeys
             && self.guides == other.guides
             && self.free == other.free
+            && self.waited == other.waited
     }
 }
 
@@ -131,7 +135,8 @@ impl PedestrianManager {
 
     /// Where to go on, and whether to cross.
     fn decide(&mut self, sight: &Sight<'_>, around: &Surroundings<'_>, streams: Stream, turn: bool) {
-        let Self { walkers, journeys, scratch, .. } = self;
+        let Self { walkers, journeys, scratch, waited, .. } = self;
+        let waited = if turn { std::mem::take(waited) } else { 0.0 };
         let (config, interest) = (around.config, around.interest);
         in_parts(around.workers, walkers, &|part, first, walkers| {
             let mut scratch = scratch[part].lock().unwrap_or_else(PoisonError::into_inner);
@@ -141,14 +146,12 @@ impl PedestrianManager {
                     continue;
                 }
                 if turn {
+                    if walker.range == Range::Far {
+                        walker.go(waited);
+                    }
                     walker.range = range(walker.position, interest);
                 }
-                if !walker.decides(turn) {
-                    continue;
-                }
-                let is_due = walker.stage == Stage::Waiting
-                    || Walkway::of(walker, sight.ways).is_walked(walker.position);
-                if is_due {
+                if walker.decides(turn) && walker.is_due(sight.ways) {
                     let by = Deciding { index, sight, config, streams, journeys };
                     walker.decide(&by, weights, events);
                 }
@@ -214,18 +217,21 @@ impl PedestrianManager {
             crowd.decide(*workers, (&config.walking, config.people.steering), &herd, movers);
         }
         for (rank, index) in some.iter().enumerate() {
-            walkers[*index as usize].take_up(crowd, rank);
+            let walker = &mut walkers[*index as usize];
+            walker.take_up(crowd, rank);
+            walker.go(dt);
         }
-        in_parts(around.workers, walkers, &|_, first, walkers| {
-            for (walker, index) in walkers.iter_mut().zip(first..) {
-                if turn {
+        if turn {
+            in_parts(around.workers, walkers, &|_, first, walkers| {
+                for (walker, index) in walkers.iter_mut().zip(first..) {
                     walker.take_up(crowd, index);
+                    if walker.range != Range::Far {
+                        walker.go(dt);
+                    }
                 }
-                if walker.stage != Stage::Free {
-                    walker.position += walker.velocity * dt;
-                }
-            }
-        });
+            });
+        }
+        self.waited += dt;
     }
 
     /// Bytes that the walkers take, with their journeys and all that is kept for a step.
@@ -250,6 +256,7 @@ impl PedestrianManager {
             && self.walkers.iter().all(fits)
             && self.free.iter().all(|index| (*index as usize) < walkers)
             && self.journeys.fit(walkers, count)
+            && self.waited.is_finite()
             && self.guides.fit(&self.walkers)
     }
 
@@ -269,6 +276,27 @@ impl PedestrianManager {
 }
 
 impl Pedestrian {
+    /// Walks on for a time, s.
+    fn go(&mut self, time: f64) {
+        if self.stage != Stage::Free {
+            self.position += self.velocity * time;
+            self.left -= (self.speed() * time) as f32;
+        }
+    }
+
+    /// Whether it is at the end of its way, or waits there.
+    fn is_due(&mut self, ways: &WaypointGraph) -> bool {
+        if self.stage == Stage::Waiting {
+            return true;
+        }
+        if self.left > 0.0 {
+            return false;
+        }
+        let walkway = Walkway::of(self, ways);
+        self.left = walkway.left(self.position);
+        walkway.is_walked(self.position)
+    }
+
     fn take_up(&mut self, crowd: &Crowd, rank: usize) {
         if let Some(decision) = crowd.decision(rank) {
             self.velocity = decision.velocity;

@@ -42,6 +42,8 @@ pub struct Pedestrian {
     keep_right: f32,
     from: WaypointId,
     to: WaypointId,
+    /// Before it has gone so far it is not at the end of its way, m.
+    left: f32,
     decisions: u32,
     /// Whose draws it makes: its own, or those of the first of its party.
     party: u32,

@@ -157,6 +157,7 @@ fn walker(character: &Character, entry: &Entry, ways: &WaypointGraph, party: u32
         keep_right: character.keep_right as f32,
         from: entry.from,
         to: entry.to,
+        left: 0.0,
         decisions: 0,
         party,
         crossing: CrossingId(0),

@@ -70,7 +70,7 @@ impl PedestrianManager {
         }
         let Pedestrian { free_speed, keep_right, habit, .. } = *walker;
         walker.free_speed = stroll.speed as f32;
-        walker.keep_right = stroll.keep_right as f32;
+        (walker.keep_right, walker.left) = (stroll.keep_right as f32, 0.0);
         walker.habit = if stroll.dares { Habit::Dares } else { Habit::Waits };
         walker.leave_party(id);
         self.guides.guided.entry(id).or_insert(Nature { free_speed, keep_right, habit });
@@ -117,6 +117,7 @@ impl PedestrianManager {
         if let Some(walker) = self.walkers.get_mut(id as usize) {
             let Nature { free_speed, keep_right, habit } = nature;
             (walker.free_speed, walker.keep_right, walker.habit) = (free_speed, keep_right, habit);
+            walker.left = 0.0;
         }
         true
     }
@@ -140,7 +141,8 @@ impl PedestrianManager {
                 .ok_or(refused("no way leads from its walkway to its destination: bring it to another"))?;
         }
         let walker = self.present(id)?;
-        (walker.from, walker.to, walker.stage, walker.decisions) = (from, to, Stage::Walking, 0);
+        (walker.from, walker.to, walker.left) = (from, to, 0.0);
+        (walker.stage, walker.decisions) = (Stage::Walking, 0);
         self.guides.free.remove(&id);
         self.forget_subset();
         Ok(())

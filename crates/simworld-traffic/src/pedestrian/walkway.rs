@@ -39,6 +39,16 @@ impl Walkway {
         beside || offset.norm_squared() < REACHED * REACHED
     }
 
+    /// A way that one can still go before its [end is reached](Self::is_walked), m; not positive where it may be.
+    pub(super) fn left(&self, at: Point2) -> f32 {
+        let offset = self.target - at;
+        let (before, aside) = (self.along.dot(&offset), self.along.perp(&offset).abs());
+        let beside =
+            Vector2::new((before - REACHED).max(0.0), (aside - self.half.max(REACHED)).max(0.0)).norm();
+        // A little less, for what rounding takes.
+        (beside.min(offset.norm() - REACHED) - 0.01) as f32
+    }
+
     /// Its edges, which one does not cross outwards.
     pub(super) fn edges(&self, at: Point2, walls: &mut Vec<Wall>) {
         let left = Vector2::new(-self.along.y, self.along.x);

@@ -7,8 +7,10 @@
 use serde::{Deserialize, Serialize};
 use simworld_core::net::Aspect;
 
+use super::claims::Claims;
+use super::clock::Clock;
 use super::clusters::{TOO_LONG, Wish};
-use super::manager::{EXIT, NONE, STANDING, Scene, Vehicle};
+use super::manager::{EXIT, Moment, NONE, STANDING, Scene, Vehicle};
 use super::part::{Part, Tail};
 use super::sirens::{SEES as SIREN_SEES, may_pass_red};
 use super::storage::Storage;
@@ -44,8 +46,10 @@ pub(crate) struct Junctions {
     long_holders: Tally,
     /// Room on each lane that vehicles on their way to it will take, in ticks.
     inbound: Tally,
-    /// Vehicles that hold a way over each crossing and have not passed it.
-    pub(super) claims: Tally,
+    /// Vehicles that hold a way over each crossing and have not passed it: those of parts that go in every step, and those of
+    /// parts that go once a round.
+    claims: Claims,
+    far_claims: Claims,
 }
 
 impl Junctions {
@@ -54,7 +58,8 @@ impl Junctions {
             holders: Tally::new(tracks.ways.len()),
             long_holders: Tally::new(tracks.ways.len()),
             inbound: Tally::new(tracks.lanes),
-            claims: Tally::new(tracks.network.crossings.len()),
+            claims: Claims::new(tracks),
+            far_claims: Claims::new(tracks),
         }
     }
 
@@ -62,14 +67,13 @@ impl Junctions {
         let ways = tracks.ways.len();
         (self.holders.len(), self.long_holders.len()) == (ways, ways)
             && self.inbound.len() == tracks.lanes
-            && self.claims.len() == tracks.network.crossings.len()
+            && self.claims.fits(tracks)
+            && self.far_claims.fits(tracks)
     }
 
     pub(super) fn bytes(&self) -> usize {
-        [&self.holders, &self.long_holders, &self.inbound, &self.claims]
-            .map(|tally| tally.len() * 4)
-            .iter()
-            .sum()
+        let tallies = [&self.holders, &self.long_holders, &self.inbound].map(|tally| tally.len() * 4);
+        tallies.iter().sum::<usize>() + self.claims.bytes() + self.far_claims.bytes()
     }
 
     /// Whether somebody holds a way.
@@ -113,16 +117,28 @@ impl Junctions {
         self.inbound.take(lane as usize, ticks(vehicle, config));
     }
 
-    /// Claims the crossings that a vehicle with leave has not passed; `front` is where it is on its way, negative before it.
-    pub(super) fn claim(&self, tracks: &Tracks, vehicle: &Vehicle, front: f64) {
-        self.claim_behind(tracks, vehicle.holding, front - vehicle.length());
+    /// Forgets the claims that those who go in this step make anew.
+    pub(super) fn forget_claims(&mut self, at: &Moment) {
+        self.claims.clear();
+        if at.ends_round() {
+            self.far_claims.clear();
+        }
     }
 
-    /// Claims the crossings on a way beyond a rear.
+    /// Vehicles about to pass each crossing.
+    pub(super) fn claims(&self) -> impl Iterator<Item = u32> {
+        self.claims.iter().zip(self.far_claims.iter()).map(|(near, far)| near + far)
+    }
+
+    /// The claim of one whose rear is on a way.
     pub(super) fn claim_behind(&self, tracks: &Tracks, way: u32, rear: f64) {
-        for strip in tracks.strips[way as usize].iter().filter(|strip| rear < strip.end) {
-            self.claims.add(strip.crossing as usize, 1);
-        }
+        self.claims.claim_behind(tracks, way, rear);
+    }
+
+    /// Where the vehicles of a part claim crossings.
+    #[inline]
+    pub(super) fn claims_of(&self, clock: &Clock) -> &Claims {
+        if clock.is_far() { &self.far_claims } else { &self.claims }
     }
 }
 
@@ -153,13 +169,9 @@ impl Part {
             let track = layout.tracks[local];
             let end = scene.tracks.length[track as usize];
             self.revoke(scene, local, end);
-            // Who stands at the line pulls away at once.
-            let stands = self.slabs.queue(local).first().is_some_and(|front| front.stood > 0.0);
-            if stands || !self.rests(scene, local, track) {
-                self.collect(local, end, &mut requests);
-                if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {
-                    self.work.stuck.push(track);
-                }
+            self.collect(local, end, &mut requests);
+            if self.slabs.queue(local).first().is_some_and(Vehicle::is_stuck) {
+                self.work.stuck.push(track);
             }
         }
         self.grant(scene, &mut requests);

@@ -22,8 +22,6 @@ pub(super) const STEEPNESS: f64 = 0.25;
 /// wide a body passes.
 const OUT: f64 = 0.5;
 const PASSES: f64 = 2.0;
-/// The drivers of a lane look beside once in so many steps.
-const EVERY: u64 = 5;
 /// Nobody changes with a rear nearer to the junction behind, m.
 const CLEAR: f64 = 12.0;
 /// A change of lanes takes so much of the road even at a walk, m: four metres aside at the greatest steepness.
@@ -80,15 +78,14 @@ impl Part {
         sort(&mut self.work.ghosts);
     }
 
-    /// Lets those change who want to and may; a fifth of the lanes in each step.
+    /// Lets those change who want to and may; a fifth of the lanes in each step of a tenth of a second.
     pub(super) fn change_lanes(&mut self, scene: &Scene<'_>) {
         let layout = self.layout(scene.tracks);
         let mut from = 0;
         while let Some(local) = self.slabs.occupied_from(from).filter(|local| *local < layout.lanes) {
             from = local + 1;
             let lane = layout.tracks[local];
-            let is_its_turn = (scene.at.step + u64::from(lane)).is_multiple_of(EVERY);
-            if !is_its_turn || scene.tracks.beside[lane as usize] == [NONE; 2] {
+            if !scene.at.is_turn_of(lane) || scene.tracks.beside[lane as usize] == [NONE; 2] {
                 continue;
             }
             let mut rank = 0;

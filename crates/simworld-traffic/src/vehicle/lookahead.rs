@@ -1,7 +1,7 @@
 //! What lies ahead of a driver: the leader, the stop line, the turn, people on the strip, something in the way.
 
 use super::Idm;
-use super::following::{Ahead, CarFollowing, Leader};
+use super::following::{Ahead, Leader};
 use super::ghosts::{Ghost, first_block, first_ghost};
 use super::junction::horizon;
 use super::lane_change::{CHANGE_ROOM, STEEPNESS, clear};
@@ -40,36 +40,13 @@ impl<'a> Lane<'a> {
         let limit = way.map_or(bend, |way| tracks.speed[tracks.lane_after(way) as usize]);
         Self { part, scene, track, way, end, limit, bend, ghosts }
     }
-
-    /// Whether a driver must decide in this step even far from all interest: who crosses, is about to, changes lanes, or may
-    /// pull away. What Krauss asks for is for one step.
-    fn is_pressing(&self, vehicle: &Vehicle, leader: Option<&Vehicle>) -> bool {
-        let to_end = self.end - vehicle.s;
-        let reaches_line = vehicle.v > STANDING && to_end < vehicle.v + 2.0;
-        let pulls_away = vehicle.v < STANDING && leader.is_some_and(|leader| leader.v > STANDING);
-        let halts = vehicle.halt.is_finite() || leader.is_some_and(|leader| leader.halt.is_finite());
-        halts
-            || self.way.is_some()
-            || vehicle.shift != 0.0
-            || vehicle.holding != NONE
-            || reaches_line
-            || pulls_away
-            || matches!(self.scene.config.vehicle_type(vehicle.row).model, CarFollowing::Krauss { .. })
-    }
 }
 
-/// The accelerations of the vehicles of a track, front to back, m/s². Where they rest, only those decide who cannot wait.
-pub(super) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], rests: bool, accelerations: &mut Vec<f64>) {
-    let mut leader: Option<&Vehicle> = None;
-    for vehicle in queue {
-        let waits = rests && !lane.is_pressing(vehicle, leader);
-        accelerations.push(if waits {
-            f64::from(vehicle.acceleration)
-        } else {
-            acceleration(lane, vehicle, leader)
-        });
-        leader = Some(vehicle);
-    }
+/// The accelerations of the vehicles of a track, front to back, m/s².
+pub(super) fn accelerations(lane: &Lane<'_>, queue: &[Vehicle], accelerations: &mut Vec<f64>) {
+    let leaders = std::iter::once(None).chain(queue.iter().map(Some));
+    accelerations
+        .extend(queue.iter().zip(leaders).map(|(vehicle, leader)| acceleration(lane, vehicle, leader)));
 }
 
 /// The acceleration of a vehicle, m/s².

@@ -8,10 +8,10 @@
 //! 3. *Settle*: those handed over join their lanes, junctions that were cleared become free, claims on crossings are counted.
 //!
 //! A part writes its own vehicles only. Of other parts it sees what they show, and the sums in [`Junctions`], which nobody reads
-//! in the phase in which others add to them. The result is the same on any number of threads.
+//! in the phase in which others add to them. The result is the same on any number of threads. Parts far from all interest go in
+//! one step of several ([`Clock`](super::clock::Clock)).
 
 use serde::{Deserialize, Serialize};
-use simworld_core::id::IntersectionId;
 use simworld_core::net::{Aspect, Workers};
 use simworld_core::seed::Stream;
 
@@ -38,6 +38,10 @@ use crate::{Counters, Leg, Route, TrafficConfig, Trip};
 pub(crate) const NONE: u32 = u32::MAX;
 /// No connection: the vehicle leaves the network at the end of its lane.
 pub(crate) const EXIT: u32 = u32::MAX - 1;
+/// Time between two steps of those far from all interest, s: half the time gap that drivers keep.
+const FAR_INTERVAL: f64 = 0.5;
+/// The drivers of a lane look beside once in so long, s.
+const LOOKS_BESIDE: f64 = 0.5;
 /// A vehicle slower than this stands, m/s.
 pub(crate) const STANDING: f64 = 0.1;
 
@@ -141,14 +145,28 @@ pub(crate) struct Moment {
 }
 
 impl Moment {
-    /// Whether those far from all interest decide now, the drivers of one lane after those of another.
+    /// Whether those far from all interest move up to the present in this step.
     #[inline]
-    pub(super) fn is_turn_of(&self, track: Track) -> bool {
-        /// Time between two decisions, s: half the time gap that drivers keep.
-        const INTERVAL: f64 = 0.5;
-        let steps = (INTERVAL / self.dt).round().max(1.0) as u64;
-        (self.step + u64::from(track)).is_multiple_of(steps)
+    pub(super) fn ends_round(&self) -> bool {
+        (self.step + 1).is_multiple_of(steps_of(FAR_INTERVAL, self.dt))
     }
+
+    /// Whether the drivers of a lane look beside in this step, those of one lane after those of another.
+    #[inline]
+    pub(super) fn is_turn_of(&self, lane: Track) -> bool {
+        (self.step + u64::from(lane)).is_multiple_of(steps_of(LOOKS_BESIDE, self.dt))
+    }
+
+    /// The same end of a step that began so long before it, s.
+    #[inline]
+    pub(super) fn since(&self, waited: f64) -> Self {
+        Self { now: self.now + (self.dt - waited), dt: waited, ..*self }
+    }
+}
+
+/// Steps of `dt` s in an interval, one at least.
+fn steps_of(interval: f64, dt: f64) -> u64 {
+    (interval / dt).round().max(1.0) as u64
 }
 
 /// What every part sees in a phase.
@@ -365,23 +383,14 @@ impl VehicleManager {
         self.parts[place.part as usize].slabs.push(place.local as usize, vehicle, path);
     }
 
-    /// Marks the lanes to intersections that are far from all interest; none are if nobody says what is of interest.
-    pub(crate) fn set_far(&mut self, tracks: &Tracks, is_far: impl Fn(IntersectionId) -> bool) {
-        for (part, layout) in self.parts.iter_mut().zip(&tracks.layout.parts) {
-            part.set_far(layout.lanes, |local| {
-                is_far(tracks.network.lanes[layout.tracks[local] as usize].to)
-            });
-        }
-    }
-
     /// How many numbers vehicles have.
     pub(crate) fn numbers(&self) -> usize {
         self.whereabouts.len()
     }
 
     /// Vehicles about to pass each crossing.
-    pub(crate) fn claims(&self) -> &Tally {
-        &self.junctions.claims
+    pub(crate) fn claims(&self) -> impl Iterator<Item = u32> {
+        self.junctions.claims()
     }
 
     /// One step of all vehicles.
@@ -401,6 +410,7 @@ impl VehicleManager {
         self.come_round(tracks, config, streams);
         self.mind_haste(config);
         self.hear_sirens(tracks);
+        self.begin_step(tracks, &at);
         self.tails.resize_with(self.parts.len(), Vec::new);
         self.handed.resize_with(self.parts.len(), Vec::new);
         let mut parts = std::mem::take(&mut self.parts);
@@ -415,7 +425,7 @@ impl VehicleManager {
             std::mem::swap(&mut part.work.tails, tails);
             std::mem::swap(&mut part.work.handed, handed);
         }
-        self.junctions.claims.clear();
+        self.junctions.forget_claims(&at);
         let scene = self.scene(tracks, config, sight, streams, at);
         each(workers, &mut parts, |_, part| part.settle(&scene));
         for (part, handed) in parts.iter_mut().zip(&mut self.handed) {

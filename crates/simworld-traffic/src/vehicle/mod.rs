@@ -1,5 +1,7 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
+mod claims;
+mod clock;
 mod closures;
 mod clusters;
 mod conflicts;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::claims::Claims;
+use super::clock::Clock;
 use super::clusters::Wish;
 use super::controls::obey;
 use super::entry::trip;
@@ -112,9 +114,8 @@ pub(crate) struct Part {
     pub(super) leaves: u32,
     /// Who is changing lanes: the number of the lane in the part, and of the vehicle.
     pub(super) shifting: Vec<(u32, u32)>,
-    /// Lanes far from all interest, a bit each; nothing if none is.
-    #[serde(skip)]
-    far: Vec<u64>,
+    /// How it goes by the clock.
+    pub(super) clock: Clock,
     #[serde(skip)]
     pub(super) work: Work,
 }
@@ -135,26 +136,15 @@ impl Part {
         &tracks.layout.parts[self.number as usize]
     }
 
-    /// Marks lanes as far from all interest.
-    pub(super) fn set_far(&mut self, lanes: usize, is_far: impl Fn(usize) -> bool) {
-        self.far.clear();
-        for lane in (0..lanes).filter(|lane| is_far(*lane)) {
-            self.far.resize(lanes.div_ceil(64), 0);
-            self.far[lane / 64] |= 1 << (lane % 64);
-        }
-    }
-
-    /// Whether the drivers of a track do without decisions in this step, for what may wait.
-    #[inline]
-    pub(super) fn rests(&self, scene: &Scene<'_>, local: usize, track: Track) -> bool {
-        let is_far = self.far.get(local / 64).is_some_and(|word| word >> (local % 64) & 1 == 1);
-        is_far && !scene.at.is_turn_of(track)
-    }
-
     /// The first phase: lane changes.
     pub(super) fn arrange(&mut self, scene: &Scene<'_>) {
-        self.shift(scene);
-        self.change_lanes(scene);
+        if self.clock.is_due() {
+            let scene = &self.clock.scene(scene);
+            self.shift(scene);
+            self.change_lanes(scene);
+        } else if !self.clock.is_watched() {
+            return;
+        }
         self.show_tails(self.layout(scene.tracks).lanes);
         self.show_leavers(scene);
         self.show_ghosts();
@@ -221,6 +211,10 @@ impl Part {
     pub(super) fn drive(&mut self, scene: &Scene<'_>) {
         self.work.handed.resize_with(scene.tails.len(), Vec::new);
         self.work.handed.iter_mut().for_each(Vec::clear);
+        if !self.clock.is_due() {
+            return;
+        }
+        let scene = &self.clock.scene(scene);
         self.rule(scene);
         self.accelerate(scene);
         self.integrate(scene);
@@ -241,9 +235,8 @@ impl Part {
             let own_ghosts = &ghosts[from..until];
             let lane = Lane::new(self, scene, track, own_ghosts);
             ghosts = &ghosts[until..];
-            let rests = from == until && self.rests(scene, local, track);
             let (queue, first) = (self.slabs.queue(local), accelerations.len());
-            lookahead::accelerations(&lane, queue, rests, &mut accelerations);
+            lookahead::accelerations(&lane, queue, &mut accelerations);
             if steered.first().is_some_and(|first| first.0 as usize <= local) {
                 let count = steered.partition_point(|(track, _)| *track as usize <= local);
                 let (here, others) = steered.split_at(count);
@@ -273,7 +266,7 @@ impl Part {
             accelerations = rest;
             counters.updates += queue.len() as u64;
             // Those who decide in every step keep their distance by themselves.
-            let (mut ahead, is_far) = (f64::INFINITY, !self.far.is_empty());
+            let (mut ahead, is_long) = (f64::INFINITY, self.clock.is_long());
             let mut somebody_holds = false;
             for (vehicle, acceleration) in queue.iter_mut().zip(own) {
                 let (v, way) = advance(vehicle.v, *acceleration, dt);
@@ -287,7 +280,7 @@ impl Part {
                     vehicle.v = 0.0;
                     counters.forced_stops += 1;
                 }
-                if is_far && vehicle.s > ahead {
+                if is_long && vehicle.s > ahead {
                     vehicle.s = ahead.max(old);
                     vehicle.v = 0.0;
                     counters.forced_stops += 1;
@@ -373,6 +366,11 @@ impl Part {
     /// The third phase: those handed over join their lanes, junctions are cleared, claims counted.
     pub(super) fn settle(&mut self, scene: &Scene<'_>) {
         self.receive(scene);
+        if !self.clock.is_due() {
+            return;
+        }
+        self.clock.end();
+        let claims = scene.junctions.claims_of(&self.clock);
         for (lane, ticks) in self.work.left.drain(..) {
             scene.storage.take_ticks(lane, ticks);
         }
@@ -387,11 +385,11 @@ impl Part {
                 bits &= bits - 1;
                 let queue = self.slabs.queue_mut(local);
                 if local < layout.lanes {
-                    claim_ahead(scene, queue, scene.tracks.length[layout.tracks[local] as usize]);
-                    release_cleared(scene, queue);
+                    claim_ahead(scene, claims, queue, scene.tracks.length[layout.tracks[local] as usize]);
+                    release_cleared(scene, claims, queue);
                 } else {
                     for vehicle in queue.iter() {
-                        scene.junctions.claim(scene.tracks, vehicle, vehicle.s);
+                        claims.claim(scene.tracks, vehicle, vehicle.s);
                     }
                 }
             }
@@ -409,13 +407,35 @@ impl Part {
             vehicle.next = scene.choose(&mut weights, &vehicle, &mut path, lane);
             vehicle.halt = scene.halts.on(scene.tracks, scene.config, &vehicle, lane);
             scene.whereabouts.set(vehicle.id as usize, lane);
-            self.add(scene.tracks.layout.local(lane), vehicle, path);
+            self.line_up(scene, lane, vehicle, path);
         }
         self.work.weights = weights;
     }
 
+    /// Puts one who was handed over into the queue of its lane. After a long step two who came by different ways may be told in
+    /// another order than they stand in, and one may have come farther than there is room.
+    fn line_up(&mut self, scene: &Scene<'_>, lane: Track, mut vehicle: Vehicle, path: Path) {
+        let local = scene.tracks.layout.local(lane);
+        let queue = self.slabs.queue(local);
+        let rank = queue.len() - queue.iter().rev().take_while(|other| other.s < vehicle.s).count();
+        let rear = rank.checked_sub(1).map_or(f64::INFINITY, |ahead| queue[ahead].s - queue[ahead].length());
+        if vehicle.s > rear.max(0.0) {
+            (vehicle.s, vehicle.v) = (rear.max(0.0), 0.0);
+            self.work.counters.forced_stops += 1;
+        }
+        if self.clock.is_due() {
+            self.work.busy[local / 64] |= 1 << (local % 64);
+        } else {
+            // Its rear is on the way behind until this part has its turn.
+            let length = scene.tracks.length[scene.tracks.lanes + vehicle.holding as usize];
+            scene.junctions.claims_of(&self.clock).claim(scene.tracks, &vehicle, vehicle.s + length);
+        }
+        self.slabs.insert(local, rank, vehicle, path);
+    }
+
     pub(super) fn fits(&self, layout: &PartLayout) -> bool {
         self.slabs.tracks() == layout.tracks.len()
+            && self.clock.is_sound()
             && self.shifting.iter().all(|(lane, _)| (*lane as usize) < layout.lanes)
     }
 
@@ -444,10 +464,10 @@ fn leave_behind(scene: &Scene<'_>, track: Track, vehicle: &mut Vehicle, path: &m
 }
 
 /// Vehicles with leave to cross claim the crossings beyond the end of their lane.
-fn claim_ahead(scene: &Scene<'_>, queue: &[Vehicle], end: f64) {
+fn claim_ahead(scene: &Scene<'_>, claims: &Claims, queue: &[Vehicle], end: f64) {
     for vehicle in queue {
         if vehicle.holding == vehicle.next && vehicle.next != NONE {
-            scene.junctions.claim(scene.tracks, vehicle, vehicle.s - end);
+            claims.claim(scene.tracks, vehicle, vehicle.s - end);
         } else if vehicle.next != EXIT {
             break; // nobody behind has leave either
         }
@@ -455,7 +475,7 @@ fn claim_ahead(scene: &Scene<'_>, queue: &[Vehicle], end: f64) {
 }
 
 /// Vehicles at the beginning of a lane whose rear has left the junction give it free; until then they claim its crossings.
-fn release_cleared(scene: &Scene<'_>, queue: &mut [Vehicle]) {
+fn release_cleared(scene: &Scene<'_>, claims: &Claims, queue: &mut [Vehicle]) {
     for vehicle in queue.iter_mut().rev() {
         if vehicle.s > LONGEST {
             break;
@@ -468,7 +488,7 @@ fn release_cleared(scene: &Scene<'_>, queue: &mut [Vehicle]) {
             vehicle.holding = NONE;
         } else {
             let length = scene.tracks.length[scene.tracks.lanes + vehicle.holding as usize];
-            scene.junctions.claim(scene.tracks, vehicle, vehicle.s + length);
+            claims.claim(scene.tracks, vehicle, vehicle.s + length);
         }
     }
 }

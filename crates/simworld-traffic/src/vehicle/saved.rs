@@ -60,6 +60,8 @@ impl VehicleManager {
             hasher.u64(u64::from(vehicle.next)).u64(u64::from(vehicle.holding)).f64(f64::from(vehicle.shift));
             hasher.u64(u64::from(vehicle.granted));
         }
+        let waiting = self.parts.iter().enumerate().filter(|(_, part)| part.clock.waited() > 0.0);
+        waiting.for_each(|(number, part)| _ = hasher.u64(number as u64).f64(part.clock.waited()));
         self.controls.state_hash(hasher);
         self.rounds.state_hash(hasher);
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::Point2;
+use simworld_core::geometry::{Point2, Vector2};
 use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
@@ -294,9 +294,36 @@ fn tight(network: &RoadNetwork, connection: usize) -> Vec<u32> {
             && turns
             && own.from != other.from
             && !own.conflicts.contains(id)
-            && polyline::distance_between(&own.path, &other.path) < BESIDE
+            && come_near(&own.path, &other.path, BESIDE)
     };
     others.filter(is_tight).map(|id| id.0).collect()
+}
+
+/// Whether two paths come nearer to one another than a distance, m.
+fn come_near(a: &[Point2], b: &[Point2], distance: f64) -> bool {
+    let (around_a, around_b) = (bounds(a, distance), bounds(b, distance));
+    // What is not in the box around the other is not near it, which is said of most sooner than how far it is.
+    let near = |points: &[Point2], (low, high): (Point2, Point2), path: &[Point2]| {
+        let is_within = |at: &&Point2| low.x <= at.x && at.x <= high.x && low.y <= at.y && at.y <= high.y;
+        let mut inside = points.iter().filter(is_within).filter_map(|at| polyline::closest(path, at));
+        inside.any(|closest| closest.distance < distance)
+    };
+    let apart = around_a.0.x > around_b.1.x
+        || around_b.0.x > around_a.1.x
+        || around_a.0.y > around_b.1.y
+        || around_b.0.y > around_a.1.y;
+    let cross = || {
+        let meets = |p: &[Point2], q: &[Point2]| polyline::crossing(p[0], p[1], q[0], q[1]).is_some();
+        a.windows(2).any(|p| b.windows(2).any(|q| meets(p, q)))
+    };
+    !apart && (near(a, around_b, b) || near(b, around_a, a) || cross())
+}
+
+/// The corners of a box around a path, with a margin, m.
+fn bounds(path: &[Point2], margin: f64) -> (Point2, Point2) {
+    let start = path.first().copied().unwrap_or_default();
+    let (low, high) = path.iter().fold((start, start), |(low, high), at| (low.inf(at), high.sup(at)));
+    (low - Vector2::repeat(margin), high + Vector2::repeat(margin))
 }
 
 fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {

@@ -1,0 +1,46 @@
+//! Vehicles about to pass each crossing, as those on foot see them.
+
+use serde::{Deserialize, Serialize};
+
+use super::manager::Vehicle;
+use super::tally::Tally;
+use super::tracks::Tracks;
+
+/// How many vehicles are about to pass each crossing.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Claims(Tally);
+
+impl Claims {
+    pub(super) fn new(tracks: &Tracks) -> Self {
+        Self(Tally::new(tracks.network.crossings.len()))
+    }
+
+    pub(super) fn fits(&self, tracks: &Tracks) -> bool {
+        self.0.len() == tracks.network.crossings.len()
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Claims the crossings that a vehicle with leave has not passed; `front` is where it is on its way, negative before it.
+    pub(super) fn claim(&self, tracks: &Tracks, vehicle: &Vehicle, front: f64) {
+        self.claim_behind(tracks, vehicle.holding, front - vehicle.length());
+    }
+
+    /// Claims the crossings on a way beyond a rear.
+    pub(super) fn claim_behind(&self, tracks: &Tracks, way: u32, rear: f64) {
+        for strip in tracks.strips[way as usize].iter().filter(|strip| rear < strip.end) {
+            self.0.add(strip.crossing as usize, 1);
+        }
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = u32> {
+        self.0.iter()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.0.len() * 4
+    }
+}
