@@ -57,3 +57,26 @@ impl Walkway {
         walls.push(Wall { toward: -left, distance: self.half + aside });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// Wherever one is, the end is not reached before one has gone as far as is said to be left.
+        #[test]
+        fn nobody_is_there_before_they_have_gone_so_far(
+            at in prop::array::uniform2(-30.0..30.0), half in 0.0..4.0, turn in 0.0..std::f64::consts::TAU, way in 0.0..1.0,
+        ) {
+            let walkway = Walkway { from: Point2::new(-25.0, 0.0), along: Vector2::x(), half, target: Point2::new(0.0, -0.3) };
+            let at = Point2::from(at);
+            let left = f64::from(walkway.left(at));
+            let on = at + simworld_core::geometry::direction(turn) * left.max(0.0) * way;
+            prop_assert!(left <= 0.0 || !walkway.is_walked(on), "{left} m left at {at}, walked at {on}");
+            // And it is told closely enough to be of use.
+            prop_assert!(walkway.is_walked(at) || left > 0.0 || walkway.left(at) > -0.02);
+        }
+    }
+}

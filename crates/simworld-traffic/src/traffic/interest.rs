@@ -1,4 +1,4 @@
-//! Where somebody looks: elsewhere drivers decide less often.
+//! Where somebody looks: elsewhere the traffic goes in longer steps.
 
 use serde::{Deserialize, Serialize};
 use simworld_core::geometry::Point2;
@@ -27,9 +27,10 @@ impl Interest {
 }
 
 impl Traffic {
-    /// Says what is of interest. On roads to intersections that no interest reaches, drivers decide every half second instead of in
-    /// every step; they still move in each, keep off one another and stop at red. With `None`, the default, everything is
-    /// of interest.
+    /// Says what is of interest. Where no interest reaches any of the intersections near one another that are worked on together,
+    /// vehicles come up to the present every half second in one long step, in which they decide once, keep off one another and
+    /// stop at red; until then they are where they were. Walkers that no interest reaches decide and go in the same rounds. With
+    /// `None`, the default, everything is of interest.
     ///
     /// ```
     /// use std::sync::Arc;

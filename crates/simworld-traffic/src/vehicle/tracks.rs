@@ -352,3 +352,21 @@ fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {
     strips.sort_by(|a, b| a.stop.total_cmp(&b.stop));
     strips
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn path() -> impl Strategy<Value = Vec<Point2>> {
+        prop::collection::vec(prop::array::uniform2(-15.0..15.0).prop_map(Point2::from), 2..7)
+    }
+
+    proptest! {
+        #[test]
+        fn paths_come_near_that_are_no_farther_apart(a in path(), b in path(), distance in 0.1..20.0) {
+            prop_assert_eq!(come_near(&a, &b, distance), polyline::distance_between(&a, &b) < distance);
+        }
+    }
+}

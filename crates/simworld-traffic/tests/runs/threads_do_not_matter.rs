@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use crate::lent_threads::Threads;
+use simworld_core::geometry::Point2;
 use simworld_core::hash::{StateDigest, StateHash};
 use simworld_core::id::LaneId;
 use simworld_core::net::{CrossSection, NetworkConfig, RoadNetwork, StreetPlan, Workers};
 use simworld_core::seed::Seed;
 use simworld_traffic::vehicle::VehicleKind;
-use simworld_traffic::{Leg, Route, Router, Traffic, TrafficConfig};
+use simworld_traffic::{Interest, Leg, Route, Router, Traffic, TrafficConfig};
 
 /// The last part first.
 struct Backwards;
@@ -34,11 +35,15 @@ fn routes(network: &RoadNetwork) -> Vec<Route> {
     legs.filter_map(|leg| Some(Route(vec![leg, *router.after(leg).first()?]))).collect()
 }
 
-fn digests(workers: Option<Box<dyn Workers + Send + Sync>>) -> Vec<StateDigest> {
+fn digests(
+    workers: Option<Box<dyn Workers + Send + Sync>>,
+    interest: Option<Vec<Interest>>,
+) -> Vec<StateDigest> {
     let network = network();
     let config = TrafficConfig { vehicles: 1200, pedestrians: 300, ..TrafficConfig::default() };
     let mut traffic =
         Traffic::new(Arc::clone(&network), &config, Seed(8)).expect("the settings are in range");
+    traffic.set_interest(interest).expect("the places are sound");
     if let Some(workers) = workers {
         traffic.set_workers(workers);
     }
@@ -61,10 +66,17 @@ fn digests(workers: Option<Box<dyn Workers + Send + Sync>>) -> Vec<StateDigest> 
 
 #[test]
 fn traffic_is_the_same_on_any_number_of_threads() {
-    let alone = digests(None);
-    assert!(alone.windows(2).all(|pair| pair[0] != pair[1]), "traffic moves");
-    for threads in [2, 8] {
-        assert_eq!(alone, digests(Some(Box::new(Threads(threads)))), "{threads} threads");
+    let corner = Interest { center: Point2::origin(), radius: 400.0 };
+    for interest in [None, Some(vec![corner])] {
+        let alone = digests(None, interest.clone());
+        assert!(alone.windows(2).all(|pair| pair[0] != pair[1]), "traffic moves");
+        for threads in [2, 8] {
+            assert_eq!(
+                alone,
+                digests(Some(Box::new(Threads(threads))), interest.clone()),
+                "{threads} threads"
+            );
+        }
+        assert_eq!(alone, digests(Some(Box::new(Backwards)), interest), "the last part first");
     }
-    assert_eq!(alone, digests(Some(Box::new(Backwards))), "the last part first");
 }
