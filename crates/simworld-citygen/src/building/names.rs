@@ -3,6 +3,8 @@
 use simworld_core::scene::Place;
 use simworld_core::seed::StreamRng;
 
+use super::uses::rank;
+
 const EPITHETS: &[&str] = &[
     "Harbour",
     "Linden",
@@ -67,8 +69,7 @@ impl Names {
     /// The next name of a place; a number is added when the words run out. `None` for places that bear no name.
     pub(super) fn next(&mut self, place: Place) -> Option<String> {
         let nouns = noun(place)?;
-        let rank = Place::ALL.iter().position(|other| *other == place)?;
-        let (given, start) = &mut self.places[rank];
+        let (given, start) = &mut self.places[rank(place)];
         let combinations = EPITHETS.len() * nouns.len();
         // Steps of a prime that divides no number of combinations visit every one once a round.
         let index = (*start + *given * STEP) % combinations;
