@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
 use simworld_core::geometry::{Point2, heading};
 use simworld_core::id::RoadId;
 use simworld_core::net::polyline::{self, Measured};
@@ -23,57 +24,69 @@ const EDGE_GAP: f64 = 0.1;
 /// The narrowest lane in which cars park along the kerb, m.
 const NARROWEST: f64 = 1.8;
 
-/// Parks cars in every parking lane.
-pub(super) fn park(
+/// Streets in which one thread parks at once.
+const CHUNK: usize = 256;
+
+/// A place for cars in a cross-section: how far its middle lies to the left of the centreline, m, and what it is.
+type Bay = (f64, LaneSpec);
+
+/// Parks cars in every parking lane; those of some streets together.
+pub(super) fn park(setting: &Setting<'_>, config: &ElementConfig, streams: Stream) -> Vec<Vec<Element>> {
+    // Few plans have more than a handful of cross-sections, and many have none with parking.
+    let is_for_cars = |(_, lane): &Bay| lane.kind == LaneKind::Parking && lane.width >= NARROWEST;
+    let sections = setting.plan.sections.iter();
+    let bays: Vec<Vec<Bay>> =
+        sections.map(|section| section.strips().filter(is_for_cars).collect()).collect();
+    let streets = setting.streets().min(setting.plan.streets.len());
+    let parts = (0..streets.div_ceil(CHUNK)).into_par_iter().map(|part| {
+        let mut cars = Vec::new();
+        let mut stretch = Vec::new();
+        for index in part * CHUNK..streets.min((part + 1) * CHUNK) {
+            let street = &setting.plan.streets[index];
+            let Some(bays) = bays.get(street.section as usize).filter(|bays| !bays.is_empty()) else {
+                continue;
+            };
+            if street.level == 0 {
+                park_in(setting, config, (index, bays), streams, &mut stretch, &mut cars);
+            }
+        }
+        cars
+    });
+    parts.collect()
+}
+
+/// Parks cars in one street.
+fn park_in(
     setting: &Setting<'_>,
     config: &ElementConfig,
+    (index, bays): (usize, &[Bay]),
     streams: Stream,
-    elements: &mut Vec<Element>,
+    stretch: &mut Vec<Point2>,
+    cars: &mut Vec<Element>,
 ) {
-    // Few plans have more than a handful of cross-sections, and many have none with parking.
-    let strips: Vec<Vec<(f64, LaneSpec)>> = setting
-        .plan
-        .sections
-        .iter()
-        .map(|section| {
-            section
-                .strips()
-                .filter(|(_, lane)| lane.kind == LaneKind::Parking && lane.width >= NARROWEST)
-                .collect()
-        })
-        .collect();
-    let mut stretch = Vec::new();
-    for (index, street) in setting.plan.streets.iter().enumerate().take(setting.streets()) {
-        let Some(strips) = strips.get(street.section as usize).filter(|strips| !strips.is_empty()) else {
-            continue;
-        };
-        if street.level != 0 {
-            continue;
-        }
-        let line = Measured::new(&setting.network.roads[index].centerline);
-        let Some((from, to)) = clear_span(setting, index, &line) else { continue };
-        let middle = line.slice(from, to);
-        let start = middle[0];
-        let key = |x: f64| (x * 100.0).round() as i64 as u64;
-        let mut rng = streams.indexed(key(start.x)).indexed(key(start.y)).rng();
-        for (offset, lane) in strips {
-            let path = polyline::offset(&middle, *offset);
-            let path = Measured::new(&path);
-            let spaces = (path.length() / SPACE).floor() as u32;
-            for space in 0..spaces {
-                if !rng.chance(config.parked) {
-                    continue;
-                }
-                let length = rng.uniform(3.7, 4.9);
-                let width = (length * 0.39).min(lane.width - 2.0 * EDGE_GAP);
-                let station = (f64::from(space) + 0.5) * SPACE;
-                path.slice_into(station - length * 0.5, station + length * 0.5, &mut stretch);
-                let car = car(&stretch, length, width, is_reversed(*offset, lane), lane.width);
-                let side = if *offset > 0.0 { Side::Left } else { Side::Right };
-                elements.extend(
-                    car.map(|car| Element { along: Border::street(RoadId::from_index(index), side), ..car }),
-                );
+    let line = Measured::new(&setting.network.roads[index].centerline);
+    let Some((from, to)) = clear_span(setting, index, &line) else { return };
+    let middle = line.slice(from, to);
+    let start = middle[0];
+    let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    let mut rng = streams.indexed(key(start.x)).indexed(key(start.y)).rng();
+    for (offset, lane) in bays {
+        let path = polyline::offset(&middle, *offset);
+        let path = Measured::new(&path);
+        let spaces = (path.length() / SPACE).floor() as u32;
+        for space in 0..spaces {
+            if !rng.chance(config.parked) {
+                continue;
             }
+            let length = rng.uniform(3.7, 4.9);
+            let width = (length * 0.39).min(lane.width - 2.0 * EDGE_GAP);
+            let station = (f64::from(space) + 0.5) * SPACE;
+            path.slice_into(station - length * 0.5, station + length * 0.5, stretch);
+            let car = car(stretch, length, width, is_reversed(*offset, lane), lane.width);
+            let side = if *offset > 0.0 { Side::Left } else { Side::Right };
+            cars.extend(
+                car.map(|car| Element { along: Border::street(RoadId::from_index(index), side), ..car }),
+            );
         }
     }
 }
