@@ -3,6 +3,8 @@
 use simworld_core::scene::Place;
 use simworld_core::seed::StreamRng;
 
+use super::uses::rank;
+
 const EPITHETS: &[&str] = &[
     "Harbour",
     "Linden",
@@ -67,15 +69,13 @@ impl Names {
     /// The next name of a place; a number is added when the words run out. `None` for places that bear no name.
     pub(super) fn next(&mut self, place: Place) -> Option<String> {
         let nouns = noun(place)?;
-        let rank = Place::ALL.iter().position(|other| *other == place)?;
-        let (given, start) = &mut self.places[rank];
+        let (given, start) = &mut self.places[rank(place)];
         let combinations = EPITHETS.len() * nouns.len();
         // Steps of a prime that divides no number of combinations visit every one once a round.
         let index = (*start + *given * STEP) % combinations;
         let round = *given / combinations;
         *given += 1;
-        let (epithet, noun) = (EPITHETS[index % EPITHETS.len()], nouns[index / EPITHETS.len()]);
-        Some(if round == 0 { format!("{epithet} {noun}") } else { format!("{epithet} {noun} {}", round + 1) })
+        Some(spelled(nouns, index, round))
     }
 }
 
@@ -87,12 +87,17 @@ pub(super) fn free(place: Place, rng: &mut StreamRng, is_taken: impl Fn(&str) ->
     let start = rng.below(combinations);
     (0..).find_map(|step: usize| {
         let index = (start + step * STEP) % combinations;
-        let (epithet, noun) = (EPITHETS[index % EPITHETS.len()], nouns[index / EPITHETS.len()]);
-        let round = step / combinations;
-        let name =
-            if round == 0 { format!("{epithet} {noun}") } else { format!("{epithet} {noun} {}", round + 1) };
+        let name = spelled(nouns, index, step / combinations);
         (!is_taken(&name)).then_some(name)
     })
+}
+
+/// The name of that number among the combinations of some nouns, in a round after the first with its number. It takes the
+/// memory that it needs, and at once: a large city has hundreds of thousands of names.
+fn spelled(nouns: &[&str], index: usize, round: usize) -> String {
+    let (epithet, noun) = (EPITHETS[index % EPITHETS.len()], nouns[index / EPITHETS.len()]);
+    let number = if round == 0 { String::new() } else { format!(" {}", round + 1) };
+    [epithet, " ", noun, &number].concat()
 }
 
 /// Step from one name to the next; a prime greater than any number of words.

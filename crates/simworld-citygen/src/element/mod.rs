@@ -116,12 +116,12 @@ pub fn furnish(
     let streams = seed.stream("citygen/elements");
     let mut elements = Vec::with_capacity(setting.network.sidewalks.len() * 14);
     // Cars park where nothing else may stand, so nobody has to wait for them.
-    let mut parked = Vec::new();
-    rayon::join(
+    let ((), parked) = rayon::join(
         || sidewalk::line(setting, config, streams.named("sidewalks"), taken, &mut elements),
-        || parking::park(setting, config, streams.named("parking"), &mut parked),
+        || parking::park(setting, config, streams.named("parking")),
     );
-    elements.append(&mut parked);
+    // Each part goes as it is taken over: this is when a city takes the most memory.
+    parked.into_iter().for_each(|cars| elements.extend(cars));
     green::plant(setting, config, streams.named("greens"), taken, &mut elements);
     decks::clear_below(setting.network, &mut elements);
     elements

@@ -2,9 +2,11 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
 use simworld_core::geometry::{Point2, heading};
 use simworld_core::id::RoadId;
-use simworld_core::net::{LaneDirection, LaneKind, LaneSpec, Side, polyline};
+use simworld_core::net::polyline::{self, Measured};
+use simworld_core::net::{LaneDirection, LaneKind, LaneSpec, Side};
 use simworld_core::ops;
 use simworld_core::scene::{EntityKind, Shape};
 use simworld_core::seed::Stream;
@@ -22,53 +24,69 @@ const EDGE_GAP: f64 = 0.1;
 /// The narrowest lane in which cars park along the kerb, m.
 const NARROWEST: f64 = 1.8;
 
-/// Parks cars in every parking lane.
-pub(super) fn park(
+/// Streets in which one thread parks at once.
+const CHUNK: usize = 256;
+
+/// A place for cars in a cross-section: how far its middle lies to the left of the centreline, m, and what it is.
+type Bay = (f64, LaneSpec);
+
+/// Parks cars in every parking lane; those of some streets together.
+pub(super) fn park(setting: &Setting<'_>, config: &ElementConfig, streams: Stream) -> Vec<Vec<Element>> {
+    // Few plans have more than a handful of cross-sections, and many have none with parking.
+    let is_for_cars = |(_, lane): &Bay| lane.kind == LaneKind::Parking && lane.width >= NARROWEST;
+    let sections = setting.plan.sections.iter();
+    let bays: Vec<Vec<Bay>> =
+        sections.map(|section| section.strips().filter(is_for_cars).collect()).collect();
+    let streets = setting.streets().min(setting.plan.streets.len());
+    let parts = (0..streets.div_ceil(CHUNK)).into_par_iter().map(|part| {
+        let mut cars = Vec::new();
+        let mut stretch = Vec::new();
+        for index in part * CHUNK..streets.min((part + 1) * CHUNK) {
+            let street = &setting.plan.streets[index];
+            let Some(bays) = bays.get(street.section as usize).filter(|bays| !bays.is_empty()) else {
+                continue;
+            };
+            if street.level == 0 {
+                park_in(setting, config, (index, bays), streams, &mut stretch, &mut cars);
+            }
+        }
+        cars
+    });
+    parts.collect()
+}
+
+/// Parks cars in one street.
+fn park_in(
     setting: &Setting<'_>,
     config: &ElementConfig,
+    (index, bays): (usize, &[Bay]),
     streams: Stream,
-    elements: &mut Vec<Element>,
+    stretch: &mut Vec<Point2>,
+    cars: &mut Vec<Element>,
 ) {
-    // Few plans have more than a handful of cross-sections, and many have none with parking.
-    let strips: Vec<Vec<(f64, LaneSpec)>> = setting
-        .plan
-        .sections
-        .iter()
-        .map(|section| {
-            section
-                .strips()
-                .filter(|(_, lane)| lane.kind == LaneKind::Parking && lane.width >= NARROWEST)
-                .collect()
-        })
-        .collect();
-    for (index, street) in setting.plan.streets.iter().enumerate().take(setting.streets()) {
-        let Some(strips) = strips.get(street.section as usize).filter(|strips| !strips.is_empty()) else {
-            continue;
-        };
-        if street.level != 0 {
-            continue;
-        }
-        let Some((from, to)) = clear_span(setting, index) else { continue };
-        let middle = polyline::slice(&setting.network.roads[index].centerline, from, to);
-        let start = middle[0];
-        let key = |x: f64| (x * 100.0).round() as i64 as u64;
-        let mut rng = streams.indexed(key(start.x)).indexed(key(start.y)).rng();
-        for (offset, lane) in strips {
-            let path = polyline::offset(&middle, *offset);
-            let spaces = (polyline::length(&path) / SPACE).floor() as u32;
-            for space in 0..spaces {
-                if !rng.chance(config.parked) {
-                    continue;
-                }
-                let length = rng.uniform(3.7, 4.9);
-                let width = (length * 0.39).min(lane.width - 2.0 * EDGE_GAP);
-                let station = (f64::from(space) + 0.5) * SPACE;
-                let car = car(&path, station, length, width, is_reversed(*offset, lane), lane.width);
-                let side = if *offset > 0.0 { Side::Left } else { Side::Right };
-                elements.extend(
-                    car.map(|car| Element { along: Border::street(RoadId::from_index(index), side), ..car }),
-                );
+    let line = Measured::new(&setting.network.roads[index].centerline);
+    let Some((from, to)) = clear_span(setting, index, &line) else { return };
+    let middle = line.slice(from, to);
+    let start = middle[0];
+    let key = |x: f64| (x * 100.0).round() as i64 as u64;
+    let mut rng = streams.indexed(key(start.x)).indexed(key(start.y)).rng();
+    for (offset, lane) in bays {
+        let path = polyline::offset(&middle, *offset);
+        let path = Measured::new(&path);
+        let spaces = (path.length() / SPACE).floor() as u32;
+        for space in 0..spaces {
+            if !rng.chance(config.parked) {
+                continue;
             }
+            let length = rng.uniform(3.7, 4.9);
+            let width = (length * 0.39).min(lane.width - 2.0 * EDGE_GAP);
+            let station = (f64::from(space) + 0.5) * SPACE;
+            path.slice_into(station - length * 0.5, station + length * 0.5, stretch);
+            let car = car(stretch, length, width, is_reversed(*offset, lane), lane.width);
+            let side = if *offset > 0.0 { Side::Left } else { Side::Right };
+            cars.extend(
+                car.map(|car| Element { along: Border::street(RoadId::from_index(index), side), ..car }),
+            );
         }
     }
 }
@@ -82,9 +100,8 @@ fn is_reversed(offset: f64, lane: &LaneSpec) -> bool {
     }
 }
 
-/// A car at a station of the middle of its lane; `None` where the lane bends too much for it to keep within.
-fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, lane: f64) -> Option<Element> {
-    let stretch = polyline::slice(path, station - length * 0.5, station + length * 0.5);
+/// A car on a stretch of the middle of its lane; `None` where the lane bends too much for it to keep within.
+fn car(stretch: &[Point2], length: f64, width: f64, reversed: bool, lane: f64) -> Option<Element> {
     let (back, front) = (*stretch.first()?, *stretch.last()?);
     let chord = front - back;
     let axis = chord.try_normalize(1e-6)?;
@@ -107,17 +124,15 @@ fn car(path: &[Point2], station: f64, length: f64, width: f64, reversed: bool, l
 }
 
 /// Where along a road's centreline cars may park, clear of the junctions at its ends; `None` if nowhere.
-fn clear_span(setting: &Setting<'_>, road: usize) -> Option<(f64, f64)> {
+fn clear_span(setting: &Setting<'_>, road: usize, line: &Measured<'_>) -> Option<(f64, f64)> {
     let network = setting.network;
-    let line = &network.roads[road].centerline;
-    let (mut from, mut to) = (0.0_f64, polyline::length(line));
+    let (mut from, mut to) = (0.0_f64, line.length());
     let lanes = network.roads[road].forward.iter().chain(&network.roads[road].backward);
     let lanes = lanes.map(|lane| &network.lanes[lane.index()].path);
     let id = RoadId::from_index(road);
     let walks = [Side::Left, Side::Right].into_iter().filter_map(|side| network.sidewalk(id, side));
     for path in lanes.chain(walks.map(|walk| &walk.path)) {
-        let ends =
-            (polyline::closest(line, path.first()?)?.station, polyline::closest(line, path.last()?)?.station);
+        let ends = (line.closest_station(path.first()?)?, line.closest_station(path.last()?)?);
         from = from.max(ends.0.min(ends.1));
         to = to.min(ends.0.max(ends.1));
     }

@@ -36,10 +36,21 @@ const CHUNK: usize = 64;
 /// Sidewalks that are furnished at once: what they wish for stays in the caches until it is decided on.
 const BATCH: usize = 64 * CHUNK;
 
-/// An element that would like to stand.
-struct Wish {
-    element: Element,
-    needs: Need,
+/// What would like to stand along some sidewalks.
+#[derive(Default)]
+struct Wishes {
+    elements: Vec<(Element, Need)>,
+    /// The ground of each that needs some, in the same order.
+    grounds: Vec<[Point2; 4]>,
+}
+
+impl Wishes {
+    fn push(&mut self, element: Element, needs: Need) {
+        if needs != Need::Nothing {
+            self.grounds.push(element.obb().footprint());
+        }
+        self.elements.push((element, needs));
+    }
 }
 
 /// What a wish needs to come true.
@@ -66,38 +77,41 @@ pub(super) fn line(
     let sidewalks: Vec<(usize, &Sidewalk)> =
         all.filter(|(_, sidewalk)| setting.has_side(sidewalk.road, sidewalk.side)).collect();
     // Wishes are functions of their sidewalks, so they are made on all threads; who gets room is decided in order.
-    let wish = |batch: &[(usize, &Sidewalk)]| -> Vec<Vec<(Wish, [Point2; 4])>> {
+    let wish = |batch: &[(usize, &Sidewalk)]| -> Vec<Wishes> {
         let made = batch.par_chunks(CHUNK).map(|sidewalks| {
             let mut setter = Setter::default();
-            setter.wishes.reserve(14 * sidewalks.len());
+            setter.wishes.elements.reserve(14 * sidewalks.len());
             for (index, sidewalk) in sidewalks {
                 setter.begin(sidewalk, doors.at(*index), setting);
                 setter.furnish(sidewalk, setting, config, stream_of(sidewalk, streams));
             }
-            let with_ground = |wish: Wish| {
-                let ground = wish.element.obb().footprint();
-                (wish, ground)
-            };
-            setter.wishes.into_iter().map(with_ground).collect()
+            setter.wishes
         });
         made.collect()
     };
-    threads::in_order(sidewalks.chunks(BATCH), wish, |wishes| {
-        let mut has_table = false;
-        for (Wish { element, needs }, ground) in wishes.into_iter().flatten() {
-            let comes_true = match needs {
-                Need::Nothing => true,
-                Need::Table if !has_table => false,
-                Need::Room | Need::Table => taken.take(&ground),
-            };
-            if comes_true {
-                elements.push(element);
-            }
-            if needs == Need::Room {
-                has_table = comes_true && element.kind == EntityKind::Table;
-            }
+    threads::in_order(sidewalks.chunks(BATCH), wish, |made| {
+        for wishes in made {
+            grant(wishes, taken, elements);
         }
     });
+}
+
+/// Sets those of the elements wished for that need nothing or find room.
+fn grant(wishes: Wishes, taken: &mut Occupancy, elements: &mut Vec<Element>) {
+    let mut has_table = false;
+    let mut grounds = wishes.grounds.iter();
+    for (element, needs) in wishes.elements {
+        // Each that needs ground takes its own from the list, whether it is looked at or not.
+        let ground = if needs == Need::Nothing { None } else { grounds.next() };
+        let is_out = needs == Need::Table && !has_table;
+        let comes_true = !is_out && ground.is_none_or(|ground| taken.take(ground));
+        if comes_true {
+            elements.push(element);
+        }
+        if needs == Need::Room {
+            has_table = comes_true && element.kind == EntityKind::Table;
+        }
+    }
 }
 
 /// The stream of a sidewalk is a function of where it begins, so that a change elsewhere moves nothing here.
@@ -158,7 +172,7 @@ struct Setter {
     busy: Vec<(f64, f64)>,
     /// Stations of doors, and what is behind them.
     doors: Vec<(f64, Place)>,
-    wishes: Vec<Wish>,
+    wishes: Wishes,
     along: Border,
 }
 
@@ -241,7 +255,7 @@ impl Setter {
                     self.busy.push(span);
                     if let Some((position, facing)) = self.walk.at(station, offset) {
                         let element = Element { kind, position, facing, shape, along: self.along };
-                        self.wishes.push(Wish { element, needs: Need::Nothing });
+                        self.wishes.push(element, Need::Nothing);
                     }
                 }
             }
@@ -269,7 +283,7 @@ impl Setter {
         let Some((position, facing)) = self.walk.at(station, offset) else { return false };
         let facing = turned(facing, turn);
         let element = Element { kind, position, facing, shape, along: self.along };
-        self.wishes.push(Wish { element, needs });
+        self.wishes.push(element, needs);
         true
     }
 

@@ -4,10 +4,12 @@
 //! outlines and not the area, and what lies near in the plane lies near in memory. Cells that share a slot are far apart;
 //! their outlines are sorted out by their bounds. The narrow phase is the separating-axis test on the outlines themselves.
 
+mod outlines;
 mod roads;
 pub(crate) use roads::intersection_walk;
 mod slots;
 
+use outlines::{Outline, Outlines};
 use simworld_core::geometry::{Obb, Point2, Vector2};
 use slots::{Bounds, Slots};
 
@@ -23,16 +25,8 @@ use slots::{Bounds, Slots};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Occupancy {
-    items: Vec<Item>,
-    corners: Vec<Point2>,
+    outlines: Outlines,
     slots: Slots,
-}
-
-/// Where the corners of an outline are.
-#[derive(Clone, Copy, Debug)]
-struct Item {
-    start: u32,
-    count: u32,
 }
 
 impl Default for Occupancy {
@@ -44,64 +38,51 @@ impl Default for Occupancy {
 impl Occupancy {
     /// Empty, with room for so many outlines.
     pub fn with_capacity(outlines: usize) -> Self {
-        Self {
-            items: Vec::with_capacity(outlines),
-            corners: Vec::with_capacity(4 * outlines),
-            slots: Slots::with_capacity(outlines),
-        }
+        Self { outlines: Outlines::with_capacity(outlines), slots: Slots::with_capacity(outlines) }
     }
 
     /// Makes room for so many more outlines at once.
     pub fn reserve(&mut self, outlines: usize) {
-        self.items.reserve(outlines);
-        self.corners.reserve(4 * outlines);
-        if self.slots.is_small_for(self.items.len() + outlines) {
-            self.refile(self.items.len() + outlines);
+        self.outlines.reserve(outlines);
+        if self.slots.is_small_for(self.len() + outlines) {
+            self.refile(self.len() + outlines);
         }
     }
 
     /// The number of outlines.
     pub fn len(&self) -> usize {
-        self.items.len()
+        self.outlines.len()
     }
 
     /// Whether nothing is taken.
     pub fn is_empty(&self) -> bool {
-        self.items.is_empty()
+        self.len() == 0
     }
 
     /// Takes a convex outline, its corners in order, either way round.
     pub fn add(&mut self, outline: &[Point2]) {
         if let Some(bounds) = bounds(outline) {
-            self.put(outline, bounds);
+            self.put(&Outline::of(outline), bounds);
         }
     }
 
-    fn put(&mut self, outline: &[Point2], bounds: Bounds) {
-        let item = Item { start: self.corners.len() as u32, count: outline.len() as u32 };
-        self.corners.extend_from_slice(outline);
-        self.items.push(item);
-        self.slots.file(self.items.len() as u32 - 1, bounds);
+    fn put(&mut self, outline: &Outline<'_>, bounds: Bounds) {
+        let number = self.outlines.push(outline);
+        self.slots.file(number, bounds);
         if self.slots.is_full() {
             // Four times the slots.
             self.refile(4 * self.slots.len());
         }
     }
 
-    /// Files every outline anew, in slots enough for so many, in order.
+    /// Files every outline anew, in slots enough for so many.
     fn refile(&mut self, outlines: usize) {
         self.slots = Slots::with_capacity(outlines);
-        for index in 0..self.items.len() as u32 {
-            if let Some(bounds) = bounds(self.outline(index)) {
-                self.slots.file(index, bounds);
+        for number in self.outlines.numbers() {
+            if let Some(bounds) = bounds(self.outlines.get(number).corners()) {
+                self.slots.file(number, bounds);
             }
         }
-    }
-
-    #[inline]
-    fn outline(&self, item: u32) -> &[Point2] {
-        let Item { start, count } = self.items[item as usize];
-        &self.corners[start as usize..(start + count) as usize]
     }
 
     /// Takes the footprint of an upright box.
@@ -111,11 +92,20 @@ impl Occupancy {
 
     /// Whether a convex outline shares no interior point with what is taken.
     pub fn is_free(&self, outline: &[Point2]) -> bool {
-        bounds(outline).is_none_or(|bounds| self.is_free_within(outline, bounds))
+        bounds(outline).is_none_or(|bounds| self.is_free_within(&Outline::of(outline), bounds))
     }
 
-    fn is_free_within(&self, outline: &[Point2], bounds: Bounds) -> bool {
-        !self.slots.any_near(bounds, self.items.len(), |item| collides(self.outline(item), outline, bounds))
+    fn is_free_within(&self, outline: &Outline<'_>, bounds: Bounds) -> bool {
+        let collides = |number| match (self.outlines.get(number), outline) {
+            (Outline::Rectangle(taken), Outline::Rectangle(outline)) => {
+                are_near(taken, bounds) && rectangles_overlap(taken, outline)
+            }
+            (taken, outline) => {
+                let taken = taken.corners();
+                are_near(taken, bounds) && overlap(taken, outline.corners())
+            }
+        };
+        !self.slots.any_near(bounds, self.outlines.numbers(), collides)
     }
 
     /// Whether the footprint of an upright box shares no interior point with what is taken.
@@ -126,21 +116,20 @@ impl Occupancy {
     /// Takes an outline if it is free; says whether it was.
     pub fn take(&mut self, outline: &[Point2]) -> bool {
         let Some(bounds) = bounds(outline) else { return true };
-        let free = self.is_free_within(outline, bounds);
+        let outline = Outline::of(outline);
+        let free = self.is_free_within(&outline, bounds);
         if free {
-            self.put(outline, bounds);
+            self.put(&outline, bounds);
         }
         free
     }
 }
 
-/// Whether an outline that is taken shares interior points with another one of those bounds.
+/// Whether the bounds of an outline share interior points with others.
 #[inline]
-fn collides(taken: &[Point2], outline: &[Point2], (low, high): Bounds) -> bool {
+fn are_near(taken: &[Point2], (low, high): Bounds) -> bool {
     let Some((taken_low, taken_high)) = bounds(taken) else { return false };
-    let apart =
-        taken_low.x >= high.x || low.x >= taken_high.x || taken_low.y >= high.y || low.y >= taken_high.y;
-    !apart && overlap(taken, outline)
+    !(taken_low.x >= high.x || low.x >= taken_high.x || taken_low.y >= high.y || low.y >= taken_high.y)
 }
 
 /// The least and the greatest corner around some points.
@@ -163,31 +152,35 @@ pub fn overlap(a: &[Point2], b: &[Point2]) -> bool {
     !(has_separating_edge(a, b) || has_separating_edge(b, a))
 }
 
-/// Whether the line through some edge of `a` has `a` on one side and `b` on the other.
+/// The same of two rectangles.
 #[inline]
+fn rectangles_overlap(a: &[Point2; 4], b: &[Point2; 4]) -> bool {
+    !(has_separating_side(a, b) || has_separating_side(b, a))
+}
+
+/// Whether the line through some edge of `a` has `a` on one side and `b` on the other.
 fn has_separating_edge(a: &[Point2], b: &[Point2]) -> bool {
-    let separates = |axis: &Vector2| {
-        let ((a_low, a_high), (b_low, b_high)) = (span(a, axis), span(b, axis));
-        a_low >= b_high || b_low >= a_high
-    };
-    if is_rectangle(a) {
-        // Each side of a rectangle is a normal of the next: two say all, and say the same as `footprints_overlap`.
-        return separates(&(a[0] - a[1])) || separates(&(a[1] - a[2]));
+    if let Outline::Rectangle(a) = Outline::of(a) {
+        return has_separating_side(a, b);
     }
     (0..a.len()).any(|index| {
         let along = a[(index + 1) % a.len()] - a[index];
-        separates(&Vector2::new(-along.y, along.x))
+        separates(&Vector2::new(-along.y, along.x), a, b)
     })
 }
 
-/// Whether four corners are a rectangle, up to the rounding of coordinates a thousand kilometres out.
+/// The same of a rectangle. Each of its sides is a normal of the next: two say all, and say the same as
+/// `footprints_overlap`.
 #[inline]
-fn is_rectangle(outline: &[Point2]) -> bool {
-    let [a, b, c, d] = outline else { return false };
-    let (side, next) = (b - a, c - b);
-    let skew = side - (c - d);
-    let dot = side.dot(&next);
-    skew.norm_squared() < 1e-18 && dot * dot < 1e-18 * side.norm_squared() * next.norm_squared()
+fn has_separating_side(a: &[Point2; 4], b: &[Point2]) -> bool {
+    separates(&(a[0] - a[1]), a, b) || separates(&(a[1] - a[2]), a, b)
+}
+
+/// Whether two outlines lie apart along an axis.
+#[inline]
+fn separates(axis: &Vector2, a: &[Point2], b: &[Point2]) -> bool {
+    let ((a_low, a_high), (b_low, b_high)) = (span(a, axis), span(b, axis));
+    a_low >= b_high || b_low >= a_high
 }
 
 #[inline]

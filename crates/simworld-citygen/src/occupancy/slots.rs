@@ -1,14 +1,24 @@
 //! The broad phase: which outlines may lie near a box.
 //!
 //! A uniform grid wrapped round a torus: a cell's slot is its column and row modulo a power of two. The bounds of what
-//! lies in a cell stand beside each other in blocks, as single numbers rounded outwards, so that a question reads few
-//! lines of memory and looks only at outlines whose bounds it touches.
+//! lies in a cell stand beside each other in blocks, cut off at the edges of the cell and told in parts of it, a byte each,
+//! so that a question reads few lines of memory and looks only at outlines whose bounds it touches.
 
 use simworld_core::geometry::Point2;
 
+/// Width of a part of a cell, as its inverse, 1/m: a power of two, so that no rounding moves anything.
+const PARTS_PER_METRE: f64 = 8.0;
+/// Parts along one side of a cell. They are counted from one.
+const PARTS: i64 = 252;
+/// Where what begins in a cell before begins.
+const BEFORE: u8 = 0;
+/// Where what ends in a cell beyond ends.
+const BEYOND: u8 = 253;
+/// Where nothing begins.
+const NOWHERE: u8 = u8::MAX;
 /// Width of a grid cell, m: about two houses.
-const CELL: f64 = 32.0;
-/// No block.
+const CELL: f64 = PARTS as f64 / PARTS_PER_METRE;
+/// No block, and no outline.
 const NONE: u32 = u32::MAX;
 /// An outline as large as so many cells, or as long, is not filed.
 const MOST_CELLS: f64 = 4096.0;
@@ -17,47 +27,62 @@ const FIRST_BITS: u32 = 5;
 /// Slots along one side of the largest grid, as a power of two.
 const MOST_BITS: u32 = 14;
 /// Outlines in one block.
-const ROOM: usize = 4;
+const ROOM: usize = 7;
+/// Bounds in one block: one more than outlines, which is nowhere, so that as many are compared as fit into a word.
+const LANES: usize = 8;
 
 /// The least and the greatest corner of a box along the axes.
 pub(super) type Bounds = (Point2, Point2);
 
-/// Four outlines of one slot, and the block that goes on. Bounds are in single precision, rounded outwards: what is apart
-/// here is apart. They are compared four at a time, so each number stands beside its like.
+/// The part of a box that lies in one cell: the parts in which it begins and ends, by axis.
+#[derive(Clone, Copy)]
+struct Window {
+    low: [u8; 2],
+    high: [u8; 2],
+}
+
+/// Seven outlines of one slot, and the block that goes on. Bounds are compared all at a time, so each number stands beside
+/// its like; and before all else, for mostly nothing else is read.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 struct Block {
-    low: [[f32; ROOM]; 2],
-    high: [[f32; ROOM]; 2],
-    items: [u32; ROOM],
+    low: [[u8; LANES]; 2],
+    high: [[u8; LANES]; 2],
     next: u32,
+    items: [u32; ROOM],
 }
 
 impl Block {
-    /// A block without outlines: what is nowhere touches nothing.
+    /// A block without outlines.
     const fn before(next: u32) -> Self {
-        let (low, high) = ([[f32::INFINITY; ROOM]; 2], [[f32::NEG_INFINITY; ROOM]; 2]);
-        Self { low, high, items: [NONE; ROOM], next }
+        Self { low: [[NOWHERE; LANES]; 2], high: [[BEFORE; LANES]; 2], next, items: [NONE; ROOM] }
     }
 
-    /// Which of its outlines are not apart from a box.
-    fn touching(&self, low: [f32; 2], high: [f32; 2]) -> [bool; ROOM] {
-        let mut touches = [true; ROOM];
+    fn is_full(&self) -> bool {
+        self.items[ROOM - 1] != NONE
+    }
+
+    fn put(&mut self, item: u32, window: &Window) {
+        let place = self.items.iter().take_while(|item| **item != NONE).count();
+        self.items[place] = item;
         for axis in 0..2 {
+            (self.low[axis][place], self.high[axis][place]) = (window.low[axis], window.high[axis]);
+        }
+    }
+
+    /// Which of its outlines are not apart from a box, and were not seen in a cell before: where both go on from there,
+    /// they were.
+    fn touching(&self, window: &Window) -> [bool; LANES] {
+        let mut touches = [true; LANES];
+        for axis in 0..2 {
+            let (low, high) = (window.low[axis], window.high[axis]);
             for (place, touches) in touches.iter_mut().enumerate() {
-                *touches &= self.low[axis][place] < high[axis];
-                *touches &= low[axis] < self.high[axis][place];
+                let own = self.low[axis][place];
+                *touches &= (own <= high) & (low <= self.high[axis][place]) & (own | low != BEFORE);
             }
         }
         touches
     }
-}
-
-/// Bounds in single precision, rounded outwards.
-fn rough((low, high): Bounds) -> [[f32; 2]; 2] {
-    [
-        [low.x, low.y].map(|number| (number as f32).next_down()),
-        [high.x, high.y].map(|number| (number as f32).next_up()),
-    ]
 }
 
 /// Outlines by the cells that their bounds touch.
@@ -68,7 +93,8 @@ pub(super) struct Slots {
     blocks: Vec<Block>,
     /// Outlines too large for the grid.
     large: Vec<u32>,
-    filed: usize,
+    /// Slots with a block.
+    used: usize,
     bits: u32,
 }
 
@@ -77,7 +103,7 @@ impl Slots {
     pub(super) fn with_capacity(outlines: usize) -> Self {
         let bits = bits_for(outlines);
         let (heads, blocks) = (vec![NONE; 1 << (2 * bits)], Vec::with_capacity(outlines / 2));
-        Self { heads, blocks, large: Vec::new(), filed: 0, bits }
+        Self { heads, blocks, large: Vec::new(), used: 0, bits }
     }
 
     /// Whether it has too few slots for so many outlines.
@@ -90,9 +116,10 @@ impl Slots {
         self.heads.len()
     }
 
-    /// Whether its slots are so full that more of them would be faster.
+    /// Whether so many slots are in use that cells begin to share them: more of them would be faster. Many outlines in few
+    /// slots are near each other, and stay so.
     pub(super) fn is_full(&self) -> bool {
-        self.filed > 2 * self.heads.len() && self.bits < MOST_BITS
+        2 * self.used > self.heads.len() && self.bits < MOST_BITS
     }
 
     /// Files an outline.
@@ -101,45 +128,44 @@ impl Slots {
             self.large.push(item);
             return;
         };
-        let [low, high] = rough(bounds);
-        for slot in cells.slots(self.bits) {
-            let head = self.heads[slot];
-            let is_full = self.blocks.get(head as usize).is_none_or(|block| block.items[ROOM - 1] != NONE);
-            if is_full {
-                self.heads[slot] = self.blocks.len() as u32;
-                self.blocks.push(Block::before(head));
+        let Self { heads, blocks, used, .. } = self;
+        cells.any(self.bits, |slot, window| {
+            let head = &mut heads[slot];
+            *used += usize::from(*head == NONE);
+            if blocks.get(*head as usize).is_none_or(Block::is_full) {
+                blocks.push(Block::before(*head));
+                *head = blocks.len() as u32 - 1;
             }
-            let block = &mut self.blocks[self.heads[slot] as usize];
-            let place = block.items.iter().take_while(|item| **item != NONE).count();
-            block.items[place] = item;
-            for axis in 0..2 {
-                (block.low[axis][place], block.high[axis][place]) = (low[axis], high[axis]);
-            }
-            self.filed += 1;
-        }
+            blocks[*head as usize].put(item, window);
+            false
+        });
     }
 
-    /// Whether a test holds of any outline that may touch a box, of `count` in all; it may be asked of one more than once.
+    /// Whether a test holds of any outline that may touch a box, of all those given.
     #[inline]
-    pub(super) fn any_near(&self, bounds: Bounds, count: usize, test: impl Fn(u32) -> bool) -> bool {
+    pub(super) fn any_near(
+        &self,
+        bounds: Bounds,
+        mut all: impl Iterator<Item = u32>,
+        test: impl Fn(u32) -> bool,
+    ) -> bool {
         if self.large.iter().any(|item| test(*item)) {
             return true;
         }
-        let Some(cells) = Cells::of(bounds) else { return (0..count as u32).any(test) };
-        let [low, high] = rough(bounds);
-        for slot in cells.slots(self.bits) {
+        let Some(cells) = Cells::of(bounds) else { return all.any(test) };
+        cells.any(self.bits, |slot, window| {
             let mut next = self.heads[slot];
             while let Some(block) = self.blocks.get(next as usize) {
-                let touching = block.touching(low, high);
-                if touching != [false; ROOM]
+                let touching = block.touching(window);
+                if touching != [false; LANES]
                     && block.items.iter().zip(touching).any(|(item, touches)| touches && test(*item))
                 {
                     return true;
                 }
                 next = block.next;
             }
-        }
-        false
+            false
+        })
     }
 }
 
@@ -152,10 +178,28 @@ fn bits_for(outlines: usize) -> u32 {
     bits
 }
 
-/// The cells that a rectangle touches.
+/// A place along one axis: the cell, and the part of it.
+#[derive(Clone, Copy)]
+struct Place {
+    cell: i64,
+    part: u8,
+}
+
+impl Place {
+    #[inline]
+    fn of(x: f64) -> Self {
+        // The floor, without the call into libm that the oldest processors need.
+        let parts = x * PARTS_PER_METRE;
+        let towards_zero = parts as i64;
+        let floor = towards_zero.saturating_sub(i64::from(towards_zero as f64 > parts));
+        Self { cell: floor.div_euclid(PARTS), part: floor.rem_euclid(PARTS) as u8 + 1 }
+    }
+}
+
+/// The cells that a rectangle touches: the places where it begins and ends, by axis.
 struct Cells {
-    columns: (i64, i64),
-    rows: (i64, i64),
+    columns: (Place, Place),
+    rows: (Place, Place),
 }
 
 impl Cells {
@@ -164,26 +208,32 @@ impl Cells {
     fn of((low, high): Bounds) -> Option<Self> {
         let (width, height) = (high.x - low.x, high.y - low.y);
         let is_small = width * height <= MOST_CELLS * CELL * CELL && width.max(height) <= MOST_CELLS * CELL;
-        if !is_small {
-            return None;
-        }
-        // The floor, without the call into libm that the oldest processors need.
-        let index = |x: f64| {
-            let cell = x * (1.0 / CELL);
-            let towards_zero = cell as i64;
-            towards_zero - i64::from(towards_zero as f64 > cell)
-        };
-        Some(Self { columns: (index(low.x), index(high.x)), rows: (index(low.y), index(high.y)) })
+        is_small.then(|| Self {
+            columns: (Place::of(low.x), Place::of(high.x)),
+            rows: (Place::of(low.y), Place::of(high.y)),
+        })
     }
 
-    /// Their slots in a grid of that size.
+    /// Whether something holds of the slot of any cell, in a grid of that size, and of what of the rectangle lies in it.
     #[inline]
-    fn slots(&self, bits: u32) -> impl Iterator<Item = usize> + use<> {
+    fn any(&self, bits: u32, mut holds: impl FnMut(usize, &Window) -> bool) -> bool {
         let mask = (1_i64 << bits) - 1;
-        let (columns, rows) = (self.columns, self.rows);
-        (rows.0..=rows.1).flat_map(move |row| {
-            (columns.0..=columns.1).map(move |column| (((row & mask) << bits) | (column & mask)) as usize)
-        })
+        let clipped = |(low, high): (Place, Place), cell: i64| {
+            let low = if cell == low.cell { low.part } else { BEFORE };
+            (low, if cell == high.cell { high.part } else { BEYOND })
+        };
+        for row in self.rows.0.cell..=self.rows.1.cell {
+            let (low_y, high_y) = clipped(self.rows, row);
+            let first = (row & mask) << bits;
+            for column in self.columns.0.cell..=self.columns.1.cell {
+                let (low_x, high_x) = clipped(self.columns, column);
+                let window = Window { low: [low_x, low_y], high: [high_x, high_y] };
+                if holds((first | (column & mask)) as usize, &window) {
+                    return true;
+                }
+            }
+        }
+        false
     }
 }
 

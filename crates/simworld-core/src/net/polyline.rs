@@ -160,6 +160,93 @@ pub fn closest(path: &[Point2], point: &Point2) -> Option<Closest> {
     best
 }
 
+/// A path whose pieces are measured once, for those who ask much of it: the answers are those of the functions of the same
+/// names, to the bit.
+///
+/// ```
+/// use simworld_core::geometry::Point2;
+/// use simworld_core::net::polyline::{self, Measured};
+/// let path = [(0.0, 0.0), (3.0, 4.0), (9.0, 4.0)].map(|(x, y)| Point2::new(x, y));
+/// let measured = Measured::new(&path);
+/// assert_eq!(measured.length(), 11.0);
+/// assert_eq!(measured.slice(1.0, 7.0), polyline::slice(&path, 1.0, 7.0));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Measured<'a> {
+    path: &'a [Point2],
+    /// Length of each piece, m.
+    spans: Vec<f64>,
+    length: f64,
+}
+
+impl<'a> Measured<'a> {
+    /// Measures a path.
+    pub fn new(path: &'a [Point2]) -> Self {
+        let spans: Vec<f64> = path.windows(2).map(|pair| (pair[1] - pair[0]).norm()).collect();
+        Self { path, length: spans.iter().sum(), spans }
+    }
+
+    /// See [`length`].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// See [`slice`].
+    pub fn slice(&self, from: f64, to: f64) -> Vec<Point2> {
+        let mut out = Vec::new();
+        self.slice_into(from, to, &mut out);
+        out
+    }
+
+    /// The same, written over what was there.
+    pub fn slice_into(&self, from: f64, to: f64, out: &mut Vec<Point2>) {
+        let (from, to) = (from.max(0.0), to.min(self.length));
+        out.clear();
+        out.push(self.point_at(from));
+        let mut station = 0.0;
+        for (end, span) in self.path.iter().skip(1).zip(&self.spans) {
+            station += span;
+            if station > from + 1e-9 && station < to - 1e-9 {
+                out.push(*end);
+            }
+        }
+        out.push(self.point_at(to.max(from)));
+    }
+
+    fn point_at(&self, station: f64) -> Point2 {
+        let mut left = station.max(0.0);
+        let mut last = self.path.first().copied().unwrap_or_else(Point2::origin);
+        for (pair, span) in self.path.windows(2).zip(&self.spans).filter(|(_, span)| **span != 0.0) {
+            if left <= *span {
+                return pair[0] + (pair[1] - pair[0]) * (left / span);
+            }
+            left -= span;
+            last = pair[1];
+        }
+        last
+    }
+
+    /// See [`closest`]; only the station.
+    pub fn closest_station(&self, point: &Point2) -> Option<f64> {
+        let mut best: Option<(f64, f64, f64)> = None;
+        let mut start = 0.0;
+        for (pair, span) in self.path.windows(2).zip(&self.spans) {
+            let (step, to_point) = (pair[1] - pair[0], point - pair[0]);
+            let along = if *span > 0.0 { (to_point.dot(&step) / (span * span)).clamp(0.0, 1.0) } else { 0.0 };
+            let squared = (to_point - step * along).norm_squared();
+            // What is not nearer by its square is not nearer by its root.
+            if best.is_none_or(|(least, ..)| squared < least) {
+                let distance = squared.sqrt();
+                if best.is_none_or(|(_, least, _)| distance < least) {
+                    best = Some((squared, distance, start + along * span));
+                }
+            }
+            start += span;
+        }
+        best.map(|(.., station)| station)
+    }
+}
+
 /// The least distance between two paths, m; infinite if one is empty.
 pub fn distance_between(a: &[Point2], b: &[Point2]) -> f64 {
     let one_way = |a: &[Point2], b: &[Point2]| {
@@ -248,6 +335,23 @@ mod tests {
         let turned =
             inner.windows(3).filter(|corner| (corner[1] - corner[0]).dot(&(corner[2] - corner[1])) < 0.0);
         assert!(turned.count() <= 1, "{inner:?}");
+    }
+
+    #[test]
+    fn a_measured_path_gives_the_same_answers() {
+        let mut rng = crate::seed::Seed(11).stream("measured").rng();
+        for count in 0..400_usize {
+            let mut point = || Point2::new(rng.uniform(-50.0, 50.0), rng.uniform(-50.0, 50.0));
+            let mut path: Vec<Point2> = (0..count % 9).map(|_| point()).collect();
+            if let Some(last) = path.last().copied().filter(|_| count % 3 == 0) {
+                path.push(last);
+            }
+            let (measured, from) = (Measured::new(&path), point());
+            assert_eq!(measured.length(), length(&path));
+            assert_eq!(measured.slice(from.x, from.x + from.y), slice(&path, from.x, from.x + from.y));
+            let to = path.first().copied().filter(|_| count % 2 == 0).unwrap_or(from);
+            assert_eq!(measured.closest_station(&to), closest(&path, &to).map(|near| near.station));
+        }
     }
 
     #[test]

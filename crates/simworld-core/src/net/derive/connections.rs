@@ -1,5 +1,6 @@
 //! Connections: the ways across an intersection, which of them touch, and who gives way.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::legs::Leg;
@@ -104,8 +105,15 @@ impl Builder {
             let signal = signals.filter(|_| !is_inner(network, leg)).map(|signals| signals.groups[index]);
             set_movements(network, plan, legs, leg, &mut self.movements);
             self.movements.extend(cycles::movements(network, plan, legs, leg));
-            let made = self.movements.iter().map(|movement| connection(network, id, leg, *movement, signal));
-            self.made.extend(made);
+            let mut arrival = None;
+            for movement in &self.movements {
+                let arrival = match arrival {
+                    Some((lane, arrival)) if lane == movement.0 => arrival,
+                    // Ways from one lane follow one another, and its end is far from its beginning.
+                    _ => arrival.insert((movement.0, end_of(network, movement.0))).1,
+                };
+                self.made.push(connection(network, id, leg, arrival, *movement, signal));
+            }
         }
         self.traces.clear();
         self.claims.clear();
@@ -183,16 +191,16 @@ fn add_ways_on(
             lane_to_lane(from, to, turn, found);
             continue;
         }
-        let usable: Vec<LaneId> = match turn {
+        let usable: Cow<'_, [LaneId]> = match turn {
             _ if arrows.len() == from.len() => from
                 .iter()
                 .zip(arrows)
                 .filter(|(_, arrow)| arrow.allows(turn))
                 .map(|(lane, _)| *lane)
                 .collect(),
-            Turn::Straight => from.to_vec(),
-            Turn::Right => from.last().copied().into_iter().collect(),
-            Turn::Left | Turn::UTurn => from.first().copied().into_iter().collect(),
+            Turn::Straight => from.into(),
+            Turn::Right => from[from.len().saturating_sub(1)..].into(),
+            Turn::Left | Turn::UTurn => from[..from.len().min(1)].into(),
         };
         match turn {
             Turn::Straight => lane_to_lane(&usable, to, turn, found),
@@ -234,10 +242,22 @@ pub(super) fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
     }
 }
 
+/// Where a lane ends, and its direction there.
+fn end_of(network: &RoadNetwork, lane: LaneId) -> (Point2, Vector2) {
+    let lane = &network.lanes[lane.index()];
+    let (end, heading) = polyline::at(&lane.path, lane.length);
+    (end, direction(heading))
+}
+
 /// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve.
-fn path(network: &RoadNetwork, leg: &Leg, (from, to): (LaneId, LaneId), turn: Turn) -> Vec<Point2> {
+fn path(
+    network: &RoadNetwork,
+    leg: &Leg,
+    (start, arriving_along): (Point2, Vector2),
+    (from, to): (LaneId, LaneId),
+    turn: Turn,
+) -> Vec<Point2> {
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
-    let (start, start_heading) = polyline::at(&entry.path, entry.length);
     let (end, end_heading) = polyline::at(&exit.path, 0.0);
     if turn == Turn::UTurn && leg.turning > 0.0 {
         let ahead = leg.direction();
@@ -252,17 +272,18 @@ fn path(network: &RoadNetwork, leg: &Leg, (from, to): (LaneId, LaneId), turn: Tu
             return path;
         }
     }
-    curve(start, direction(start_heading), end, direction(end_heading))
+    curve(start, arriving_along, end, direction(end_heading))
 }
 
 fn connection(
     network: &RoadNetwork,
     intersection: IntersectionId,
     leg: &Leg,
+    arrival: (Point2, Vector2),
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
 ) -> Connection {
-    let path = path(network, leg, (from, to), turn);
+    let path = path(network, leg, arrival, (from, to), turn);
     Connection {
         from,
         to,

@@ -8,7 +8,8 @@ use crate::net::polyline;
 /// Of every so many points of a path one is looked at first.
 const STRIDE: usize = 3;
 
-/// Boxes farther apart than this have no point in common, m.
+/// Boxes farther apart than this have no point in common, m; and what lies farther than this on one side of a line does not
+/// reach the other, whatever was rounded.
 const SLACK: f64 = 1e-6;
 /// A little more than the square root of two.
 const DIAGONAL: f64 = std::f64::consts::SQRT_2 + 1e-6;
@@ -27,11 +28,27 @@ struct Block {
     step_y: [f64; LANES],
     /// One over the square of its length, 1/m²; nothing if it has none.
     inverse: [f64; LANES],
+    /// The box round all of them.
+    low: [f64; 2],
+    high: [f64; 2],
+    /// How many points of the path belong to it: where its pieces begin, and where the last of the path ends.
+    points: usize,
 }
 
 impl Block {
     fn of(path: &[Point2], first: usize) -> Self {
-        let mut block = Self::default();
+        let pieces = (path.len() - 1 - first).min(LANES);
+        let (mut low, mut high) = (path[first], path[first]);
+        for point in &path[first + 1..=first + pieces] {
+            (low, high) = (low.inf(point), high.sup(point));
+        }
+        let is_last = first + pieces == path.len() - 1;
+        let mut block = Self {
+            low: [low.x, low.y],
+            high: [high.x, high.y],
+            points: pieces + usize::from(is_last),
+            ..Self::default()
+        };
         for lane in 0..LANES {
             let index = (first + lane).min(path.len() - 2);
             let (start, step) = (path[index], path[index + 1] - path[index]);
@@ -43,16 +60,29 @@ impl Block {
         block
     }
 
-    /// Lowers squared distances to those of a point from each piece.
-    fn lower(&self, point: &Point2, least: &mut [f64; LANES]) {
-        for (lane, least) in least.iter_mut().enumerate() {
+    /// Whether the boxes come nearer to each other than a distance of that square.
+    fn is_near(&self, other: &Self, squared: f64) -> bool {
+        let gap = |axis: usize| {
+            let (before, after) = (other.low[axis] - self.high[axis], self.low[axis] - other.high[axis]);
+            let gap = if before > after { before } else { after };
+            if gap > 0.0 { gap } else { 0.0 }
+        };
+        gap(0) * gap(0) + gap(1) * gap(1) < squared
+    }
+
+    /// The square of the least distance of a point from its pieces, m².
+    fn distance_squared(&self, point: &Point2) -> f64 {
+        let mut squares = [0.0; LANES];
+        for (lane, squared) in squares.iter_mut().enumerate() {
             let (x, y) = (point.x - self.x[lane], point.y - self.y[lane]);
             let (step_x, step_y) = (self.step_x[lane], self.step_y[lane]);
             let share = ((x * step_x + y * step_y) * self.inverse[lane]).clamp(0.0, 1.0);
             let (x, y) = (x - step_x * share, y - step_y * share);
-            let squared = x * x + y * y;
-            *least = if squared < *least { squared } else { *least };
+            *squared = x * x + y * y;
         }
+        squares
+            .into_iter()
+            .fold(f64::INFINITY, |least, squared| if squared < least { squared } else { least })
     }
 }
 
@@ -131,18 +161,54 @@ impl Traces {
         if a.longest.max(b.longest) >= 2.0 * limit {
             return polyline::distance_between(self.path(a), self.path(b)) < limit;
         }
-        // Paths that do not cross are nearest at a point of one of them. If it is one of the other's, then one of ours
-        // is farther from it by half a piece at most.
-        let least = self.least_distance(a, b, limit, 0.5 * a.longest);
-        least < limit || least < limit + 0.5 * a.longest && self.least_distance(b, a, limit, 0.0) < limit
+        // Paths that do not cross are nearest at a point of one of them.
+        self.have_pieces_near(a, b, limit)
+    }
+
+    /// Whether a point of one path is that near to a piece of the other. Only where the boxes round a few of their pieces
+    /// are that near is it asked of each.
+    fn have_pieces_near(&self, a: &Trace, b: &Trace, limit: f64) -> bool {
+        let roughly = (limit + SLACK) * (limit + SLACK);
+        let others = &self.blocks[b.blocks.clone()];
+        self.blocks[a.blocks.clone()].iter().enumerate().any(|(rank, own)| {
+            let near = |(other_rank, other): (usize, &Block)| {
+                let is_near = |point: &Point2, block: &Block| {
+                    let squared = block.distance_squared(point);
+                    squared < roughly && squared.sqrt() < limit
+                };
+                own.is_near(other, roughly)
+                    && (self.points_of(a, rank, own).iter().any(|point| is_near(point, other))
+                        || self.points_of(b, other_rank, other).iter().any(|point| is_near(point, own)))
+            };
+            others.iter().enumerate().any(near)
+        })
+    }
+
+    /// The points that belong to the block of that rank of a path.
+    fn points_of(&self, trace: &Trace, rank: usize, block: &Block) -> &[Point2] {
+        &self.path(trace)[rank * LANES..rank * LANES + block.points]
     }
 
     /// Whether a path crosses a segment.
     pub(super) fn crosses(&self, trace: &Trace, start: Point2, end: Point2) -> bool {
         let (low, high) = (start.inf(&end), start.sup(&end));
         let gap = (low - trace.high).sup(&(trace.low - high));
-        let crosses = |piece: &[Point2]| polyline::crossing(piece[0], piece[1], start, end).is_some();
-        gap.max() <= SLACK && self.path(trace).windows(2).any(crosses)
+        if gap.max() > SLACK {
+            return false;
+        }
+        // A piece with both ends on one side of the segment's line does not cross it.
+        let along = end - start;
+        let least = SLACK * along.norm();
+        let side = |point: Point2| along.perp(&(point - start));
+        let is_aside = |a: f64, b: f64| (a > least && b > least) || (a < -least && b < -least);
+        let path = self.path(trace);
+        let mut before = path.first().map_or(0.0, |first| side(*first));
+        path.windows(2).any(|piece| {
+            let after = side(piece[1]);
+            let may_cross = !is_aside(before, after);
+            before = after;
+            may_cross && polyline::crossing(piece[0], piece[1], start, end).is_some()
+        })
     }
 
     fn path(&self, trace: &Trace) -> &[Point2] {
@@ -156,30 +222,6 @@ impl Traces {
         // All of the others at once: several fit into one instruction.
         let is_near = |a: &Point2| others.iter().fold(false, |any, b| any | ((a - b).norm_squared() < near));
         self.samples[a.samples.clone()].iter().any(is_near)
-    }
-
-    /// The least distance of a point of one path from the other, m, as far as it is less than `limit + margin`. Points
-    /// that cannot be that near, because the one before was too far away, are passed over; and it ends below `limit`.
-    fn least_distance(&self, trace: &Trace, other: &Trace, limit: f64, margin: f64) -> f64 {
-        let (mut least, mut slack) = (f64::INFINITY, 0.0);
-        for point in self.path(trace) {
-            if slack <= 1e-6 {
-                let distance = self.distance(other, point);
-                least = least.min(distance);
-                if least < limit {
-                    return least;
-                }
-                slack = distance - limit - margin;
-            }
-            slack -= trace.longest;
-        }
-        least
-    }
-
-    fn distance(&self, trace: &Trace, point: &Point2) -> f64 {
-        let mut least = [f64::INFINITY; LANES];
-        self.blocks[trace.blocks.clone()].iter().for_each(|block| block.lower(point, &mut least));
-        least.into_iter().fold(f64::INFINITY, f64::min).sqrt()
     }
 }
 
