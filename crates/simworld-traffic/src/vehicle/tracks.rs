@@ -7,6 +7,7 @@ use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
+use super::beside::Beside;
 use super::closures::Closures;
 use super::clusters::Clusters;
 use super::conflicts::{Conflict, conflicts};
@@ -73,8 +74,10 @@ pub(crate) struct Tracks {
     pub(crate) conflicts: Ragged<Conflict>,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Ragged<(u32, f64)>,
-    /// Ways so near to each connection that a long vehicle on either sweeps over the other in the turn.
+    /// Ways so near to each connection that a long vehicle on either touches whoever is on the other in the turn, and those on
+    /// which it touches another long one.
     pub(crate) tight: Ragged<u32>,
+    pub(crate) narrow: Ragged<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
     /// What each lane is for.
@@ -107,14 +110,16 @@ impl Tracks {
         let speed = lane_speeds.chain(way_speeds).collect();
         let connections = 0..network.connections.len();
         let beside = lanes::beside(&network);
+        let Beside { short, tight, narrow } = Beside::new(&network, config);
         Self {
             lanes: network.lanes.len(),
             length,
             speed,
             ways: network.connections.iter().map(|connection| way(&network, connection)).collect(),
-            conflicts: conflicts(&network, config),
+            conflicts: conflicts(&network, config, short),
             siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
-            tight: connections.clone().map(|index| tight(&network, index)).collect(),
+            tight,
+            narrow,
             strips: connections.map(|index| strips(&network, index)).collect(),
             kerb: kerb::places(&network, &beside),
             beside,
@@ -279,24 +284,6 @@ fn siblings(network: &RoadNetwork, connection: usize) -> Vec<(u32, f64)> {
             (id.0, clear + 0.5)
         })
         .collect()
-}
-
-/// Ways beside this one that a long vehicle's swing reaches, in turns.
-fn tight(network: &RoadNetwork, connection: usize) -> Vec<u32> {
-    /// Two lanes side by side and a margin, m.
-    const BESIDE: f64 = 4.0;
-    let own = &network.connections[connection];
-    let others = network.intersections[own.intersection.index()].connections.iter();
-    let is_tight = |id: &&ConnectionId| {
-        let other = &network.connections[id.index()];
-        let turns = own.turn != Turn::Straight || other.turn != Turn::Straight;
-        id.index() != connection
-            && turns
-            && own.from != other.from
-            && !own.conflicts.contains(id)
-            && polyline::distance_between(&own.path, &other.path) < BESIDE
-    };
-    others.filter(is_tight).map(|id| id.0).collect()
 }
 
 fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {
