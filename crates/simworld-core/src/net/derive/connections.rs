@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::legs::Leg;
 use super::trace::{Trace, Traces};
-use super::{cycles, kerbs};
+use super::{cycles, kerbs, near_side};
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
@@ -104,7 +104,8 @@ impl Builder {
             let signal = signals.filter(|_| !is_inner(network, leg)).map(|signals| signals.groups[index]);
             set_movements(network, plan, legs, leg, &mut self.movements);
             self.movements.extend(cycles::movements(network, plan, legs, leg));
-            let made = self.movements.iter().map(|movement| connection(network, id, leg, *movement, signal));
+            let place = Place { id, legs, leg: index };
+            let made = self.movements.iter().map(|movement| connection(network, &place, *movement, signal));
             self.made.extend(made);
         }
         self.traces.clear();
@@ -234,8 +235,17 @@ pub(super) fn turn_between(plan: &StreetPlan, from: &Leg, to: &Leg) -> Turn {
     }
 }
 
-/// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve.
-fn path(network: &RoadNetwork, leg: &Leg, (from, to): (LaneId, LaneId), turn: Turn) -> Vec<Point2> {
+/// A junction, and the leg over which one arrives.
+struct Place<'a> {
+    id: IntersectionId,
+    legs: &'a [Leg],
+    leg: usize,
+}
+
+/// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve that keeps off
+/// the kerb.
+fn path(network: &RoadNetwork, place: &Place<'_>, (from, to): (LaneId, LaneId), turn: Turn) -> Vec<Point2> {
+    let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
     let (start, start_heading) = polyline::at(&entry.path, entry.length);
     let (end, end_heading) = polyline::at(&exit.path, 0.0);
@@ -252,21 +262,27 @@ fn path(network: &RoadNetwork, leg: &Leg, (from, to): (LaneId, LaneId), turn: Tu
             return path;
         }
     }
-    curve(start, direction(start_heading), end, direction(end_heading))
+    let smooth = curve(start, direction(start_heading), end, direction(end_heading));
+    let next = (place.leg + 1) % place.legs.len();
+    if turn == Turn::UTurn || place.legs[next].street != exit.road.index() {
+        return smooth;
+    }
+    let way = near_side::Way { from: leg, start, to: &place.legs[next], end };
+    let corner = near_side::kerb(&network.intersections[place.id.index()], place.leg);
+    near_side::keep_off(network, corner, &way, smooth)
 }
 
 fn connection(
     network: &RoadNetwork,
-    intersection: IntersectionId,
-    leg: &Leg,
+    place: &Place<'_>,
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
 ) -> Connection {
-    let path = path(network, leg, (from, to), turn);
+    let path = path(network, place, (from, to), turn);
     Connection {
         from,
         to,
-        intersection,
+        intersection: place.id,
         turn,
         length: polyline::length(&path),
         path,
