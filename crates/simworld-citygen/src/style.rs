@@ -230,8 +230,8 @@ fn suburb_roads(base: &RoadConfig) -> RoadConfig {
         branching: 0.3,
         crossroads: 0.45,
         dead_ends: 0.34,
-        bends: 0.65,
-        bow: 0.095,
+        bends: 0.9,
+        bow: 0.11,
         widest_block: 700.0,
         aspect: 1.0,
         ..base.clone()

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::net::RoadClass;
 use simworld_core::ops;
 use simworld_core::seed::StreamRng;
 
@@ -14,6 +15,17 @@ const STRAIGHT: f64 = 17.0;
 const DOUBLED: f64 = 120.0;
 /// Pieces of a bent street.
 const PIECES: u32 = 12;
+
+/// The least radius of a bend of a street of a class, m: what its speed asks for without banking, v²/(g f) with a side friction f
+/// of 0.31 at 30 km/h, to which one slows down in local streets, and 0.21 at 50 km/h (AASHTO, A Policy on Geometric Design of
+/// Highways and Streets, 2011, section 3.3, streets of low speed): 23 and 92 m. It is also room for two buses of 11.5 m that meet,
+/// whose bodies need 18/R m beside their widths: 0.9 m on a radius of 20 m, and lanes of 3.5 m leave 1.
+pub(super) const fn least_radius(class: RoadClass) -> f64 {
+    match class {
+        RoadClass::Local => 25.0,
+        RoadClass::Arterial | RoadClass::Highway => 92.0,
+    }
+}
 
 /// Points of a bent course between two ends: a bow `sin²` or a double bend `sin · sin²`, both level at the ends, of a
 /// height about `bow` times the length, at most `most` m and nowhere tighter than a radius of `least_radius` m.

@@ -291,8 +291,9 @@ impl<'a> Growth<'a> {
     fn course(&self, curves: &Curves, segment: u32, reach: f64, rng: &mut StreamRng) -> Vec<Point2> {
         let segment = self.fabric.segment(segment);
         let (from, to) = (segment.a, segment.b);
-        // So that its inner sidewalk is a bend still, not a knot.
-        bend::course(curves, from, to, self.config.bow, BOW_LIMIT * self.config.length, 2.0 * reach, rng)
+        // So that its inner sidewalk is a bend still, not a knot, and vehicles come round it.
+        let radius = bend::least_radius(segment.class).max(2.0 * reach);
+        bend::course(curves, from, to, self.config.bow, BOW_LIMIT * self.config.length, radius, rng)
     }
 }
 

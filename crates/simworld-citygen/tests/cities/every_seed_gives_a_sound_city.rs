@@ -18,6 +18,15 @@ fn every_seed_gives_a_sound_city() {
     (0..seeds()).into_par_iter().for_each(check);
 }
 
+/// Streets of different width that are nearly one line once met tens of metres away, where they had long turned, and a
+/// house stood under the curve of a turn.
+#[test]
+fn nearly_straight_streets_of_different_width_leave_room_for_turns() {
+    for seed in [7317, 9412, 37168, 60684] {
+        check(seed);
+    }
+}
+
 fn check(seed: u64) {
     // Sizes from a hamlet to a small town, so that growth also runs dry early.
     let count = 10 + (seed % 16) as u32;

@@ -4,6 +4,7 @@
 mod a_city_becomes_a_world;
 mod bad_input_is_named;
 mod blocks_are_divided_into_lots;
+mod buses_pass_in_bends;
 mod cities_are_built_up;
 mod edits_equal_regeneration;
 mod elements_leave_the_way_free;
@@ -17,4 +18,5 @@ mod streets_are_graded;
 mod streets_have_names;
 mod styles_lie_in_their_bands;
 mod threads_do_not_matter;
+mod turns_keep_to_the_carriageway;
 mod worlds_follow_edits;

@@ -7,11 +7,7 @@ use simworld_core::net::polyline;
 use simworld_core::scene::Shape;
 
 use super::Traffic;
-use crate::vehicle::{Path, Vehicle, VehicleKind};
-
-/// Where a body is held to its lane, as shares of its length from the front.
-const FRONT_AXLE: f64 = 0.1;
-const REAR_AXLE: f64 = 0.95;
+use crate::vehicle::{FRONT_AXLE, Path, REAR_AXLE, Vehicle, VehicleKind, held};
 
 /// A vehicle as others see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,15 +66,14 @@ impl Traffic {
     fn body(&self, track: u32, vehicle: &Vehicle, path: &Path) -> Body {
         let length = vehicle.length();
         let row = self.driving.vehicle_type(vehicle.row);
-        // The rear may still be on the track before. Steered front wheels and a rear that hardly swings out.
+        // The rear may still be on the track before.
         let front = self.point(track, path.before, vehicle.s - FRONT_AXLE * length);
         let rear = self.point(track, path.before, vehicle.s - REAR_AXLE * length);
-        let yaw = heading(&(front - rear));
+        let (middle, facing) = held(front, rear);
+        let yaw = heading(&facing);
         let ahead = direction(yaw);
         let left = Vector2::new(-ahead.y, ahead.x);
-        let middle = rear
-            + (front - rear) * ((REAR_AXLE - 0.5) / (REAR_AXLE - FRONT_AXLE))
-            + left * f64::from(vehicle.shift);
+        let middle = middle + left * f64::from(vehicle.shift);
         let ahead = ahead * vehicle.v;
         Body {
             id: vehicle.id,

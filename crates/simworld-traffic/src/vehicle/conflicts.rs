@@ -3,6 +3,7 @@
 use simworld_core::id::ConnectionId;
 use simworld_core::net::{Connection, Ends, RoadNetwork, WayTrace, Zone};
 
+use super::beside::Pairs;
 use super::ragged::Ragged;
 use super::types::is_long;
 use crate::TrafficConfig;
@@ -19,16 +20,22 @@ pub(crate) struct Conflict {
     pub(crate) critical: f32,
     /// Whether both end in the same lane.
     pub(crate) merges: bool,
+    /// Whom of which size it concerns.
+    pub(crate) pairs: Pairs,
     pub(crate) own: Zone,
     pub(crate) other: Zone,
 }
 
-/// The ways that meet each way, in the order of their numbers.
-pub(crate) fn conflicts(network: &RoadNetwork, config: &TrafficConfig) -> Ragged<Conflict> {
+/// The ways that meet each way, in the order of their numbers: those of the network, and those beside on which vehicles touch.
+pub(crate) fn conflicts(
+    network: &RoadNetwork,
+    config: &TrafficConfig,
+    beside: Vec<Vec<Conflict>>,
+) -> Ragged<Conflict> {
     let short = config.types.iter().filter(|row| !is_long(row.length));
     let near = short.map(|row| row.width).fold(0.0, f64::max) + SWEPT;
     let traces: Vec<WayTrace> = network.connections.iter().map(WayTrace::new).collect();
-    let of = |(index, own): (usize, &Connection)| -> Vec<Conflict> {
+    let of = |((index, own), beside): ((usize, &Connection), Vec<Conflict>)| -> Vec<Conflict> {
         let conflict = |id: &ConnectionId| {
             let other = &network.connections[id.index()];
             let ends = Ends::of(own, other);
@@ -39,25 +46,31 @@ pub(crate) fn conflicts(network: &RoadNetwork, config: &TrafficConfig) -> Ragged
                 yields,
                 critical: if yields { config.gaps.critical(network, own, other) as f32 } else { 0.0 },
                 merges: ends == Ends::Together,
+                pairs: Pairs::ALL,
                 own: mine.zone(theirs, near, ends),
                 other: theirs.zone(mine, near, ends),
             }
         };
-        own.conflicts.iter().map(conflict).collect()
+        let mut all: Vec<Conflict> = own.conflicts.iter().map(conflict).chain(beside).collect();
+        all.sort_by_key(|conflict| conflict.way);
+        all
     };
-    network.connections.iter().enumerate().map(of).collect()
+    network.connections.iter().enumerate().zip(beside).map(of).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use simworld_core::net::{NetworkConfig, StreetPlan, Turn, polyline};
 
+    use super::super::beside::Beside;
     use super::*;
 
     fn crossroads() -> (RoadNetwork, Ragged<Conflict>) {
         let plan = StreetPlan::crossroads(120.0);
         let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
-        let conflicts = conflicts(&network, &TrafficConfig::default());
+        let config = TrafficConfig::default();
+        let beside = Beside::new(&network, &config);
+        let conflicts = conflicts(&network, &config, beside.short);
         (network, conflicts)
     }
 

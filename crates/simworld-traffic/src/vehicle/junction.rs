@@ -2,7 +2,8 @@
 //!
 //! A way across is granted to a vehicle only while its [place in the order](super::precedence) among those on ways that meet
 //! it is free, nobody with priority would be hindered, nobody is on the strips that it passes over, and there is room
-//! behind it. Leave ends when the vehicle's rear is out. Long vehicles share the junction with nobody whose way they meet.
+//! behind it. Leave ends when the vehicle's rear is out. Long vehicles share the junction with nobody whose way they meet, or
+//! whom they would [touch beside it](super::beside).
 
 use serde::{Deserialize, Serialize};
 use simworld_core::net::Aspect;
@@ -342,6 +343,7 @@ fn may_enter(
             let held = if vehicle.is_long() { &junctions.holders } else { &junctions.long_holders };
             held.get(*other as usize) == 0
         })
+        && !(vehicle.is_long() && tracks.narrow[way].iter().any(|other| junctions.has_long(*other)))
         && tracks.strips[way].iter().all(|strip| {
             sight.walkers[strip.crossing as usize] == 0
                 && (siren || sight.waiting[strip.crossing as usize] == 0)
@@ -402,8 +404,8 @@ fn has_room(scene: &Scene<'_>, way: usize, vehicle: &Vehicle) -> bool {
     let tracks = scene.tracks;
     let lane = tracks.lane_after(way);
     // Where nobody meets one's way or crosses it, as on a bend, one drives up to whoever is there.
-    let is_alone =
-        tracks.conflicts[way].is_empty() && tracks.tight[way].is_empty() && tracks.strips[way].is_empty();
+    let is_alone = [tracks.tight[way].len(), tracks.narrow[way].len(), tracks.strips[way].len()] == [0; 3]
+        && tracks.conflicts[way].is_empty();
     if is_alone && !tracks.clusters.has(lane) {
         return true;
     }

@@ -1,5 +1,6 @@
 //! Vehicles: types, car following, and the manager that moves them along lanes and across intersections.
 
+mod beside;
 mod claims;
 mod clock;
 mod closures;
@@ -35,6 +36,7 @@ mod slabs;
 mod spawn;
 mod storage;
 mod strangers;
+mod swept;
 mod tally;
 mod threads;
 mod tracks;
@@ -52,6 +54,7 @@ pub(crate) use manager::{Moment, NONE, Path, STANDING, Sight, Vehicle, VehicleMa
 pub use mobil::Mobil;
 pub use perception::Perception;
 pub use simworld_core::net::CriticalGaps as Gaps;
+pub(crate) use swept::{FRONT_AXLE, REAR_AXLE, held};
 pub(crate) use tracks::{Obstacle, Tracks, Way};
 pub(crate) use types::{TypeIndex, draw_type};
 pub use types::{VehicleKind, VehicleType, standard_types};

@@ -496,7 +496,8 @@ fn release_cleared(scene: &Scene<'_>, claims: &Claims, queue: &mut [Vehicle]) {
 /// Whether a vehicle may go on although its rear is still on the way behind: its lane is too short for it ever to clear that,
 /// and nobody meets it there. On such lanes, as between the junctions of imported maps, everybody would stand for good.
 fn is_free_behind(scene: &Scene<'_>, vehicle: &Vehicle) -> bool {
-    let way = &scene.tracks.network.connections[vehicle.holding as usize];
-    let is_short = scene.tracks.length[way.to.index()] <= vehicle.length() + CLEARED;
-    is_short && way.conflicts.is_empty() && way.crossings.is_empty()
+    let tracks = scene.tracks;
+    let way = &tracks.network.connections[vehicle.holding as usize];
+    let is_short = tracks.length[way.to.index()] <= vehicle.length() + CLEARED;
+    is_short && tracks.conflicts[vehicle.holding as usize].is_empty() && way.crossings.is_empty()
 }

@@ -73,7 +73,7 @@ pub(super) struct Asker {
     /// To its line, m.
     distance: f64,
     v: f64,
-    length: f64,
+    pub(super) length: f64,
     acceleration: f64,
     /// The speed across, m/s.
     speed: f64,
@@ -180,7 +180,8 @@ impl Part {
         let limit = tracks.speed[from as usize];
         let mut fits = true;
         self.holders(scene, conflict.way, |holder| {
-            if !fits || asker.goes_after(holder, conflict, speed) {
+            let concerns = conflict.pairs.has(asker.length, holder.length);
+            if !fits || !concerns || asker.goes_after(holder, conflict, speed) {
                 return;
             }
             let could_stop = holder.front < 0.0 && holder.v * holder.v <= -2.0 * EASILY * holder.front;
@@ -272,7 +273,8 @@ impl Part {
             }
             let speed = tracks.speed[tracks.lanes + conflict.way as usize];
             self.holders(scene, conflict.way, |holder| {
-                if !is_before(holder.granted, vehicle.granted) {
+                let concerns = conflict.pairs.has(vehicle.length(), holder.length);
+                if !concerns || !is_before(holder.granted, vehicle.granted) {
                     return;
                 }
                 let rear = holder.rear();

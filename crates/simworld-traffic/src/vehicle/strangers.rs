@@ -36,7 +36,9 @@ pub(super) fn hinder(scene: &Scene<'_>, asker: &Asker, conflict: &Conflict) -> b
         let comer = Comer { distance, v: body.v, limit };
         distance < SIGHT && counts && !asker.goes_before(conflict, &comer)
     };
-    let moving = |track: Track| on_track(&scene.sight, track).iter().filter(|body| body.v > STANDING);
+    let concerns =
+        |body: &&Obstacle| body.v > STANDING && conflict.pairs.has(asker.length, body.far - body.near);
+    let moving = |track: Track| on_track(&scene.sight, track).iter().filter(concerns);
     moving(way).any(crosses) || moving(from).any(comes)
 }
 

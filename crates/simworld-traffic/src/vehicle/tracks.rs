@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use simworld_core::geometry::{Point2, Vector2};
+use simworld_core::geometry::Point2;
 use simworld_core::id::{ConnectionId, LaneId};
 use simworld_core::net::{Connection, Lane, LaneKind, RoadNetwork, Turn, polyline};
 use simworld_core::ops::{self, wrap_angle};
 
+use super::beside::Beside;
 use super::closures::Closures;
 use super::clusters::Clusters;
 use super::conflicts::{Conflict, conflicts};
@@ -73,8 +74,10 @@ pub(crate) struct Tracks {
     pub(crate) conflicts: Ragged<Conflict>,
     /// The other connections from the same lane, each with the station on it at which a rear is clear of this one, m.
     pub(crate) siblings: Ragged<(u32, f64)>,
-    /// Ways so near to each connection that a long vehicle on either sweeps over the other in the turn.
+    /// Ways so near to each connection that a long vehicle on either touches whoever is on the other in the turn, and those on
+    /// which it touches another long one.
     pub(crate) tight: Ragged<u32>,
+    pub(crate) narrow: Ragged<u32>,
     /// The lanes to the left and to the right of each lane that lead the same way, or [`NONE`].
     pub(crate) beside: Vec<[Track; 2]>,
     /// What each lane is for.
@@ -107,14 +110,16 @@ impl Tracks {
         let speed = lane_speeds.chain(way_speeds).collect();
         let connections = 0..network.connections.len();
         let beside = lanes::beside(&network);
+        let Beside { short, tight, narrow } = Beside::new(&network, config);
         Self {
             lanes: network.lanes.len(),
             length,
             speed,
             ways: network.connections.iter().map(|connection| way(&network, connection)).collect(),
-            conflicts: conflicts(&network, config),
+            conflicts: conflicts(&network, config, short),
             siblings: connections.clone().map(|index| siblings(&network, index)).collect(),
-            tight: connections.clone().map(|index| tight(&network, index)).collect(),
+            tight,
+            narrow,
             strips: connections.map(|index| strips(&network, index)).collect(),
             kerb: kerb::places(&network, &beside),
             beside,
@@ -281,51 +286,6 @@ fn siblings(network: &RoadNetwork, connection: usize) -> Vec<(u32, f64)> {
         .collect()
 }
 
-/// Ways beside this one that a long vehicle's swing reaches, in turns.
-fn tight(network: &RoadNetwork, connection: usize) -> Vec<u32> {
-    /// Two lanes side by side and a margin, m.
-    const BESIDE: f64 = 4.0;
-    let own = &network.connections[connection];
-    let others = network.intersections[own.intersection.index()].connections.iter();
-    let is_tight = |id: &&ConnectionId| {
-        let other = &network.connections[id.index()];
-        let turns = own.turn != Turn::Straight || other.turn != Turn::Straight;
-        id.index() != connection
-            && turns
-            && own.from != other.from
-            && !own.conflicts.contains(id)
-            && come_near(&own.path, &other.path, BESIDE)
-    };
-    others.filter(is_tight).map(|id| id.0).collect()
-}
-
-/// Whether two paths come nearer to one another than a distance, m.
-fn come_near(a: &[Point2], b: &[Point2], distance: f64) -> bool {
-    let (around_a, around_b) = (bounds(a, distance), bounds(b, distance));
-    // What is not in the box around the other is not near it, which is said of most sooner than how far it is.
-    let near = |points: &[Point2], (low, high): (Point2, Point2), path: &[Point2]| {
-        let is_within = |at: &&Point2| low.x <= at.x && at.x <= high.x && low.y <= at.y && at.y <= high.y;
-        let mut inside = points.iter().filter(is_within).filter_map(|at| polyline::closest(path, at));
-        inside.any(|closest| closest.distance < distance)
-    };
-    let apart = around_a.0.x > around_b.1.x
-        || around_b.0.x > around_a.1.x
-        || around_a.0.y > around_b.1.y
-        || around_b.0.y > around_a.1.y;
-    let cross = || {
-        let meets = |p: &[Point2], q: &[Point2]| polyline::crossing(p[0], p[1], q[0], q[1]).is_some();
-        a.windows(2).any(|p| b.windows(2).any(|q| meets(p, q)))
-    };
-    !apart && (near(a, around_b, b) || near(b, around_a, a) || cross())
-}
-
-/// The corners of a box around a path, with a margin, m.
-fn bounds(path: &[Point2], margin: f64) -> (Point2, Point2) {
-    let start = path.first().copied().unwrap_or_default();
-    let (low, high) = path.iter().fold((start, start), |(low, high), at| (low.inf(at), high.sup(at)));
-    (low - Vector2::repeat(margin), high + Vector2::repeat(margin))
-}
-
 fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {
     /// Room for toes and bumpers, m.
     const ROOM: f64 = 0.7;
@@ -351,22 +311,4 @@ fn strips(network: &RoadNetwork, connection: usize) -> Vec<Strip> {
         .collect();
     strips.sort_by(|a, b| a.stop.total_cmp(&b.stop));
     strips
-}
-
-#[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    fn path() -> impl Strategy<Value = Vec<Point2>> {
-        prop::collection::vec(prop::array::uniform2(-15.0..15.0).prop_map(Point2::from), 2..7)
-    }
-
-    proptest! {
-        #[test]
-        fn paths_come_near_that_are_no_farther_apart(a in path(), b in path(), distance in 0.1..20.0) {
-            prop_assert_eq!(come_near(&a, &b, distance), polyline::distance_between(&a, &b) < distance);
-        }
-    }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::legs::Leg;
 use super::trace::{Trace, Traces};
-use super::{cycles, kerbs};
+use super::{cycles, kerbs, near_side};
 use crate::geometry::{Point2, Vector2, direction};
 use crate::id::{ConnectionId, CrossingId, IntersectionId, LaneId};
 use crate::net::{
@@ -105,6 +105,7 @@ impl Builder {
             let signal = signals.filter(|_| !is_inner(network, leg)).map(|signals| signals.groups[index]);
             set_movements(network, plan, legs, leg, &mut self.movements);
             self.movements.extend(cycles::movements(network, plan, legs, leg));
+            let place = Place { id, legs, leg: index };
             let mut arrival = None;
             for movement in &self.movements {
                 let arrival = match arrival {
@@ -112,7 +113,7 @@ impl Builder {
                     // Ways from one lane follow one another, and its end is far from its beginning.
                     _ => arrival.insert((movement.0, end_of(network, movement.0))).1,
                 };
-                self.made.push(connection(network, id, leg, arrival, *movement, signal));
+                self.made.push(connection(network, &place, arrival, *movement, signal));
             }
         }
         self.traces.clear();
@@ -249,14 +250,23 @@ fn end_of(network: &RoadNetwork, lane: LaneId) -> (Point2, Vector2) {
     (end, direction(heading))
 }
 
-/// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve.
+/// A junction, and the leg over which one arrives.
+struct Place<'a> {
+    id: IntersectionId,
+    legs: &'a [Leg],
+    leg: usize,
+}
+
+/// The middle of the way from one lane to another: round the turning circle of a dead end, or a smooth curve that keeps off
+/// the kerb.
 fn path(
     network: &RoadNetwork,
-    leg: &Leg,
+    place: &Place<'_>,
     (start, arriving_along): (Point2, Vector2),
     (from, to): (LaneId, LaneId),
     turn: Turn,
 ) -> Vec<Point2> {
+    let leg = &place.legs[place.leg];
     let (entry, exit) = (&network.lanes[from.index()], &network.lanes[to.index()]);
     let (end, end_heading) = polyline::at(&exit.path, 0.0);
     if turn == Turn::UTurn && leg.turning > 0.0 {
@@ -272,22 +282,28 @@ fn path(
             return path;
         }
     }
-    curve(start, arriving_along, end, direction(end_heading))
+    let smooth = curve(start, arriving_along, end, direction(end_heading));
+    let next = (place.leg + 1) % place.legs.len();
+    if turn == Turn::UTurn || place.legs[next].street != exit.road.index() {
+        return smooth;
+    }
+    let way = near_side::Way { from: leg, start, to: &place.legs[next], end };
+    let corner = near_side::kerb(&network.intersections[place.id.index()], place.leg);
+    near_side::keep_off(network, corner, &way, smooth)
 }
 
 fn connection(
     network: &RoadNetwork,
-    intersection: IntersectionId,
-    leg: &Leg,
+    place: &Place<'_>,
     arrival: (Point2, Vector2),
     (from, to, turn): (LaneId, LaneId, Turn),
     signal: Option<SignalGroup>,
 ) -> Connection {
-    let path = path(network, leg, arrival, (from, to), turn);
+    let path = path(network, place, arrival, (from, to), turn);
     Connection {
         from,
         to,
-        intersection,
+        intersection: place.id,
         turn,
         length: polyline::length(&path),
         path,

@@ -158,12 +158,16 @@ fn rounded_reach(own: f64, other: f64, angle: f64, radius: f64) -> f64 {
 }
 
 /// How far out two neighbouring edges meet, measured along the leg with half width `own`; zero where they diverge.
+///
+/// Edges of different width that are nearly one line would meet tens of metres away, where the streets may long have
+/// turned; the one goes over into the other within the larger of the two widths instead.
 fn edge_meeting(own: f64, other: f64, angle: f64) -> f64 {
     if angle >= PI - 0.05 {
         return 0.0;
     }
     let (sin, cos) = crate::ops::sin_cos(angle);
-    ((other + own * cos) / sin).max(0.0)
+    let met = ((other + own * cos) / sin).max(0.0);
+    if cos < 0.0 { met.min(own.max(other)) } else { met }
 }
 
 /// Shortens what both ends take of a street that is too short for it: first turning circles and roundings, then the room

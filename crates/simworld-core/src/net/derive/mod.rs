@@ -6,6 +6,7 @@ mod kerbs;
 mod lanes;
 mod legs;
 mod mirror;
+mod near_side;
 mod signals;
 mod trace;
 mod walkways;

@@ -102,7 +102,11 @@ fn corners(network: &RoadNetwork, legs: &[Leg]) -> Vec<Vec<Point2>> {
             walkway.push(leg.point(-left_margin, leg.left + left_margin));
             walkway.push(leg.point(-right_margin, -leg.right - right_margin));
         } else {
-            walkway.extend(legs::corner(leg, next, (left_margin, right_margin)));
+            // Sidewalks that would meet beyond their own ends go over into one another straight.
+            let within =
+                |met: &Point2, leg: &Leg| (met - leg.node).dot(&leg.direction()) <= leg.walk.max(leg.reach);
+            let met = legs::corner(leg, next, (left_margin, right_margin));
+            walkway.extend(met.filter(|met| within(met, leg) && within(met, next)));
         }
         walkway.push(end);
         Some(walkway)

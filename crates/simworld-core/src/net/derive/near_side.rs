@@ -1,0 +1,140 @@
+//! Ways round the nearest corner that keep off its kerb.
+//!
+//! A smooth curve from stop line to stop line cuts the corner where the junction reaches far into its legs, or where a leg
+//! bends within the junction. There the way first follows its leg further in, and turns later and more tightly.
+
+use super::connections::curve;
+use super::legs::Leg;
+use crate::geometry::{Point2, direction};
+use crate::net::{Intersection, RoadNetwork, polyline};
+
+/// A smooth curve that comes nearer to the kerb than this is no way, m: half a car and a little.
+const LEAST_CLEARANCE: f64 = 0.95;
+/// The middle of a way that is found instead keeps this far off the kerb, m: half a car and a margin. Lanes that lie nearer
+/// keep their distance.
+const CLEARANCE: f64 = 1.2;
+/// By so much two ways count as equally far from a kerb, m.
+const MARGIN: f64 = 0.05;
+/// Each try follows either leg this much further into the junction, m.
+const STEP: f64 = 1.5;
+/// Nobody turns on less than this from where the turn begins to where it ends, m: a car's radius of some 5 m at a right angle.
+const LEAST_CHORD: f64 = 7.0;
+
+/// A way over a junction from the lane of one leg to that of another: where it begins and ends.
+pub(super) struct Way<'a> {
+    pub(super) from: &'a Leg,
+    pub(super) start: Point2,
+    pub(super) to: &'a Leg,
+    pub(super) end: Point2,
+}
+
+/// The kerb on the left of a leg, seen leaving, round the corner to the next one: what who arrives and turns right goes round.
+pub(super) fn kerb(intersection: &Intersection, leg: usize) -> &[Point2] {
+    let Some(start) = intersection.kerbs.get(leg) else { return &[] };
+    let end = intersection.kerbs.get(leg + 1).map_or(intersection.outline.len(), |end| *end as usize);
+    intersection.outline.get(*start as usize..end).unwrap_or(&[])
+}
+
+/// The smooth curve, or the widest turn that keeps off the kerb where that one does not; where none does, the one that
+/// keeps farthest.
+pub(super) fn keep_off(
+    network: &RoadNetwork,
+    kerb: &[Point2],
+    way: &Way<'_>,
+    smooth: Vec<Point2>,
+) -> Vec<Point2> {
+    let ends = beside(kerb, &way.start).min(beside(kerb, &way.end));
+    let wanted = CLEARANCE.min(ends) - MARGIN;
+    let mut best = (clearance(kerb, &smooth), smooth);
+    if best.0 >= wanted.min(LEAST_CLEARANCE) {
+        return best.1;
+    }
+    let (mut into, mut out) = (way.from.stop, way.to.stop);
+    while best.0 < wanted && into.max(out) > STEP {
+        (into, out) = ((into - STEP).max(STEP), (out - STEP).max(STEP));
+        let Some(path) = later(network, way, into, out) else { break };
+        let clear = clearance(kerb, &path);
+        if clear > best.0 {
+            best = (clear, path);
+        }
+    }
+    best.1
+}
+
+/// The way that follows its legs to so far from the node, m, and turns there; `None` if that is too tight.
+fn later(network: &RoadNetwork, way: &Way<'_>, into: f64, out: f64) -> Option<Vec<Point2>> {
+    let mut path = polyline::reversed(&along(network, way.from, way.start, into));
+    let exit = along(network, way.to, way.end, out);
+    let (a, b) = (heading_out(&path)?, heading_out(&polyline::reversed(&exit))?);
+    let (start, end) = (*path.last()?, *exit.first()?);
+    if (end - start).norm() < LEAST_CHORD {
+        return None;
+    }
+    let turn = curve(start, direction(a), end, -direction(b));
+    path.extend_from_slice(&turn[1..]);
+    path.extend_from_slice(&exit[1..]);
+    Some(path)
+}
+
+/// The heading with which a path ends, radians.
+fn heading_out(path: &[Point2]) -> Option<f64> {
+    (path.len() >= 2).then(|| polyline::at(path, f64::INFINITY).1)
+}
+
+/// The line of a lane within the junction, from `from` m off the node outwards to the lane's end, a point about every metre.
+fn along(network: &RoadNetwork, leg: &Leg, lane_end: Point2, from: f64) -> Vec<Point2> {
+    let centerline = &network.roads[leg.street].centerline;
+    let outwards = if leg.at_start { centerline.clone() } else { polyline::reversed(centerline) };
+    let middle = polyline::slice(&outwards, from, leg.stop);
+    let lateral = leg.direction().perp(&(lane_end - leg.node));
+    let lateral = polyline::closest(&middle, &lane_end).map_or(lateral, |closest| closest.lateral);
+    let mut line = polyline::offset(&middle, lateral);
+    if let Some(last) = line.last_mut() {
+        *last = lane_end;
+    }
+    let length = polyline::length(&line);
+    let pieces = length.ceil().max(1.0);
+    (0..=pieces as usize).map(|index| polyline::at(&line, length * index as f64 / pieces).0).collect()
+}
+
+/// How far the nearest point of a path is from a kerb that lies on its right, m; negative beyond the kerb.
+fn clearance(kerb: &[Point2], path: &[Point2]) -> f64 {
+    path.iter().map(|point| beside(kerb, point)).fold(f64::INFINITY, f64::min)
+}
+
+/// How far a point is from a kerb on the side of the carriageway, m.
+fn beside(kerb: &[Point2], point: &Point2) -> f64 {
+    polyline::closest(kerb, point).map_or(f64::INFINITY, |closest| closest.lateral)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::net::{NetworkConfig, StreetPlan, Turn};
+
+    #[test]
+    fn who_turns_right_keeps_off_the_corner() {
+        let plan = StreetPlan::crossroads(100.0);
+        let network = RoadNetwork::derive(&plan, &NetworkConfig::default()).expect("it is a plan");
+        let mut turns = 0;
+        for way in network.connections.iter().filter(|way| way.turn == Turn::Right) {
+            let place = &network.intersections[way.intersection.index()];
+            let clear = (0..place.roads.len())
+                .flat_map(|leg| way.path.iter().map(move |point| (leg, point)))
+                .map(|(leg, point)| {
+                    let kerb = kerb(place, leg);
+                    polyline::closest(kerb, point).map_or(f64::INFINITY, |near| near.distance)
+                })
+                .fold(f64::INFINITY, f64::min);
+            assert!(clear >= LEAST_CLEARANCE, "{clear} m off the kerb: {way:?}");
+            // It is one smooth way all the same, from lane to lane.
+            let turned = way.path.windows(3).map(|three| {
+                let (before, after) = (three[1] - three[0], three[2] - three[1]);
+                crate::ops::atan2(before.perp(&after), before.dot(&after)).abs()
+            });
+            assert!(turned.fold(0.0, f64::max) < 0.35, "{way:?}");
+            turns += 1;
+        }
+        assert_eq!(turns, 4);
+    }
+}
