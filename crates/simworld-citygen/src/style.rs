@@ -230,7 +230,7 @@ fn suburb_roads(base: &RoadConfig) -> RoadConfig {
         branching: 0.3,
         crossroads: 0.45,
         dead_ends: 0.34,
-        bends: 0.9,
+        bends: 0.95,
         bow: 0.11,
         widest_block: 700.0,
         aspect: 1.0,

@@ -14,7 +14,10 @@ const STRAIGHT: f64 = 17.0;
 /// Only longer ones bend both ways, m.
 const DOUBLED: f64 = 120.0;
 /// Pieces of a bent street.
-const PIECES: u32 = 12;
+const PIECES: u32 = 16;
+/// From one piece to the next it turns by no more than this, radians: over one corner a bus swings inwards by a quarter of its wheelbase
+/// times as much, which is more than on an arc.
+const CORNER: f64 = 0.22;
 
 /// The least radius of a bend of a street of a class, m: what its speed asks for without banking, v²/(g f) with a side friction f
 /// of 0.31 at 30 km/h, to which one slows down in local streets, and 0.21 at 50 km/h (AASHTO, A Policy on Geometric Design of
@@ -47,6 +50,7 @@ pub(super) fn course(
     // The second derivative of sin² is 2 π² at most, that of the double bend 2.74 times as much.
     let bent = length - 2.0 * STRAIGHT;
     let tightest = 2.0 * PI * PI * if doubled { 2.74 } else { 1.0 };
+    let least_radius = least_radius.max(bent / (f64::from(PIECES) * CORNER));
     let most = most.min(bent * bent / (tightest * least_radius));
     let height = side * (rng.uniform(0.5, 1.5) * bow * length).min(most);
     if length < SHORTEST || height.abs() < 0.5 {
