@@ -60,7 +60,8 @@ fn damage(network: &mut RoadNetwork, damage: Damage) -> bool {
         Damage::Point(index) => {
             let lane = &mut network.lanes[index % lanes];
             lane.path = vec![lane.path[0]; 2];
-            lane.length = 0.0;
+            // What is no number stays so.
+            lane.length = if lane.length.is_finite() { 0.0 } else { lane.length };
         }
         Damage::Unreachable(index) => {
             let to = LaneId::from_index(index % lanes);
